@@ -30,7 +30,7 @@ from asperity.contact.solvers import (
 )
 from asperity.contact.solvers.protocol import energy, relative_error, scaled_error
 from asperity.core.arrays import RealArray
-from asperity.core.engine import cpu, splines
+from asperity.core.engine import cpu, spline_levels
 from asperity.core.status import Outcome
 from asperity.solids.compliance.halfspace import HalfSpace
 
@@ -327,7 +327,7 @@ def test_the_number_of_threads_changes_rounding_only(
     boundary: Boundary, cap: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cpu, "SERIAL_BELOW", 1 << 17)
-    monkeypatch.setattr(splines, "_SHARED", 1 << 15)
+    monkeypatch.setattr(spline_levels, "_SHARED", 1 << 15)
     heights = rough((384, 360), 16).heights  # large enough for threads
     grid, solver = asp.Grid(heights.shape, (1.0, 1.0)), ActiveSet(tolerance=1e-10, precision="double")
     found = []

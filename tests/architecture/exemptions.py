@@ -104,7 +104,7 @@ CACHES: dict[str, str] = {
     "asperity.contact.solvers.active_set.spline_model._fit": "follows from body, boundary and grid; 1 ms, and every solve, of 10 ms at 256², needs it on four or five grids",
     "asperity.contact.solvers.active_set.spline_model._levels": "follow from body, boundary and grid; 0.3 ms, and every grid of a solve, of 10 ms at 256², asks twice",
     "asperity.contact.solvers.active_set.spline_model._samples": "follows from the grid; 0.8 ms, and every solve, of 10 ms at 256², needs it on four or five grids",
-    "asperity.core.engine.splines._layout": "follows from the shape; it takes 0.03 ms, and every solve needs it on four or five grids",
+    "asperity.core.engine.spline_levels.layout": "follows from the shape; it takes 0.03 ms, and every solve needs it on four or five grids",
     "asperity.core.engine.vectors._layout": "follows from the shape alone; it takes 0.1 ms, and every solve needs it on four or five grids",
     "asperity.core.engine.cpu._keep_freed_memory": "the allocator of a process is told once",
     "asperity.core.units._factor": "the value of a unit never changes; pint takes 50 µs to find it, and a campaign calls it 10⁵ times",

@@ -21,7 +21,7 @@ from asperity.contact.solvers.active_set.linear_system import (
 from asperity.contact.solvers.active_set.nested_cells import hierarchies
 from asperity.contact.solvers.active_set.spline_model import merges_of, pixel_compliance, spline_compliance
 from asperity.core.arrays import RealArray
-from asperity.core.engine import Engine, FreeSet, splines
+from asperity.core.engine import Engine, FreeSet, spline_levels
 from asperity.core.engine.vectors import Hierarchy
 from asperity.solids.compliance.halfspace import Compliance, HalfSpace
 
@@ -229,7 +229,7 @@ def test_products_are_spared_on_stiff_films(
 
 
 def test_products_with_the_model_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(splines, "_SHARED", 1 << 15)  # the first level has twice as many cells
+    monkeypatch.setattr(spline_levels, "_SHARED", 1 << 15)  # the first level has twice as many cells
     inside = rough_set((516, 508), 0.3, 5)  # of a layout of its own
     r, found = np.random.default_rng(6).standard_normal(inside.shape), []
     for threads in (1, 2, 3):

@@ -36,9 +36,9 @@ print(*sorted(compiled))
 """
 
 LATE = [
-    "_at_points",
-    "_fall",
-    "_gather",
+    "at_points",
+    "fall",
+    "gather",
     "_join",
     "add",
     "add_unclipped",

@@ -1,4 +1,4 @@
-"""Nested quadratic B-splines of the array-API engine: whole arrays per level; what they compute: see ``spline_kernels``."""
+"""Nested quadratic B-splines of the array-API engine: whole arrays per level; what they compute: see ``splines``."""
 
 from __future__ import annotations
 

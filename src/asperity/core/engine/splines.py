@@ -1,29 +1,351 @@
-"""Nested quadratic B-splines of the CPU engine; what its sweeps do: see ``spline_kernels``."""
+"""Nested quadratic B-splines of the CPU engine: compiled sweeps sum loads up the levels and prolong deflections down again.
+
+A cell of a level merges two of the level below along one axis or both. Its B-spline reaches half a cell beyond it on either side: a part passes
+three quarters of its load to the cell that it lies in and a quarter to the nearest other, along each axis, and takes its deflection from both in
+the same shares. Where the axis wraps, the first cell comes after the last one; else there is one more cell at either end, beyond the points.
+The compliance averages the loads of neighbouring cells of a level (half of a cell's own and a quarter of that beside it on either side) before they
+deflect it, along the axes for which the model says so.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING, Any
 from weakref import ref
 
 import numpy as np
 
 from ..arrays import RealArray
-from . import spline_kernels as kernels
-from .protocol import Products, SplineModel, cells_of
+from .kernels import compiled, natural
+from .protocol import Products, SplineModel
+from .row_sums import corrected, overlaps
+from .spline_levels import (
+    AVERAGE_X,
+    AVERAGE_Y,
+    COLUMNS,
+    DEFLECT,
+    FACTORISE,
+    MARGIN,
+    MERGE_X,
+    MERGE_Y,
+    PARTS,
+    ROWS,
+    SOLVE,
+    START,
+    STRIDE,
+    layout,
+)
 
 if TYPE_CHECKING:
     from .cpu import Blocks
 
+
+@compiled
+def _surround(levels, wraps, points):  # type: ignore[no-untyped-def]
+    """Values beyond the rim of the array of points: those of the other end where the axis wraps, else zero."""
+    start, rows, columns, stride = levels[0, START], levels[0, ROWS], levels[0, COLUMNS], levels[0, STRIDE]
+    for row in range(rows):
+        for k in range(MARGIN):
+            base = start + row * stride
+            points[base - 1 - k] = points[base + (-1 - k) % columns] if wraps[1] else 0.0
+            points[base + columns + k] = points[base + k % columns] if wraps[1] else 0.0
+    for k in range(MARGIN):
+        before, after = start - (1 + k) * stride - MARGIN, start + (rows + k) * stride - MARGIN
+        last, first = start + (-1 - k) % rows * stride - MARGIN, start + k % rows * stride - MARGIN
+        for j in range(columns + 2 * MARGIN):
+            points[before + j] = points[last + j] if wraps[0] else 0.0
+            points[after + j] = points[first + j] if wraps[0] else 0.0
+
+
+@compiled
+def place(rows, index, levels, wraps, values, points):  # type: ignore[no-untyped-def]
+    """Set the array of points to the ``values`` at the points of a set, and beyond its rim."""
+    for row in range(levels[0, ROWS]):
+        shift = levels[0, START] + row * (levels[0, STRIDE] - levels[0, COLUMNS])
+        for k in range(rows[row], rows[row + 1]):
+            points[index[k] + shift] = values[k]
+    _surround(levels, wraps, points)
+
+
+@compiled
+def gather(rows, index, levels, points, out):  # type: ignore[no-untyped-def]
+    """Values of the array of points at the points of a set."""
+    for row in range(levels[0, ROWS]):
+        shift = levels[0, START] + row * (levels[0, STRIDE] - levels[0, COLUMNS])
+        for k in range(rows[row], rows[row + 1]):
+            out[k] = points[index[k] + shift]
+
+
+@compiled
+def local_stiffness(span, levels, members, memory, stencil, alone, together):  # type: ignore[no-untyped-def]
+    """Of the local stiffness at the points of a set: its own entry ``alone``, and the sum ``together`` of its row, for points that yield by the values of the array of points.
+
+    ``members`` of the set are (rows, index), ``memory`` is (found, under, points) as for ``at_points``. ``stencil`` holds the entry without neighbours, what each nearest point along x and y adds to it, the entries of these, and those of the points at twice the distance.
+    """
+    rows, index = members
+    founds, unders, points = memory
+    own, fall_x, fall_y, x1, y1, x2, y2 = stencil
+    height, columns, stride = levels[0, ROWS], levels[0, COLUMNS], levels[0, STRIDE]
+    thread = -(-span[0] * len(founds) // PARTS)
+    found, under = founds[thread], unders[thread]
+    for row in range(height * span[0] // PARTS, height * span[1] // PARTS):
+        if rows[row] == rows[row + 1]:
+            continue
+        first = np.int64(index[rows[row]]) - row * columns
+        number = np.int64(index[rows[row + 1] - 1]) - row * columns + 1 - first
+        place = levels[0, START] + row * stride + first
+        here = points[place - MARGIN : place + number + MARGIN]
+        up, down = points[place - stride : place - stride + number], points[place + stride : place + stride + number]
+        above = points[place - 2 * stride : place - 2 * stride + number]
+        below = points[place + 2 * stride : place + 2 * stride + number]
+        for j in range(number):
+            x, y = up[j] + down[j], here[j + 1] + here[j + 3]
+            entry = own + fall_x * x + fall_y * y
+            found[j] = entry
+            under[j] = entry + x1 * x + y1 * y + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
+        begins, ends, before = natural(rows[row]), natural(rows[row + 1]), natural(row * columns + first)
+        for k in range(begins, ends):
+            i = natural(index[k]) - before
+            alone[k] = found[i]
+            together[k] = under[i]
+
+
+@compiled
+def rise(span, levels, way, wraps, weights, lines, points, sums, g):  # type: ignore[no-untyped-def]
+    """Sums over the cells of the levels ``way[0]`` to ``way[1]`` of the loads on the ``points``, of the rows of the span.
+
+    What a level passes up is left in ``sums``: g S of its sums S, or, to ``DEFLECT``, S itself. To ``FACTORISE`` (``way[2]``), g = 1 / (1 + w S) is set.
+    """
+    near, far, one = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(1.0)
+    scratch = lines[-(-span[0] * len(lines) // PARTS)]
+    line, nothing, unit = scratch[0], scratch[1], scratch[2]
+    for k in range(3):
+        line[k] = 0.0
+    for depth in range(way[0], way[1] + 1):
+        fine, level, weight = levels[depth - 1], levels[depth], weights[depth]
+        source = points if depth == 1 else sums
+        rows, columns, below, stride = fine[ROWS], fine[COLUMNS], fine[START], fine[STRIDE]
+        lead = 1 if wraps[1] else 3
+        for cell in range(level[ROWS] * span[0] // PARTS, level[ROWS] * span[1] // PARTS):
+            own_line = line[lead : lead + columns]
+            if level[MERGE_X]:
+                first = 2 * cell if wraps[0] else 2 * cell - 2
+                before, second, after = first - 1, first + 1, first + 2
+                if wraps[0]:  # an odd number of rows leaves the last cell with one
+                    if before < 0 and rows % 2 == 0:
+                        before = rows - 1
+                    if after >= rows:
+                        after = 0
+                row_a = (
+                    source[below + before * stride : below + before * stride + columns]
+                    if 0 <= before < rows
+                    else nothing
+                )
+                row_b = (
+                    source[below + first * stride : below + first * stride + columns] if 0 <= first < rows else nothing
+                )
+                row_c = (
+                    source[below + second * stride : below + second * stride + columns]
+                    if 0 <= second < rows
+                    else nothing
+                )
+                row_d = (
+                    source[below + after * stride : below + after * stride + columns] if 0 <= after < rows else nothing
+                )
+                for j in range(columns):
+                    own_line[j] = far * (row_a[j] + row_d[j]) + near * (row_b[j] + row_c[j])
+            else:
+                row_b = source[below + cell * stride : below + cell * stride + columns]
+                for j in range(columns):
+                    own_line[j] = row_b[j]
+            start, wide = level[START] + cell * level[STRIDE], level[COLUMNS]
+            out, own = sums[start : start + wide], g[start : start + wide] if way[2] != DEFLECT else unit
+            if level[MERGE_Y]:
+                for k in range(lead + columns, lead + columns + 4):
+                    line[k] = 0.0
+                if wraps[1]:
+                    line[0] = line[columns] if columns % 2 == 0 else 0.0
+                    line[columns + 1 + columns % 2] = line[1]
+                for k in range(wide):
+                    out[k] = far * (line[2 * k] + line[2 * k + 3]) + near * (line[2 * k + 1] + line[2 * k + 2])
+            else:
+                for k in range(wide):
+                    out[k] = own_line[k]
+            if way[2] == FACTORISE:
+                for k in range(wide):
+                    own[k] = one / (one + weight * out[k])
+            for k in range(wide):
+                out[k] *= own[k]
+
+
+@compiled
+def fall(span, levels, way, wraps, weights, lines, sums, g, cells, target):  # type: ignore[no-untyped-def]
+    """Deflections of the ``cells`` of the levels ``way[0]`` down to ``way[1]``, of the rows of the span, from what ``rise`` has left in ``sums``.
+
+    They are left in ``target``, which is ``cells`` but for a single level. That of a level is w g S plus g times that of the level above; to ``DEFLECT``, w times the average of S over neighbouring cells plus that of the level above.
+    """
+    near, far, half = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(0.5)
+    scratch = lines[-(-span[0] * len(lines) // PARTS)]
+    line, nothing, unit = scratch[0], scratch[1], scratch[2]
+    top = len(levels) - 1
+    for depth in range(way[0], way[1] - 1, -1):
+        level, weight, wide, rows = levels[depth], weights[depth], levels[depth, COLUMNS], levels[depth, ROWS]
+        for cell in range(rows * span[0] // PARTS, rows * span[1] // PARTS):
+            start = level[START] + cell * level[STRIDE]
+            out, own = target[start : start + wide], g[start : start + wide] if way[2] != DEFLECT else unit
+            row_b, mixed = sums[start : start + wide], line[1 : wide + 1]
+            if way[2] == DEFLECT and level[AVERAGE_X]:
+                before, after = cell - 1, cell + 1
+                if wraps[0]:
+                    before, after = before if cell > 0 else rows - 1, after if after < rows else 0
+                a, c = level[START] + before * level[STRIDE], level[START] + after * level[STRIDE]
+                row_a = sums[a : a + wide] if before >= 0 else nothing
+                row_c = sums[c : c + wide] if after < rows else nothing
+                for j in range(wide):
+                    mixed[j] = half * row_b[j] + far * (row_a[j] + row_c[j])
+                row_b = mixed
+            if way[2] == DEFLECT and level[AVERAGE_Y]:
+                for j in range(wide):
+                    mixed[j] = row_b[j]
+                line[0], line[wide + 1] = (line[wide], line[1]) if wraps[1] else (nothing[0], nothing[0])
+                for j in range(wide):
+                    out[j] = weight * (half * line[j + 1] + far * (line[j] + line[j + 2]))
+            else:
+                for j in range(wide):
+                    out[j] = weight * row_b[j]
+            if depth == top:
+                continue
+            above = levels[depth + 1]
+            columns = above[COLUMNS]
+            lead = 1 if wraps[1] else 0
+            own_line = line[lead : lead + columns]
+            if above[MERGE_X]:
+                parent = cell >> 1 if wraps[0] else (cell >> 1) + 1
+                beside = parent - 1 if cell & 1 == 0 else parent + 1
+                if wraps[0]:
+                    beside = above[ROWS] - 1 if beside < 0 else 0 if beside >= above[ROWS] else beside
+                a, b = above[START] + parent * above[STRIDE], above[START] + beside * above[STRIDE]
+                row_a, row_b = cells[a : a + columns], cells[b : b + columns]
+                for k in range(columns):
+                    own_line[k] = near * row_a[k] + far * row_b[k]
+            else:
+                a = above[START] + cell * above[STRIDE]
+                row_a = cells[a : a + columns]
+                for k in range(columns):
+                    own_line[k] = row_a[k]
+            if above[MERGE_Y]:
+                if wraps[1]:
+                    line[0], line[columns + 1] = line[columns], line[1]
+                for k in range(wide >> 1):
+                    out[2 * k] += own[2 * k] * (near * line[k + 1] + far * line[k])
+                    out[2 * k + 1] += own[2 * k + 1] * (near * line[k + 1] + far * line[k + 2])
+                if wide & 1:
+                    k = wide >> 1
+                    out[wide - 1] += own[wide - 1] * (near * line[k + 1] + far * line[k])
+            else:
+                for j in range(wide):
+                    out[j] += own[j] * own_line[j]
+
+
+@compiled
+def at_points(span, levels, wraps, members, memory, stencil, vectors, out, products):  # type: ignore[no-untyped-def]
+    """out = alone values + what the neighbours among the ``points`` add + share times the deflection of the cells of level 1, at the points of a set.
+
+    ``members`` of the set are (rows, index), ``memory`` is (lines, found, under, points, cells), found and under being lines as well: were they rows of the same array, the
+    loop that writes every second value would not be vectorised. ``stencil`` holds the factors of the nearest points along x and y, of those at twice the distance
+    along x and y, of the diagonal ones (if those are zero), and of the deflection of the cells. ``vectors`` are values, alone and share (of one entry each if they are the same at all points, which is
+    a share of one), and two of which the products with out are left in ``products``, row by row, after the sum of out.
+    """
+    rows, index = members
+    lines, founds, unders, points, cells = memory
+    values, alone, share, one, other = vectors
+    each, apart = natural(1) if alone.size > 1 else natural(0), share.size == values.size
+    x1, y1, x2, y2, diagonal, factor = stencil
+    near, far = points.dtype.type(0.75), points.dtype.type(0.25)
+    height, columns, stride = levels[0, ROWS], levels[0, COLUMNS], levels[0, STRIDE]
+    level = levels[1]
+    wide, merges_x, merges_y = level[COLUMNS], level[MERGE_X], level[MERGE_Y]
+    thread = -(-span[0] * len(lines) // PARTS)
+    line, found, under = lines[thread, 0], founds[thread], unders[thread] if apart else founds[thread]
+    for row in range(height * span[0] // PARTS, height * span[1] // PARTS):
+        total = 0.0
+        with_one = 0.0
+        with_other = 0.0
+        base = row * columns
+        if rows[row] < rows[row + 1]:
+            first = (np.int64(index[rows[row]]) - base) >> 1  # in pairs of columns
+            pairs = ((np.int64(index[rows[row + 1] - 1]) - base) >> 1) + 1 - first
+            parent, beside = row, row
+            if merges_x:
+                parent = row >> 1 if wraps[0] else (row >> 1) + 1
+                beside = parent - 1 if row & 1 == 0 else parent + 1
+                if wraps[0]:
+                    beside = level[ROWS] - 1 if beside < 0 else 0 if beside >= level[ROWS] else beside
+            a, b = level[START] + parent * level[STRIDE], level[START] + beside * level[STRIDE]
+            if merges_y:
+                begin, number = first if wraps[1] else first + 1, pairs
+                left, right = begin - 1 if begin > 0 else wide - 1, begin + number
+                right = 0 if wraps[1] and right >= wide else min(right, wide - 1)
+                row_a, row_b = cells[a + begin : a + begin + number], cells[b + begin : b + begin + number]
+                middle = line[1 : number + 1]
+                for k in range(number):
+                    middle[k] = factor * (near * row_a[k] + far * row_b[k])
+                line[0] = factor * (near * cells[a + left] + far * cells[b + left])
+                line[number + 1] = factor * (near * cells[a + right] + far * cells[b + right])
+                for k in range(number):
+                    under[2 * k] = near * line[k + 1] + far * line[k]
+                    under[2 * k + 1] = near * line[k + 1] + far * line[k + 2]
+            else:
+                begin, number = 2 * first, min(2 * pairs, columns - 2 * first)
+                row_a, row_b = cells[a + begin : a + begin + number], cells[b + begin : b + begin + number]
+                for j in range(number):
+                    under[j] = factor * (near * row_a[j] + far * row_b[j])
+            if apart:
+                for j in range(2 * pairs):
+                    found[j] = points.dtype.type(0.0)
+            place = levels[0, START] + row * stride + 2 * first
+            here = points[place - MARGIN : place + 2 * pairs + MARGIN]
+            up = points[place - stride - 1 : place - stride + 2 * pairs + 1]
+            down = points[place + stride - 1 : place + stride + 2 * pairs + 1]
+            if x2 != 0.0 or y2 != 0.0:
+                above = points[place - 2 * stride : place - 2 * stride + 2 * pairs]
+                below = points[place + 2 * stride : place + 2 * stride + 2 * pairs]
+                for j in range(2 * pairs):
+                    nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
+                    found[j] += nearest + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
+            else:
+                for j in range(2 * pairs):
+                    nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
+                    found[j] += nearest + diagonal * ((up[j] + down[j]) + (up[j + 2] + down[j + 2]))
+            begins, ends, before = natural(rows[row]), natural(rows[row + 1]), natural(base + 2 * first)
+            if apart:
+                for k in range(begins, ends):
+                    i = natural(index[k]) - before
+                    out[k] = found[i] + share[k] * under[i]
+            else:
+                for k in range(begins, ends):
+                    out[k] = found[natural(index[k]) - before]
+            for k in range(begins, ends):
+                z = alone[k * each] * values[k] + out[k]
+                out[k] = z
+                total += z
+                with_one += np.float64(z) * one[k]
+                with_other += np.float64(z) * other[k]
+        products[0, row] = total
+        products[1, row] = with_one
+        products[2, row] = with_other
+
+
+@compiled
+def fall_corrected(levels, way, wraps, weights, lines, sums, g, correction, cells):  # type: ignore[no-untyped-def]
+    """``fall`` to solve, through the levels ``way[0]`` down to ``way[1]``, with the ``correction`` (scratch, mean, per, raw) of every level."""
+    for depth in range(way[0], way[1] - 1, -1):
+        fall((0, PARTS), levels, (depth, depth, SOLVE), wraps, weights, lines, sums, g, cells, correction[3])
+        corrected((0, PARTS), levels, depth, wraps, *correction, cells)
+
+
 # All levels in one piece of memory, rows of the large ones shared by the threads.
-
-
-_SHARED = 1 << 17
-"""Cells of a level from which on threads share its rows, and those of the points below: the first level from 1024² points on."""
-
-_GAP = 8
-"""Points between the rows of the array of points: its margins, and so many that rows of 2^k points do not collide in the cache."""
 
 
 class CpuSplines:
@@ -31,11 +353,11 @@ class CpuSplines:
 
     def __init__(self, blocks: Blocks, shape: tuple[int, int], model: SplineModel, dtype: str) -> None:
         self._blocks = blocks
-        self._layout = _layout(shape, model.merges, model.averages, model.wraps)
+        self._layout = layout(shape, model.merges, model.averages, model.wraps)
         self._points, cells = np.zeros(self._layout.points, dtype), self._layout.cells
         self._sums, self._g, self._cells = (np.zeros(cells, dtype) for _ in range(3))
         # for each thread: a line of sums or deflections, zeros and ones; what is found at the points of a row
-        self._lines = np.zeros((min(blocks.threads, kernels.PARTS), 3, shape[1] + 8), dtype)
+        self._lines = np.zeros((min(blocks.threads, PARTS), 3, shape[1] + 8), dtype)
         self._lines[:, 2] = 1.0
         self._found, self._under = (np.zeros((len(self._lines), shape[1] + 8), dtype) for _ in range(2))
         self._products = np.empty((3, shape[0]))
@@ -72,18 +394,18 @@ class CpuSplines:
         self._load(free, unit)
         at = (free.rows, free.index), (self._found, self._under, self._points)
         stiffness = self._stencil, self._alone, together
-        self._share(kernels.local_stiffness, self._layout.levels, *at, *stiffness, serial=self._layout.large == 0)
+        self._share(local_stiffness, self._layout.levels, *at, *stiffness, serial=self._layout.large == 0)
         self._alone *= self._stiffness
         if self._first:
             self._together = together
-        self._rise(kernels.FACTORISE, self._inverse)
+        self._rise(FACTORISE, self._inverse)
         self._correct = self._first > 0 and conductance is None
         if self._correct:
             levels, large, top = self._layout[:3]
             memory = self._wraps, self._shares, self._lines, self._points, self._sums, self._g, self._correction[1:3]
             for depth in range(self._first, large + 1):
-                self._share(kernels.overlaps, levels, (depth, depth), *memory, serial=False)
-            kernels.overlaps((0, kernels.PARTS), levels, (max(large + 1, self._first), top), *memory)
+                self._share(overlaps, levels, (depth, depth), *memory, serial=False)
+            overlaps((0, PARTS), levels, (max(large + 1, self._first), top), *memory)
 
     def solve(self, free: Any, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``, see ``protocol.Splines``."""
@@ -98,27 +420,27 @@ class CpuSplines:
     def _solved(self, free: Any, r: RealArray, yielding: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``, which acts on other points by how they are ``yielding`` to it."""
         self._load(free, yielding)
-        self._rise(kernels.SOLVE, self._inverse)
+        self._rise(SOLVE, self._inverse)
         if self._correct:
             self._fall_corrected()
         else:
-            self._fall(kernels.SOLVE, self._inverse)
+            self._fall(SOLVE, self._inverse)
         return self._at_points(free, self._stiff, r, self._alone, self._together, r, other, out)
 
     def deflection(self, free: Any, t: RealArray, other: RealArray, out: RealArray) -> Products:
         """Deflection by ``t``, see ``protocol.Splines``."""
         self._load(free, t)
-        self._rise(kernels.DEFLECT, self._weights)
-        self._fall(kernels.DEFLECT, self._weights)
+        self._rise(DEFLECT, self._weights)
+        self._fall(DEFLECT, self._weights)
         return self._at_points(free, self._own, t, self._point, self._one, t, other, out)
 
     def predicted_residual(self, free: Any, r: RealArray, loaded: Any, change: RealArray) -> RealArray:
         """``r`` less the deflection of the points of ``free`` by ``change``."""
         self._load(loaded, change)
-        self._rise(kernels.DEFLECT, self._weights)
-        self._fall(kernels.DEFLECT, self._weights)
+        self._rise(DEFLECT, self._weights)
+        self._fall(DEFLECT, self._weights)
         at = free.empty()
-        kernels.gather(free.rows, free.index, self._layout.levels, self._points, at)
+        gather(free.rows, free.index, self._layout.levels, self._points, at)
         u = self._at_points(free, self._own, at, self._point, self._one, at, at, np.empty_like(r)).vector
         found: RealArray = np.subtract(r, u, out=u)
         return found
@@ -129,9 +451,9 @@ class CpuSplines:
         at = (free, self._own, vector, self._point, self._one, vector, vector, free.empty())
         gathered = (free.rows, free.index, self._layout.levels, self._points, vector)
         return [
-            partial(self._fall, kernels.DEFLECT, self._weights),
+            partial(self._fall, DEFLECT, self._weights),
             partial(self._at_points, *at),
-            partial(kernels.gather, *gathered),
+            partial(gather, *gathered),
         ]
 
     def _rise(self, purpose: int, weights: RealArray) -> None:
@@ -139,41 +461,39 @@ class CpuSplines:
         levels, large, top = self._layout[:3]
         arguments = self._wraps, weights, self._lines, self._points, self._sums, self._g
         for depth in range(1, large + 1):
-            self._share(kernels.rise, levels, (depth, depth, purpose), *arguments, serial=False)
+            self._share(rise, levels, (depth, depth, purpose), *arguments, serial=False)
         if large < top:
-            self._share(kernels.rise, levels, (large + 1, top, purpose), *arguments, serial=True)
+            self._share(rise, levels, (large + 1, top, purpose), *arguments, serial=True)
 
     def _load(self, set_: Any, values: RealArray) -> None:
         """Loads ``values`` of the set at its points, and none elsewhere."""
         if self._loaded() is not set_:
             self._points[...] = 0.0
             self._loaded = ref(set_)
-        kernels.place(set_.rows, set_.index, self._layout.levels, self._wraps, values, self._points)
+        place(set_.rows, set_.index, self._layout.levels, self._wraps, values, self._points)
 
     def _fall(self, purpose: int, weights: RealArray) -> None:
         """Deflections on all levels."""
         levels, large, top = self._layout[:3]
         arguments = self._wraps, weights, self._lines, self._sums, self._g, self._cells, self._cells
         if large < top:
-            self._share(kernels.fall, levels, (top, large + 1, purpose), *arguments, serial=True)
+            self._share(fall, levels, (top, large + 1, purpose), *arguments, serial=True)
         for depth in range(large, 0, -1):
-            self._share(kernels.fall, levels, (depth, depth, purpose), *arguments, serial=False)
+            self._share(fall, levels, (depth, depth, purpose), *arguments, serial=False)
 
     def _fall_corrected(self) -> None:
         """Deflections on all levels to solve, corrected from the first level on that is."""
         levels, large, top = self._layout[:3]
         first, small, raw = self._first, large + 1, self._correction[3]
         before = self._wraps, self._inverse, self._lines, self._sums, self._g
-        kernels.fall_corrected(levels, (top, max(small, first)), *before, self._correction, self._cells)
+        fall_corrected(levels, (top, max(small, first)), *before, self._correction, self._cells)
         if first > small:
-            kernels.fall(
-                (0, kernels.PARTS), levels, (first - 1, small, kernels.SOLVE), *before, self._cells, self._cells
-            )
+            fall((0, PARTS), levels, (first - 1, small, SOLVE), *before, self._cells, self._cells)
         for depth in range(large, 0, -1):
-            way, target = (depth, depth, kernels.SOLVE), raw if depth >= first else self._cells
-            self._share(kernels.fall, levels, way, *before, self._cells, target, serial=False)
+            way, target = (depth, depth, SOLVE), raw if depth >= first else self._cells
+            self._share(fall, levels, way, *before, self._cells, target, serial=False)
             if depth >= first:
-                self._share(kernels.corrected, levels, depth, self._wraps, *self._correction, self._cells, serial=False)
+                self._share(corrected, levels, depth, self._wraps, *self._correction, self._cells, serial=False)
 
     def _at_points(
         self,
@@ -195,38 +515,8 @@ class CpuSplines:
             out,
             products,
         )
-        self._share(kernels.at_points, levels, self._wraps, *arguments, serial=self._layout.large == 0)
+        self._share(at_points, levels, self._wraps, *arguments, serial=self._layout.large == 0)
         return Products(out, *np.add.reduce(products, axis=1).tolist())
 
     def _share(self, kernel: Any, *arguments: Any, serial: bool) -> None:
-        self._blocks.share(kernel, kernels.PARTS, *arguments, serial=serial)
-
-
-class _Layout(NamedTuple):
-    """Table ``levels`` of the sweeps; the number of ``large`` levels and of all; the sizes of the arrays of ``points`` and of ``cells``."""
-
-    levels: Any
-    large: int
-    top: int
-    points: int
-    cells: int
-
-
-@lru_cache(maxsize=32)
-def _layout(
-    shape: tuple[int, int],
-    merges: tuple[tuple[bool, bool], ...],
-    averages: tuple[tuple[bool, bool], ...],
-    wraps: tuple[bool, bool],
-) -> _Layout:
-    """Layout of nested splines on a grid of ``shape``."""
-    (nx, ny), size, large = shape, 0, 0
-    stride = ny + _GAP
-    levels = [(2 * stride + 2, nx, ny, stride, 0, 0, 0, 0)]
-    for (x, y), average in zip(merges, averages, strict=True):
-        nx, ny = (cells_of(n, wrap) if merge else n for n, merge, wrap in zip((nx, ny), (x, y), wraps, strict=True))
-        levels.append((size, nx, ny, ny, int(x), int(y), int(average[0]), int(average[1])))
-        size += nx * ny
-        large += int(nx * ny >= _SHARED)
-    at_least = max(size, 2)  # an array of one entry would be a factor for all cells
-    return _Layout(np.array(levels, np.int64), large, len(merges), (shape[0] + 5) * stride, at_least)
+        self._blocks.share(kernel, PARTS, *arguments, serial=serial)

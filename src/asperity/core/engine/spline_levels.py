@@ -1,0 +1,61 @@
+"""How the levels of nested splines lie in memory.
+
+``levels`` holds for every level the place of its first cell in memory, its cells along x and y, the distance of its rows, whether the level below
+merges along x and y to it, and whether it averages along them. Level 0 are the points themselves, in an array with a margin.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .protocol import cells_of
+
+START, ROWS, COLUMNS, STRIDE, MERGE_X, MERGE_Y, AVERAGE_X, AVERAGE_Y = range(8)
+
+MARGIN = 2
+"""Points kept beyond the rim of the array of points, for their neighbours."""
+
+SOLVE, FACTORISE, DEFLECT = range(3)
+"""What a sweep is for: the inverse, g for it, or the deflection by loads."""
+
+PARTS = 64
+"""Parts into which the rows of a level are divided among threads: the line of scratch memory of a thread follows from its first part."""
+
+_SHARED = 1 << 17
+"""Cells of a level from which on threads share its rows, and those of the points below: the first level from 1024² points on."""
+
+_GAP = 8
+"""Points between the rows of the array of points: its margins, and so many that rows of 2^k points do not collide in the cache."""
+
+
+class Layout(NamedTuple):
+    """Table ``levels`` of the sweeps; the number of ``large`` levels and of all; the sizes of the arrays of ``points`` and of ``cells``."""
+
+    levels: Any
+    large: int
+    top: int
+    points: int
+    cells: int
+
+
+@lru_cache(maxsize=32)
+def layout(
+    shape: tuple[int, int],
+    merges: tuple[tuple[bool, bool], ...],
+    averages: tuple[tuple[bool, bool], ...],
+    wraps: tuple[bool, bool],
+) -> Layout:
+    """Layout of nested splines on a grid of ``shape``."""
+    (nx, ny), size, large = shape, 0, 0
+    stride = ny + _GAP
+    levels = [(2 * stride + 2, nx, ny, stride, 0, 0, 0, 0)]
+    for (x, y), average in zip(merges, averages, strict=True):
+        nx, ny = (cells_of(n, wrap) if merge else n for n, merge, wrap in zip((nx, ny), (x, y), wraps, strict=True))
+        levels.append((size, nx, ny, ny, int(x), int(y), int(average[0]), int(average[1])))
+        size += nx * ny
+        large += int(nx * ny >= _SHARED)
+    at_least = max(size, 2)  # an array of one entry would be a factor for all cells
+    return Layout(np.array(levels, np.int64), large, len(merges), (shape[0] + 5) * stride, at_least)
