@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .protocol import Products, SplineModel, cells_of
+from .protocol import MISSING, Products, SplineModel, cells_of
 
 if TYPE_CHECKING:
     from .array_api import Library
@@ -141,11 +141,12 @@ class ArraySplines:
                 fields = self._moved(fields, axis, places)
             return fields
 
+        middle, side, across = MISSING
         corners: tuple[tuple[int, ...], ...] = ((), (0,), (1,), (0, 1))
         at = [beyond(values, -1, corner) for corner in corners]
         found = self._library.xp.zeros_like(values)
         for k, corner in enumerate(corners):
-            share = 0.609375 * at[k] - 0.234375 * (at[k ^ 1] + at[k ^ 2]) - 0.140625 * at[k ^ 3]
+            share = middle * at[k] - side * (at[k ^ 1] + at[k ^ 2]) - across * at[k ^ 3]
             found = found + beyond(overlap.mean * share, 1, corner)
         return found
 

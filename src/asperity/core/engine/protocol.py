@@ -86,6 +86,11 @@ def cells_of(n: int, wraps: bool) -> int:
     return (n + 1) // 2 if wraps else n // 2 + 2
 
 
+MISSING = 0.609375, 0.234375, 0.140625
+"""What the row sums of B-splines exceed their products by between the middles of four neighbouring cells, per part there: at a cell itself, and less at those beside
+it and across. Along one axis the products are 5/8 and 3/8, so that these are 1 - 25/64, 15/64 and 9/64."""
+
+
 @dataclass(frozen=True)
 class SplineModel:
     """A compliance of nested quadratic B-splines on the points of a grid, and coefficients of its inverse on a free set.

@@ -7,6 +7,7 @@ a Laplacian H, which follows from D between the middles of neighbouring cells. T
 from __future__ import annotations
 
 from .kernels import compiled, natural
+from .protocol import MISSING
 from .spline_levels import COLUMNS, MERGE_X, MERGE_Y, PARTS, ROWS, START, STRIDE
 
 
@@ -54,7 +55,7 @@ def corrected(span, levels, depth, wraps, scratch, mean, per, raw, cells):  # ty
     thread = -(-span[0] * len(founds) // PARTS)
     beside, weight, found = besides[thread], weights[thread], founds[thread]
     rows, wide, kind = level[ROWS], level[COLUMNS], cells.dtype.type
-    middle, side, corner = kind(0.609375), kind(0.234375), kind(0.140625)
+    middle, side, corner = kind(MISSING[0]), kind(MISSING[1]), kind(MISSING[2])
     for cell in range(rows * span[0] // PARTS, rows * span[1] // PARTS):
         start = level[START] + cell * wide
         own, factor, out = raw[start : start + wide], per[start : start + wide], cells[start : start + wide]

@@ -57,5 +57,4 @@ def layout(
         levels.append((size, nx, ny, ny, int(x), int(y), int(average[0]), int(average[1])))
         size += nx * ny
         large += int(nx * ny >= _SHARED)
-    at_least = max(size, 2)  # an array of one entry would be a factor for all cells
-    return Layout(np.array(levels, np.int64), large, len(merges), (shape[0] + 5) * stride, at_least)
+    return Layout(np.array(levels, np.int64), large, len(merges), (shape[0] + 5) * stride, size)
