@@ -22,6 +22,7 @@ from asperity.core.engine import cpu
 VALUES: dict[tuple[Any, str], list[Any]] = {
     (bounds, "_PRIOR"): [1.0, 2.0, 8.0, 16.0],
     (bounds, "_SCATTER_SHARE"): [0.0, 0.3, 0.7, 1.0],
+    (bounds, "_SCATTER_SHARE_OF_GUESS"): [0.5, 0.0, -0.3, -0.75, -1.0],
     (solver, "_SETTLED"): [0.0, 0.001, 0.01, 0.03],
     (solver, "_REDUCTION"): [0.1, 0.2, 0.5],
     (solver, "_UNSETTLED_STEPS"): [2, 4, 6],
@@ -42,6 +43,10 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
     (first_guess, "_HIDDEN_SHARE"): [0.2, 0.5, 2.0],
     (first_guess, "_LOOSEST"): [0.01, 0.03, 0.3],
     (first_guess, "_FINE_STIFFNESS"): [0.0, 0.1, 0.2, 0.3],
+    (first_guess, "_FINE_STIFFNESS_RISING"): [0.0, 0.03, 0.1, 0.15],
+    (first_guess, "_RISING_FROM"): [1.01, 2.0, 1e9],
+    (first_guess, "_NARROWED"): [(1, 1, 1), (2, 2, 2), (1, 3, 3)],
+    (first_guess, "_SETTLING_FROM"): [3.0, 1e9],
     (first_guess, "_AREA_PER_LOAD"): [1.4, 2.4, 100.0],
     (linear_system, "_STEP_LENGTH"): [0.8, 0.9, 1.1, 1.2],
     (spline_model, "_STEEP"): [2.0, 1e9],
@@ -76,6 +81,7 @@ VALUES: dict[tuple[Any, str], list[Any]] = {
 
 FOR_VERY_STIFF_FILMS = (
     "_STEEP",
+    "_SETTLING_FROM",
     "_MODEL_STEPS",
     "_MOST_UNSUCCESSFUL",
     "_MOST_REFINEMENTS",

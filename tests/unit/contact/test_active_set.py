@@ -208,11 +208,11 @@ def pairs_on(body: asp.Layered, load: float, n: int, seeds: tuple[int, ...]) -> 
     return found
 
 
-@pytest.mark.parametrize("ratio", [300.0, 1000.0])
+@pytest.mark.parametrize("ratio", [1000.0, 3000.0])
 def test_closer_solutions_spare_clipped_steps_on_very_stiff_films(
     ratio: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Loosely solved, the set goes in circles. Clipped steps, an independent way to the answer, take more than twice as many products (six times)."""
+    """Loosely solved, the set goes in circles. Clipped steps, an independent way to the answer, take more than twice as many products."""
     problem, solver = asp.ContactProblem(smooth(128, 1), film(ratio, 1.0)), ActiveSet(tolerance=1e-8)
     closely = asp.solve(problem, asp.MeanPressure(0.75), solver=solver)
     monkeypatch.setattr(solver_module, "_MOST_REFINEMENTS", 0)
@@ -222,10 +222,65 @@ def test_closer_solutions_spare_clipped_steps_on_very_stiff_films(
     np.testing.assert_allclose(closely.pressure, clipped.pressure, atol=1e-4 * scale)
 
 
+def guess(body: asp.Layered, engine: Any) -> linear_system.Workspace:
+    """A start prolonged from the coarser grid, and its deflection, on 128 x 128 points at a mean pressure of 0.2."""
+    problem = asp.ContactProblem(smooth(128, 2), body)
+    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    heights = np.asarray(problem.surface.heights, dtype=float)
+    qp = ContactQP(operator, heights, np.inf, FixedMean(0.2), float(heights.std()))
+    return linear_system.Workspace.of(qp.resident, "mixed", nested_start(qp.resident, ActiveSet()).pressure)
+
+
+@pytest.mark.parametrize("engine", [asp.CpuEngine(1), asp.ArrayEngine(np)], ids=["cpu", "arrays"])
+@pytest.mark.parametrize("rounds", [1, 2, 3])
+def test_narrowing_keeps_load_and_bounds_and_tells_its_change(engine: Any, rounds: int) -> None:
+    """Points leave with the pressure they have lost; the change, told on the set before, is that of the pressure in single precision."""
+    work = guess(film(10.0, 4.0), engine)
+    qp, survey = work.qp, work.survey()
+    level = bounds.plane_level(qp, survey.totals)
+    free = bounds.free_set(survey, level, qp.height_scale, work.scaled.dtype, guessed=True)
+    before, residual = np.array(work.pressure), free.residual(centred=True)
+    kept = free.copy(residual)
+    left, r, change = bounds.narrowed(work, free, residual, rounds=rounds)
+    pressure = np.array(work.pressure)
+    assert pressure.min() == 0.0
+    assert pressure.mean() == pytest.approx(0.2, rel=1e-12)
+    assert left.size == np.count_nonzero(pressure) < free.size
+    told, unchanged = np.zeros(pressure.shape, np.float32), np.zeros(pressure.shape, np.float32)
+    free.scatter(change.values, told)
+    largest = float(np.abs(pressure - before).max())
+    np.testing.assert_allclose(told * work.unit, pressure - before, rtol=0.0, atol=1e-6 * largest)
+    left.scatter(r, unchanged)
+    given = np.zeros(pressure.shape, np.float32)
+    free.scatter(kept, given)
+    np.testing.assert_array_equal(unchanged, np.where(pressure > 0.0, given, 0.0))
+    assert not np.any(work.scaled.field)
+
+
+def test_a_second_narrowing_lets_points_go_that_will_not_touch_and_few_others() -> None:
+    """Against the contact of the same problem: a set for narrowing lacks fewer points, and those too many leave it."""
+    body = film(10.0, 4.0)
+    answer = asp.solve(asp.ContactProblem(smooth(128, 2), body), asp.MeanPressure(0.2)).pressure > 0.0
+    lacking, excess = {}, {}
+    for rounds in (0, 1, 2):
+        work = guess(body, asp.CpuEngine(1))
+        qp, survey = work.qp, work.survey()
+        level = bounds.plane_level(qp, survey.totals)
+        free = bounds.free_set(survey, level, qp.height_scale, work.scaled.dtype, guessed=rounds > 0)
+        if rounds:
+            free = bounds.narrowed(work, free, free.residual(centred=True), rounds=rounds).free
+        inside = np.zeros(answer.shape, np.float32)
+        free.scatter(free.zeros() + 1.0, inside)
+        lacking[rounds] = np.count_nonzero(answer & (inside == 0.0))
+        excess[rounds] = np.count_nonzero(~answer & (inside > 0.0))
+    assert max(lacking[1], lacking[2]) < lacking[0]
+    assert excess[2] < excess[1] < excess[0]
+
+
 def test_stiff_films_take_few_products() -> None:
-    """A film of E 10, four points thick, 6.8 pairs, one of E 100, two thick, 9 to 11."""
-    assert sum(pairs_on(film(10.0, 4.0), 0.2, 256, (1, 2, 3))) <= 22.5
-    assert max(pairs_on(film(100.0, 2.0), 0.4, 512, (1, 2))) <= 14.0
+    """A film of E 10, four points thick, 5.8 pairs, one of E 100, two thick, 7.7."""
+    assert sum(pairs_on(film(10.0, 4.0), 0.2, 256, (1, 2, 3))) <= 19.5
+    assert max(pairs_on(film(100.0, 2.0), 0.4, 512, (1, 2))) <= 10.0
 
 
 @pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(0.3)], ids=["elastic", "capped"])

@@ -20,7 +20,7 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.laws import InterfaceLaw
 from asperity.contact.problem import Control
-from asperity.contact.solvers.active_set.bounds import _PRIOR, entering_levels, free_set
+from asperity.contact.solvers.active_set.bounds import _PRIOR, _SCATTER_SHARE, entering_levels, free_set
 from asperity.core.arrays import RealArray
 from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel, cpu
 from asperity.core.engine import gpu as gpu_engine
@@ -425,11 +425,11 @@ def test_levels_of_a_square_are_mean_and_scatter_with_wider_ones(shape: tuple[in
     apart = np.where(np.arange(20) < count[..., None], values - mean[..., None], 0.0)
     margin = 0.5 * np.sqrt(means_of(count, (apart**2).sum(axis=-1)))
     expected = np.stack([mean - margin, mean + margin], axis=-1)
-    np.testing.assert_allclose(entering_levels(squares, level), expected, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(entering_levels(squares, level, _SCATTER_SHARE), expected, rtol=0.0, atol=1e-12)
 
 
 def test_without_points_between_the_bounds_levels_are_those_of_the_plane() -> None:
-    np.testing.assert_array_equal(entering_levels(np.zeros((4, 7, 3)), 0.3), np.full((4, 7, 2), 0.3))
+    np.testing.assert_array_equal(entering_levels(np.zeros((4, 7, 3)), 0.3, _SCATTER_SHARE), np.full((4, 7, 2), 0.3))
 
 
 @every_engine

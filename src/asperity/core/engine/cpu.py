@@ -241,11 +241,9 @@ class _CpuFreeSet:
         return self.start
 
     def loaded(self, p: RealArray, vector: RealArray) -> tuple[FreeSet, RealArray]:
-        kept = p.ravel()[self.index] > 0.0
-        before = np.zeros(kept.size + 1, np.int64)
-        np.cumsum(kept, out=before[1:])
-        index, r = self.index[kept], vector[kept]
-        return _CpuFreeSet(self.blocks, self.shape, index, np.zeros_like(r), np.zeros(1), before[self.rows], 0), r
+        kept = np.flatnonzero(p.ravel().take(self.index) > 0.0)  # these take half the time of masks
+        index, r, rows = self.index.take(kept), vector.take(kept), np.searchsorted(kept, self.rows)
+        return _CpuFreeSet(self.blocks, self.shape, index, np.zeros_like(r), np.zeros(1), rows, 0), r
 
     def add_clipped(self, p: RealArray, d: RealArray, scale: float, cap: RealArray | None) -> Clipped:
         total, movable, below, number = self._sums("add_clipped", 4, self.index, p.ravel(), d, scale, bound(cap))

@@ -24,15 +24,18 @@ _PRIOR = 4.0
 Pairs for 1, 2, 8, 16: the same."""
 
 _SCATTER_SHARE = 0.5
-"""Share of the scatter by which a point must stand out to enter. Pairs for 0, 0.3, 0.7, 1: elastic 5.7, 5.7, 6.1, 6.3; free
-19.3, 20.8, 20.8, 21.6; tight 12.2, 12.9, 12.6, 13.2. It is for stiffer films and points of noise that it is not 0."""
+"""Share of the scatter by which a point must stand out to enter. Pairs for 0, 0.3, 0.7: the same but tight 12.9, 12.4, 12.4; for 1: film 5.9, cap 6.2, tight 11.9. It is for stiffer films and points of noise that it is not 0."""
+
+_SCATTER_SHARE_OF_GUESS = -0.5
+"""The same for a set that is to be ``narrowed``: points enter that do not stand out, for the model finds nearly all that will not touch among them, but none of those that are missing.
+Pairs for 0.5: elastic 5.8, film 6.2, free 20.8; for 0: free 20.0; for -0.3, -0.75, -1: the same."""
 
 _RESOLVED = 1e-14
 """Scatter² over mean square below which it is lost in the rounding of sums of squares."""
 
 
-def free_set(survey: Survey, level: float, scale: float, dtype: str) -> FreeSet:
-    """Free set of an iterate at the plane ``level``, with the residual (level - r) / ``scale``.
+def free_set(survey: Survey, level: float, scale: float, dtype: str, *, guessed: bool = False) -> FreeSet:
+    """Free set of an iterate at the plane ``level``, with the residual (level - r) / ``scale``; a larger one for a ``guessed`` iterate, to be ``narrowed``.
 
     Points at a bound enter by the mean residual of the loaded points near them: while an iterate is not yet solved for,
     its residual is smooth, whole regions being too high or too low. Judged by the plane level, too many points would enter
@@ -43,11 +46,12 @@ def free_set(survey: Survey, level: float, scale: float, dtype: str) -> FreeSet:
     than it is mostly undone by the next, and a stiff film, whose pressures change sign within a few pixels, may never
     settle. Points enter that are beyond the mean by half of the scatter, which vanishes at the solution.
     """
-    return survey.free_set(entering_levels(survey.squares, level), level, scale, dtype)
+    share = _SCATTER_SHARE_OF_GUESS if guessed else _SCATTER_SHARE
+    return survey.free_set(entering_levels(survey.squares, level, share), level, scale, dtype)
 
 
-def entering_levels(squares: RealArray, level: float) -> RealArray:
-    """Levels of r for each square (..., 2): unloaded points enter below the first, points at their cap above the second.
+def entering_levels(squares: RealArray, level: float, share: float) -> RealArray:
+    """Levels of r for each square (..., 2): unloaded points enter below the first, points at their cap above the second; ``share`` of the scatter beyond the mean.
 
     ``squares`` holds the number of its points strictly between the bounds, their sum of r and of r². Where there are few, the square of twice
     the side counts as well, and so on; where there are none at all the levels are ``level``.
@@ -56,7 +60,7 @@ def entering_levels(squares: RealArray, level: float) -> RealArray:
 
     nx, ny, _ = squares.shape
     sums, levels = np.empty((2 * (nx + 1) * (ny + 1) + 64, 3)), np.empty((nx, ny, 2))
-    kernels.entering_levels(squares, level, _PRIOR, _SCATTER_SHARE, _RESOLVED, sums, levels)
+    kernels.entering_levels(squares, level, _PRIOR, share, _RESOLVED, sums, levels)
     return levels
 
 
@@ -97,14 +101,23 @@ class Narrowed(NamedTuple):
     change: PressureChange
 
 
-def narrowed(work: Workspace, free: FreeSet, r: Any, *, closely: bool = False) -> Narrowed:
-    """Step for the residual ``r`` on ``free`` by the model of the compliance alone; the points that become tensile are cleared and leave the set.
+def narrowed(work: Workspace, free: FreeSet, r: Any, *, rounds: int = 1) -> Narrowed:
+    """Steps for the residual ``r`` on ``free`` by the model of the compliance alone; after each the points that have become tensile are cleared and leave the set.
 
-    It costs no product: whoever computes the deflection by ``change`` does so together with that by a step on what is left. ``closely``: solve the model as closely
-    as for a ``first`` direction.
+    They cost no product: whoever computes the deflection by ``change`` does so together with that by a step on what is left.
     """
+    found = _narrowed(work, free, r, r)
+    for _ in range(rounds - 1):
+        predicted = work.scaled.splines.predicted_residual(found.free, found.r, found.change.free, found.change.values)
+        last = _narrowed(work, found.free, found.r, predicted)
+        found = last._replace(change=_both(work, found.change, last.change))
+    return found
+
+
+def _narrowed(work: Workspace, free: FreeSet, r: Any, predicted: Any) -> Narrowed:
+    """``narrowed`` once, by a step for the residual that is ``predicted``."""
     system = LinearSystem(work.scaled, free, work.load_prescribed)
-    z = system.preconditioned(system.prepared(r), r, free.empty(), first=closely)
+    z = system.preconditioned(system.prepared(predicted), predicted, free.empty())
     # beyond single precision the step fails, and says so, as others do
     with np.errstate(over="ignore", invalid="ignore"):
         d = free.shifted(z.vector, -system.mean(z.total))
@@ -113,6 +126,16 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, closely: bool = False) -
         change = PressureChange(free, d + clear_tension(work, free, total).values)
     left, r = free.loaded(work.pressure, r)
     return Narrowed(left, r, change)
+
+
+def _both(work: Workspace, wide: PressureChange, narrow: PressureChange) -> PressureChange:
+    """Sum of two changes, that on the ``narrow`` set within the ``wide`` one."""
+    free, field = wide.free, work.scaled.field
+    free.scatter(wide.values, field)
+    narrow.free.scatter_add(narrow.values, 1.0, field)
+    values = free.gather_products(field, wide.values, wide.values, free.empty()).vector
+    work.engine.clear_field(free, field)
+    return PressureChange(free, values)
 
 
 def clipped_update(work: Workspace, free: FreeSet, d: Any, r: Any, total: float) -> _Clipping:

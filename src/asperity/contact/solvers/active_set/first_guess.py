@@ -23,17 +23,28 @@ COARSE_ITERATIONS = 30
 
 _HIDDEN_SHARE, _HIDDEN_SHARE_CAPPED = 1.0, 0.1
 """Tolerance on a coarse grid over the roughness that it cannot show, both relative to the rms height, without and with a cap. Pairs for
-0.2, 0.5, 2: elastic 6.2, 5.9, 5.8; film 6.8, 6.8, 6.2; tight 12.7, 12.5, 12.4; monotone 8.2, 8.0, 7.8. With a cap 0.5 takes 7.1
+0.2, 0.5, 2: film 5.8, 5.7, 5.7; free 19.5, 19.3, 19.3; monotone 8.2, 8.0, 7.8. With a cap 0.5 takes 7.1
 and 10.4 pairs at a hardness of 0.3 and 0.1 E* (512²), 0.1 takes 5.8 and 6.8."""
 
 _LOOSEST, _LOOSEST_CAPPED = 0.1, 0.03
-"""Loosest tolerance on a coarse grid. Pairs for 0.01, 0.03, 0.3: elastic 6.2, 5.9, 5.8; film 6.8, 6.4, 6.2; tight 12.7, 12.6, 12.4; monotone 8.2, 8.0, 7.9."""
+"""Loosest tolerance on a coarse grid. Pairs for 0.01, 0.03, 0.3: film 5.9, 5.7, 5.7; free 20.2, 19.3, 19.2; monotone 8.2, 8.0, 7.9."""
 
-_FINE_STIFFNESS = 0.15
-"""Stiffness of what stands out of 2 x 2 points, over that of alternating pixels (the roughness of a resolved surface is longer).
-Pairs for 0, 0.1, 0.2, 0.3: elastic 7.0, 6.0, 6.0, 6.3; film 7.0, 6.5, 7.1, 7.7; free 21.6, 20.8, 20.2, 20.2; tight 12.2, 13.1, 12.7, 12.9.
+_FINE_STIFFNESS, _FINE_STIFFNESS_RISING = 0.15, 0.05
+"""Stiffness of what stands out of 2 x 2 points, over that of alternating pixels (the roughness of a resolved surface is longer), and where c(q) q rises.
+Pairs for 0, 0.1, 0.2, 0.3: elastic 6.3, 5.7, 5.7, 5.8; free 20.1, 19.3, 19.3, 19.3; tight 12.6, 12.1, 12.9, 12.4; where it rises for 0, 0.03: the same; for 0.1, 0.15: film 5.9, 5.9 (E 10 on 4 pixels, 1024², 0.02, 0.05, 0.08: 6.0, 5.8, 6.2).
 Under a cap there is none: crests that it would load beyond the cap yield. With it a hardness of 0.3 and 0.1 E* takes 8.2 and 15.3 pairs
 at 256² instead of 5.8 and 8.6, 9.8 and 18.5 at 512² instead of 5.8 and 6.8."""
+
+_RISING_FROM, _RISING_CELLS = 1.2, 4
+"""Rise of c(q) q over that of the shortest waves, at waves up to 32 points (twice the side of cells of this level), from which on a guess is that of a film. Pairs for a rise of 1.01, 2: the same; for 1e9 (never): film 6.3."""
+
+_NARROWED = 1, 2, 3
+"""How often the set of a guess is narrowed: as a rule, where c(q) q rises, and where the guess is settled, before that as well. Pairs for once everywhere: film 6.4; for twice: elastic 6.0, free 18.5, tight 13.9. Settled guesses of films of
+E 100 on 2 pixels, of E 50 on 2 and of E 30 on 2 (1024², means over loads and surfaces) take 7.7, 7.7 and 8.3 pairs with three, 9.9, 8.3 and 9.3 with two."""
+
+_SETTLING_FROM = 8.0
+"""Steepness of a compliance from which on ``settle`` is worth its time. Films of E 30 on 2 pixels (steepness 8.5) take 8.3 pairs with it and 10.0 without, five measured surfaces with such films 8.7 and 9.3; of E 10 on 2 (4.9) 7.0 and 7.3, in more time.
+Pairs for 3: stiff the same; for 1e9 (never): stiff 32.1."""
 
 
 class Adjustable(Solver, Protocol):
@@ -59,7 +70,7 @@ def coarse_tolerance(qp: ContactQP, coarse: ContactQP, solver: Adjustable) -> fl
 
 
 class Start(NamedTuple):
-    """Feasible ``pressure`` (Pa), the FFT ``pairs`` it took, and whether it is ``guessed`` from a coarser grid or the heights, with many points that will not touch.
+    """Feasible ``pressure`` (Pa), the FFT ``pairs`` it took, and how often its set is to be ``narrowed``: never where it is no guess from a coarser grid or the heights, with many points that will not touch.
 
     ``deflection`` (m), not quite that by it, is given where it is to ``settle``.
     """
@@ -67,7 +78,7 @@ class Start(NamedTuple):
     pressure: RealArray
     pairs: float = 0.0
     deflection: RealArray | None = None
-    guessed: bool = False
+    narrowed: int = 0
 
 
 def nested_start(qp: ContactQP, solver: Adjustable) -> Start:
@@ -77,42 +88,41 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> Start:
     2 x 2 points; without a cap, pressure is added in proportion to what stands out of them, or ``settle`` finds what is to be added on thin films that are very stiff.
     Pairs are counted in pairs of the grid of ``qp``: those of half as many points per side count a quarter.
     """
+    rises = qp.elastic and steepness(qp.operator, _RISING_CELLS) > _RISING_FROM
+    settles = qp.elastic and steepness(qp.operator) > _SETTLING_FROM
+    rounds = _NARROWED[int(rises) + int(settles)]
     if min(qp.profile.shape) <= COARSEST:
         qp = qp.on_host
-        return Start(feasible_start(qp, highest_points(qp)), guessed=True)
+        return Start(feasible_start(qp, highest_points(qp)), narrowed=rounds)
     coarse, engine = coarsened(qp), qp.operator.engine
     state = iterated(solver.loosened(coarse_tolerance(qp, coarse, solver)), coarse).state
     pairs = state.applications * coarse.operator.pairs_per_application + state.extra_pairs
     share = coarse.profile.size / qp.profile.size
-    settles = qp.elastic and steepness(qp.operator) > _SETTLING_FROM
     adds = qp.elastic and not settles
-    stiffness = _FINE_STIFFNESS / pixel_compliance(qp.operator.octaves, qp.operator.grid) if adds else 0.0
+    stiffness = 0.0
+    if adds:
+        stiffness = _FINE_STIFFNESS_RISING if rises else _FINE_STIFFNESS
+        stiffness /= pixel_compliance(qp.operator.octaves, qp.operator.grid)
     start = engine.prolonged(state.pressure, coarse.profile, qp.profile, stiffness)
     deflection = None
     if settles:
         deflection = engine.interpolated(state.deflection, qp.profile.shape, qp.operator.boundary.wraps)
     if not (qp.elastic and isinstance(qp.constraint, FixedMean) and start.any()):
-        return Start(feasible_start(qp, engine.numpy(start)), pairs * share, deflection, guessed=True)
+        return Start(feasible_start(qp, engine.numpy(start)), pairs * share, deflection, narrowed=rounds)
     start *= qp.constraint.mean_pressure / float(start.mean())
-    return Start(start, pairs * share, deflection, guessed=True)
+    return Start(start, pairs * share, deflection, narrowed=rounds)
 
 
-_SETTLING_FROM = 3.0
-"""Steepness of a compliance from which on ``settle`` is worth its time. Pairs at 512² and 1024², means over loads and surfaces, with it and without: film of E 100 on 2 pixels
-(steepness 12) 10.1 and 10.6 for 13.9 and 15.0, of E 30 on 3 (4) 8.3 and 8.7 for 9.8 and 11.0."""
-
-
-def settle(work: Workspace) -> None:
-    """Change the pressure of ``work``, prolonged from a coarser grid, by two steps on the model of its compliance, and leave the deflection to be computed.
+def settle(work: Workspace, rounds: int) -> None:
+    """Change the pressure of ``work``, prolonged from a coarser grid, by some steps on the model of its compliance, and leave the deflection to be computed.
 
     On a stiff film many of the 2 x 2 points that touch on the coarser grid do not touch on this one. The model finds most of
     them from the interpolated deflection, without a product. Else steps make so many points tensile that unclipped ones may fail, after which hundreds follow.
     """
-    qp, splines = work.qp, work.scaled.splines
+    qp = work.qp
     survey = work.survey()
-    free = free_set(survey, plane_level(qp, survey.totals), qp.height_scale, work.scaled.dtype)
-    left, r, change = narrowed(work, free, free.residual(centred=work.load_prescribed), closely=True)
-    narrowed(work, left, splines.predicted_residual(left, r, change.free, change.values), closely=True)
+    free = free_set(survey, plane_level(qp, survey.totals), qp.height_scale, work.scaled.dtype, guessed=True)
+    narrowed(work, free, free.residual(centred=work.load_prescribed), rounds=rounds)
 
 
 _AREA_PER_LOAD = 2.0

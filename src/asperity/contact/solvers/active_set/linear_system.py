@@ -145,19 +145,19 @@ def _heights(qp: ContactQP, *, centred: bool) -> RealArray:
 
 
 _MODEL_STEPS = 3
-"""Steps on the model of a compliance whose inverse is refined, each as dear as two uses of its inverse. Pairs for 1, 2, 4: stiff 91.8, 51.8, 27.2, the
+"""Steps on the model of a compliance whose inverse is refined, each as dear as two uses of its inverse. Pairs for 1, 4: stiff 97.2, 25.5, the
 last in more time on films of E 100 and 300 on one and two pixels."""
 
 _FIRST_STEPS = 1
-"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 8.3, film 10.0, free 27.6, cap 9.2, tight 14.7, monotone
-10.6; for 2: film 6.5, free 18.6."""
+"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 8.3, film 9.7, free 24.5, cap 9.2, tight 14.2, monotone
+10.6; for 2: free 17.8."""
 
 _LAST_LENGTH = 0.85
 """Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: tight 13.5; for 1: the same."""
 
 _STEP_LENGTH = 1.0
-"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 9.3, 8.0, 7.5, 8.9; film
-10.3, 8.7, 8.5, 9.8; free 28.8, 23.4, 25.1, 27.6; cap 9.4, 8.0, 8.0, 9.0; tight 15.4, 14.5, 13.3, 14.3; monotone 11.5, 9.9, 9.0, 11.0."""
+"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 8.8, 7.7, 6.8, 8.5; film
+9.2, 7.4, 7.9, 8.9; free 26.8, 23.0, 23.8, 27.6; cap 9.4, 8.0, 8.0, 9.0; tight 15.4, 13.9, 12.7, 14.4; monotone 11.6, 9.9, 8.9, 11.0."""
 
 
 @dataclass(frozen=True, eq=False)

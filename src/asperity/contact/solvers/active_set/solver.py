@@ -5,9 +5,9 @@ Read it beside docs/theory/contact.md: numbers in parentheses, such as (4), are 
 The constants are not delicate. Behind each stand FFT pairs for other values, by ``benchmarks/constants.py``: means over
 self-affine surfaces of two seeds, tolerance 1e-6. *Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and
 20 pixels, 512²; *free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10; *monotone*:
-elastic, 256², every iterate within its bounds. The constants as they are take 5.8, 6.2, 20.8, 6.0, 12.4 and 7.9 pairs; cases that
+elastic, 256², every iterate within its bounds. The constants as they are take 5.7, 5.7, 19.3, 6.0, 12.4 and 7.9 pairs; cases that
 are not named differ from these by 0.3 at most (*free*: 0.8). *Stiff*: films of E 300 and 1000, 1 and 2 pixels thick, 128² and 256², for the constants that bear on
-them alone; 33.2 pairs. Constants of this module and ``bounds`` that bear on the other kinds were last varied when *film* took 6.7 pairs, the others within 0.2 of these.
+them alone; 26.1 pairs. Some constants were last varied when *film* took 6.7 pairs and *free* 20.8, the others within 0.2 of these.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def relative_error(work: Workspace, totals: Totals) -> float:
 
 _SETTLED = 0.003
 """Points entering or beyond their bounds, over the free set, below which the set counts as nearly settled. Pairs for 0:
-elastic 6.5, film 7.2, free 22.1, tight 13.2; for 0.001, 0.01 and 0.03 none differs."""
+elastic 6.7, film 6.7, free 20.8, tight 13.1; for 0.001, 0.01 and 0.03 none differs."""
 
 _REDUCTION = 0.3
 """Reduction of the residual while the set changes; conjugate gradients gain a factor of 9 a step, so mostly one step. Pairs for
@@ -80,16 +80,16 @@ _UNMEASURED, _LAST = Stopping(0.0, 0), Stopping(0.0, 0, ending=1.0)
 left of it after clipping, or that which ends the solve, shows."""
 
 _SINGLE = 0.02
-"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.01: the same; for 0.06, 0.3: elastic 6.5, 6.7; cap 6.0, 7.0."""
+"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.01: the same; for 0.06, 0.3: elastic 5.8, 6.7; film 6.2, 6.7; free 20.1, 20.1; cap 6.0, 7.0."""
 
 _MOST_DOUBLINGS = 4
 """Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No case here needs one."""
 
 _CLOSER, _CLOSER_DOUBLINGS = 0.1, 2
-"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed. Pairs for a factor of 0.03 and 0.3: stiff 34.6, 36.0; for 1 and 3 doublings: the same."""
+"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed. Pairs for a factor of 0.03 and 0.3: stiff 27.9, 30.2; for 1 and 3 doublings: the same."""
 
 _NEARLY_SETTLED = Stopping(reduction=0.1, max_steps=8)
-"""Effort on a nearly settled set. Pairs for a reduction of 0.03: elastic 6.4; for 0.2 and 0.3: tight 13.2; for 3, 5, 12 steps the same."""
+"""Effort on a nearly settled set. Pairs for a reduction of 0.03: elastic 6.7, film 6.2; for 0.2 and 0.3: tight 13.1; for 3, 5, 12 steps the same."""
 
 _SETTLED_SET = Stopping(reduction=1e-4, max_steps=14)
 """Effort at most on a set that did not change; more than single precision holds is wasted. Pairs for a reduction of 1e-6, 1e-3,
@@ -97,7 +97,7 @@ _SETTLED_SET = Stopping(reduction=1e-4, max_steps=14)
 
 _LAST_STEP = 0.07
 """Reduction of the error expected of a last step whose length is not measured. Then the product that computes the deflection from scratch, which
-ends every solve, serves it too. Pairs for 0.03: the same; for 0.15, 0.3: film 7.2."""
+ends every solve, serves it too. Pairs for 0.03, 0.15, 0.3: the same."""
 
 _LAST_REDUCTION = 0.01
 """Reduction down to which a step on a set that is nearly settled is taken for the last one and ends so. Pairs for 0.02, 0.05: the same."""
@@ -108,8 +108,8 @@ left of it after clipping shows its deflection, so that it takes none of its own
 steps of such corrections."""
 
 _MARGIN = 0.8
-"""Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3: film 7.2,
-free 22.1; for 0.5 and 1 the same."""
+"""Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3: film 6.2,
+free 20.8; for 0.5 and 1 the same."""
 
 
 # The solver.
@@ -136,15 +136,15 @@ take 0.74 of the pairs of cold solves at 512² (``benchmarks/overheads.py``); a 
 error is about 1, takes more than a cold one."""
 
 _MOST_UNSUCCESSFUL = 2
-"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 39.1, 36.9, 32.4."""
+"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 34.2, 30.5, 26.7."""
 
 _MOST_REFINEMENTS = 3
 """How often they may fail before steps are clipped. A set that follows the errors of loosely solved systems goes in circles on films so stiff that pressures change sign within
-a few pixels; solved closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs for 0, 1, 2, 4: stiff 216, 34.7, 36.2, 34.7."""
+a few pixels; solved closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs for 0, 1, 2, 4: stiff 171, 69.0, 26.3, 25.4."""
 
 _REFRESH = 1e-5
 """Fall of the error since the deflection was computed from scratch after which it is again: updates are rounded to single
-precision, 6e-8 of the largest. Pairs for 1e-3, 1e-4, 1e-7: elastic 6.9, 5.9, 5.9; film 8.7, 6.7, 6.7; free 24.4, 21.4, 20.6; cap 7.0, 6.0, 6.0; tight 12.2, 12.5, 13.5; monotone 9.0, 8.7, 8.0."""
+precision, 6e-8 of the largest. Pairs for 1e-3, 1e-4, 1e-7: elastic 6.7, 6.2, 5.7; film 6.7, 5.7, 5.7; free 22.3, 20.8, 19.3; cap 7.0, 6.0, 6.0; tight 11.6, 11.4, 13.4; monotone 8.9, 8.4, 7.9."""
 
 
 @dataclass(eq=False)
@@ -157,7 +157,7 @@ class _Memory:
     ``unsuccessful`` counts the unclipped steps in a row that have not made the ``lowest`` error smaller, None where steps
     are clipped; ``refinements`` how often there were too many, after which systems are solved more closely; ``tensile`` is the free set of the last unclipped step, as long as it may hold tensile points, and
     ``tension`` the sum of theirs (Pa). ``from_scratch``: the deflection has
-    just been computed so; ``guessed``: the iterate is a start that is (``Start``).
+    just been computed so; ``narrowed``: how often the set of a start is to be (``Start``).
     ``superseded``: a later step has changed the arrays. The work so far is that of ``SolverState``.
     """
 
@@ -172,7 +172,7 @@ class _Memory:
     tensile: FreeSet | None = None
     tension: float = 0.0
     from_scratch: bool = False
-    guessed: bool = False
+    narrowed: int = 0
     superseded: bool = False
     iterations: int = 0
     applications: int = 0
@@ -276,12 +276,12 @@ class ActiveSet:
         """State at a feasible pressure, with the work it has cost."""
         work = Workspace.of(qp, self.precision, begin.pressure, begin.deflection)
         if begin.deflection is not None:
-            settle(work)
+            settle(work, begin.narrowed)
             work.exact.apply(work.pressure, work.deflection)
         survey = work.survey()
         unsuccessful = None if self.monotone or work.cap is not None else 0
         error = relative_error(work, survey.totals)
-        memory = _Memory(work, survey, error, clipped=1, unsuccessful=unsuccessful, guessed=begin.guessed)
+        memory = _Memory(work, survey, error, clipped=1, unsuccessful=unsuccessful, narrowed=begin.narrowed)
         memory.applications, memory.pairs = applications, begin.pairs
         return self._state(memory)
 
@@ -336,8 +336,10 @@ class ActiveSet:
         given.superseded, given.tensile = True, None  # its vectors are long: they must go as soon as they are used
         memory.iterations += 1
         level = plane_level(qp, memory.survey.totals)
-        free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype)
-        step = self._clipped_step if memory.unsuccessful is None else self._unclipped_step
+        clips = memory.unsuccessful is None
+        guessed = memory.narrowed > 0 and not clips
+        free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype, guessed=guessed)
+        step = self._clipped_step if clips else self._unclipped_step
         following = step(memory, free, state.error)
         memory.work.engine.clear_field(free, memory.work.scaled.field)
         del free
@@ -365,11 +367,11 @@ class ActiveSet:
         if memory.tensile is not None and memory.clipped:
             pending = clear_tension(work, memory.tensile, memory.survey.totals.pressure)
             memory.tensile = None
-        elif memory.guessed and not memory.settled(free):
-            free, r, pending = narrowed(work, free, r)
+        elif memory.narrowed and not memory.settled(free):
+            free, r, pending = narrowed(work, free, r, rounds=memory.narrowed)
             stopping = Stopping(_REDUCTION, max_steps=1)
         system = LinearSystem(work.scaled, free, work.load_prescribed)
-        memory.guessed, last = False, stopping.ending is not None
+        memory.narrowed, last = 0, stopping.ending is not None
 
         def add(length: float) -> None:
             work.engine.add(work.scaled.response, length * work.qp.height_scale, work.deflection)
