@@ -63,8 +63,8 @@ def place(rows, index, levels, wraps, values, points):  # type: ignore[no-untype
     """Set the array of points to the ``values`` at the points of a set, and beyond its rim."""
     for row in range(levels[0, ROWS]):
         shift = levels[0, START] + row * (levels[0, STRIDE] - levels[0, COLUMNS])
-        for k in range(rows[row], rows[row + 1]):
-            points[index[k] + shift] = values[k]
+        for k in range(natural(rows[row]), natural(rows[row + 1])):
+            points[natural(index[k] + shift)] = values[k]
     _surround(levels, wraps, points)
 
 
@@ -73,8 +73,8 @@ def gather(rows, index, levels, points, out):  # type: ignore[no-untyped-def]
     """Values of the array of points at the points of a set."""
     for row in range(levels[0, ROWS]):
         shift = levels[0, START] + row * (levels[0, STRIDE] - levels[0, COLUMNS])
-        for k in range(rows[row], rows[row + 1]):
-            out[k] = points[index[k] + shift]
+        for k in range(natural(rows[row]), natural(rows[row + 1])):
+            out[k] = points[natural(index[k] + shift)]
 
 
 @compiled

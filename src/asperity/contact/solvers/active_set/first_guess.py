@@ -39,7 +39,7 @@ _RISING_FROM, _RISING_CELLS = 1.2, 4
 """Rise of c(q) q over that of the shortest waves, at waves up to 32 points (twice the side of cells of this level), from which on a guess is that of a film. Pairs for a rise of 1.01, 2: the same; for 1e9 (never): film 6.3."""
 
 _NARROWED = 1, 2, 3
-"""How often the set of a guess is narrowed: as a rule, where c(q) q rises, and where the guess is settled, before that as well. Pairs for once everywhere: film 6.4; for twice: elastic 6.0, free 18.5, tight 13.9. Settled guesses of films of
+"""How often the set of a guess is narrowed: as a rule and always on the coarsest grid, where c(q) q rises, and where the guess is settled, before that as well. Pairs for once everywhere: film 6.4; for twice: elastic 6.0, free 18.5, tight 13.9. Settled guesses of films of
 E 100 on 2 pixels, of E 50 on 2 and of E 30 on 2 (1024², means over loads and surfaces) take 7.7, 7.7 and 8.3 pairs with three, 9.9, 8.3 and 9.3 with two."""
 
 _SETTLING_FROM = 8.0
@@ -88,12 +88,12 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> Start:
     2 x 2 points; without a cap, pressure is added in proportion to what stands out of them, or ``settle`` finds what is to be added on thin films that are very stiff.
     Pairs are counted in pairs of the grid of ``qp``: those of half as many points per side count a quarter.
     """
+    if min(qp.profile.shape) <= COARSEST:
+        qp = qp.on_host
+        return Start(feasible_start(qp, highest_points(qp)), narrowed=_NARROWED[0])
     rises = qp.elastic and steepness(qp.operator, _RISING_CELLS) > _RISING_FROM
     settles = qp.elastic and steepness(qp.operator) > _SETTLING_FROM
     rounds = _NARROWED[int(rises) + int(settles)]
-    if min(qp.profile.shape) <= COARSEST:
-        qp = qp.on_host
-        return Start(feasible_start(qp, highest_points(qp)), narrowed=rounds)
     coarse, engine = coarsened(qp), qp.operator.engine
     state = iterated(solver.loosened(coarse_tolerance(qp, coarse, solver)), coarse).state
     pairs = state.applications * coarse.operator.pairs_per_application + state.extra_pairs

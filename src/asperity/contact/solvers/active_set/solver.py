@@ -337,7 +337,8 @@ class ActiveSet:
         memory.iterations += 1
         level = plane_level(qp, memory.survey.totals)
         clips = memory.unsuccessful is None
-        guessed = memory.narrowed > 0 and not clips
+        # prolonged ones only: where adhesion allows more than one contact, a larger first set of the coarsest grid leads to another one
+        guessed = memory.narrowed > 0 and not clips and min(qp.profile.shape) > COARSEST
         free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype, guessed=guessed)
         step = self._clipped_step if clips else self._unclipped_step
         following = step(memory, free, state.error)
