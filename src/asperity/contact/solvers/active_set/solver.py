@@ -337,7 +337,7 @@ class ActiveSet:
         memory.iterations += 1
         level = plane_level(qp, memory.survey.totals)
         clips = memory.unsuccessful is None
-        # prolonged ones only: where adhesion allows more than one contact, a larger first set of the coarsest grid leads to another one
+        # prolonged ones only: the coarsest grid begins with the highest points, not with pressures of 2 x 2 points
         guessed = memory.narrowed > 0 and not clips and min(qp.profile.shape) > COARSEST
         free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype, guessed=guessed)
         step = self._clipped_step if clips else self._unclipped_step
