@@ -28,6 +28,9 @@ STEP = 1.0 / 96.0
 """Spacing of the nodes of a logarithmic grid. The error of the ten-point polynomial is 870 (STEP/w)^10 relative for a function
 of ln x without singularities nearer to the real axis than w: 1e-14 at w = 0.5, about the least of responses of layered bodies."""
 
+_LOST = 0.125 * float(np.finfo(float).eps)
+"""Sum of terms over the first one that is lost in rounding: narrow panels of responses need seven or eight terms."""
+
 _BEFORE, _AFTER = 4, 5  # nodes below and above the node that starts a panel
 _CHUNK = 16384  # points whose temporaries stay in the second-level cache
 
@@ -117,18 +120,30 @@ class LogTable:
             self._evaluate(flat[part], out[part])
         return out.reshape(x.shape)
 
+    @cached_property
+    def _powers(self) -> RealArray:
+        """Coefficients without those of the highest powers that rounding of the value loses in every panel."""
+        sizes = np.abs(self.coefficients)
+        rest = np.cumsum(sizes[::-1], axis=0)[::-1]  # of a power and all above it
+        counts = (rest[1:] > _LOST * sizes[0]).any(axis=1)
+        return self.coefficients[: 1 + int(counts.sum())]  # the rest falls with the power
+
+    @cached_property
+    def _scales(self) -> RealArray:
+        """dt/dx in each panel, (count,)."""
+        return np.asarray(2.0 / (math.expm1(self.panels.width) * self.panels.breaks[:-1]))
+
     def _evaluate(self, x: RealArray, out: RealArray) -> None:
-        grown = math.expm1(self.panels.width)
-        t = np.log(x / self.panels.start)
-        t /= self.panels.width
-        panel = t.astype(np.intp)
-        np.clip(panel, 0, self.panels.count - 1, out=panel)
-        np.divide(x, self.panels.breaks.take(panel), out=t)
-        t -= 1.0 + 0.5 * grown
-        t *= 2.0 / grown
-        self.coefficients[-1].take(panel, out=out, mode="clip")
+        logarithm = np.log((x / self.panels.start).astype(np.float32))  # near a break either panel will do
+        logarithm /= np.float32(self.panels.width)
+        panel = logarithm.astype(np.intp)
+        t = self._scales.take(panel, mode="clip")
+        t *= x
+        t -= 1.0 + 2.0 / math.expm1(self.panels.width)
+        powers = self._powers
+        powers[-1].take(panel, out=out, mode="clip")
         gathered = np.empty_like(out)
-        for coefficient in self.coefficients[-2::-1]:
+        for coefficient in powers[-2::-1]:
             out *= t
             out += coefficient.take(panel, out=gathered, mode="clip")
 
