@@ -48,44 +48,46 @@ def _reciprocals(span, levels, depth, share, sums, g, per):  # type: ignore[no-u
 
 
 @compiled
-def corrected(span, levels, depth, wraps, scratch, mean, per, raw, cells):  # type: ignore[no-untyped-def]
+def _excess(own, other, weights, missing):  # type: ignore[no-untyped-def]
+    """What the two blocks between a row of cells and the ``other`` one add to H of a cell: values (before, here, after) of both rows, the ``weights`` of the blocks before and after it."""
+    middle, side, corner = missing
+    here = middle * own[1] - side * other[1]
+    before, after = side * own[0] + corner * other[0], side * own[2] + corner * other[2]
+    return weights[0] * (here - before) + weights[1] * (here - after)
+
+
+@compiled
+def corrected(span, levels, depth, wraps, nothing, mean, per, raw, cells):  # type: ignore[no-untyped-def]
     """``cells`` = raw + per H raw on a level, of the rows of the span; H by the ``mean`` of ``_between``. The ``raw`` values themselves where it merges along one axis only."""
     level = levels[depth]
-    besides, weights, founds = scratch
-    thread = -(-span[0] * len(founds) // PARTS)
-    beside, weight, found = besides[thread], weights[thread], founds[thread]
     rows, wide, kind = level[ROWS], level[COLUMNS], cells.dtype.type
-    middle, side, corner = kind(MISSING[0]), kind(MISSING[1]), kind(MISSING[2])
+    missing, zero = (kind(MISSING[0]), kind(MISSING[1]), kind(MISSING[2])), kind(0.0)
     for cell in range(rows * span[0] // PARTS, rows * span[1] // PARTS):
         start = level[START] + cell * wide
         own, factor, out = raw[start : start + wide], per[start : start + wide], cells[start : start + wide]
-        for k in range(wide):
-            found[k] = kind(0.0)
-        for way in range(2 if level[MERGE_X] + level[MERGE_Y] == 2 else 0):
-            beyond, block = (cell + 1, cell) if way else (cell - 1, cell - 1)
-            if wraps[0]:
-                beyond, block = (
-                    0 if beyond >= rows else rows - 1 if beyond < 0 else beyond,
-                    rows - 1 if block < 0 else block,
-                )
-            if not 0 <= beyond < rows:
-                continue
-            of_other, of_block = level[START] + beyond * wide, level[START] + block * wide
-            other, blocks = raw[of_other : of_other + wide], mean[of_block : of_block + wide]
-            beside_line, weight_line = beside[1 : wide + 1], weight[1 : wide + 1]
+        if level[MERGE_X] + level[MERGE_Y] < 2:
             for k in range(wide):
-                beside_line[k] = side * own[k] + corner * other[k]
-            for k in range(wide):
-                weight_line[k] = blocks[k]
-            if wraps[1]:
-                beside[0], beside[wide + 1], weight[0] = beside[wide], beside[1], weight[wide]
-            else:
-                beside[0], beside[wide + 1], weight[0] = kind(0.0), kind(0.0), kind(0.0)
-            for k in range(wide):
-                here = middle * own[k] - side * other[k]
-                found[k] += weight[k + 1] * (here - beside[k + 2]) + weight[k] * (here - beside[k])
-        for k in range(wide):
-            out[k] = own[k] + factor[k] * found[k]
+                out[k] = own[k]
+            continue
+        last, following = level[START] + (cell - 1) % rows * wide, level[START] + (cell + 1) % rows * wide
+        above, below = raw[last : last + wide], raw[following : following + wide]
+        over = mean[last : last + wide] if wraps[0] or cell > 0 else nothing[:wide]
+        under = mean[start : start + wide] if wraps[0] or cell + 1 < rows else nothing[:wide]
+        for k in range(1, wide - 1):
+            near = own[k - 1], own[k], own[k + 1]
+            found = _excess(near, (above[k - 1], above[k], above[k + 1]), (over[k - 1], over[k]), missing)
+            found += _excess(near, (below[k - 1], below[k], below[k + 1]), (under[k - 1], under[k]), missing)
+            out[k] = own[k] + factor[k] * found
+        for k in (0, wide - 1):
+            i, j = (k - 1) % wide, (k + 1) % wide
+            before = kind(1.0) if wraps[1] or k > 0 else zero
+            after = kind(1.0) if wraps[1] or k + 1 < wide else zero
+            near = before * own[i], own[k], after * own[j]
+            beyond = before * above[i], above[k], after * above[j]
+            found = _excess(near, beyond, (before * over[i], over[k]), missing)
+            beyond = before * below[i], below[k], after * below[j]
+            found += _excess(near, beyond, (before * under[i], under[k]), missing)
+            out[k] = own[k] + factor[k] * found
 
 
 @compiled

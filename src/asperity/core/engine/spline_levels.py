@@ -24,18 +24,20 @@ SOLVE, FACTORISE, DEFLECT = range(3)
 PARTS = 64
 """Parts into which the rows of a level are divided among threads: the line of scratch memory of a thread follows from its first part."""
 
-_SHARED = 1 << 17
-"""Cells of a level from which on threads share its rows, and those of the points below: the first level from 1024² points on."""
+_SHARED, _ALL_SHARED = 1 << 17, 1 << 19
+"""Cells of a level from which on threads share its rows, and those of the points below: the first level from 1024² points on for its sums (0.5 ms), from 2048² for the sweeps down (0.2 ms),
+which take as long as it takes to wake a thread (0.03 to 0.18 ms, the latter in a virtual machine). Shared from the same size on, half-spaces took 1.01 and films of E 10 on 4 pixels 1.04 times as long at 1024², on two threads."""
 
 _GAP = 8
 """Points between the rows of the array of points: its margins, and so many that rows of 2^k points do not collide in the cache."""
 
 
 class Layout(NamedTuple):
-    """Table ``levels`` of the sweeps; the number of ``large`` levels and of all; the sizes of the arrays of ``points`` and of ``cells``."""
+    """Table ``levels`` of the sweeps; the number of levels ``large`` enough for threads to share their sums, of ``larger`` ones with all sweeps shared, and of all; the sizes of the arrays of ``points`` and of ``cells``."""
 
     levels: Any
     large: int
+    larger: int
     top: int
     points: int
     cells: int
@@ -49,7 +51,7 @@ def layout(
     wraps: tuple[bool, bool],
 ) -> Layout:
     """Layout of nested splines on a grid of ``shape``."""
-    (nx, ny), size, large = shape, 0, 0
+    (nx, ny), size, large, larger = shape, 0, 0, 0
     stride = ny + _GAP
     levels = [(2 * stride + 2, nx, ny, stride, 0, 0, 0, 0)]
     for (x, y), average in zip(merges, averages, strict=True):
@@ -57,4 +59,5 @@ def layout(
         levels.append((size, nx, ny, ny, int(x), int(y), int(average[0]), int(average[1])))
         size += nx * ny
         large += int(nx * ny >= _SHARED)
-    return Layout(np.array(levels, np.int64), large, len(merges), (shape[0] + 5) * stride, size)
+        larger += int(nx * ny >= _ALL_SHARED)
+    return Layout(np.array(levels, np.int64), large, larger, len(merges), (shape[0] + 5) * stride, size)

@@ -339,7 +339,7 @@ def at_points(span, levels, wraps, members, memory, stencil, vectors, out, produ
 
 @compiled
 def fall_corrected(levels, way, wraps, weights, lines, sums, g, correction, cells):  # type: ignore[no-untyped-def]
-    """``fall`` to solve, through the levels ``way[0]`` down to ``way[1]``, with the ``correction`` (scratch, mean, per, raw) of every level."""
+    """``fall`` to solve, through the levels ``way[0]`` down to ``way[1]``, with the ``correction`` (zeros, mean, per, raw) of every level."""
     for depth in range(way[0], way[1] - 1, -1):
         fall((0, PARTS), levels, (depth, depth, SOLVE), wraps, weights, lines, sums, g, cells, correction[3])
         corrected((0, PARTS), levels, depth, wraps, *correction, cells)
@@ -369,8 +369,7 @@ class CpuSplines:
         self._shares = np.array([0.0, *model.corrections], dtype)
         self._first = int(np.flatnonzero(self._shares)[0]) if self._shares.any() else 0
         size = cells if self._first else 0
-        scratch = tuple(np.zeros((len(self._lines), shape[1] + 8), dtype) for _ in range(3))
-        self._correction = (scratch, *(np.zeros(size, dtype) for _ in range(3)))
+        self._correction = self._lines[0, 1], *(np.zeros(size, dtype) for _ in range(3))
         self._correct = False
         self._point, self._one = np.array([point], dtype), np.ones(1, dtype)
         own = (*(0.5 * side for side in nearest), 0.0, 0.0, 0.25 * diagonal, 1.0)
@@ -401,11 +400,11 @@ class CpuSplines:
         self._rise(FACTORISE, self._inverse)
         self._correct = self._first > 0 and conductance is None
         if self._correct:
-            levels, large, top = self._layout[:3]
+            levels, _, larger, top = self._layout[:4]
             memory = self._wraps, self._shares, self._lines, self._points, self._sums, self._g, self._correction[1:3]
-            for depth in range(self._first, large + 1):
+            for depth in range(self._first, larger + 1):
                 self._share(overlaps, levels, (depth, depth), *memory, serial=False)
-            overlaps((0, PARTS), levels, (max(large + 1, self._first), top), *memory)
+            overlaps((0, PARTS), levels, (max(larger + 1, self._first), top), *memory)
 
     def solve(self, free: Any, r: RealArray, other: RealArray, out: RealArray) -> Products:
         """Inverse times ``r``, see ``protocol.Splines``."""
@@ -458,7 +457,7 @@ class CpuSplines:
 
     def _rise(self, purpose: int, weights: RealArray) -> None:
         """Sums of the loads on all levels."""
-        levels, large, top = self._layout[:3]
+        levels, large, _, top = self._layout[:4]
         arguments = self._wraps, weights, self._lines, self._points, self._sums, self._g
         for depth in range(1, large + 1):
             self._share(rise, levels, (depth, depth, purpose), *arguments, serial=False)
@@ -474,22 +473,22 @@ class CpuSplines:
 
     def _fall(self, purpose: int, weights: RealArray) -> None:
         """Deflections on all levels."""
-        levels, large, top = self._layout[:3]
+        levels, _, larger, top = self._layout[:4]
         arguments = self._wraps, weights, self._lines, self._sums, self._g, self._cells, self._cells
-        if large < top:
-            self._share(fall, levels, (top, large + 1, purpose), *arguments, serial=True)
-        for depth in range(large, 0, -1):
+        if larger < top:
+            self._share(fall, levels, (top, larger + 1, purpose), *arguments, serial=True)
+        for depth in range(larger, 0, -1):
             self._share(fall, levels, (depth, depth, purpose), *arguments, serial=False)
 
     def _fall_corrected(self) -> None:
         """Deflections on all levels to solve, corrected from the first level on that is."""
-        levels, large, top = self._layout[:3]
-        first, small, raw = self._first, large + 1, self._correction[3]
+        levels, _, larger, top = self._layout[:4]
+        first, small, raw = self._first, larger + 1, self._correction[3]
         before = self._wraps, self._inverse, self._lines, self._sums, self._g
         fall_corrected(levels, (top, max(small, first)), *before, self._correction, self._cells)
         if first > small:
             fall((0, PARTS), levels, (first - 1, small, SOLVE), *before, self._cells, self._cells)
-        for depth in range(large, 0, -1):
+        for depth in range(larger, 0, -1):
             way, target = (depth, depth, SOLVE), raw if depth >= first else self._cells
             self._share(fall, levels, way, *before, self._cells, target, serial=False)
             if depth >= first:
