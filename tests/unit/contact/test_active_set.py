@@ -238,7 +238,7 @@ def test_narrowing_keeps_load_and_bounds_and_tells_its_change(engine: Any, round
     work = guess(film(10.0, 4.0), engine)
     qp, survey = work.qp, work.survey()
     level = bounds.plane_level(qp, survey.totals)
-    free = bounds.free_set(survey, level, qp.height_scale, work.scaled.dtype, guessed=True)
+    free = bounds.free_set(survey, level, qp.height_scale, work.scaled.dtype, wide=True)
     before, residual = np.array(work.pressure), free.residual(centred=True)
     kept = free.copy(residual)
     left, r, change = bounds.narrowed(work, free, residual, rounds=rounds)
@@ -266,7 +266,7 @@ def test_a_second_narrowing_lets_points_go_that_will_not_touch_and_few_others() 
         work = guess(body, asp.CpuEngine(1))
         qp, survey = work.qp, work.survey()
         level = bounds.plane_level(qp, survey.totals)
-        free = bounds.free_set(survey, level, qp.height_scale, work.scaled.dtype, guessed=rounds > 0)
+        free = bounds.free_set(survey, level, qp.height_scale, work.scaled.dtype, wide=rounds > 0)
         if rounds:
             free = bounds.narrowed(work, free, free.residual(centred=True), rounds=rounds).free
         inside = np.zeros(answer.shape, np.float32)
@@ -390,6 +390,7 @@ def test_the_page_of_the_algorithm_states_the_constants_of_the_code() -> None:
         f"at most {settled.max_steps} steps    ({solver_module._MARGIN} tol/ε if larger, {solver_module._REDUCTION} at most)",
         f"has fallen by {solver_module._MARGIN} tol/({solver_module._LAST_STEP} ε)",
         f"{solver_module._MARGIN} tol/ε ≥ {solver_module._SINGLE}",
+        f"(below {solver_module._CLOSELY} one more step on B)",
         f"For a steepness up to {spline_model._STEEP:g} (",
         f"{spline_model._STIFF:g} on lines",
         f"more than {spline_model._STIFF:g} times that of the shortest waves",

@@ -194,11 +194,24 @@ class _ArrayFreeSet:
         self._put(value, p)
         return self.library.xp.astype(change, self.start.dtype)
 
-    def loaded(self, p: Any, vector: Any) -> tuple[FreeSet, Any]:
-        inside = self.inside & (p > 0.0)
-        size = int(self.library.numbers([self.library.count(inside)])[0])
-        left = _ArrayFreeSet(self.library, inside, self.library.xp.zeros_like(self.start), size, 0)
-        return left, self.library.select(inside, vector)
+    def loaded(self, values: Any, total: float | None, vector: Any) -> tuple[FreeSet, Any, Any]:
+        library, inside = self.library, self.inside & (values > 0.0)
+        values = library.select(inside, values)
+        size, carried = library.numbers([library.count(inside), self._sum(values)])
+        if total is not None and size:
+            values = values * (total / carried)
+        left = _ArrayFreeSet(library, inside, library.xp.zeros_like(self.start), int(size), 0)
+        return left, values, library.select(inside, vector)
+
+    def spread(self, left: Any, values: Any) -> Any:
+        """``values``, which are zero on the other points."""
+        return values
+
+    def change(self, values: Any, before: Any, scale: float) -> Any:
+        return self.library.xp.astype((values - before) / float(scale), self.start.dtype)
+
+    def put(self, values: Any, p: Any) -> None:
+        self._put(values, p)
 
     def add_clipped(self, p: Any, d: Any, scale: float, cap: Any) -> Clipped:
         library = self.library

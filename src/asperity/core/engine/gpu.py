@@ -170,10 +170,24 @@ class _GpuFreeSet:
         self._run("clear_tension", p, float(factor), float(scale), change)
         return change
 
-    def loaded(self, p: Any, vector: Any) -> tuple[FreeSet, Any]:
-        inside, out = self.cupy.empty_like(self.inside), self.empty()
-        (size,) = self._totals("loaded", 1, p, vector, inside, out)
-        return _GpuFreeSet(self.passes, self.cupy, inside, self.zeros(), int(size), 0, 0.0), out
+    def loaded(self, values: Any, total: float | None, vector: Any) -> tuple[FreeSet, Any, Any]:
+        inside, on_left, out = self.cupy.empty_like(self.inside), self.cupy.empty_like(values), self.empty()
+        size, carried = self._totals("loaded", 2, values, vector, inside, on_left, out)
+        if total is not None and size:
+            on_left *= total / carried
+        return _GpuFreeSet(self.passes, self.cupy, inside, self.zeros(), int(size), 0, 0.0), on_left, out
+
+    def spread(self, left: Any, values: Any) -> Any:
+        """``values``, which are zero on the other points."""
+        return values
+
+    def change(self, values: Any, before: Any, scale: float) -> Any:
+        change = self.empty()
+        self._run("change", values, before, float(scale), change)
+        return change
+
+    def put(self, values: Any, p: Any) -> None:
+        self._run("put", values, p)
 
     def add_clipped(self, p: Any, d: Any, scale: float, cap: Any) -> Clipped:
         *load, clipped = self._totals("add_clipped", 4, p, d, float(scale), *_of_cap(cap))

@@ -185,14 +185,29 @@ extern "C" __global__ void clear_tension(
 }
 
 extern "C" __global__ void loaded(
-    const flag *inside, const real *p, const scalar *vector, flag *left, scalar *out, whole n, double *partial) {
-    double size = 0.0;
+    const flag *inside, const real *values, const scalar *vector, flag *left, real *on_left, scalar *out, whole n,
+    double *partial) {
+    double size = 0.0, carried = 0.0;
     EACH(k, n) {
-        left[k] = inside[k] && p[k] > (real)0;
+        left[k] = inside[k] && values[k] > (real)0;
+        on_left[k] = left[k] ? values[k] : (real)0;
         out[k] = left[k] ? vector[k] : (scalar)0;
         size += left[k];
+        carried += on_left[k];
     }
     leave(size, 0, SUM, partial);
+    leave(carried, 1, SUM, partial);
+}
+
+extern "C" __global__ void change(
+    const flag *inside, const real *values, const real *before, double scale, scalar *out, whole n) {
+    EACH(k, n) out[k] = inside[k] ? (scalar)(((double)values[k] - (double)before[k]) / scale) : (scalar)0;
+}
+
+extern "C" __global__ void put(const flag *inside, const real *values, real *p, whole n) {
+    EACH(k, n) {
+        if (inside[k]) p[k] = values[k];
+    }
 }
 
 // Load of the points p of a free set, and of those below the cap with their number.

@@ -503,17 +503,6 @@ def update_solution(span, length, t, kt, mean, d, r, sums):  # type: ignore[no-u
 
 
 @compiled
-def gather(span, index, values, out, sums):  # type: ignore[no-untyped-def]
-    """out = values[index]; per block: their sum."""
-    for b in range(span[0], span[1]):
-        total = 0.0
-        for k in range(natural(b * BLOCK), natural(min((b + 1) * BLOCK, index.size))):
-            out[k] = values[index[k]]
-            total += out[k]
-        sums[b, 0] = total
-
-
-@compiled
 def add_unclipped(span, index, p, d, scale, sums):  # type: ignore[no-untyped-def]
     """p[index] += scale d; per block: number of tensile points then, the sum of their tension, and that of the other pressures."""
     for b in range(span[0], span[1]):

@@ -143,7 +143,7 @@ class Convolution(Protocol):
 
 
 class FreeSet(Protocol):
-    """The points whose pressure may change in a step. Vectors over a free set are opaque to the solver, but two may be added.
+    """The points whose pressure may change in a step. Vectors over a free set are opaque to the solver, but they may be added and multiplied by a number.
 
     A *field* is an array over the whole grid that goes into or comes out of a convolution.
     """
@@ -213,8 +213,17 @@ class FreeSet(Protocol):
         The residual vector may be overwritten.
         """
 
-    def loaded(self, p: Any, vector: Any) -> tuple[FreeSet, Any]:
-        """The points of the set where p > 0, with a residual of zero, and ``vector`` on them."""
+    def loaded(self, values: Any, total: float | None, vector: Any) -> tuple[FreeSet, Any, Any]:
+        """The points of the set where ``values`` > 0, with a residual of zero, and on them the values, scaled to the sum ``total`` if one is given, and ``vector``."""
+
+    def spread(self, left: FreeSet, values: Any) -> Any:
+        """Vector of the set: ``values`` on the points ``left`` of it by ``loaded``, once or several times, zero on the others."""
+
+    def change(self, values: Any, before: Any, scale: float) -> Any:
+        """Vector (``values`` - ``before``) / scale in the precision of corrections."""
+
+    def put(self, values: Any, p: Any) -> None:
+        """Set p on the set to the vector ``values``."""
 
     def add_clipped(self, p: Any, d: Any, scale: float, cap: Any) -> Clipped:
         """p + scale d on the set, clipped to [0, cap], in place."""

@@ -21,21 +21,22 @@ def plane_level(qp: ContactQP, totals: Totals) -> float:
 
 _PRIOR = 4.0
 """Loaded points as which the mean over the wider square counts in that of a square, so that few points do not decide alone.
-Pairs for 1, 2, 8, 16: the same."""
+Pairs for 2: free 18.6; for 1, 8, 16: the same."""
 
 _SCATTER_SHARE = 0.5
-"""Share of the scatter by which a point must stand out to enter. Pairs for 0, 0.3, 0.7: the same but tight 12.9, 12.4, 12.4; for 1: film 5.9, cap 6.2, tight 11.9. It is for stiffer films and points of noise that it is not 0."""
+"""Share of the scatter by which a point must stand out to enter. Pairs for 0: tight 12.9; for 0.3, 0.7: the same; for 1: film 5.9, cap 6.2, tight 11.9. It is for stiffer films and points of noise that it is not 0."""
 
-_SCATTER_SHARE_OF_GUESS = -0.5
-"""The same for a set that is to be ``narrowed``: points enter that do not stand out, for the model finds nearly all that will not touch among them, but none of those that are missing.
-Pairs for 0.5: elastic 5.8, film 6.2, free 20.8; for 0: free 20.0; for -0.3, -0.75, -1: the same."""
+_SCATTER_SHARE_WIDE = -0.5
+"""The same for a ``wide`` set: points enter that do not stand out. Before a set is ``narrowed``, for the model finds nearly all that will not touch among them, but none of those that are missing;
+and for the last step, after which points that do not touch are cleared, but one that is missing would be too deep for the tolerance.
+Pairs for 0.5: elastic 5.8, film 6.2; for 0: free 20.1; for -0.3: free 18.6; for -0.75, -1: the same."""
 
 _RESOLVED = 1e-14
 """Scatter² over mean square below which it is lost in the rounding of sums of squares."""
 
 
-def free_set(survey: Survey, level: float, scale: float, dtype: str, *, guessed: bool = False) -> FreeSet:
-    """Free set of an iterate at the plane ``level``, with the residual (level - r) / ``scale``; a larger one for a ``guessed`` iterate, to be ``narrowed``.
+def free_set(survey: Survey, level: float, scale: float, dtype: str, *, wide: bool = False) -> FreeSet:
+    """Free set of an iterate at the plane ``level``, with the residual (level - r) / ``scale``; a larger one if ``wide``.
 
     Points at a bound enter by the mean residual of the loaded points near them: while an iterate is not yet solved for,
     its residual is smooth, whole regions being too high or too low. Judged by the plane level, too many points would enter
@@ -46,7 +47,7 @@ def free_set(survey: Survey, level: float, scale: float, dtype: str, *, guessed:
     than it is mostly undone by the next, and a stiff film, whose pressures change sign within a few pixels, may never
     settle. Points enter that are beyond the mean by half of the scatter, which vanishes at the solution.
     """
-    share = _SCATTER_SHARE_OF_GUESS if guessed else _SCATTER_SHARE
+    share = _SCATTER_SHARE_WIDE if wide else _SCATTER_SHARE
     return survey.free_set(entering_levels(survey.squares, level, share), level, scale, dtype)
 
 
@@ -106,36 +107,22 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, rounds: int = 1) -> Narr
 
     They cost no product: whoever computes the deflection by ``change`` does so together with that by a step on what is left.
     """
-    found = _narrowed(work, free, r, r)
-    for _ in range(rounds - 1):
-        predicted = work.scaled.splines.predicted_residual(found.free, found.r, found.change.free, found.change.values)
-        last = _narrowed(work, found.free, found.r, predicted)
-        found = last._replace(change=_both(work, found.change, last.change))
-    return found
-
-
-def _narrowed(work: Workspace, free: FreeSet, r: Any, predicted: Any) -> Narrowed:
-    """``narrowed`` once, by a step for the residual that is ``predicted``."""
-    system = LinearSystem(work.scaled, free, work.load_prescribed)
-    z = system.preconditioned(system.prepared(predicted), predicted, free.empty())
-    # beyond single precision the step fails, and says so, as others do
-    with np.errstate(over="ignore", invalid="ignore"):
-        d = free.shifted(z.vector, -system.mean(z.total))
-        total = free.add_unclipped(work.pressure, d, work.unit).pressure
-        r = free.copy(r)  # whose memory clearing may take
-        change = PressureChange(free, d + clear_tension(work, free, total).values)
-    left, r = free.loaded(work.pressure, r)
-    return Narrowed(left, r, change)
-
-
-def _both(work: Workspace, wide: PressureChange, narrow: PressureChange) -> PressureChange:
-    """Sum of two changes, that on the ``narrow`` set within the ``wide`` one."""
-    free, field = wide.free, work.scaled.field
-    free.scatter(wide.values, field)
-    narrow.free.scatter_add(narrow.values, 1.0, field)
-    values = free.gather_products(field, wide.values, wide.values, free.empty()).vector
-    work.engine.clear_field(free, field)
-    return PressureChange(free, values)
+    constraint, splines = work.qp.constraint, work.scaled.splines
+    load = constraint.mean_pressure * work.qp.profile.size if isinstance(constraint, FixedMean) else None
+    before, _ = free.gather(work.pressure)
+    left, values, after, change = free, before, before, None
+    for _ in range(rounds):
+        predicted = r if change is None else splines.predicted_residual(left, r, free, change)
+        system = LinearSystem(work.scaled, left, work.load_prescribed)
+        z = system.preconditioned(system.prepared(predicted), predicted, left.empty())
+        # beyond single precision the step fails, and says so, as others do
+        with np.errstate(over="ignore", invalid="ignore"):
+            d = left.shifted(z.vector, -system.mean(z.total))
+            left, values, r = left.loaded(values + work.unit * d, load, r)
+            after = free.spread(left, values)
+            change = free.change(after, before, work.unit)
+    free.put(after, work.pressure)
+    return Narrowed(left, r, PressureChange(free, change))
 
 
 def clipped_update(work: Workspace, free: FreeSet, d: Any, r: Any, total: float) -> _Clipping:

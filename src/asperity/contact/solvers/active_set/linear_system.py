@@ -145,19 +145,19 @@ def _heights(qp: ContactQP, *, centred: bool) -> RealArray:
 
 
 _MODEL_STEPS = 3
-"""Steps on the model of a compliance whose inverse is refined, each as dear as two uses of its inverse. Pairs for 1, 4: stiff 97.2, 25.5, the
+"""Steps on the model of a compliance whose inverse is refined, each as dear as two uses of its inverse. Pairs for 1, 4: stiff 90.4, 25.3, the
 last in more time on films of E 100 and 300 on one and two pixels."""
 
 _FIRST_STEPS = 1
-"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 8.3, film 9.7, free 24.5, cap 9.2, tight 14.2, monotone
-10.6; for 2: free 17.8."""
+"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 7.7, film 8.5, free 23.8, cap 7.7, tight 14.2, monotone
+10.6; for 2: free 17.8, tight 11.7."""
 
 _LAST_LENGTH = 0.85
-"""Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: tight 13.5; for 1: the same."""
+"""Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: the same; for 1: film 5.9."""
 
 _STEP_LENGTH = 1.0
-"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 8.8, 7.7, 6.8, 8.5; film
-9.2, 7.4, 7.9, 8.9; free 26.8, 23.0, 23.8, 27.6; cap 9.4, 8.0, 8.0, 9.0; tight 15.4, 13.9, 12.7, 14.4; monotone 11.6, 9.9, 8.9, 11.0."""
+"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 9.2, 7.7, 6.7, 8.5; film
+9.2, 7.4, 8.2, 8.7; free 26.8, 23.1, 24.6, 27.6; cap 9.4, 8.0, 8.0, 9.2; tight 15.4, 13.7, 12.7, 14.4; monotone 11.6, 9.9, 8.9, 11.0."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,10 +195,10 @@ class LinearSystem:
         scaled.product.apply(scaled.field, scaled.response)
         return self.free.gather_products(scaled.response, t, t, out)
 
-    def preconditioned(self, r: Any, other: Any, out: Any, *, first: bool = False) -> Products:
-        """Approximate inverse of K times ``r``, and its products with ``r`` and ``other``; a better one for a ``first`` direction."""
+    def preconditioned(self, r: Any, other: Any, out: Any, *, more: int = 0) -> Products:
+        """Approximate inverse of K times ``r``, better by some ``more`` steps on the model, and its products with ``r`` and ``other``."""
         scaled = self.scaled
-        steps = scaled.model_steps + (_FIRST_STEPS if first else 0)
+        steps = scaled.model_steps + more
         if self.modelled or steps == 1:
             return scaled.splines.solve(self.free, r, other, out)
         model, stopping = replace(self, modelled=True), Stopping(0.0, steps - 1)
@@ -216,12 +216,13 @@ class Stopping(NamedTuple):
     the next use of the preconditioner, a quarter of which are not needed then.
 
     ``ending``, if given: conjugate gradients stop at this reduction of the largest residual instead, and a last step follows whose length
-    is not measured and whose deflection is not computed, but estimated (see ``Correction.open``).
+    is not measured and whose deflection is not computed, but estimated (see ``Correction.open``). A single direction takes so many ``more`` steps on the model.
     """
 
     reduction: float
     max_steps: int
     ending: float | None = None
+    more: int = 0
 
 
 class PressureChange(NamedTuple):
@@ -272,7 +273,7 @@ def conjugate_gradients(
     predicted = system.prepared(r, pending)
     if stopping.max_steps == 0:
         begun = Correction(free.zeros(), 0.0, True, open=stopping.ending is not None)
-        return _unmeasured(system, predicted, None, _STEP_LENGTH, begun)
+        return _unmeasured(system, predicted, None, _STEP_LENGTH, begun, stopping.more)
     ending = None if stopping.ending is None else stopping.ending * free.largest(r)
     enough = stopping.reduction**2 * free.square(predicted) if stopping.reduction and stopping.max_steps > 1 else 0.0
     d, r, first, left = _first_step(system, r, predicted, pending, on_step)
@@ -300,10 +301,12 @@ def conjugate_gradients(
     return _unmeasured(system, r, last, further * length, found) if further and taken else found
 
 
-def _unmeasured(system: LinearSystem, r: Any, last: _Direction | None, length: float, found: Correction) -> Correction:
-    """``found`` and one more step of this ``length``, without a product; no step where rounding leaves no direction that goes down."""
-    other, alone = (r, not system.modelled) if last is None else (last.kt, False)
-    t, slope = _next_direction(system, r, system.preconditioned(r, other, system.free.empty(), first=alone), last)
+def _unmeasured(
+    system: LinearSystem, r: Any, last: _Direction | None, length: float, found: Correction, more: int = 0
+) -> Correction:
+    """``found`` and one more step of this ``length``, without a product, with so many ``more`` steps on the model if it is the first; no step where rounding leaves no direction that goes down."""
+    other, steps = (r, _FIRST_STEPS + more) if last is None else (last.kt, 0)
+    t, slope = _next_direction(system, r, system.preconditioned(r, other, system.free.empty(), more=steps), last)
     if not slope > 0.0:  # not a number either
         return found._replace(d=None if last is None else found.d, open=False)
     return found._replace(d=system.free.update_solution(length, t, t, 0.0, found.d, r)[0])
@@ -345,7 +348,7 @@ def _first_step(
     scaled, free = system.scaled, system.free
     if pending is None:
         return _FirstStep(free.zeros(), r, 0.0, 0.0)
-    z = system.preconditioned(predicted, predicted, free.empty(), first=True)
+    z = system.preconditioned(predicted, predicted, free.empty(), more=_FIRST_STEPS)
     t, _ = _next_direction(system, r, z, None)
     pending.free.scatter_add(pending.values, 1.0 / _STEP_LENGTH, scaled.field)
     scaled.product.apply(scaled.field, scaled.response)

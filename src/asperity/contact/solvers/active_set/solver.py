@@ -7,7 +7,7 @@ self-affine surfaces of two seeds, tolerance 1e-6. *Elastic*: half-space, 512²,
 20 pixels, 512²; *free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10; *monotone*:
 elastic, 256², every iterate within its bounds. The constants as they are take 5.7, 5.7, 19.3, 6.0, 12.4 and 7.9 pairs; cases that
 are not named differ from these by 0.3 at most (*free*: 0.8). *Stiff*: films of E 300 and 1000, 1 and 2 pixels thick, 128² and 256², for the constants that bear on
-them alone; 26.1 pairs. Some constants were last varied when *film* took 6.7 pairs and *free* 20.8, the others within 0.2 of these.
+them alone; 30.6 pairs.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def relative_error(work: Workspace, totals: Totals) -> float:
 
 _SETTLED = 0.003
 """Points entering or beyond their bounds, over the free set, below which the set counts as nearly settled. Pairs for 0:
-elastic 6.7, film 6.7, free 20.8, tight 13.1; for 0.001, 0.01 and 0.03 none differs."""
+elastic 6.5, film 6.7, free 20.8, tight 13.2; for 0.001, 0.01 and 0.03 none differs."""
 
 _REDUCTION = 0.3
 """Reduction of the residual while the set changes; conjugate gradients gain a factor of 9 a step, so mostly one step. Pairs for
@@ -75,25 +75,28 @@ _REDUCTION = 0.3
 _UNSETTLED_STEPS = 3
 """Most steps while the set changes, doubled with every fallback, and twice with every failure of unclipped ones. Two would do on these surfaces (2, 4, 6: the same pairs), the third is for harder ones."""
 
-_UNMEASURED, _LAST = Stopping(0.0, 0), Stopping(0.0, 0, ending=1.0)
+_UNMEASURED, _LAST, _LAST_CLOSELY = Stopping(0.0, 0), Stopping(0.0, 0, ending=1.0), Stopping(0.0, 0, ending=1.0, more=1)
 """Effort on a correction that is clipped afterwards, and on the last one: a single direction of the model of the compliance, whose deflection the product with what is
 left of it after clipping, or that which ends the solve, shows."""
 
-_SINGLE = 0.02
-"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.01: the same; for 0.06, 0.3: elastic 5.8, 6.7; film 6.2, 6.7; free 20.1, 20.1; cap 6.0, 7.0."""
+_SINGLE = 0.015
+"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.01, 0.02: the same; for 0.06, 0.3: elastic 5.8, 6.7; film 6.2, 6.7; free 20.1, 20.1; cap 6.0, 7.0."""
+
+_CLOSELY = 0.05
+"""Reduction of the error below which such a direction takes a step more on the model. Pairs for 0 and 1: the same; 1024², four surfaces: half-spaces at 0.02 to 0.2 E* 5.9 for 5.9 with 0 and 5.8 with 0.1, films of E 10 on 4 pixels at 0.05 to 0.5 5.7 for 5.8 and 5.7. The step takes a tenth of the time of one more product with all that belongs to it."""
 
 _MOST_DOUBLINGS = 4
 """Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No case here needs one."""
 
 _CLOSER, _CLOSER_DOUBLINGS = 0.1, 2
-"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed. Pairs for a factor of 0.03 and 0.3: stiff 27.9, 30.2; for 1 and 3 doublings: the same."""
+"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed. Pairs for a factor of 0.03 and 0.3: stiff 32.7, 31.6; for 1 and 3 doublings: the same."""
 
 _NEARLY_SETTLED = Stopping(reduction=0.1, max_steps=8)
-"""Effort on a nearly settled set. Pairs for a reduction of 0.03: elastic 6.7, film 6.2; for 0.2 and 0.3: tight 13.1; for 3, 5, 12 steps the same."""
+"""Effort on a nearly settled set. Pairs for a reduction of 0.03: elastic 6.7, film 6.2; for 0.2 and 0.3: tight 13.2; for 3, 5, 12 steps the same."""
 
 _SETTLED_SET = Stopping(reduction=1e-4, max_steps=14)
 """Effort at most on a set that did not change; more than single precision holds is wasted. Pairs for a reduction of 1e-6, 1e-3,
-1e-2: tight 12.2, 12.5, 12.0, all others the same; for 8, 20, 40 steps the same."""
+1e-2: tight 11.9, 12.2, 11.9, all others the same; for 8, 20, 40 steps the same."""
 
 _LAST_STEP = 0.07
 """Reduction of the error expected of a last step whose length is not measured. Then the product that computes the deflection from scratch, which
@@ -136,11 +139,11 @@ take 0.74 of the pairs of cold solves at 512² (``benchmarks/overheads.py``); a 
 error is about 1, takes more than a cold one."""
 
 _MOST_UNSUCCESSFUL = 2
-"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 34.2, 30.5, 26.7."""
+"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 34.7, 33.3, 29.5."""
 
 _MOST_REFINEMENTS = 3
 """How often they may fail before steps are clipped. A set that follows the errors of loosely solved systems goes in circles on films so stiff that pressures change sign within
-a few pixels; solved closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs for 0, 1, 2, 4: stiff 171, 69.0, 26.3, 25.4."""
+a few pixels; solved closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs for 0, 1, 2, 4: stiff 191, 43.4, 32.0, 29.5."""
 
 _REFRESH = 1e-5
 """Fall of the error since the deflection was computed from scratch after which it is again: updates are rounded to single
@@ -338,8 +341,9 @@ class ActiveSet:
         level = plane_level(qp, memory.survey.totals)
         clips = memory.unsuccessful is None
         # prolonged ones only: the coarsest grid begins with the highest points, not with pressures of 2 x 2 points
-        guessed = memory.narrowed > 0 and not clips and min(qp.profile.shape) > COARSEST
-        free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype, guessed=guessed)
+        narrows = memory.narrowed > 0 and not clips and min(qp.profile.shape) > COARSEST
+        wide = narrows or (self._ends and self._wanted(state.error) >= _SINGLE)
+        free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype, wide=wide)
         step = self._clipped_step if clips else self._unclipped_step
         following = step(memory, free, state.error)
         memory.work.engine.clear_field(free, memory.work.scaled.field)
@@ -472,6 +476,15 @@ class ActiveSet:
             work.engine,
         )
 
+    @property
+    def _ends(self) -> bool:
+        """Whether the last step may be one whose length is not measured."""
+        return not (self.monotone or self._guess)
+
+    def _wanted(self, error: float) -> float:
+        """Reduction of the ``error`` that reaches the tolerance, with some margin."""
+        return _MARGIN * self.tolerance / error if error > 0.0 else 1.0
+
     def _stopping(self, memory: _Memory, free: FreeSet, error: float) -> Stopping:
         """(2) When to stop a correction.
 
@@ -479,11 +492,10 @@ class ActiveSet:
         once none does is the system solved to what the tolerance needs.
         """
         changed, clips = memory.changed(free), memory.unsuccessful is None
-        settled, alone = memory.settled(free), clips and not memory.fallbacks
-        wanted = _MARGIN * self.tolerance / error if error > 0.0 else 1.0
-        ends = not (self.monotone or self._guess)
+        settled, alone, wanted = memory.settled(free), clips and not memory.fallbacks, self._wanted(error)
+        ends = self._ends
         if ends and wanted >= _SINGLE and (settled or alone):
-            return _LAST
+            return _LAST if wanted >= _CLOSELY else _LAST_CLOSELY
         if alone:
             return _UNMEASURED
         if not settled:
