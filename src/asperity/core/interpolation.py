@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.polynomial.polynomial import polyfromroots
@@ -29,7 +30,7 @@ STEP = 1.0 / 96.0
 of ln x without singularities nearer to the real axis than w: 1e-14 at w = 0.5, about the least of responses of layered bodies."""
 
 _LOST = 0.125 * float(np.finfo(float).eps)
-"""Sum of terms over the first one that is lost in rounding: narrow panels of responses need seven or eight terms."""
+"""Sum of terms over the first one that is lost in rounding: narrow panels of responses need two to eight terms."""
 
 _BEFORE, _AFTER = 4, 5  # nodes below and above the node that starts a panel
 _CHUNK = 16384  # points whose temporaries stay in the second-level cache
@@ -121,12 +122,11 @@ class LogTable:
         return out.reshape(x.shape)
 
     @cached_property
-    def _powers(self) -> RealArray:
-        """Coefficients without those of the highest powers that rounding of the value loses in every panel."""
+    def _needed(self) -> Any:
+        """Highest power (count,) that rounding of the value does not lose in a panel."""
         sizes = np.abs(self.coefficients)
-        rest = np.cumsum(sizes[::-1], axis=0)[::-1]  # of a power and all above it
-        counts = (rest[1:] > _LOST * sizes[0]).any(axis=1)
-        return self.coefficients[: 1 + int(counts.sum())]  # the rest falls with the power
+        rest = np.cumsum(sizes[::-1], axis=0)[::-1]  # of a power and all above it: it falls with the power
+        return (rest[1:] > _LOST * sizes[0]).sum(axis=0)
 
     @cached_property
     def _scales(self) -> RealArray:
@@ -140,10 +140,10 @@ class LogTable:
         t = self._scales.take(panel, mode="clip")
         t *= x
         t -= 1.0 + 2.0 / math.expm1(self.panels.width)
-        powers = self._powers
-        powers[-1].take(panel, out=out, mode="clip")
+        highest = int(self._needed.take(panel, mode="clip").max(initial=0))
+        self.coefficients[highest].take(panel, out=out, mode="clip")
         gathered = np.empty_like(out)
-        for coefficient in powers[-2::-1]:
+        for coefficient in self.coefficients[:highest][::-1]:
             out *= t
             out += coefficient.take(panel, out=gathered, mode="clip")
 

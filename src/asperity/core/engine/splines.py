@@ -262,6 +262,7 @@ def at_points(span, levels, wraps, members, memory, stencil, vectors, out, produ
     values, alone, share, one, other = vectors
     each, apart = natural(1) if alone.size > 1 else natural(0), share.size == values.size
     x1, y1, x2, y2, diagonal, factor = stencil
+    beyond = x2 != 0.0 or y2 != 0.0
     near, far = points.dtype.type(0.75), points.dtype.type(0.25)
     height, columns, stride = levels[0, ROWS], levels[0, COLUMNS], levels[0, STRIDE]
     level = levels[1]
@@ -301,20 +302,24 @@ def at_points(span, levels, wraps, members, memory, stencil, vectors, out, produ
                 row_a, row_b = cells[a + begin : a + begin + number], cells[b + begin : b + begin + number]
                 for j in range(number):
                     under[j] = factor * (near * row_a[j] + far * row_b[j])
-            if apart:
-                for j in range(2 * pairs):
-                    found[j] = points.dtype.type(0.0)
             place = levels[0, START] + row * stride + 2 * first
             here = points[place - MARGIN : place + 2 * pairs + MARGIN]
             up = points[place - stride - 1 : place - stride + 2 * pairs + 1]
             down = points[place + stride - 1 : place + stride + 2 * pairs + 1]
-            if x2 != 0.0 or y2 != 0.0:
-                above = points[place - 2 * stride : place - 2 * stride + 2 * pairs]
-                below = points[place + 2 * stride : place + 2 * stride + 2 * pairs]
+            above = points[place - 2 * stride : place - 2 * stride + 2 * pairs]
+            below = points[place + 2 * stride : place + 2 * stride + 2 * pairs]
+            if apart and beyond:
+                for j in range(2 * pairs):
+                    nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
+                    found[j] = nearest + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
+            elif beyond:
                 for j in range(2 * pairs):
                     nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
                     found[j] += nearest + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
             else:
+                if apart:
+                    for j in range(2 * pairs):
+                        found[j] = points.dtype.type(0.0)
                 for j in range(2 * pairs):
                     nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
                     found[j] += nearest + diagonal * ((up[j] + down[j]) + (up[j + 2] + down[j + 2]))
