@@ -17,7 +17,7 @@ from ...core.errors import NoSolutionError
 from ..problem import Approach, MeanGap
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 
-# Pairs of ``benchmarks/constants.py``: periodic elastic contacts (23.7 as it is), near full contact (64.2), with a hardness (24.3) and
+# Pairs of ``benchmarks/constants.py``: periodic elastic contacts (23.7 as it is), near full contact (64.2), with a hardness (23.3) and
 # with a liquid film (25.1).
 
 TARGET_ERROR = 1e-9

@@ -340,9 +340,7 @@ class ActiveSet:
         memory.iterations += 1
         level = plane_level(qp, memory.survey.totals)
         clips = memory.unsuccessful is None
-        # prolonged ones only: the coarsest grid begins with the highest points, not with pressures of 2 x 2 points
-        narrows = memory.narrowed > 0 and not clips and min(qp.profile.shape) > COARSEST
-        wide = narrows or (self._ends and self._wanted(state.error) >= _SINGLE)
+        wide = not clips and self._wide(memory, state.error)
         free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype, wide=wide)
         step = self._clipped_step if clips else self._unclipped_step
         following = step(memory, free, state.error)
@@ -351,6 +349,14 @@ class ActiveSet:
         if following.work.load_prescribed and following.survey.totals.pressure <= 0.0:
             return self._begun_anew(qp, following)
         return self._state(following)
+
+    def _wide(self, memory: _Memory, error: float) -> bool:
+        """Whether a free set is to hold points that do not stand out: before it is narrowed, and for a last step if the one before made few points tensile."""
+        if memory.narrowed:  # prolonged starts only: the coarsest grid begins with the highest points, not with pressures of 2 x 2 points
+            return bool(min(memory.work.qp.profile.shape) > COARSEST)
+        if memory.tensile is None or memory.clipped > _SETTLED * memory.tensile.size:
+            return False
+        return self._ends and self._wanted(error) >= _SINGLE
 
     def _begun_anew(self, qp: ContactQP, spent: _Memory) -> SolverState:
         """State at a uniform pressure, with clipped steps from there on: a step has let go of every point of a load."""
