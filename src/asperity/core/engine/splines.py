@@ -249,6 +249,35 @@ def fall(span, levels, way, wraps, weights, lines, sums, g, cells, target):  # t
 
 
 @compiled
+def _around(points, at, stencil, adds, found):  # type: ignore[no-untyped-def]
+    """What the neighbours among the ``points`` give to those ``at`` a place, a number of them in a row (then the distance of rows), by the ``stencil`` of ``at_points``: added to what is ``found`` there if it ``adds``, else instead of it."""
+    place, number, stride = at
+    x1, y1, x2, y2, diagonal, _ = stencil
+    here = points[place - MARGIN : place + number + MARGIN]
+    up = points[place - stride - 1 : place - stride + number + 1]
+    down = points[place + stride - 1 : place + stride + number + 1]
+    above = points[place - 2 * stride : place - 2 * stride + number]
+    below = points[place + 2 * stride : place + 2 * stride + number]
+    beyond = x2 != 0.0 or y2 != 0.0
+    if beyond and not adds:
+        for j in range(number):
+            nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
+            found[j] = nearest + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
+        return
+    if not adds:
+        for j in range(number):
+            found[j] = points.dtype.type(0.0)
+    if beyond:
+        for j in range(number):
+            nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
+            found[j] += nearest + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
+    else:
+        for j in range(number):
+            nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
+            found[j] += nearest + diagonal * ((up[j] + down[j]) + (up[j + 2] + down[j + 2]))
+
+
+@compiled
 def at_points(span, levels, wraps, members, memory, stencil, vectors, out, products):  # type: ignore[no-untyped-def]
     """out = alone values + what the neighbours among the ``points`` add + share times the deflection of the cells of level 1, at the points of a set.
 
@@ -261,8 +290,7 @@ def at_points(span, levels, wraps, members, memory, stencil, vectors, out, produ
     lines, founds, unders, points, cells = memory
     values, alone, share, one, other = vectors
     each, apart = natural(1) if alone.size > 1 else natural(0), share.size == values.size
-    x1, y1, x2, y2, diagonal, factor = stencil
-    beyond = x2 != 0.0 or y2 != 0.0
+    factor = stencil[5]
     near, far = points.dtype.type(0.75), points.dtype.type(0.25)
     height, columns, stride = levels[0, ROWS], levels[0, COLUMNS], levels[0, STRIDE]
     level = levels[1]
@@ -303,26 +331,7 @@ def at_points(span, levels, wraps, members, memory, stencil, vectors, out, produ
                 for j in range(number):
                     under[j] = factor * (near * row_a[j] + far * row_b[j])
             place = levels[0, START] + row * stride + 2 * first
-            here = points[place - MARGIN : place + 2 * pairs + MARGIN]
-            up = points[place - stride - 1 : place - stride + 2 * pairs + 1]
-            down = points[place + stride - 1 : place + stride + 2 * pairs + 1]
-            above = points[place - 2 * stride : place - 2 * stride + 2 * pairs]
-            below = points[place + 2 * stride : place + 2 * stride + 2 * pairs]
-            if apart and beyond:
-                for j in range(2 * pairs):
-                    nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
-                    found[j] = nearest + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
-            elif beyond:
-                for j in range(2 * pairs):
-                    nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
-                    found[j] += nearest + x2 * (above[j] + below[j]) + y2 * (here[j] + here[j + 4])
-            else:
-                if apart:
-                    for j in range(2 * pairs):
-                        found[j] = points.dtype.type(0.0)
-                for j in range(2 * pairs):
-                    nearest = x1 * (up[j + 1] + down[j + 1]) + y1 * (here[j + 1] + here[j + 3])
-                    found[j] += nearest + diagonal * ((up[j] + down[j]) + (up[j + 2] + down[j + 2]))
+            _around(points, (place, 2 * pairs, stride), stencil, not apart, found)
             begins, ends, before = natural(rows[row]), natural(rows[row + 1]), natural(base + 2 * first)
             if apart:
                 for k in range(begins, ends):
