@@ -36,6 +36,7 @@ print(*sorted(compiled))
 """
 
 LATE = [
+    "_around",
     "at_points",
     "fall",
     "gather",
