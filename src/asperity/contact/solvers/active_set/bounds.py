@@ -8,7 +8,7 @@ import numpy as np
 
 from ....core.arrays import RealArray
 from ....core.engine import FreeSet, Load, Survey, Totals
-from ..protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedMean, FixedOffset, multiplier
+from ..protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedOffset, multiplier
 from .linear_system import LinearSystem, PressureChange, Workspace
 
 # (1) The plane level, and the free set.
@@ -88,9 +88,7 @@ class _Clipping(NamedTuple):
 
 def clear_tension(work: Workspace, free: FreeSet, total: float) -> PressureChange:
     """Clear the tensile points of ``free`` and scale the others, of the sum ``total``, to the load; the change."""
-    constraint, factor = work.qp.constraint, 1.0
-    if isinstance(constraint, FixedMean) and total > 0.0:
-        factor = constraint.mean_pressure * work.qp.profile.size / total
+    factor = work.load / total if work.load is not None and total > 0.0 else 1.0
     return PressureChange(free, free.clear_tension(work.pressure, factor, work.unit))
 
 
@@ -107,8 +105,7 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, rounds: int = 1) -> Narr
 
     They cost no product: whoever computes the deflection by ``change`` does so together with that by a step on what is left.
     """
-    constraint, splines = work.qp.constraint, work.scaled.splines
-    load = constraint.mean_pressure * work.qp.profile.size if isinstance(constraint, FixedMean) else None
+    splines = work.scaled.splines
     before, _ = free.gather(work.pressure)
     left, values, after, change = free, before, before, None
     for _ in range(rounds):
@@ -118,7 +115,7 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, rounds: int = 1) -> Narr
         # beyond single precision the step fails, and says so, as others do
         with np.errstate(over="ignore", invalid="ignore"):
             d = left.shifted(z.vector, -system.mean(z.total))
-            left, values, r = left.loaded(values + work.unit * d, load, r)
+            left, values, r = left.loaded(values + work.unit * d, work.load, r)
             after = free.spread(left, values)
             change = free.change(after, before, work.unit)
     free.put(after, work.pressure)
@@ -149,17 +146,15 @@ def clipped_update(work: Workspace, free: FreeSet, d: Any, r: Any, total: float)
             share = share if share >= LEAST_SHARE else 0.0
             free.interpolate(old, share, p)
             return _Clipping(clipped, share, products)
-        free.interpolate(old, 0.0, p)
+        free.put(old, p)
         part *= max(share, LEAST_SHARE)
 
 
 def add_clipped(work: Workspace, free: FreeSet, d: Any, part: float, elsewhere: float) -> int:
     """Add ``part`` of ``d``, clipped and scaled to the load, of which ``elsewhere`` is outside ``free``; the number of points clipped."""
-    qp, p = work.qp, work.pressure
-    found, clipped = free.add_clipped(p, d, part * work.unit, work.cap)
-    if isinstance(qp.constraint, FixedMean):
-        target = qp.constraint.mean_pressure * qp.profile.size - elsewhere
-        _restore_load(free, p, work.cap, found, max(target, 0.0))
+    found, clipped = free.add_clipped(work.pressure, d, part * work.unit, work.cap)
+    if work.load is not None:
+        _restore_load(free, work.pressure, work.cap, found, max(work.load - elsewhere, 0.0))
     return clipped
 
 

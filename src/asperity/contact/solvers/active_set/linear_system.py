@@ -119,9 +119,15 @@ class Workspace:
         return self.scaled.engine
 
     @property
+    def load(self) -> float | None:
+        """Sum of the pressure (Pa) that is prescribed; None at a prescribed position."""
+        constraint = self.qp.constraint
+        return constraint.mean_pressure * self.qp.profile.size if isinstance(constraint, FixedMean) else None
+
+    @property
     def load_prescribed(self) -> bool:
         """Whether corrections must sum to zero."""
-        return isinstance(self.qp.constraint, FixedMean)
+        return self.load is not None
 
     def survey(self) -> Survey:
         """Sums over the iterate."""

@@ -427,7 +427,7 @@ class ActiveSet:
         _compute_from_scratch(memory)
         if memory.computed_at <= self.tolerance:
             return True
-        free.interpolate(old, 0.0, work.pressure)
+        free.put(old, work.pressure)
         work.deflection[...] = deflection
         memory.survey = work.survey()
         return False
