@@ -677,17 +677,12 @@ SPLINE_SHAPES = [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (16, 16), (12, 30)]
 CORRECTIONS = [(), (0.65, 0.5, 0.6, 0.4), (0.0, 0.65, 0.5, 0.6)]
 
 
-def shapes_for(name: str) -> list[tuple[int, int]]:
-    """All on the CPU, two elsewhere, and one where only the device is another."""
-    return SPLINE_SHAPES if name == "cpu" else SPLINE_SHAPES[3:4] if name == "second device" else SPLINE_SHAPES[3:5]
-
-
 @pytest.mark.parametrize(
     ("engine", "shape"),
     [
         pytest.param(engine, shape, id=f"{name}-{shape}")
         for name, engine in {"cpu": REFERENCE, **OTHERS}.items()
-        for shape in shapes_for(name)
+        for shape in (SPLINE_SHAPES if engine is REFERENCE else SPLINE_SHAPES[3:5])
     ],
 )
 @pytest.mark.parametrize("wraps", WRAPS, ids=["round", "free", "strip"])
