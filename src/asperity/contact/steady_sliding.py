@@ -33,7 +33,7 @@ from ..surfaces.characterise.spectrum import power_spectrum, radial_spectrum
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from ..theories.rough.persson import IsotropicSpectrum
-from ..theories.rough.rubber_friction import RubberFriction, rubber_friction
+from ..theories.rough.rubber_friction import ORIGINAL, RubberFriction, rubber_friction
 from .boundary import Periodic
 from .couplings.driver import Rounds
 from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share, height_scale
@@ -258,7 +258,7 @@ class SteadySliding:
         """Heat per nominal area and time, W/m²."""
         return self.friction_stress * self.speed
 
-    def persson(self, reduction: float = 1.0) -> RubberFriction:
+    def persson(self, reduction: float = ORIGINAL) -> RubberFriction:
         """Friction and area by Persson's theory (2001) of the same surface, half-space, speed and load.
 
         The spectrum is the measured one, up to the shortest wave of the grid; ``reduction`` as of ``theories.rubber_friction``.

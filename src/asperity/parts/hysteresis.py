@@ -16,6 +16,7 @@ from ..core.settings import Settings, setting
 from ..core.status import Advice
 from ..core.units import percent, show
 from ..core.values import Angle, Length, Number, Whole
+from ..theories.rough.rubber_friction import ORIGINAL
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
 
 if TYPE_CHECKING:
@@ -51,7 +52,9 @@ class HysteresisSettings(Settings):
     fastest: SlidingSpeed | None = setting(None, option="--fastest", help="Last speed of a curve: 10m/s")
     points: Annotated[int, Whole(2, 1000)] = setting(USUAL_POINTS, option="--speed-points", help="Speeds of the curve")
     reduction: Share = setting(
-        0.5, option="--reduction", help="Of the deformation in partial contact, gamma of Persson's theory, 1 for none"
+        ORIGINAL,
+        option="--reduction",
+        help="Of the deformation in partial contact, gamma of Persson's theory, 1 for none",
     )
 
     distance: Length | None = setting(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 import numpy as np
@@ -106,6 +105,22 @@ class IsotropicSpectrum:
         inside = np.minimum(span, self.span[-1]) - self.span[piece]
         return np.asarray(below[piece] + starts[piece] * _exponential_integral(powers[piece], inside))
 
+    def graded(self, first: float, *, growth: float = 1.0) -> RealArray:
+        """Ends of panels in ln(q/q_L) from zero to the end of the table, its points among them, for functions of ∫ q^n C dq from q_L.
+
+        Such a function may change within any distance from q_L, and with it at all later ones in proportion to the distance: past
+        the ``first`` panel (width > 0) none is wider than ``growth`` times its distance from q_L, an eighth of a decade, or
+        half of the span in which C changes e-fold.
+        """
+        ends, t = [0.0], 0.0
+        for last, power in zip(self.span[1:].tolist(), self.exponents.tolist(), strict=True):
+            widest = min(_WIDEST, 0.5 / abs(power) if power else _WIDEST)
+            while t < last:
+                step = min(widest, max(growth * t, first))
+                t = t + step if t + 1.01 * step < last else last  # no panel of rounding alone
+                ends.append(t)
+        return np.array(ends)
+
     def moment(self, order: int) -> float:
         """∫ q^order C dq over the whole table."""
         return float(self.partial_moment(order, self.span[-1:])[0])
@@ -142,7 +157,7 @@ CALIBRATED = 0.45
 
 _NODES = 12  # Gauss points of a panel
 _WIDEST = 0.25  # of a panel in ln q
-_FINEST = 40  # quarterings of the first panel: w has a square-root pole at q_L, its logarithm at low load
+_FIRST = 1e-24  # of a panel in ln q: w has a square-root pole at q_L, its logarithm at low load
 _GONE = 6.0  # exp(-x²) beyond it is below the rounding of one
 
 
@@ -241,10 +256,7 @@ class PerssonGap:
     @cached_property
     def _nodes(self) -> tuple[RealArray, RealArray]:
         """Gauss points in ln q/q_L and weights between the points of the table, ever finer panels towards the first."""
-        steps = pairwise(self.spectrum.span)
-        panels = [np.linspace(a, b, max(1, math.ceil((b - a) / _WIDEST)) + 1)[1:] for a, b in steps]
-        first = panels[0][0] * 0.25 ** np.arange(_FINEST, 0, -1)
-        return gauss(np.concatenate([[0.0], first, *panels]), _NODES)
+        return gauss(self.spectrum.graded(_FIRST, growth=3.0), _NODES)
 
     @cached_property
     def _sharpness(self) -> RealArray:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Annotated, ClassVar, Self
 
 import numpy as np
@@ -15,7 +13,7 @@ from ...core import require
 from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.parameters import Help
-from ...core.quadrature import gauss
+from ...core.quadrature import gauss, running
 from ...core.quantity import Quantity
 from ...core.values import Number, Several
 from ..ask import PRESSURE, Way, asked
@@ -23,8 +21,11 @@ from ..protocol import ISOTROPY, MEASURED_SLOPES, Bound, Theory, curve, real_num
 from ..statistics.roughness import Roughness
 from .persson import IsotropicSpectrum
 
-_POINTS, _PER_DECADE, _FEWEST = 801, 300, 17
-"""Wavenumbers between two of the table: at most, in a decade between them, and at least; the first and last odd."""
+ORIGINAL = 1.0
+"""gamma of the theory as it was published: the rubber follows in partial contact as in full contact. About 1/2 is usual for less."""
+
+_NODES, _SMALL = 13, 5e-3
+"""Wavenumbers in a panel, and G below which P is one within rounding: erf(7)."""
 
 _ANGLES, _DECAY = 24, 46.0
 """Panels of the angle from the direction across the motion, and the e-folds over which they shrink towards it."""
@@ -61,7 +62,7 @@ def rubber_friction(
     *,
     speed: float,
     pressure: float,
-    reduction: float = 1.0,
+    reduction: float = ORIGINAL,
 ) -> RubberFriction:
     """Friction coefficient by Persson (2001), eqs. 58-60, of a hard rough surface that slides over a viscoelastic half-space.
 
@@ -95,37 +96,35 @@ def rubber_friction(
     """
     v, sigma = require.positive(speed, "sliding speed (m/s)"), require.positive(pressure, "nominal pressure (Pa)")
     gamma = require.at_most(reduction, 1.0, "reduction factor gamma of the deformation")
-    from scipy.integrate import cumulative_simpson
     from scipy.special import erf
 
     cosine, weight = _quarter()
-    ends, steepness, spread = np.asarray(spectrum.wavenumber), [], []
-    waves = []
-    for low, high in pairwise(ends):
-        q = np.geomspace(low, high, _points(low, high))
-        E = modulus(v * q[:, None] * cosine) / sigma
-        density = q**4 * spectrum.at(np.log(q / ends[0])) / (2.0 * np.pi) ** 2  # q³ C dq = q⁴ C d ln q
-        waves.append(q)
-        spread.append(0.5 * density * (np.abs(E) ** 2 @ weight))
-        steepness.append(2.0 * density * ((cosine * E.imag) @ weight))
-    G, mu, shares, friction, areas = 0.0, 0.0, [], [], []
-    for q, of_G, of_mu in zip(waves, spread, steepness, strict=True):
-        x = np.log(q)
-        spreads = G + cumulative_simpson(of_G, x=x, initial=0.0)
-        with np.errstate(divide="ignore"):
-            P = erf(0.5 / np.sqrt(spreads))
-        follows = gamma + (1.0 - gamma) * P**2
-        sums = mu + cumulative_simpson(of_mu * follows * P, x=x, initial=0.0)
-        G, mu = float(spreads[-1]), float(sums[-1])
-        shares.append(q)
-        friction.append(sums)
-        areas.append(P)
-    return RubberFriction(mu, float(areas[-1][-1]), *map(np.concatenate, (shares, friction, areas)))
+
+    def losses(span: RealArray) -> tuple[RealArray, RealArray]:
+        """dG/d ln q, and dmu/d ln q where S P = 1, at ln(q/q_L) (any shape)."""
+        q = np.asarray(spectrum.wavenumber)[0] * np.exp(span)
+        E = modulus(v * q[..., None] * cosine) / sigma
+        density = q**4 * spectrum.at(span) / (2.0 * np.pi) ** 2  # q³ C dq = q⁴ C d ln q
+        return 0.5 * density * (np.abs(E) ** 2 @ weight), 2.0 * density * ((cosine * E.imag) @ weight)
+
+    # P falls from one within d ln q = 1/G' of the first wavenumber, which is 1e-20 for stiff solids under small pressures
+    steepest = float(losses(np.zeros(1))[0][0])
+    ends = spectrum.graded(_SMALL / max(steepest, _SMALL))
+    x, sums = running(_NODES)
+    half = 0.5 * np.diff(ends)[:, None]
+    span = ends[:-1, None] + half * (x + 1.0)
+    spread, steepness = losses(span)
+    G = _gathered(half * (spread @ sums.T))
+    with np.errstate(divide="ignore"):
+        P = erf(0.5 / np.sqrt(G))
+    mu = _gathered(half * ((steepness * (gamma + (1.0 - gamma) * P**2) * P) @ sums.T))
+    q = np.asarray(spectrum.wavenumber)[0] * np.exp(span)
+    return RubberFriction(float(mu[-1, -1]), float(P[-1, -1]), q.ravel(), mu.ravel(), P.ravel())
 
 
-def _points(low: float, high: float) -> int:
-    """Odd number of wavenumbers from ``low`` to ``high``."""
-    return min(_POINTS, max(_FEWEST, 2 * math.ceil(0.5 * _PER_DECADE * math.log10(high / low)) + 1))
+def _gathered(parts: RealArray) -> RealArray:
+    """Integrals from the first panel on, of those within each panel (panels, nodes)."""
+    return np.asarray(parts + np.concatenate([[0.0], np.cumsum(parts[:-1, -1])])[:, None])
 
 
 def _quarter() -> tuple[RealArray, RealArray]:
@@ -183,7 +182,7 @@ class PerssonFriction(Theory):
             "gamma in S = gamma + (1 - gamma) P², by which partial contact reduces the deformation; 1 for none",
             of="choice",
         ),
-    ] = 1.0
+    ] = ORIGINAL
     name: ClassVar[str] = "persson-friction"
     title: ClassVar[str] = "Persson, rubber friction"
     citation_keys: ClassVar[tuple[str, ...]] = ("Persson2001",)
@@ -211,7 +210,7 @@ class PerssonFriction(Theory):
 
     @classmethod
     def of_roughness(
-        cls, roughness: Roughness, *, relaxed: float, moduli: ArrayLike, times: ArrayLike, reduction: float = 1.0
+        cls, roughness: Roughness, *, relaxed: float, moduli: ArrayLike, times: ArrayLike, reduction: float = ORIGINAL
     ) -> Self:
         """Theory for the spectrum of a map, less the bands without power."""
         found = roughness.known(roughness.spectrum, "its spectrum", cls.name)

@@ -1,0 +1,118 @@
+"""Integrals of the theories, over decades of their parameters: with other panels, and against integrals of many digits."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import mpmath
+import numpy as np
+import pytest
+
+import asperity as asp
+from asperity.core.quadrature import running
+
+THIN = {"few": (), "one more, very near": (1e-9,), "ever nearer": tuple(np.geomspace(1e-12, 1.0, 25))}
+"""Further points of a table of the same spectrum, by their distance in ln q from the first."""
+
+
+def test_running_integrals_are_exact_for_polynomials() -> None:
+    x, sums = running(9)
+    for power in range(9):
+        exact = (x ** (power + 1) - (-1.0) ** (power + 1)) / (power + 1)
+        assert sums @ x**power == pytest.approx(exact, abs=1e-14)
+
+
+def table(more: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Self-affine spectrum of three decades, wavenumbers and values."""
+    q = np.array([2e3, *(2e3 * np.exp(np.array(more))), 2e6])
+    return q, 4e-17 * (q / 2e3) ** -3.6
+
+
+def by_mpmath(pressure: float, speed: float, reduction: float) -> tuple[float, float]:
+    """Friction and area over one relaxation, 3 MPa + 3 GPa and 10 µs: integrals over the angle are closed, those over ln q nested."""
+    E0, E1, tau = mpmath.mpf(3e6), mpmath.mpf(3e9), mpmath.mpf(1e-5)
+    q0, C0 = mpmath.mpf(2e3), mpmath.mpf(4e-17) / (2 * mpmath.pi) ** 2
+    end = mpmath.log(1000)
+
+    def losses(t):
+        q = q0 * mpmath.exp(t)
+        a = tau * speed * q
+        relaxing = 1 - 1 / mpmath.sqrt(1 + a * a)
+        density = q**4 * C0 * mpmath.exp(-mpmath.mpf(18) / 5 * t)
+        square = 2 * mpmath.pi * (E0**2 + (2 * E0 * E1 + E1**2) * relaxing)
+        return density * square / 8 / pressure**2, density * E1 * 2 * mpmath.pi / a * relaxing / 2 / pressure
+
+    G = mu = mpmath.mpf(0)
+    P = mpmath.mpf(1)
+    edges = [mpmath.mpf(0), *(mpmath.mpf(10) ** k for k in range(-28, 0)), mpmath.mpf(1), mpmath.mpf(3), end]
+    for low, high in pairwise(edges):
+
+        def contact(t, low=low, G=G):
+            return mpmath.erf(1 / (2 * mpmath.sqrt(G + mpmath.quad(lambda s: losses(s)[0], [low, t], maxdegree=3))))
+
+        def steepness(t, contact=contact):
+            P = contact(t)
+            return losses(t)[1] * (reduction + (1 - reduction) * P**2) * P
+
+        mu += mpmath.quad(steepness, [low, mpmath.sqrt(low * high) if low else high / 10, high], maxdegree=4)
+        P = contact(high)
+        G += mpmath.quad(lambda s: losses(s)[0], [low, high], maxdegree=5)
+    return float(mu), float(P)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("pressure", "speed", "reduction"),
+    [(1e4, 10.0, 0.3), (1e-3, 1e3, 1.0)],
+)
+def test_friction_of_rubber_over_decades(pressure: float, speed: float, reduction: float) -> None:
+    """The pressure at which contact is lost lies within a share of 1e-20 to 1 of the first decade."""
+    friction, area = by_mpmath(pressure, speed, reduction)
+    theory = asp.theories.PerssonFriction(3e6, [3e9], [1e-5], *table(()), reduction)
+    found = theory.at_speed([speed], pressure)
+    assert found.friction[0] == pytest.approx(friction, rel=1e-8)
+    assert found.area_fraction[0] == pytest.approx(area, rel=1e-8)
+
+
+@pytest.mark.parametrize("more", THIN.values(), ids=THIN)
+def test_friction_of_one_spectrum_in_several_tables(more: tuple[float, ...]) -> None:
+    """0.0312790 of 10 m/s and 10 kPa, whatever the table."""
+    q = np.array([2e3, *(2e3 * np.exp(np.array(more))), 2e6])
+    psd = 1e-18 * (2.0 * np.pi) ** 2 * (q / 2e3) ** -3.6
+    theory = asp.theories.PerssonFriction(3e6, [3e9], [1e-5], q, psd)
+    assert theory.at_speed([10.0], 1e4).friction[0] == pytest.approx(0.0312790, abs=5e-8)
+    for pressure, speed in ((1.0, 1e3), (1e7, 1e-3)):
+        few = asp.theories.PerssonFriction(3e6, [3e9], [1e-5], q[[0, -1]], psd[[0, -1]]).at_speed([speed], pressure)
+        found = theory.at_speed([speed], pressure)
+        assert found.friction[0] == pytest.approx(few.friction[0], rel=1e-8)
+        assert found.area_fraction[0] == pytest.approx(few.area_fraction[0], rel=1e-8)
+
+
+def gap_by_mpmath(load: float, gamma: float) -> float:
+    """Mean gap (m) at p/E*, from d ln q integrals of the theory as it is published (Yang & Persson 2008), inner one closed by its parts."""
+    q0, C0, power = mpmath.mpf(2e3), mpmath.mpf(4e-17), mpmath.mpf(2) / 5  # q³ C dq = q⁴ C d ln q grows as q^0.4
+
+    def inner(x):
+        tail = mpmath.quad(lambda t: mpmath.erf(t) ** 2 * mpmath.exp(-t * t) / t, [x, x + 1, x + 6]) if x < 6 else 0
+        return gamma * mpmath.e1(x * x) / 2 + 3 * (1 - gamma) * tail
+
+    def of(s):  # s = ln t: the integrand is smooth in it
+        t = mpmath.exp(s)
+        w = mpmath.sqrt(4 * mpmath.pi / (q0**4 * C0 * mpmath.expm1(power * t) / power))
+        q = q0 * mpmath.exp(t)
+        level = C0 * mpmath.exp(-mpmath.mpf(18) / 5 * t) / (2 * mpmath.pi) ** 2
+        return mpmath.sqrt(mpmath.pi) * q**3 * level * w * inner(w * load) * t
+
+    last = mpmath.log(mpmath.log(1000))
+    return float(mpmath.quad(of, mpmath.linspace(last - 60, last, 16), maxdegree=5))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("load", [1e-5, 0.3])
+def test_mean_gap_over_decades_of_load(load: float) -> None:
+    with mpmath.workdps(15):
+        expected = gap_by_mpmath(load, 0.45)
+    for more in THIN.values():
+        spectrum = asp.theories.IsotropicSpectrum(*table(more))
+        found = asp.theories.Persson(1e9, spectrum.rms_slope, *table(more), 0.45).at_pressure([load * 1e9])
+        assert found.mean_gap[0] == pytest.approx(expected, rel=1e-8)
