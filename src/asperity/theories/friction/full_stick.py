@@ -165,6 +165,12 @@ class StickingPunchLine(Theory):
         return P / (np.pi * np.sqrt((1.0 - self.beta**2) * (a**2 - place**2))), angle
 
 
+def _rooted(end: float) -> tuple[RealArray, RealArray]:
+    """Nodes y and weights up to ``end``: y = u⁴ removes the root of tanh^(n-1) at zero; at large n all lies within 1 of y = ln(4n)/2, hence panels."""
+    u, weight = gauss(np.linspace(0.0, end**0.25, 5), _NODES)
+    return u**4, weight * 4.0 * u**3
+
+
 @dataclass(frozen=True)
 class StickingIndenter(Theory):
     """Profile f = B r^n without slip; beside the contact of the same radius without friction, δ_0 and P_0:
@@ -192,11 +198,8 @@ class StickingIndenter(Theory):
     def approach_gain(self) -> float:
         """1/nI, which is 1 without friction."""
         n, kappa = self.exponent, oscillation(self.beta)
-        u, weight = gauss(
-            np.array([0.0, 18.0**0.25]), _NODES
-        )  # t = tanh y, y = u⁴ removes the root of tanh^(n-1) at zero
-        y = u**4
-        integral = np.sum(weight * 4.0 * u**3 * np.tanh(y) ** (n - 1.0) / np.cosh(y) ** 2 * np.cos(2.0 * kappa * y))
+        y, weight = _rooted(_REACH)  # t = tanh y
+        integral = np.sum(weight * np.tanh(y) ** (n - 1.0) / np.cosh(y) ** 2 * np.cos(2.0 * kappa * y))
         return 1.0 / (n * float(integral))
 
     @property
@@ -313,7 +316,7 @@ class StickingIndenterLine(Theory):
     def load_gain(self) -> float:
         """P/P_0 at the same half-width."""
         n, kappa = self.exponent, oscillation(self.beta)
-        y, weight = geometric(np.asarray(0.0), np.asarray(2.0 * _REACH))
+        y, weight = _rooted(2.0 * _REACH)
         density = weight * np.tanh(y) ** (n - 1.0) / np.cosh(y)
         return float(np.sum(density) / np.sum(density * np.cos(2.0 * kappa * y)))
 

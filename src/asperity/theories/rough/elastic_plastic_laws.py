@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
+from ...core.errors import InputError
 from ...core.parameters import Help
 from ...core.quadrature import gauss
 from ...core.values import Pressure
@@ -357,6 +358,14 @@ class JacksonGreenSphere(ElasticPlasticSphere):
     limits: ClassVar[tuple[Bound, ...]] = (
         Bound("contact radius over radius", CONTACT_RADIUS.value, 0.0, _FITTED, "Jackson2005", _FITTED_TO),
     )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.yield_stress >= self.E_star:
+            raise InputError(
+                f"yield stress (Pa) must be less than the contact modulus, {self.E_star:g} Pa, but is {self.yield_stress:g} Pa: "
+                "the laws were fitted to yield strains up to about 0.01."
+            )
 
     @property
     def critical_interference(self) -> float:

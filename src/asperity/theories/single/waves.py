@@ -273,6 +273,10 @@ TWO_TERMS = math.sqrt(9.0 / 8.0) / math.pi
 _NODES = 24  # the integrand is entire; 24 leave rounding up to a = λ/2
 
 
+_WIDEST_CAP = 0.35
+"""Contact radius over wavelength up to which the valley around a cap stays out of contact."""
+
+
 @dataclass(frozen=True)
 class SinusoidalAsperity(Theory):
     """Cap that drops as (h/2)(1 - cos 2πr/λ) from its top, with radius of curvature λ²/2π²h.
@@ -309,20 +313,29 @@ class SinusoidalAsperity(Theory):
         InputError if a load needs a larger contact, which would include the valley around the cap.
         """
         P = checked(load, "load (N)")
-        widest = self.at_radius(0.35 * self.wavelength)
+        widest = self.at_radius(_WIDEST_CAP * self.wavelength)
         if np.any(widest.load < P):
             raise InputError(
-                f"load of a cap must be at most that of a contact radius of 0.35 wavelengths, {float(widest.load):.6g} N, "
+                f"load of a cap must be at most that of a contact radius of {_WIDEST_CAP:g} wavelengths, {float(widest.load):.6g} N, "
                 f"but is {float(P.max()):.6g} N. At larger loads the valley around the cap is in contact: solve the contact numerically."
             )
         a = bisected(lambda a: self.at_radius(a).load - P, np.zeros_like(P), np.full_like(P, widest.radius))
         return self.at_radius(a)
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
-        """The contact of the ``contact_radius`` a in m, >= 0, of any shape; the largest pressure is not known (NaN)."""
+        """The contact of the ``contact_radius`` a in m, 0 to 0.35 λ, of any shape; the largest pressure is not known (NaN).
+
+        InputError if a radius is larger: the contact would include the valley around the cap.
+        """
         from scipy.special import struve
 
         a = checked(contact_radius, "contact radius (m)")
+        widest = _WIDEST_CAP * self.wavelength
+        if np.any(a > widest):
+            raise InputError(
+                f"contact radius (m) of a cap must be at most {_WIDEST_CAP:g} wavelengths, {widest:.6g} m, but is {float(a.max()):.6g} m. "
+                "A larger contact includes the valley around the cap: solve it numerically."
+            )
         q = 2.0 * math.pi / self.wavelength
         t, weight = gauss(np.array([0.0, 0.5 * math.pi]), _NODES)
         integral = np.sum(weight * np.sin(t) ** 2 * np.sin(q * a[..., None] * np.sin(t)), axis=-1)

@@ -303,9 +303,13 @@ def _integrals(
 ) -> tuple[RealArray, RealArray, RealArray]:
     """χ_xx, χ_yy, χ_xy with χ_z = V: minus the integrals of V_xx, V_yy, V_xy from z on."""
     unit = min(semi_axes)
-    near, near_weight = gauss(np.array(_BREAKS), _NODES)
+    # the fields change at the short half-axis, at the long one, and where the point is
+    farthest = 4.0 * max(*semi_axes, *(float(np.abs(place).max()) for place in (x, y, z))) / unit
+    further = max(0, math.ceil(math.log(farthest / _BREAKS[-1], 3.0)))
+    breaks = np.concatenate([_BREAKS, _BREAKS[-1] * 3.0 ** np.arange(1, further + 1)])
+    near, near_weight = gauss(breaks, _NODES)
     # beyond, u = 1/t: the fields are powers of t
-    t, t_weight = gauss(np.array([0.0, 0.1 / _BREAKS[-1], 0.4 / _BREAKS[-1], 1.0 / _BREAKS[-1]]), _NODES)
+    t, t_weight = gauss(np.array([0.0, 0.1, 0.4, 1.0]) / breaks[-1], _NODES)
     depth = unit * np.concatenate([near, 1.0 / t])
     weight = unit * np.concatenate([near_weight, t_weight / t**2])
     f = _Potential.of(x[..., None], y[..., None], z[..., None] + depth, semi_axes)
