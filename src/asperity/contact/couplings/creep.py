@@ -8,6 +8,7 @@ with the compliance K_0 + sum (1 - f_k) K_k and the rest of the displacement as 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, Protocol
@@ -279,9 +280,9 @@ class SharedPast:
     def curvature(self, pasts: tuple[Past, Past, Past], weights: TimeWeights) -> float:
         """|K_0 p''| sum shares_k G_k over |K_0 p| (1 + sum shares_k after_k)."""
         second = second_difference(pasts, tuple(past.response for past in pasts))
-        size = float(np.linalg.norm(pasts[2].response)) * (1.0 + float(self.creep.shares @ weights.after))
+        sizes = [float(np.linalg.norm(past.response)) for past in pasts]
         found = float(np.linalg.norm(second)) * float(self.creep.shares @ weights.of_curvature)
-        return found / size if size else 0.0
+        return over_size(found / (1.0 + float(self.creep.shares @ weights.after)), sizes)
 
 
 _SHOWS = 1e-6
@@ -414,11 +415,18 @@ class LayeredPast:
         _, after, bent = self.passes.sums_of(self.kernels, weights)
         first, last = pasts[1].time - pasts[0].time, pasts[2].time - pasts[1].time
         factors = 2.0 / (first + last) * np.array([1.0 / first, -1.0 / first - 1.0 / last, 1.0 / last])
-        sums = np.zeros((len(after), 2))
         spectra = [_parts(past.response) for past in pasts]
-        self.passes.run("curvature", pasts[2].response, bent, self.operator.kernel, after, factors, *spectra, sums)
-        second, size = np.sqrt(sums.sum(axis=0))
-        return float(second / size) if size else 0.0
+
+        def norms(factors: RealArray, *spectra: RealArray) -> tuple[float, float]:
+            sums = np.zeros((len(after), 2))
+            self.passes.run("curvature", pasts[2].response, bent, self.operator.kernel, after, factors, *spectra, sums)
+            second, size = np.sqrt(sums.sum(axis=0))
+            return float(second), float(size)
+
+        second, size = norms(factors, *spectra)
+        if not size and second:  # contact was lost
+            return over_size(second, [*(norms(factors, each, each, each)[1] for each in spectra[:2]), size])
+        return over_size(second, [size])
 
     def spectrum(self, values: RealArray) -> ComplexArray:
         """Half spectrum of ``values`` (nx, ny)."""
@@ -476,6 +484,19 @@ def second_difference(
     """Second derivative in time of what has these ``values`` in the three ``pasts``."""
     first, last = pasts[1].time - pasts[0].time, pasts[2].time - pasts[1].time
     return np.asarray(2.0 * ((values[2] - values[1]) / last - (values[1] - values[0]) / first) / (first + last))
+
+
+def over_size(error: float, sizes: Sequence[float]) -> float:
+    """``error`` over the last of the ``sizes`` of what displaces at some moments, over the largest of them where that is zero.
+
+    Where contact was lost in the last step nothing presses at its end. A step that pulled a contact apart which it should have relaxed is
+    as wrong as that contact was large; surfaces that part in truth do so within a step short enough for its error to be small beside what
+    pressed before it.
+    """
+    size = sizes[-1] or max(sizes)
+    if size > 0.0:
+        return error / size
+    return math.inf if error > 0.0 else 0.0
 
 
 def remembering(creep: AnyCreep, operator: Operator) -> Remembering:
