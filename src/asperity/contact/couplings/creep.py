@@ -62,6 +62,21 @@ class TimeWeights:
         found = np.where(r < _SERIES, short, exact)
         return np.where(flows, self.length**3 / 12.0, found)
 
+    @property
+    def of_mean(self) -> tuple[TimeWeights, RealArray]:
+        """Weights of the mean of each xi over the step: those of xi and of the pressure at its begin, and that of the pressure at its end."""
+        flows = np.isinf(self.times)
+        r = np.where(flows, 1.0, self.length / np.where(flows, 1.0, self.times))
+        short, small = r < _SERIES, np.maximum(r, 1e-300)
+        kept = np.where(r > 0.0, -np.expm1(-r) / small, 1.0)
+        before = np.where(short, r / 3.0 - r**2 / 8.0 + r**3 / 30.0, 0.5 - self.before / small)
+        after = np.where(short, r / 6.0 - r**2 / 24.0 + r**3 / 120.0, 0.5 - self.after / small)
+        kept, before, after = (
+            np.where(flows, fluid, solid)
+            for fluid, solid in ((1.0, kept), (self.length / 3.0, before), (self.length / 6.0, after))
+        )
+        return replace(self, e=kept, before=before, after=after), after
+
     def dissipated(self, shares: RealArray, products: Products) -> float:
         """sum (c_k/lambda_k) ∫ (p - xi)·K (p - xi) dt over the step, and c_f ∫ p·K p dt of a fluid, in the unit of the ``products``."""
         flows = np.isinf(self.times)
@@ -142,6 +157,8 @@ class Past:
         Mean pressure (Pa), approach and mean gap (m) that were reached.
     shear
         Memory of shear tractions, where surfaces stick and slip.
+    account
+        Energies so far, numbers of an ``energy_in_time.Account``; empty where they are not known.
     """
 
     time: float
@@ -152,6 +169,7 @@ class Past:
     dissipated: float
     place: tuple[float, float, float]
     shear: ShearPast | None = None
+    account: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, memory: Memory) -> Past:
@@ -160,7 +178,8 @@ class Past:
         fields = {name: memory[name] for name in ("pressure", "response", "xi", "squares")}
         place = mean, approach, gap
         shear = ShearPast(memory["shear_xi"], memory["shear_squares"]) if "shear_xi" in memory else None
-        return cls(float(memory["time"]), dissipated=float(memory["dissipated"]), place=place, shear=shear, **fields)
+        heat, account = float(memory["dissipated"]), tuple(map(float, memory.get("account", ())))
+        return cls(float(memory["time"]), dissipated=heat, place=place, shear=shear, account=account, **fields)
 
     @property
     def memory(self) -> Memory:
@@ -170,7 +189,9 @@ class Past:
         shear = (
             {} if self.shear is None else {"shear_xi": _real_view(self.shear.xi), "shear_squares": self.shear.squares}
         )
+        known = {"account": np.array(self.account)} if self.account else {}
         return {
+            **known,
             **{name: np.asarray(value, dtype=float) for name, value in numbers.items()},
             **{name: _real_view(value) for name, value in fields.items()},
             **shear,
