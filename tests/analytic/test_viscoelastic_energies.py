@@ -106,6 +106,19 @@ def test_sheared_coating_held_in_place_stays_in_touch() -> None:
     assert fine.energies.relative_error < 5e-3
 
 
+def test_wet_contact_held_in_place_relaxes() -> None:
+    """Tries that part the surfaces look for menisci in the gap; the end is the wet contact of the relaxed body."""
+    film = asp.LiquidFilm(surface_tension=0.03, thickness=3e-8)
+    found = asp.solve(problem(STANDARD, film=film), held(DEPTH, 60e-3))
+    end = asp.solve(problem(asp.Elastic(RELAXED, 0.5), film=film), DEPTH)
+    assert found.last.force == pytest.approx(end.force, rel=1e-5)
+    assert found.last.external_force == pytest.approx(end.external_force, rel=1e-3)
+    assert found.energies.relative_error < 5e-3
+    parted = asp.solve(problem(STANDARD, film=film), asp.Step(asp.Approach(1e-9), duration=TIME), state=found.state)
+    assert parted.force == 0.0
+    assert parted.require_menisci().meniscus_force == 0.0  # the dent is deeper than the film
+
+
 def test_contact_that_is_lost_in_truth_ends() -> None:
     """Withdrawn to first touch in a relaxation time surfaces part; a long hold afterwards costs no more steps of time."""
     course = [DEPTH, asp.Step(DEPTH, duration=50e-3), asp.Step(asp.Approach(1e-9), duration=TIME)]

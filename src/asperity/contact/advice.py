@@ -67,8 +67,8 @@ CONTINUUM = 1e-9
 MOLECULE = 0.28e-9
 """Diameter of a molecule of water in m; other liquids have larger ones."""
 
-LEAST_ENERGY_ERROR = 1e-3
-"""Energy in time that is missed over the largest work and does not count: that of solves whose pressures are known to 1e-4."""
+LEAST_ENERGY_ERROR = 5e-3
+"""Energy in time that is missed over the largest work and does not count: short ramps from first touch have missed up to 4e-3 with right forces."""
 
 DOUBT = "duality gap"
 """Criterion of the warning that stands above all others."""

@@ -18,7 +18,7 @@ from .couplings.adhesion import AdhesionCoupling, AdhesiveContact, in_time
 from .couplings.creep import LayeredPast, Past, Remembering, TimeWeights
 from .couplings.driver import Settled
 from .couplings.layered_shear import LayeredShear
-from .couplings.menisci import Menisci
+from .couplings.menisci import Menisci, MeniscusCoupling
 from .couplings.protocol import Contact, Coupling, Memory, Posed, height_scale
 from .couplings.shear_creep import ShearMemory
 from .couplings.sliding import GrossSliding, SlidingCoupling
@@ -285,6 +285,8 @@ class InTime:
         contact = Contact(posed, qp, Solution(SolverState(none, none, 0.0), status, (0.0,)))
         memories = {} if state is None else state.memory
         exchanges = {c.name: c.begin(posed, memories.get(c.name, {})) for c in couplings}
+        for liquid in (each for each in couplings if isinstance(each, MeniscusCoupling)):  # stands in the open gap too
+            exchanges[liquid.name] = liquid.reply(exchanges[liquid.name], contact)
         return Settled(contact, exchanges, (), 1, prepared.solver.tolerance, status)
 
     def error(self, first: Moment, second: Moment, third: Moment) -> float:
