@@ -342,9 +342,26 @@ def test_long_steps_of_time_and_steep_slopes_are_findings() -> None:
     steep = GROUND | {"control": {"mean_pressure": "60 MPa"}, "surface": GROUND["surface"] | {"spectrum": spectrum}}
     assert "steep slopes" in {finding.criterion for finding in asp.run(steep).findings}
     held = BALL | {"control": {"force": "2 mN"}, "viscoelastic": {"hold": "100 s", "steps": 3}}
-    assert "steps of time" in {finding.criterion for finding in asp.run(held).findings}
+    coarse = asp.run(held, on_failure="return")
+    assert "steps of time" in {finding.criterion for finding in coarse.findings}
+    assert not coarse.converged  # 20 % of the work is neither stored nor heat
+    assert coarse.path.steps[-1].creep.energy_error > 0.05
     fine = asp.run(held | {"viscoelastic": {"hold": "100 s", "tolerance": 0.002}})
     assert "steps of time" not in {finding.criterion for finding in fine.findings}
+
+
+def test_energies_that_miss_are_said_on_the_command_line(run: Runner, tmp_path: Path) -> None:
+    """Equal steps of time that part a ball held in place: exit code 1 and the words, in files too; with steps by their error 0."""
+    asp.save_surface(build(checked(BALL)).problem.surface, tmp_path / "ball.nc")
+    body = ("--level", "none", "--body", "E=3MPa+297MPa@1ms,nu=0.5", "--boundary", "free", "--approach", "0.3um")
+    words = ("contact", tmp_path / "ball.nc", *body, "--hold", "60ms")
+    bad = run(*words, "--time-steps", "16", "--out", tmp_path / "bad")
+    assert bad.exit_code == 1, bad.output
+    outcome = load_outcome(tmp_path / "bad" / "result.nc")
+    assert not outcome.converged
+    assert outcome.path.steps[-1].creep.energy_error > 0.05
+    good = run(*words)
+    assert good.exit_code == 0, good.output
 
 
 @pytest.mark.parametrize("body", ["E=3MPa+13MPa@10ms,nu=0.45", "E=3MPa+13MPa@10ms,nu=0.45:2um/E=70GPa,nu=0.22"])
@@ -353,12 +370,12 @@ def test_stick_and_slip_in_time(body: str) -> None:
     rubber = {"body": body, "counter_body": "rigid", "friction": {"coefficient": 0.4}}
     surface = BALL["surface"] | {"points": [16, 16]}
     table = BALL | rubber | {"surface": surface, "control": {"force": "20 uN"}, "shear": {"shift": "100 nm"}}
-    outcome = asp.run(table | {"viscoelastic": {"ramp": "10 ms", "hold": "20 ms", "steps": 2}})
+    outcome = asp.run(table | {"viscoelastic": {"ramp": "10 ms", "hold": "20 ms", "steps": 4}})
     load, shift = asp.Force(20e-6), asp.Shift(100e-9)
     pressed = [asp.Step(load, asp.Shift(), duration=time) for time in (10e-3, 20e-3)]
     course = [*pressed, *(asp.Step(load, shift, duration=time) for time in (10e-3, 20e-3))]
     problem = build(checked(table)).problem
-    found = asp.solve(problem, asp.History(course), time_steps=asp.TimeSteps(number=2))
+    found = asp.solve(problem, asp.History(course), time_steps=asp.TimeSteps(number=4))
     assert outcome.values["viscoelastic_heat"] == pytest.approx(
         sum(step.creep.dissipated for step in found.steps), rel=1e-9
     )
@@ -367,7 +384,7 @@ def test_stick_and_slip_in_time(body: str) -> None:
         "control": {"path": {"force": ["10 uN", "20 uN"], "steps": 2}},
         "shear": {"shift": ["50 nm", "0 nm"], "steps": 2},
     }
-    legs = asp.run(table | path | {"viscoelastic": {"ramp": "10 ms", "steps": 1}})
+    legs = asp.run(table | path | {"viscoelastic": {"ramp": "10 ms", "steps": 3}})
     assert legs.path is not None
     assert [step.force for step in legs.path.steps[:3]] == pytest.approx([10e-6, 20e-6, 20e-6])
     assert [step.stick_slip.shift_x for step in legs.path.steps] == pytest.approx([0.0, 0.0, 25e-9, 50e-9, 25e-9, 0.0])

@@ -29,6 +29,7 @@ WRITTEN = Path(__file__).with_name("messages.txt")
 PRINTED = Path(__file__).with_name("printed.txt")
 GRID = ("--points", "24x16", "--size", "12um x 8um")
 COATED = ("--body", "DLC:5nm~/Cr:2nm/steel", "--counter-body", "E=1GPa,nu=0.4:1um/rigid", "--hardness", "body")
+RELAXING = ("--body", "E=3MPa+297MPa@1ms,nu=0.5")
 ANSWERS: tuple[tuple[str, ...], ...] = (
     ("info", "rough.txt", *SCALE),
     ("info", "rough.txt", *SCALE, "--full"),
@@ -41,6 +42,7 @@ ANSWERS: tuple[tuple[str, ...], ...] = (
     ("contact", "rough.txt", *SCALE, *BODY, "--hardness", "body", "--path", "30MPa,0", "--path-steps", "2"),
     ("contact", "rough.txt", *SCALE, *BODY, *LOAD, "--liquid", "PFPE", "--film", "1nm", "--friction", "0.3"),
     ("contact", "rough.txt", *SCALE, *BODY, *LOAD, "--max-iterations", "1"),
+    ("contact", "rough.txt", *SCALE, *RELAXING, "--approach", "1nm", "--hold", "60ms", "--time-steps", "4"),
     ("compare", "rough.txt", *SCALE, *BODY, "--theories", "persson,jackson-green", "--pressures", "1MPa,2MPa"),
     ("cite", "run/result.nc"),
 )

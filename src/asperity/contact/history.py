@@ -279,8 +279,8 @@ class EnergyBalance:
     step_work
         Σ ½ Σ Δq·Δu of shear traction and tangential displacement: what the length of implicit steps takes.
     viscous_work
-        Heat of viscoelastic bodies. Their external work is by trapezia through the steps of time, and the elastic energy what their
-        springs store.
+        Heat of viscoelastic bodies. Their external work is that of all steps of time, of a step at once what is stored and taken
+        (``Creeping.work``), and the elastic energy what their springs store.
     jump_work
         What adhesive contacts lose as they jump: in the steps with a jump all that nothing else takes.
     """
@@ -298,7 +298,7 @@ class EnergyBalance:
 
     @property
     def residual(self) -> RealArray:
-        """External and tangential work less all others: the error of the trapezoidal rule, of second order."""
+        """External and tangential work less all others: the error of the trapezoidal rule, or of the steps of time, of second order."""
         done = self.external_work + self.tangential_work
         return (
             done
@@ -375,6 +375,9 @@ def _shear_works(history: HistoryResult) -> RealArray:
     pressure: RealArray = none
     lift: RealArray = none
     for result in history.steps:
+        if result.creep is not None:  # through its steps of time
+            works.append(result.creep.shear_work)
+            continue
         now = none if result.sliding is None else result.sliding.shear_displacement
         works.append(0.5 * float(((result.pressure + pressure) * (now - lift)).sum()) * pixel)
         pressure, lift = result.pressure, now

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -17,11 +18,12 @@ from .couplings.adhesion import AdhesionCoupling, AdhesiveContact, in_time
 from .couplings.creep import LayeredPast, Past, Remembering, TimeWeights
 from .couplings.driver import Settled
 from .couplings.layered_shear import LayeredShear
-from .couplings.menisci import Menisci
+from .couplings.menisci import Menisci, MeniscusCoupling
 from .couplings.protocol import Contact, Coupling, Memory, Posed, height_scale
 from .couplings.shear_creep import ShearMemory
-from .couplings.sliding import SlidingCoupling
+from .couplings.sliding import GrossSliding, SlidingCoupling
 from .couplings.stick_slip import StickSlip, StickSlipCoupling
+from .energy_in_time import Account, accounted, balanced, force_work, step_error
 from .laws import JKRAdhesion
 from .operators import Operator
 from .operators.tangential import NO_COUPLING
@@ -93,8 +95,10 @@ class InTime:
             )
         last, before = moments[-1], state if len(moments) < 2 else moments[-2].state
         settled = self._ended(last, begin.past.time + step.duration, tries)
-        last = replace(last, ends=_summed(begin, moments))
-        creeping = _creeping(begin, moments, tries)
+        creeping, account = accounted(begin, moments, _creeping(begin, moments, tries))
+        last = replace(last, ends=_summed(moments))
+        settled = replace(settled, status=balanced(settled.status, creeping))
+        last = replace(last, past=replace(last.past, account=account.numbers))
         result = prepared.result(settled, before, time.perf_counter() - started, (creeping, last))
         if before is not state:  # the work since the step began, not since the last moment
             vars(result)["plastic_work"] = result.total_plastic_work - (0.0 if state is None else state.plastic_work)
@@ -110,24 +114,59 @@ class InTime:
         remedy = "Allow more steps of time, or a larger tolerance of theirs."
         return replace(settled, status=Status(Outcome.ITERATION_LIMIT, message, remedy))
 
+    def _lift_work(
+        self, before: Moment, later: RealArray, ends: Mapping[str, tuple[Memory, object]], length: float
+    ) -> float:
+        """Work (J) of the displacement by the shear of gross sliding in the step of time from ``before``, exact for a pressure linear in time."""
+        coupling = next((each for each in self.prepared.couplings if isinstance(each, SlidingCoupling)), None)
+        if coupling is None or not coupling.feedback or "sliding" not in ends:
+            return 0.0
+        found = ends["sliding"][1]
+        assert self.shear is not None
+        assert isinstance(found, GrossSliding)
+        at_once = TimeWeights.of(self.remembering.times, 0.0)
+        kernel = coupling.in_time(self.shear.operator(at_once).coupling, np.zeros(later.shape))
+        pressure = _pressure_before(before)
+        lift = kernel.displacement(pressure) + self.shear.lifted(before.past, coupling.traction(pressure), at_once)
+        mean = self._mean_lift(before.past, (pressure, later), length, coupling)
+        mean += kernel.displacement(0.5 * (pressure + later))
+        now = found.shear_displacement
+        total = float((pressure * (now - lift) + (later - pressure) * (now - mean)).sum())
+        return total * self.prepared.problem.grid.pixel_area
+
+    def _mean_lift(
+        self, past: Past, pressures: tuple[RealArray, RealArray], length: float, coupling: SlidingCoupling
+    ) -> RealArray:
+        """Retarded displacement (nx, ny) in m by shear, mean over a step of this ``length`` (s) in which the pressure goes from one to the other."""
+        assert self.shear is not None
+        first, last = (coupling.traction(pressure) for pressure in pressures)
+        weights, after = TimeWeights.of(self.remembering.times, length).of_mean
+        none = replace(past, shear=None)
+        by_last = replace(weights, e=np.zeros_like(after), before=after)
+        return self.shear.lifted(past, first, weights) + self.shear.lifted(none, last, by_last)
+
     def begin(self, state: InterfaceState | None) -> Moment:
         """What the interface is before a step, from its ``state``."""
         past = self.remembering.past({} if state is None else state.memory.get("creep", {}))
         if state is not None and "stick_slip" not in state.memory and self._sticks:
             past = replace(past, shear=None)  # of gross sliding, which leaves no traction to stick to
         profile = self.prepared.profile
-        mean, approach, gap = past.place
-        if np.isnan(gap):
-            past = replace(past, place=(mean, approach, float(profile.max() - profile.mean())))
+        if np.isnan(past.place[2]):  # the first touch
+            dented = profile if state is None else profile - state.permanent_indentation
+            touch = float(profile.max() - dented.max()), float(dented.max() - dented.mean())
+            past = replace(past, place=(0.0, *touch), account=Account.begun(0.0).numbers)
         force = float(past.pressure.sum()) * self.prepared.problem.grid.pixel_area
         fraction = np.count_nonzero(past.pressure > 0.0) / profile.size
         largest = float(past.pressure.max())
-        record = np.array(
-            [past.time, *past.place[:1], force, *past.place[1:], fraction, largest, 0.0, past.dissipated, 0.0]
-        )
+        mean, held, gap = past.place
+        adhesion = {} if state is None else state.memory.get("adhesion", {})
+        approach = float(adhesion.get("approach", held))  # that of the bodies, not of the machine that holds them
+        account = Account.of(past)
+        stored = np.nan if account is None else account.stored
+        record = np.array([past.time, mean, force, approach, gap, fraction, largest, stored, past.dissipated, 0.0])
         if state is not None:
             state = replace(state, earlier=None)  # of a moment within the step before, which is not kept
-        return Moment(None, past, state, record)
+        return Moment(None, past, state, record, stored=stored)
 
     def advanced(self, moment: Moment, control: Control | Step, length: float) -> Moment:
         """Contact under ``control`` a step of time of this ``length`` (s) after ``moment``."""
@@ -158,6 +197,7 @@ class InTime:
         if isinstance(adhesive, AdhesiveContact):
             heat = past.dissipated - moment.past.dissipated
             ends["adhesion"] = in_time(settled.exchanges["adhesion"], contact, adhesive, stored, heat)
+        lift_work = self._lift_work(moment, contact.pressure, ends, length)
         past = self._slid(moment, past, contact.pressure, weights)
         past, sheared, works = self._sheared(moment, past, traction, weights, ends, couplings)
         stored += sheared
@@ -168,7 +208,7 @@ class InTime:
         force = adhesive.external_force if isinstance(adhesive, AdhesiveContact) else contact.force
         top = contact.pressure.max()
         numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)
-        return Moment(settled, past, state, np.array(numbers), retarded, stored, length, ends, works)
+        return Moment(settled, past, state, np.array(numbers), retarded, stored, length, ends, works, lift_work)
 
     def _sheared(
         self,
@@ -245,15 +285,22 @@ class InTime:
         contact = Contact(posed, qp, Solution(SolverState(none, none, 0.0), status, (0.0,)))
         memories = {} if state is None else state.memory
         exchanges = {c.name: c.begin(posed, memories.get(c.name, {})) for c in couplings}
+        for liquid in (each for each in couplings if isinstance(each, MeniscusCoupling)):  # stands in the open gap too
+            exchanges[liquid.name] = liquid.reply(exchanges[liquid.name], contact)
         return Settled(contact, exchanges, (), 1, prepared.solver.tolerance, status)
 
     def error(self, first: Moment, second: Moment, third: Moment) -> float:
-        """Error that the last of two steps of time adds to the displacement, relative to it."""
+        """Error that the last of two steps of time adds to the displacement, relative to it, or one of them to the energy where that is more.
+
+        Of the energy only of steps longer than a retardation: shorter ones follow it, and what jumps is not divided without end.
+        """
         weights, pasts = (
             TimeWeights.of(self.remembering.times, third.past.time - second.past.time),
             (first.past, second.past, third.past),
         )
         found = self.remembering.curvature(pasts, weights)
+        if weights.length > float(self.remembering.times.min()):
+            found = max(found, step_error(first, second), step_error(second, third))
         if self.shear is None or not self._sticks:
             return found
         shape = third.past.pressure.shape
@@ -273,9 +320,20 @@ def _traction_before(state: InterfaceState | None, shape: tuple[int, ...]) -> Re
     return np.stack([memory["traction_x"], memory["traction_y"]]) if memory else np.zeros((2, *shape))
 
 
-def _summed(begin: Moment, moments: list[Moment]) -> dict[str, tuple[Memory, object]]:
-    """What the couplings remember and found in the last of the ``moments``, slip and its heat since ``begin``."""
+def _summed(moments: list[Moment]) -> dict[str, tuple[Memory, object]]:
+    """What the couplings remember and found in the last of the ``moments``; slip, heat and jumps of all of them."""
     ends = dict(moments[-1].ends)
+    if "adhesion" in ends:
+        pulled = [
+            found for found in (moment.ends["adhesion"][1] for moment in moments) if isinstance(found, AdhesiveContact)
+        ]
+        adhesive = replace(
+            pulled[-1],
+            dissipated=sum(one.dissipated for one in pulled),
+            dissipated_error=sum(one.dissipated_error for one in pulled),
+            jumped=any(one.jumped for one in pulled),
+        )
+        ends["adhesion"] = ends["adhesion"][0], adhesive
     if "stick_slip" not in ends or len(moments) < 2:
         return ends
     each = [_stuck(moment) for moment in moments]
@@ -310,16 +368,16 @@ def _works(moment: Moment, found: StickSlip, coupling: StickSlipCoupling, pixel:
 
 
 def _creeping(begin: Moment, moments: list[Moment], tries: int) -> Creeping:
-    """What happened through the ``moments`` after ``begin``."""
+    """What happened through the ``moments`` after ``begin``, without an account of its energies."""
     records, last = np.stack([begin.record, *(moment.record for moment in moments)]), moments[-1]
-    force, approach = records[:, 2], records[:, 3]
     return Creeping(
         records,
         np.broadcast_to(last.retarded, last.past.pressure.shape),
         last.stored,
         last.past.dissipated - begin.past.dissipated,
-        float((0.5 * (force[1:] + force[:-1]) * np.diff(approach)).sum()),
+        force_work(records)[0],
         tries,
         sum(moment.shear_works[0] for moment in moments),
         sum(moment.shear_works[1] for moment in moments),
+        sum(moment.lift_work for moment in moments),
     )

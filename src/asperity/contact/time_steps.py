@@ -102,12 +102,17 @@ class Creeping:
     stored_energy, dissipated
         Energy stored at the end; heat of this step; J.
     work
-        Work of the force between the solids over the approach in this step, J, by trapezia through the steps of time.
+        Work of the force between the solids over the approach in this step, J: through the steps of time as ``energy_in_time.force_work``, and of
+        a step at once what is stored and taken.
     tries
         Solves, those of rejected steps of time included.
     tangential_work, step_work
         Of surfaces that stick and slip: work of tangential force and torque in this step, and what of it the length of implicit steps of
         time takes, as of ``EnergyBalance``, J.
+    shear_work
+        Work of the displacement by the shear of gross sliding in this step, J.
+    missed, explained, largest_work
+        Since the virgin state, J: works less all that is stored or taken; what of that the length of the steps of time explains; and the largest work.
     """
 
     records: RealArray
@@ -118,6 +123,20 @@ class Creeping:
     tries: int
     tangential_work: float = 0.0
     step_work: float = 0.0
+    shear_work: float = 0.0
+    missed: float = 0.0
+    explained: float = 0.0
+    largest_work: float = 0.0
+
+    @property
+    def energy_error(self) -> float:
+        """Energy that is missed so far over the largest work; zero where no work was done."""
+        return abs(self.missed) / self.largest_work if self.largest_work > 0.0 else 0.0
+
+    @property
+    def explained_error(self) -> float:
+        """What of ``energy_error`` the length of the steps of time explains, estimated."""
+        return self.explained / self.largest_work if self.largest_work > 0.0 else 0.0
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -144,8 +163,8 @@ class Creeping:
 @dataclass(frozen=True, eq=False)
 class Moment:
     """Contact after one step of time: what settled, the past then, the state to go on from, its record, its displacement by the past,
-    its stored energy (J), the length (s) of the step, zero where none is known, what the couplings remember and found, and the work of
-    tangential force and torque in this step of time with the part that implicit steps take (J)."""
+    its stored energy (J), the length (s) of the step, zero where none is known, what the couplings remember and found, the work of
+    tangential force and torque in this step of time with the part that implicit steps take, and that of displacements by gross sliding (J)."""
 
     settled: Settled | None
     past: Past
@@ -156,6 +175,12 @@ class Moment:
     length: float = 0.0
     ends: Mapping[str, tuple[Memory, object]] = field(default_factory=dict)
     shear_works: tuple[float, float] = (0.0, 0.0)
+    lift_work: float = 0.0
+
+    @property
+    def plastic_work(self) -> float:
+        """J since the virgin surface."""
+        return 0.0 if self.state is None else self.state.plastic_work
 
 
 def control_at(end: Control, share: float, place: tuple[float, float, float], area: float) -> Control:
@@ -217,7 +242,7 @@ class March(Protocol):
         """Contact under ``control`` a step of time of this ``length`` (s) after ``moment``."""
 
     def error(self, first: Moment, second: Moment, third: Moment) -> float:
-        """Error that the last of two steps of time adds to the displacement, relative to it."""
+        """Error that the last of two steps of time adds to the displacement, relative to it, or one of them to the energy where that is more."""
 
 
 _RESOLVED = 1e3

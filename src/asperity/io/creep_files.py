@@ -31,6 +31,14 @@ NUMBERS = (
     Quantity("step_work", "J", "part of it that the length of implicit steps of time takes"),
 )
 
+ACCOUNT = (
+    Quantity("shear_work", "J", "work of the displacement by shear in the step"),
+    Quantity("missed", "J", "works so far less all that is stored or taken"),
+    Quantity("explained", "J", "what of that the length of the steps of time explains"),
+    Quantity("largest_work", "J", "largest work so far"),
+)
+"""Numbers that older files do not hold."""
+
 _PREFIX = "creep_"
 _MOMENTS = Quantity("creep_moments", "1", "number of moments recorded in the step")
 
@@ -41,7 +49,9 @@ def creep_group(result: ContactResult, lines: tuple[Labelled, ...]) -> dict[str,
     if found is None:
         return {}
     columns = [Labelled(replace(item, dims=("moment",)), found.column(item.name)) for item in COLUMNS]
-    numbers = [Labelled(replace(item, name=f"step_{item.name}"), getattr(found, item.name)) for item in NUMBERS]
+    numbers = [
+        Labelled(replace(item, name=f"step_{item.name}"), getattr(found, item.name)) for item in (*NUMBERS, *ACCOUNT)
+    ]
     return {CREEP: Node((*lines, *columns, *numbers, Labelled(RETARDED, found.retarded_displacement)))}
 
 
@@ -50,7 +60,8 @@ def creep_in(node: Node | None) -> dict[str, Any]:
     if node is None:
         return {}
     records = np.stack([np.asarray(node[item.name]) for item in COLUMNS], axis=1)
-    numbers = {item.name: np.asarray(node[f"step_{item.name}"]).item() for item in NUMBERS}
+    kept = (*NUMBERS, *(item for item in ACCOUNT if f"step_{item.name}" in node))
+    numbers = {item.name: np.asarray(node[f"step_{item.name}"]).item() for item in kept}
     return {CREEP: Creeping(records, np.asarray(node[RETARDED.name]), **numbers)}
 
 
@@ -62,7 +73,7 @@ def creep_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
     for item in COLUMNS:
         named = replace(item, name=_PREFIX + item.name, dims=("moment",))
         yield Labelled(named, np.concatenate([each.column(item.name) for each in found]))
-    for item in NUMBERS:
+    for item in (*NUMBERS, *ACCOUNT):
         named = replace(item, name=f"{_PREFIX}step_{item.name}", dims=("step",))
         yield Labelled(named, np.array([getattr(each, item.name) for each in found]))
     yield Labelled(replace(_MOMENTS, dims=("step",)), np.array([len(each.records) for each in found]))
@@ -90,5 +101,6 @@ def creep_from(node: Node, at: Mapping[str, Any], step: int) -> dict[str, Any]:
     ends = np.cumsum(node[_MOMENTS.name])
     rows = slice(int(ends[step] - at[_MOMENTS.name]), int(ends[step]))
     records = np.stack([np.asarray(node[_PREFIX + item.name])[rows] for item in COLUMNS], axis=1)
-    numbers = {item.name: np.asarray(at[f"{_PREFIX}step_{item.name}"]).item() for item in NUMBERS}
+    kept = (*NUMBERS, *(item for item in ACCOUNT if f"{_PREFIX}step_{item.name}" in at))
+    numbers = {item.name: np.asarray(at[f"{_PREFIX}step_{item.name}"]).item() for item in kept}
     return {CREEP: Creeping(records, np.asarray(at[_PREFIX + RETARDED.name]), **numbers)}

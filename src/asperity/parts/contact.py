@@ -176,10 +176,12 @@ def path_sentence(path: HistoryResult) -> str:
     more = {"heat": balance.viscous_work, "what is lost in jumps": balance.jump_work}
     *most, end = ("elastic energy", "plastic work", *(name for name, energy in more.items() if energy.any()))
     parts = f"{', '.join(most)} and {end}"
+    in_time = any(result.creep is not None for result in path.steps)
+    rule = "the steps of time; smaller ones reduce it" if in_time else "the trapezoidal rule; more steps reduce it"
     text = (
         f"The load ran through {len(path.steps)} steps, each from the interface the last one left. External work and the sum "
         f"of {parts} differ by at most {percent(balance.relative_error, 2)} of the largest "
-        "work, by the error of the trapezoidal rule; more steps reduce it."
+        f"work, by the error of {rule}."
     )
     if failed:
         text += f" Not converged: step{'s' if len(failed) > 1 else ''} {', '.join(map(str, failed))}."

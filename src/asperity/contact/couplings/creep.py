@@ -8,6 +8,7 @@ with the compliance K_0 + sum (1 - f_k) K_k and the rest of the displacement as 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, Protocol
@@ -60,6 +61,21 @@ class TimeWeights:
         short = self.length**2 * r * (1.0 / 12.0 - r / 24.0)
         found = np.where(r < _SERIES, short, exact)
         return np.where(flows, self.length**3 / 12.0, found)
+
+    @property
+    def of_mean(self) -> tuple[TimeWeights, RealArray]:
+        """Weights of the mean of each xi over the step: those of xi and of the pressure at its begin, and that of the pressure at its end."""
+        flows = np.isinf(self.times)
+        r = np.where(flows, 1.0, self.length / np.where(flows, 1.0, self.times))
+        short, small = r < _SERIES, np.maximum(r, 1e-300)
+        kept = np.where(r > 0.0, -np.expm1(-r) / small, 1.0)
+        before = np.where(short, r / 3.0 - r**2 / 8.0 + r**3 / 30.0, 0.5 - self.before / small)
+        after = np.where(short, r / 6.0 - r**2 / 24.0 + r**3 / 120.0, 0.5 - self.after / small)
+        kept, before, after = (
+            np.where(flows, fluid, solid)
+            for fluid, solid in ((1.0, kept), (self.length / 3.0, before), (self.length / 6.0, after))
+        )
+        return replace(self, e=kept, before=before, after=after), after
 
     def dissipated(self, shares: RealArray, products: Products) -> float:
         """sum (c_k/lambda_k) ∫ (p - xi)·K (p - xi) dt over the step, and c_f ∫ p·K p dt of a fluid, in the unit of the ``products``."""
@@ -141,6 +157,8 @@ class Past:
         Mean pressure (Pa), approach and mean gap (m) that were reached.
     shear
         Memory of shear tractions, where surfaces stick and slip.
+    account
+        Energies so far, numbers of an ``energy_in_time.Account``; empty where they are not known.
     """
 
     time: float
@@ -151,6 +169,7 @@ class Past:
     dissipated: float
     place: tuple[float, float, float]
     shear: ShearPast | None = None
+    account: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, memory: Memory) -> Past:
@@ -159,7 +178,8 @@ class Past:
         fields = {name: memory[name] for name in ("pressure", "response", "xi", "squares")}
         place = mean, approach, gap
         shear = ShearPast(memory["shear_xi"], memory["shear_squares"]) if "shear_xi" in memory else None
-        return cls(float(memory["time"]), dissipated=float(memory["dissipated"]), place=place, shear=shear, **fields)
+        heat, account = float(memory["dissipated"]), tuple(map(float, memory.get("account", ())))
+        return cls(float(memory["time"]), dissipated=heat, place=place, shear=shear, account=account, **fields)
 
     @property
     def memory(self) -> Memory:
@@ -169,7 +189,9 @@ class Past:
         shear = (
             {} if self.shear is None else {"shear_xi": _real_view(self.shear.xi), "shear_squares": self.shear.squares}
         )
+        known = {"account": np.array(self.account)} if self.account else {}
         return {
+            **known,
             **{name: np.asarray(value, dtype=float) for name, value in numbers.items()},
             **{name: _real_view(value) for name, value in fields.items()},
             **shear,
@@ -279,9 +301,9 @@ class SharedPast:
     def curvature(self, pasts: tuple[Past, Past, Past], weights: TimeWeights) -> float:
         """|K_0 p''| sum shares_k G_k over |K_0 p| (1 + sum shares_k after_k)."""
         second = second_difference(pasts, tuple(past.response for past in pasts))
-        size = float(np.linalg.norm(pasts[2].response)) * (1.0 + float(self.creep.shares @ weights.after))
+        sizes = [float(np.linalg.norm(past.response)) for past in pasts]
         found = float(np.linalg.norm(second)) * float(self.creep.shares @ weights.of_curvature)
-        return found / size if size else 0.0
+        return over_size(found / (1.0 + float(self.creep.shares @ weights.after)), sizes)
 
 
 _SHOWS = 1e-6
@@ -414,11 +436,18 @@ class LayeredPast:
         _, after, bent = self.passes.sums_of(self.kernels, weights)
         first, last = pasts[1].time - pasts[0].time, pasts[2].time - pasts[1].time
         factors = 2.0 / (first + last) * np.array([1.0 / first, -1.0 / first - 1.0 / last, 1.0 / last])
-        sums = np.zeros((len(after), 2))
         spectra = [_parts(past.response) for past in pasts]
-        self.passes.run("curvature", pasts[2].response, bent, self.operator.kernel, after, factors, *spectra, sums)
-        second, size = np.sqrt(sums.sum(axis=0))
-        return float(second / size) if size else 0.0
+
+        def norms(factors: RealArray, *spectra: RealArray) -> tuple[float, float]:
+            sums = np.zeros((len(after), 2))
+            self.passes.run("curvature", pasts[2].response, bent, self.operator.kernel, after, factors, *spectra, sums)
+            second, size = np.sqrt(sums.sum(axis=0))
+            return float(second), float(size)
+
+        second, size = norms(factors, *spectra)
+        if not size and second:  # contact was lost
+            return over_size(second, [*(norms(factors, each, each, each)[1] for each in spectra[:2]), size])
+        return over_size(second, [size])
 
     def spectrum(self, values: RealArray) -> ComplexArray:
         """Half spectrum of ``values`` (nx, ny)."""
@@ -476,6 +505,19 @@ def second_difference(
     """Second derivative in time of what has these ``values`` in the three ``pasts``."""
     first, last = pasts[1].time - pasts[0].time, pasts[2].time - pasts[1].time
     return np.asarray(2.0 * ((values[2] - values[1]) / last - (values[1] - values[0]) / first) / (first + last))
+
+
+def over_size(error: float, sizes: Sequence[float]) -> float:
+    """``error`` over the last of the ``sizes`` of what displaces at some moments, over the largest of them where that is zero.
+
+    Where contact was lost in the last step nothing presses at its end. A step that pulled a contact apart which it should have relaxed is
+    as wrong as that contact was large; surfaces that part in truth do so within a step short enough for its error to be small beside what
+    pressed before it.
+    """
+    size = sizes[-1] or max(sizes)
+    if size > 0.0:
+        return error / size
+    return math.inf if error > 0.0 else 0.0
 
 
 def remembering(creep: AnyCreep, operator: Operator) -> Remembering:

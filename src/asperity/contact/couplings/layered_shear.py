@@ -18,7 +18,7 @@ from ...solids.compliance.creep import RetardedSurface
 from ..operators.tangential import TangentialOperator
 from ..operators.tangential_sum import SummedTangential
 from ..problem import ContactProblem
-from .creep import LayeredPast, Past, Products, ShearPast, TimeWeights, second_difference
+from .creep import LayeredPast, Past, Products, ShearPast, TimeWeights, over_size, second_difference
 from .stick_slip import Held
 
 
@@ -109,15 +109,22 @@ class LayeredShear:
         self, pasts: tuple[Past, Past, Past], tractions: tuple[RealArray, ...], weights: TimeWeights
     ) -> float:
         """Error of the displacement at the end of the last of two steps by the curvature of the ``tractions`` then, over that by traction and pressure."""
-        curved, last = self._spectra(second_difference(pasts, tractions).real), self._spectra(tractions[2])
-        none = np.zeros_like(last[0])
-        change = np.zeros_like(last)
+        curved = self._spectra(second_difference(pasts, tractions).real)
+        none = np.zeros_like(curved[0])
+        change = np.zeros_like(curved)
         for term, factor in zip(self.terms, weights.of_curvature, strict=True):
             change += factor * _response(term, curved, none)[0]
-        along = _response(self.operator(weights), last, none)[0]
-        normal = (self.kept.operator.kernel + self.kept.summed(weights)) * pasts[2].response
-        size = float(np.hypot(np.linalg.norm(along), np.linalg.norm(normal)))
-        return float(np.linalg.norm(change)) / size if size else 0.0
+        error, operator = float(np.linalg.norm(change)), self.operator(weights)
+
+        def size(traction: RealArray, past: Past) -> float:
+            along = _response(operator, self._spectra(traction), none)[0]
+            normal = (self.kept.operator.kernel + self.kept.summed(weights)) * past.response
+            return float(np.hypot(np.linalg.norm(along), np.linalg.norm(normal)))
+
+        last = size(tractions[2], pasts[2])
+        if not last and error:  # contact was lost
+            return over_size(error, [*map(size, tractions[:2], pasts[:2]), last])
+        return over_size(error, [last])
 
     def _spectra(self, fields: RealArray) -> ComplexArray:
         return np.stack([self.kept.spectrum(each) for each in fields])

@@ -24,7 +24,7 @@ from ...solids.viscoelastic import Viscoelastic, alike
 from ..operators.tangential import TangentialOperator
 from ..operators.tangential_sum import SummedTangential
 from ..problem import ContactProblem
-from .creep import Past, Products, ShearPast, TimeWeights, second_difference
+from .creep import Past, Products, ShearPast, TimeWeights, over_size, second_difference
 from .stick_slip import Held
 
 _EQUAL = 1e-6
@@ -145,12 +145,15 @@ class ShearMemory:
     ) -> float:
         """Error of the displacement at the end of the last of two steps by the curvature of the ``tractions`` then, over that by traction and pressure."""
         curved = second_difference(pasts, tractions)
-        size = float(np.hypot(np.linalg.norm(tractions[2]), np.linalg.norm(pasts[2].pressure)))
+        sizes = [
+            float(np.hypot(np.linalg.norm(traction), np.linalg.norm(past.pressure)))
+            for traction, past in zip(tractions, pasts, strict=True)
+        ]
         each = [
             float(part.shares @ weights.of_curvature) / (1.0 + float(part.shares @ weights.after))
             for part in self.parts
         ]
-        return max(each) * float(np.linalg.norm(curved)) / size if size else 0.0
+        return over_size(max(each) * float(np.linalg.norm(curved)), sizes)
 
     def _products(
         self,

@@ -110,14 +110,14 @@ class SlidingCoupling(Coupling):
             return np.asarray(pressure * (self.friction.coefficient / self.friction.largest))
         return pressure
 
-    def _displacement(self, pressure: RealArray) -> RealArray:
+    def displacement(self, pressure: RealArray) -> RealArray:
         """Normal displacement (nx, ny) in m under friction times ``pressure``, and by earlier shear."""
         return self.kernel.displacement(self._weighted(pressure)) + self.retarded
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The displacement under the pressure to start from."""
         start = posed.start if self.feedback else None
-        x = np.zeros(posed.profile.shape) if start is None else self._displacement(start)
+        x = np.zeros(posed.profile.shape) if start is None else self.displacement(start)
         return Exchange(x, x, np.inf if self.feedback else 0.0, self.tolerance)
 
     def share(self, exchange: Exchange) -> Share:
@@ -128,7 +128,7 @@ class SlidingCoupling(Coupling):
         """The displacement under the shear of ``contact``."""
         if not self.feedback:
             return exchange
-        target = self._displacement(contact.pressure)
+        target = self.displacement(contact.pressure)
         size = float(np.linalg.norm(target))
         change = float(np.linalg.norm(target - exchange.x))
         return replace(exchange, target=target, residual=change / size if size else change, scale=size or 1.0)
