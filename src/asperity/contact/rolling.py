@@ -15,13 +15,12 @@ import numpy as np
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
-from ..core.errors import ConvergenceError, InputError
+from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Status
-from ..surfaces.surface import Surface
 from .laws import FrictionLaw, HardWall
 from .operators import Operator, prepare_operator
 from .operators.tangential import TangentialOperator
-from .problem import ContactProblem, Control, Flat
+from .problem import Approach, ContactProblem, Control, Flat
 from .result import ContactResult
 from .solve import Keep, solve
 from .solvers.active_set.solver import ActiveSet
@@ -96,7 +95,7 @@ class RollingContact:
     Attributes
     ----------
     normal
-        The contact under load, with the shear of unlike bodies taken into account.
+        The contact under load; its displacement and approach hold what the shear of unlike bodies lifts.
     creepage
         What was prescribed.
     traction
@@ -216,6 +215,8 @@ def roll(
     ------
     InputError
         If the problem has no friction, a film, adhesion, a hardness or a layer that slips, or touches all along a row.
+    NoSolutionError
+        If shear parts unlike bodies at a prescribed approach.
     ConvergenceError
         If traction or pressure do not come to rest.
     """
@@ -263,7 +264,7 @@ def _balanced(
         lift = bodies.shear.lift(traction)
     total, change = 0, np.inf
     for _ in range(rounds if coupled else 1):
-        normal = bodies.pressed(profile - lift, control, None if normal is None else normal.state)
+        normal = bodies.pressed(profile, lift, control, None if normal is None else normal.state)
         qp = bodies.posed(friction.bound(normal.pressure), normal.pressure)
         found = _direct(qp, traction, tolerance) if method == "direct" else _transient(qp, traction, tolerance)
         traction, total = found.traction, total + found.steps
@@ -328,11 +329,40 @@ class RollingBodies:
             problem.profile(),
         )
 
-    def pressed(self, heights: RealArray, control: Control, before: InterfaceState | None) -> ContactResult:
-        """The contact of a surface of these ``heights`` (nx, ny) in m, started from the state ``before``."""
-        problem = replace(self.problem, surface=_with_heights(self.problem.surface, heights))
+    def pressed(
+        self, heights: RealArray, lift: RealArray, control: Control, before: InterfaceState | None
+    ) -> ContactResult:
+        """The contact of a surface of these ``heights`` (nx, ny) in m that shear displaces by ``lift`` (nx, ny) in m, started from the state ``before``.
+
+        Approach and displacement are those of the surface without shear: gap = offset + displacement - heights.
+
+        NoSolutionError if shear parts the surfaces at a prescribed approach.
+        """
         solver, keep = ActiveSet(tolerance=NORMAL_TOLERANCE), Keep(stiffness=False)
-        return solve(problem, control, keep=keep, solver=solver, operator=self.operator, state=before)
+        lowered = float((heights - lift).max()) - float(heights.max())
+        found = solve(
+            self._of(heights - lift),
+            _counted_from(control, lowered),
+            keep=keep,
+            solver=solver,
+            operator=self.operator,
+            state=before,
+        )
+        if not lift.any():
+            return found
+        work = 0.5 * float(np.multiply(found.pressure, lift, dtype=np.float64).sum()) * self.problem.grid.pixel_area
+        return replace(
+            found,
+            problem=self._of(heights),
+            control=control,
+            displacement=found.displacement + lift,
+            approach=found.approach - lowered,
+            elastic_energy=found.elastic_energy + work,
+        )
+
+    def _of(self, heights: RealArray) -> ContactProblem:
+        """The normal contact of a surface of these ``heights`` (nx, ny) in m."""
+        return replace(self.problem, surface=self.problem.surface.with_heights(heights, "composite"))
 
     def posed(self, bound: RealArray, pressure: RealArray) -> RollingQP:
         """Steady rolling with the ``bound`` under ``pressure``, both (nx, ny) in Pa."""
@@ -344,8 +374,18 @@ class RollingBodies:
         return RollingQP(self.shear, bound, self.rigid, self.shear.drawn(pressure), self.direction)
 
 
-def _with_heights(surface: Surface, heights: RealArray) -> Surface:
-    return surface.with_heights(heights, "composite, less the displacement by shear")
+def _counted_from(control: Control, lowered: float) -> Control:
+    """``control`` of a surface whose highest point shear has moved by ``lowered`` (m): an approach is counted from first touch without shear."""
+    if not isinstance(control, Approach):
+        return control
+    left = control.value + lowered
+    if left <= 0.0:
+        raise NoSolutionError(
+            f"approach of a rolling contact must be more than {-lowered:.3g} m, by which shear lowers the surface, but is {control.value:.3g} m: "
+            "the surfaces part. Prescribe a Force, a larger approach, or less friction.",
+            subject="approach",
+        )
+    return Approach(left)
 
 
 @dataclass(frozen=True, eq=False)

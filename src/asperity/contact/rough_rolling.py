@@ -252,7 +252,7 @@ class _Moves:
                 )
             self.normal, self.traction = start.last.normal, start.last.traction
         else:
-            self.normal = self.bodies.pressed(self._heights(first), self.control, None)
+            self.normal = self.bodies.pressed(self._heights(first), np.zeros(shape), self.control, None)
             self.traction = np.zeros((2, *shape))
         self.lift = self.bodies.shear.lift(self.traction)
         self.bound = self.friction.bound(self.normal.pressure)
@@ -280,7 +280,7 @@ class _Moves:
         state: InterfaceState | None = InterfaceState(guess)
         solver = StickSlipNewton(tolerance=min(0.01 * tolerance, 0.1))
         for _ in range(rounds if bodies.shear.coupled else 1):
-            normal = bodies.pressed(heights - lift, self.control, state)
+            normal = bodies.pressed(heights, lift, self.control, state)
             qp = bodies.posed(self.friction.bound(normal.pressure), normal.pressure)
             found = solver.solve(qp.moved(self.displaced), traction)
             traction, state = found.traction, normal.state
