@@ -439,6 +439,17 @@ def _at_rest(qp: RollingQP, traction: RealArray, stride: int, course: tuple[int,
     return _Found(traction, slip, steadiness, count, steadiness <= change_allowed)
 
 
+def slip_of(qp: RollingQP, traction: RealArray, slip: RealArray, pressure: RealArray, before: RealArray) -> RealArray:
+    """``slip`` (2, nx, ny) in m of a move by one pixel, also of the points that touch under ``pressure`` (Pa) and bear no shear.
+
+    ``before`` (2, nx, ny) in m is the displacement along the surface before the move.
+    """
+    bare = (pressure > 0.0) & (qp.bound == 0.0)
+    if not bare.any():
+        return slip
+    return np.where(bare, qp.moved(before).target - qp.operator.displacement(traction), slip)
+
+
 def _result(
     balance: _Balance, creepage: Creepage, direction: Rolling, method: Method, law: FrictionLaw
 ) -> RollingContact:
@@ -449,7 +460,8 @@ def _result(
     if not balance.settled:
         message = f"Rolling did not come to rest: traction is off by {found.steadiness:.1e}, displacement by shear by {balance.change:.1e}."
         status = Status(Outcome.STAGNATED, message, "Use a finer grid or a larger tolerance.")
-    slip = found.slip / grid.spacing[qp.direction.axis]
+    moved = slip_of(qp, found.traction, found.slip, balance.normal.pressure, qp.displacement(found.traction))
+    slip = moved / grid.spacing[qp.direction.axis]
     force_x, force_y, torque = resultant(grid, found.traction)
     along_x, along_y = creepage.along_axes(qp.direction)
     return RollingContact(

@@ -21,7 +21,7 @@ from ..surfaces.surface import Surface
 from .laws import FrictionLaw
 from .problem import ContactProblem, Control
 from .result import ContactResult
-from .rolling import DIRECTIONS, Creepage, Rolling, RollingBodies, RollingContact, require_rolling
+from .rolling import DIRECTIONS, Creepage, Rolling, RollingBodies, RollingContact, require_rolling, slip_of
 from .solvers.stick_slip.newton import StickSlipNewton
 from .state import InterfaceState
 from .tangential import resultant
@@ -296,8 +296,9 @@ class _Moves:
                 normal,
             )
         self.normal, self.traction, self.lift, self.bound = normal, traction, lift, qp.bound
+        slip = slip_of(qp, traction, found.slip, normal.pressure, self.displaced)
         self.displaced, self.error = qp.displacement(traction), found.deviation.error
-        return found.slip
+        return slip
 
     def _row(self, distance: float, slip: RealArray) -> tuple[float, ...]:
         """``PATH`` after a move with this ``slip``."""
