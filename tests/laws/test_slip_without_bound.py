@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from contact_cases import rough
+from refusals import refused
 
 import asperity as asp
 from asperity.contact.advice import review
@@ -85,7 +86,7 @@ def test_rolling_without_friction_slips_by_the_creepage(rough_wheel):
 
 @pytest.mark.parametrize("law", [asp.Coulomb(0.0), asp.TrescaFriction(0.0)], ids=str)
 def test_force_without_friction_has_no_solution(law):
-    with pytest.raises(asp.NoSolutionError, match="must be zero where friction is zero, but is 2 N"):
+    with refused(asp.NoSolutionError, "tangential force", "2 N"):
         asp.solve(posed(law), asp.Step(LOAD, asp.TangentialForce(2.0)))
 
 
@@ -120,7 +121,7 @@ def test_force_that_friction_just_bears_leaves_the_shift_open(counter):
         [getattr(known.stick_slip, n) - getattr(found.steps[0].stick_slip, n) for n in ("shift_x", "shift_y", "twist")]
     )
     assert work == pytest.approx(known.stick_slip.work_by(shift, moved, pixel), rel=1e-3)
-    with pytest.raises(asp.NoSolutionError, match="shift must follow a step whose shift is known"):
+    with refused(asp.NoSolutionError, "shift"):
         asp.solve(problem, asp.Step(LOAD, asp.Shift(0.1)), state=found.state)
 
 

@@ -317,6 +317,11 @@ class StickSlipCoupling(Coupling):
         found = self.operator.displacement(traction)
         return found if pressure is None else found + self.operator.drawn(pressure)
 
+    def _displaced(self, traction: RealArray, pressure: RealArray) -> RealArray:
+        """Displacement (2, nx, ny) in m along the surface at the end of the step."""
+        found = self.operator.displacement(traction) + self.operator.drawn(pressure)
+        return found if self.held is None else found + self.held.displacement
+
     def _free(self, before: _Before) -> RealArray:
         """Displacement (2, nx, ny) in m before the step less what the past leaves at its end."""
         return before.displacement if self.held is None else before.displacement - self.held.displacement
@@ -503,10 +508,7 @@ class StickSlipCoupling(Coupling):
         moved = _vector(control) if isinstance(control, Shift) else before.shift + step
         if slides_freely(control, limit) and pressure.any():
             moved = np.array([np.nan, np.nan, moved[2]])
-        slip = self._slip(solution, before, pressure)
-        displacement = self.operator.displacement(traction) + self.operator.drawn(pressure)
-        if self.held is not None:
-            displacement += self.held.displacement
+        slip, displacement = self._slip(solution, before, pressure), self._displaced(traction, pressure)
         density = np.einsum("kij,kij->ij", traction, slip)
         dissipated = float(density.sum()) * grid.pixel_area
         force_x, force_y, torque = resultant(grid, traction)
