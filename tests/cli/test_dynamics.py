@@ -16,10 +16,11 @@ import asperity as asp
 from asperity import dynamics as dyn
 from asperity.core.errors import InputError
 from asperity.core.settings import COMMAND_LINE
+from asperity.dynamics.motion import Motion
 from asperity.run.document import checked
 from asperity.run.stored import load_outcome
 
-BODY = ("--body", "E=100GPa,nu=0.2")
+BODY = ("--body", "E=1GPa,nu=0.2")
 MOTION = ("--mass", "1kg", "--base", "10mm x 10mm", "--block-height", "5mm", "--spring", "200N/mm", "--speed", "1mm/s")
 PROBLEM: dict[str, Any] = {
     "version": 2,
@@ -30,7 +31,7 @@ PROBLEM: dict[str, Any] = {
         "seed": 1,
         "spectrum": {"kind": "gaussian", "rms_height": "10 nm", "correlation_length": "2 um"},
     },
-    "body": "E=100GPa,nu=0.3",
+    "body": "E=1GPa,nu=0.3",
     "control": {"mean_pressure": "1 MPa"},
     "friction": {"coefficient": 0.3, "speed": "1 mm/s"},
     "dynamics": {"mass": "1 kg", "base": "10 mm x 10 mm", "height": "5 mm", "stiffness": "200 N/mm"},
@@ -104,7 +105,9 @@ def test_static_friction_of_a_wet_contact() -> None:
     """The friction of a block on a wet interface is the static one with its menisci."""
     film = {"liquid": "water", "thickness": "2 nm"}
     outcome = asp.run(
-        PROBLEM | {"film": film, "dynamics": PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms"}}
+        PROBLEM
+        | {"film": film, "dynamics": PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms"}}
+        | {"body": "E=100GPa,nu=0.3", "control": {"mean_pressure": "100 MPa"}}
     )
     values = outcome.values
     assert values["static_friction"] > 0.3
@@ -142,6 +145,64 @@ def test_a_curve_over_the_speed() -> None:
     motion = PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms", "speeds": 3}
     outcome = asp.run(PROBLEM | {"dynamics": motion})
     assert outcome.found["dynamics"].values["sweep_mean_friction"].shape == (3,)
+
+
+def test_a_law_of_few_pixels_is_refused(run: Runner, matrix: Path) -> None:
+    """One pixel of a stiff body gives an exponent of one whatever the surface; the command fails with it."""
+    stiff = PROBLEM | {"body": "E=100GPa,nu=0.3"}
+    few = asp.run({key: value for key, value in stiff.items() if key != "dynamics"}).result
+    assert 0 < few.contact.sum() < 50
+    with refused(InputError, "control", "50", str(int(few.contact.sum()))):
+        checked_and_run(stiff)
+    done = run(
+        "dynamics", matrix, *SCALE, "--periodise", "--body", "E=100TPa,nu=0.2", *LOAD, *MOTION, "--friction", "0.3"
+    )
+    assert done.exit_code != 0
+
+
+def test_ends_that_are_not_steady_are_findings() -> None:
+    """Without damping the friction falls as the block hops: the spring relaxes through the whole window, at times that hang on rounding."""
+    friction = {"coefficient": 0.5, "speed": "1 mm/s"}
+    motion = PROBLEM["dynamics"] | {"start": "sliding", "duration": "20 ms", "damping_ratio": 0.0, "disturbance": 0.0}
+    found = {item.criterion: item for item in asp.run(PROBLEM | {"friction": friction, "dynamics": motion}).findings}
+    assert found["window of the motion"].level == "warning"
+    assert "phase of the motion" in found
+    steady = PROBLEM["dynamics"] | {"start": "sliding", "duration": "20 ms"}
+    quiet = {item.criterion for item in asp.run(PROBLEM | {"dynamics": steady}).findings}
+    assert not quiet & {"window of the motion", "phase of the motion"}
+
+
+def test_interface_with_a_power_below_one_has_modes_where_parts_lift_off() -> None:
+    """Without contact the stiffness is zero, not infinite: the eigenvalues were not those of numbers."""
+    law = dyn.NormalCompliance.amontons(1e9, 0.8, friction=0.3)
+    assert np.array_equal(law.stiffness([-1e-6, 0.0]), [0.0, 0.0])
+    assert np.array_equal(law.friction_slope([-1e-6, 0.0]), [0.0, 0.0])
+    tall = dyn.SlidingBlock(law, 1.0, 0.1, 0.02, 0.15, 100.0, 2e5, 1e-3)
+    assert (tall.steady.penetration - tall.base[0] * tall.steady.tilt).min() < 0.0
+    assert np.isfinite(tall.stability.growth_rates).all()
+
+
+def test_stick_slip_needs_a_base_that_comes_to_rest_on_the_belt() -> None:
+    """A swing of the spring without sticking is none, however much it stands out; the same swing that reaches the belt is."""
+    block = dyn.SlidingBlock(
+        dyn.NormalCompliance.amontons(2.8e18, 2.0, friction=0.3), 1.0, 0.1, 0.02, 0.05, 100.0, 2e5, 1e-3
+    )
+    time = np.linspace(0.0, 1.0, 1001)
+    swing = block.reference_displacement * (0.8 + 0.1 * np.sin(20.0 * np.pi * time))
+    for reached, found in ((-0.5, False), (0.0, True)):
+        speed = block.speed * (reached - 1.0 + np.cos(20.0 * np.pi * time))
+        still = np.zeros_like(time)
+        values = dict.fromkeys(("penetration", "tilt", "normal_force"), still)
+        values |= {
+            "displacement": swing,
+            "spring_force": swing * block.stiffness,
+            "velocity": speed + block.speed,
+            "sliding_speed": speed,
+        }
+        numbers = dyn.BlockRun(block, Motion(time, values)).numbers()
+        assert np.isfinite(numbers["stick_slip_period"]) == found
+        if found:
+            assert numbers["stick_slip_period"] == pytest.approx(0.1, rel=1e-6)
 
 
 def test_refusals(run: Runner, matrix: Path) -> None:

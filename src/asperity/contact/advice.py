@@ -17,6 +17,7 @@ from ..theories.wet.meniscus import wetting_factor
 from .couplings.menisci import Menisci
 from .couplings.plastic_flow import NAME as PLASTIC_FLOW
 from .couplings.plastic_flow import SMALL_STRAIN, PlasticBody, PlasticFlowCoupling
+from .couplings.stick_slip import slides_freely
 from .laws import LayeredHardness, LimitByDepth
 from .problem import ContactProblem, Control, Force, MeanPressure, mean_pressure
 from .result import LARGEST_DUALITY_GAP, ContactResult
@@ -100,6 +101,7 @@ def review(result: ContactResult) -> tuple[Advice, ...]:
         *_seam(result),
         *_plastic(result),
         *_hardness(result),
+        *_shift(result),
         *_flow_settled(result),
         *_energies_in_time(result),
         *(() if result.plastic_flow is None else _flow(result.plastic_flow)),
@@ -332,6 +334,22 @@ def _energies_in_time(result: ContactResult) -> Iterator[Advice]:
         f"The energies of the viscoelastic contact miss by {percent(found.energy_error, 2)} of the largest work, where its steps of time explain "
         f"{percent(found.explained_error, 2)}: heat and force may be wrong. Take a smaller tolerance (--time-tolerance) or more steps of time "
         "(--time-steps).",
+    )
+
+
+def _shift(result: ContactResult) -> Iterator[Advice]:
+    """Whether how far the counter body slid is not determined."""
+    found = result.stick_slip
+    if found is None or not math.isnan(found.shift_x):
+        return
+    if slides_freely(found.tangential, found.friction_limit):
+        why = f"The tangential force is all that friction bears, {show(found.friction_limit, 'N')}: every point slides, and the shift is not determined"
+    else:
+        why = "In an earlier step the tangential force was all that friction bears: the shift is not determined since"
+    yield Advice(
+        "warning",
+        "shift not determined",
+        f"{why}. Slip and heat stated are those of the least shift that slides every point. Prescribe a shift (Shift(...), --shift), or a smaller force.",
     )
 
 

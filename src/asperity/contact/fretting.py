@@ -109,7 +109,7 @@ def loop_of(steps: Sequence[ContactResult]) -> Loop:
     found = [step.require_stick_slip() for step in steps]
     shifts = np.array([[item.shift_x, item.shift_y] for item in found])
     forces = np.array([[item.force_x, item.force_y] for item in found])
-    farthest = shifts[int(np.argmax(np.hypot(*shifts.T)))]
+    farthest = shifts[int(np.argmax(np.nan_to_num(np.hypot(*shifts.T))))]
     length = float(np.hypot(*farthest))
     direction = farthest / length if length > 0.0 else np.array([1.0, 0.0])
     shift = shifts @ direction
@@ -124,7 +124,7 @@ def loop_of(steps: Sequence[ContactResult]) -> Loop:
 
 def _cycles(shift: RealArray) -> tuple[tuple[int, int], ...]:
     """Steps between which the ``shift`` turns at one side and comes back to it."""
-    moves = np.diff(shift)
+    moves = np.nan_to_num(np.diff(shift))  # NaN where a force was all that friction bears
     moving = np.flatnonzero(moves)
     if moving.size == 0:
         return ()

@@ -399,7 +399,7 @@ def _tangential_works(history: HistoryResult) -> RealArray:
             traction, displacement = traction - before.traction, displacement - before.tangential_displacement
         works[1, number], creep = now.dissipated, result.creep
         if creep is None:
-            works[0, number] = np.array([now.force_x, now.force_y, now.torque]) @ moved
+            works[0, number] = now.work_by(moved, displacement, pixel)
             works[2, number] = 0.5 * float(np.einsum("kij,kij->", traction, displacement)) * pixel
         else:
             works[0, number], works[2, number] = creep.tangential_work, creep.step_work

@@ -364,7 +364,7 @@ def _works(moment: Moment, found: StickSlip, coupling: StickSlipCoupling, pixel:
     assert coupling.held is not None
     displaced = found.tangential_displacement - coupling.held.start
     taken = 0.5 * pixel * float(np.einsum("kij,kij->", change, displaced))
-    return float(np.array([found.force_x, found.force_y, found.torque]) @ moved), taken
+    return found.work_by(moved, displaced, pixel), taken
 
 
 def _creeping(begin: Moment, moments: list[Moment], tries: int) -> Creeping:

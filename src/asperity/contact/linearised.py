@@ -146,7 +146,7 @@ class _Linearised:
         q, s, slip = (
             points.gathered(found.traction),
             points.gathered(found.slip_increment),
-            found.slipping.reshape(-1)[index],
+            found.slipping.reshape(-1)[index] & (bound > 0.0),
         )
         normal = np.where(slip, q / np.where(slip, size_of(q), 1.0), 0.0)
         sets = Sets(slip, normal, np.where(slip, size_of(s), 0.0))

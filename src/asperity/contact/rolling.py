@@ -15,13 +15,12 @@ import numpy as np
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
-from ..core.errors import ConvergenceError, InputError
+from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Status
-from ..surfaces.surface import Surface
 from .laws import FrictionLaw, HardWall
 from .operators import Operator, prepare_operator
 from .operators.tangential import TangentialOperator
-from .problem import ContactProblem, Control, Flat
+from .problem import Approach, ContactProblem, Control, Flat
 from .result import ContactResult
 from .solve import Keep, solve
 from .solvers.active_set.solver import ActiveSet
@@ -96,7 +95,7 @@ class RollingContact:
     Attributes
     ----------
     normal
-        The contact under load, with the shear of unlike bodies taken into account.
+        The contact under load; its displacement and approach hold what the shear of unlike bodies lifts.
     creepage
         What was prescribed.
     traction
@@ -216,6 +215,8 @@ def roll(
     ------
     InputError
         If the problem has no friction, a film, adhesion, a hardness or a layer that slips, or touches all along a row.
+    NoSolutionError
+        If shear parts unlike bodies at a prescribed approach.
     ConvergenceError
         If traction or pressure do not come to rest.
     """
@@ -263,7 +264,7 @@ def _balanced(
         lift = bodies.shear.lift(traction)
     total, change = 0, np.inf
     for _ in range(rounds if coupled else 1):
-        normal = bodies.pressed(profile - lift, control, None if normal is None else normal.state)
+        normal = bodies.pressed(profile, lift, control, None if normal is None else normal.state)
         qp = bodies.posed(friction.bound(normal.pressure), normal.pressure)
         found = _direct(qp, traction, tolerance) if method == "direct" else _transient(qp, traction, tolerance)
         traction, total = found.traction, total + found.steps
@@ -328,11 +329,40 @@ class RollingBodies:
             problem.profile(),
         )
 
-    def pressed(self, heights: RealArray, control: Control, before: InterfaceState | None) -> ContactResult:
-        """The contact of a surface of these ``heights`` (nx, ny) in m, started from the state ``before``."""
-        problem = replace(self.problem, surface=_with_heights(self.problem.surface, heights))
+    def pressed(
+        self, heights: RealArray, lift: RealArray, control: Control, before: InterfaceState | None
+    ) -> ContactResult:
+        """The contact of a surface of these ``heights`` (nx, ny) in m that shear displaces by ``lift`` (nx, ny) in m, started from the state ``before``.
+
+        Approach and displacement are those of the surface without shear: gap = offset + displacement - heights.
+
+        NoSolutionError if shear parts the surfaces at a prescribed approach.
+        """
         solver, keep = ActiveSet(tolerance=NORMAL_TOLERANCE), Keep(stiffness=False)
-        return solve(problem, control, keep=keep, solver=solver, operator=self.operator, state=before)
+        lowered = float((heights - lift).max()) - float(heights.max())
+        found = solve(
+            self._of(heights - lift),
+            _counted_from(control, lowered),
+            keep=keep,
+            solver=solver,
+            operator=self.operator,
+            state=before,
+        )
+        if not lift.any():
+            return found
+        work = 0.5 * float(np.multiply(found.pressure, lift, dtype=np.float64).sum()) * self.problem.grid.pixel_area
+        return replace(
+            found,
+            problem=self._of(heights),
+            control=control,
+            displacement=found.displacement + lift,
+            approach=found.approach - lowered,
+            elastic_energy=found.elastic_energy + work,
+        )
+
+    def _of(self, heights: RealArray) -> ContactProblem:
+        """The normal contact of a surface of these ``heights`` (nx, ny) in m."""
+        return replace(self.problem, surface=self.problem.surface.with_heights(heights, "composite"))
 
     def posed(self, bound: RealArray, pressure: RealArray) -> RollingQP:
         """Steady rolling with the ``bound`` under ``pressure``, both (nx, ny) in Pa."""
@@ -344,8 +374,18 @@ class RollingBodies:
         return RollingQP(self.shear, bound, self.rigid, self.shear.drawn(pressure), self.direction)
 
 
-def _with_heights(surface: Surface, heights: RealArray) -> Surface:
-    return surface.with_heights(heights, "composite, less the displacement by shear")
+def _counted_from(control: Control, lowered: float) -> Control:
+    """``control`` of a surface whose highest point shear has moved by ``lowered`` (m): an approach is counted from first touch without shear."""
+    if not isinstance(control, Approach):
+        return control
+    left = control.value + lowered
+    if left <= 0.0:
+        raise NoSolutionError(
+            f"approach of a rolling contact must be more than {-lowered:.3g} m, by which shear lowers the surface, but is {control.value:.3g} m: "
+            "the surfaces part. Prescribe a Force, a larger approach, or less friction.",
+            subject="approach",
+        )
+    return Approach(left)
 
 
 @dataclass(frozen=True, eq=False)
@@ -399,6 +439,17 @@ def _at_rest(qp: RollingQP, traction: RealArray, stride: int, course: tuple[int,
     return _Found(traction, slip, steadiness, count, steadiness <= change_allowed)
 
 
+def slip_of(qp: RollingQP, traction: RealArray, slip: RealArray, pressure: RealArray, before: RealArray) -> RealArray:
+    """``slip`` (2, nx, ny) in m of a move by one pixel, also of the points that touch under ``pressure`` (Pa) and bear no shear.
+
+    ``before`` (2, nx, ny) in m is the displacement along the surface before the move.
+    """
+    bare = (pressure > 0.0) & (qp.bound == 0.0)
+    if not bare.any():
+        return slip
+    return np.where(bare, qp.moved(before).target - qp.operator.displacement(traction), slip)
+
+
 def _result(
     balance: _Balance, creepage: Creepage, direction: Rolling, method: Method, law: FrictionLaw
 ) -> RollingContact:
@@ -409,7 +460,8 @@ def _result(
     if not balance.settled:
         message = f"Rolling did not come to rest: traction is off by {found.steadiness:.1e}, displacement by shear by {balance.change:.1e}."
         status = Status(Outcome.STAGNATED, message, "Use a finer grid or a larger tolerance.")
-    slip = found.slip / grid.spacing[qp.direction.axis]
+    moved = slip_of(qp, found.traction, found.slip, balance.normal.pressure, qp.displacement(found.traction))
+    slip = moved / grid.spacing[qp.direction.axis]
     force_x, force_y, torque = resultant(grid, found.traction)
     along_x, along_y = creepage.along_axes(qp.direction)
     return RollingContact(

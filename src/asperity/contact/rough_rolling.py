@@ -21,7 +21,7 @@ from ..surfaces.surface import Surface
 from .laws import FrictionLaw
 from .problem import ContactProblem, Control
 from .result import ContactResult
-from .rolling import DIRECTIONS, Creepage, Rolling, RollingBodies, RollingContact, require_rolling
+from .rolling import DIRECTIONS, Creepage, Rolling, RollingBodies, RollingContact, require_rolling, slip_of
 from .solvers.stick_slip.newton import StickSlipNewton
 from .state import InterfaceState
 from .tangential import resultant
@@ -252,7 +252,7 @@ class _Moves:
                 )
             self.normal, self.traction = start.last.normal, start.last.traction
         else:
-            self.normal = self.bodies.pressed(self._heights(first), self.control, None)
+            self.normal = self.bodies.pressed(self._heights(first), np.zeros(shape), self.control, None)
             self.traction = np.zeros((2, *shape))
         self.lift = self.bodies.shear.lift(self.traction)
         self.bound = self.friction.bound(self.normal.pressure)
@@ -280,7 +280,7 @@ class _Moves:
         state: InterfaceState | None = InterfaceState(guess)
         solver = StickSlipNewton(tolerance=min(0.01 * tolerance, 0.1))
         for _ in range(rounds if bodies.shear.coupled else 1):
-            normal = bodies.pressed(heights - lift, self.control, state)
+            normal = bodies.pressed(heights, lift, self.control, state)
             qp = bodies.posed(self.friction.bound(normal.pressure), normal.pressure)
             found = solver.solve(qp.moved(self.displaced), traction)
             traction, state = found.traction, normal.state
@@ -296,8 +296,9 @@ class _Moves:
                 normal,
             )
         self.normal, self.traction, self.lift, self.bound = normal, traction, lift, qp.bound
+        slip = slip_of(qp, traction, found.slip, normal.pressure, self.displaced)
         self.displaced, self.error = qp.displacement(traction), found.deviation.error
-        return found.slip
+        return slip
 
     def _row(self, distance: float, slip: RealArray) -> tuple[float, ...]:
         """``PATH`` after a move with this ``slip``."""

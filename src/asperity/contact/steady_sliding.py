@@ -369,8 +369,11 @@ def slide(
     contact, exchanges = settled.contact, settled.exchanges
     traction, ends = contact.traction, {c.name: c.end(exchanges[c.name], contact) for c in couplings}
     lag, seconds = kernel.lag(traction), time.perf_counter() - started
-    normal = finished(problem, settled, ends, _SOLVER, before=None, lift=lag, seconds=seconds)
-    error = _bound(contact, kernel, lag - exchanges[LagCoupling.name].x)
+    lift = exchanges[
+        LagCoupling.name
+    ].x  # what the gap was found with; that of the traction found is within the tolerance of it
+    normal = finished(problem, settled, ends, _SOLVER, before=None, lift=lift, seconds=seconds)
+    error = _bound(contact, kernel, lag - lift)
     by_slope = -float((traction * kernel.slope(profile)).mean())
     result = SteadySliding(normal, v, angle, kernel.dissipation(traction), by_slope, error)
     if not result.converged:

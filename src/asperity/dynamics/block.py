@@ -169,11 +169,11 @@ class SlidingBlock(Declared):
     def linearised(self) -> tuple[RealArray, RealArray]:
         """Stiffness and damping matrices, (3, 3) for displacement, penetration and tilt, about steady sliding; not symmetric by the friction."""
         found, law, (xi, area) = self.steady, self.law, self.base
-        _, ell, power = law.exponents
+        ell = law.exponents[1]
         approach = np.maximum(found.penetration - xi * found.tilt, 0.0)
         K = [float(area @ (xi**n * law.stiffness(approach))) for n in range(3)]
         C = [float(area @ (xi**n * law.damping_coefficient * approach**ell)) for n in range(3)]
-        slope = power * law.friction_coefficient * approach ** (power - 1.0)
+        slope = law.friction_slope(approach)
         F = [float(area @ (xi**n * slope)) for n in range(2)]
         h, arm = 0.5 * self.height, self.spring_height
         stiffness = np.array(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -25,6 +26,9 @@ PROMINENCE = 0.05
 """Rise and fall of the displacement, over that under static friction, from which it counts as stick-slip."""
 
 
+NO_SLIP = 1e-6
+"""Sliding speed over that of the belt below which the base is at rest on it."""
+
 NO_VIBRATION = 1e-6
 """Standard deviation of the penetration over that at rest below which errors of the integration may have made it: no frequency is given."""
 
@@ -39,10 +43,13 @@ class BlockRun:
         The block.
     motion
         Its motion.
+    smoothing
+        Sliding speed about which friction turned over, m/s; 0 where the base sticks and slips.
     """
 
     block: SlidingBlock
     motion: Motion
+    smoothing: float = 0.0
 
     def numbers(self, start: float = 0.0) -> dict[str, float]:
         """``BLOCK_SCALARS`` by name, of the motion from the time ``start`` in s on; the peak is that of the whole motion."""
@@ -67,7 +74,7 @@ class BlockRun:
             "stick_slip_valley": math.nan,
             "stick_slip_period": math.nan,
         }
-        if peaks.size >= 2 and valleys.size:
+        if peaks.size >= 2 and valleys.size and self._sticks(late, peaks):
             x = late["displacement"]
             found |= {
                 "stick_slip_peak": float(x[peaks].mean()) / reference,
@@ -75,6 +82,12 @@ class BlockRun:
                 "stick_slip_period": float(np.diff(late.time[peaks]).mean()),
             }
         return found
+
+    def _sticks(self, late: Motion, peaks: Any) -> bool:
+        """Whether the base has come to rest on the belt between each peak and the next; of smoothed friction, to within its smoothing."""
+        least = -max(self.smoothing, NO_SLIP * self.block.speed)
+        speed = late["sliding_speed"]
+        return all(bool((speed[first:last] >= least).any()) for first, last in itertools.pairwise(peaks))
 
     def _turns(self, late: Motion) -> tuple[Any, Any]:
         """Places of the peaks and valleys of the displacement that stand out."""
@@ -170,7 +183,8 @@ def move_block(
     state[:6] = [require.finite(value, "start") for value in first[:6]] / solving.scales[:6]
     if smoothing == 0.0:
         return BlockRun(block, solving.sticking(times, state))
-    return BlockRun(block, solving.smoothed(times, state, require.not_negative(disturbance, "disturbance")))
+    smoothed = solving.smoothed(times, state, require.not_negative(disturbance, "disturbance"))
+    return BlockRun(block, smoothed, smoothing)
 
 
 @dataclass(frozen=True, eq=False)

@@ -107,8 +107,12 @@ class NormalCompliance(Declared):
     def stiffness(self, approach: ArrayLike) -> RealArray:
         """dp/dδ in Pa/m at ``approach`` in m, without damping."""
         m, depth = self.normal_exponent, np.maximum(np.asarray(approach, dtype=float), 0.0)
-        found: RealArray = m * self.normal_coefficient * depth ** (m - 1.0)
-        return found
+        return m * self.normal_coefficient * _power(depth, m - 1.0)
+
+    def friction_slope(self, approach: ArrayLike) -> RealArray:
+        """d/dδ of the largest shear traction, Pa/m, at ``approach`` in m."""
+        power, depth = self.friction_power, np.maximum(np.asarray(approach, dtype=float), 0.0)
+        return power * self.friction_coefficient * _power(depth, power - 1.0)
 
     def energy(self, approach: ArrayLike) -> RealArray:
         """Elastic energy of the interface in J/m² at ``approach`` in m."""
@@ -147,6 +151,12 @@ class NormalCompliance(Declared):
         """This law with the friction coefficient ``friction`` >= 0 at any pressure."""
         mu = require.not_negative(friction, "friction")
         return replace(self, friction_coefficient=mu * self.normal_coefficient, friction_exponent=None)
+
+
+def _power(depth: RealArray, exponent: float) -> RealArray:
+    """``depth`` >= 0 to the power of ``exponent``, zero without contact where that is negative too."""
+    found: RealArray = np.where(depth > 0.0, np.where(depth > 0.0, depth, 1.0) ** exponent, 0.0)
+    return found
 
 
 def metal_joint(compliance: float, exponent: float = 2.0, *, friction: float = 0.0) -> NormalCompliance:

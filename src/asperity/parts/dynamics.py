@@ -179,6 +179,7 @@ class Dynamics(Part):
     name = "dynamics"
     title = "Friction in motion"
     table = "dynamics"
+    essential = True
     settings = DynamicsSettings
 
     @property

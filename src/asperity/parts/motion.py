@@ -42,6 +42,12 @@ MOST_SAMPLES = 20_000
 WIDEST = 2.5
 """Largest pressure of the curve over that of the load: vibrating blocks reach about this much."""
 
+FEWEST_PIXELS = 50
+"""Touching pixels under the load below which the law is that of single pixels: one has an exponent of exactly 1, whatever the surface."""
+
+DRIFTS = 0.03
+"""Change of the spring force over the end of a motion, over its mean, from which on that mean is none of a steady state."""
+
 POOR_FIT = 0.1
 """Largest relative error of the fitted law above which that is a finding."""
 
@@ -54,6 +60,13 @@ def fitted_law(ask: Moving, solved: Solved) -> ComplianceFit:
     pressure = solved.result.mean_pressure
     if pressure <= 0.0:
         raise InputError("The contact must bear a load for motion on it, but its mean pressure is zero.")
+    pixels = int(np.count_nonzero(solved.result.contact))
+    if pixels < FEWEST_PIXELS:
+        raise InputError(
+            f"contact must have at least {FEWEST_PIXELS} touching pixels under the load for a law of its interface, but has {pixels}. "
+            "Raise the load (control, --pressure), or refine the grid.",
+            subject="control",
+        )
     path = [] if solved.path is None else list(_loading(solved.path.steps))
     if len(path) < ask.settings.points:
         loads = np.geomspace(pressure / WIDEST, pressure * WIDEST, ask.settings.points)
@@ -273,11 +286,21 @@ class Made:
             found |= self._late_numbers
         return found | self._sweep()
 
+    @property
+    def _window(self) -> float:
+        """Time in s from which on the motion of a block is taken for its end."""
+        window = max(0.0, self.duration - 0.5 * USUAL_PERIODS * 2.0 * math.pi / self.normal.natural_frequency)
+        return min(window, 0.75 * self.duration)
+
+    @property
+    def _late(self) -> Motion:
+        """The end of the motion of a block."""
+        return self.motion.after(self._window)
+
     @cached_property
     def _late_numbers(self) -> dict[str, float]:
         """What the end of the motion of a block comes to."""
-        window = max(0.0, self.duration - 0.5 * USUAL_PERIODS * 2.0 * math.pi / self.normal.natural_frequency)
-        return self.run.numbers(min(window, 0.75 * self.duration))
+        return self.run.numbers(self._window)
 
     def _map(self) -> dict[str, Any]:
         """Growth rates over friction and damping, both from nothing to twice what is asked, or what flutters at all."""
@@ -343,10 +366,36 @@ class Made:
                     "integration, damp it. Start about to slide (dynamics.start, --start sliding), or smooth friction less (dynamics.smoothing, --smoothing)."
                 )
                 made.append(Advice("warning", "vibration of the motion", text))
+            made += self._of_the_end()
         return tuple(made)
+
+    def _of_the_end(self) -> list[Advice]:
+        """Whether the apparent friction is that of a steady state, and the phase of the vibration one of the equations."""
+        made, late, numbers = [], self._late, self._late_numbers
+        spring = late["spring_force"]
+        slope = np.polyfit(late.time - late.time[0], spring, 1)[0]
+        change = float(slope * np.ptp(late.time)) / max(abs(float(spring.mean())), 1e-12 * self.load)
+        if math.isnan(numbers["stick_slip_period"]) and abs(change) > DRIFTS:
+            how = "runs backwards" if change < 0.0 else "is still dragged along"
+            text = (
+                f"The block {how} in the time of the apparent friction: the spring force changes by {percent(change)} over the last "
+                f"{show(float(np.ptp(late.time)), 's', 3)}, so that its mean is not that of a steady state. Take a longer duration (dynamics.duration, --duration)."
+            )
+            made.append(Advice("warning", "window of the motion", text))
+        grows = self.block.stability.margin > 0.0 and numbers["penetration_vibration"] >= QUIET
+        if grows and (self.ask.settings.disturbance == 0.0 or numbers["smallest_normal_force"] <= 0.0):
+            why = (
+                "The vibration grew from errors of rounding alone"
+                if self.ask.settings.disturbance == 0.0
+                else "The block loses contact in an unstable vibration"
+            )
+            text = f"{why}: its phase hangs on rounding. Only means and extremes can be relied on, not the time of an event."
+            made.append(Advice("note", "phase of the motion", text))
+        return made
 
 
 def _cycles(motion: Motion) -> dict[str, float]:
-    """Mean period of stick-slip, from the times at which slip begins; NaN without at least two."""
-    starts = [event.time for event in motion.events if event.kind == "slip"]
+    """Mean period of stick-slip, from the times at which slip begins after the block has stuck; NaN without at least two."""
+    kinds = ["stick" if motion["sliding_speed"][0] == 0.0 else "slip", *(event.kind for event in motion.events)]
+    starts = [e.time for e, before in zip(motion.events, kinds, strict=False) if (before, e.kind) == ("stick", "slip")]
     return {"stick_slip_period": float(np.diff(starts).mean()) if len(starts) > 1 else math.nan}

@@ -161,7 +161,8 @@ class Part:
     """Base of all parts, which hold no state.
 
     A part is asked for by its ``table`` in the document, of which one part declares the ``settings`` and others may share them;
-    without a table it is always asked for. A table with defaults for everything may be ``in_every_document``. The part is computed after the
+    without a table it is always asked for. A table with defaults for everything may be ``in_every_document``. Where
+    what an ``essential`` part asks for cannot be computed, the run fails; of others that is a finding. The part is computed after the
     solve, in the order of the registry, and reads what the parts before it have found.
     """
 
@@ -170,6 +171,7 @@ class Part:
     table: ClassVar[str] = ""
     settings: ClassVar[type[Settings] | None] = None
     in_every_document: ClassVar[bool] = False
+    essential: ClassVar[bool] = False
     quantities: ClassVar[tuple[Quantity, ...]] = ()
 
     def settings_in(self, document: Any) -> Any:

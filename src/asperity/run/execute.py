@@ -16,7 +16,7 @@ from ..contact.operators import Operator, prepare_operator
 from ..contact.result import ContactResult, stiffness_of
 from ..contact.solve import Keep, solve, steps
 from ..contact.state import InterfaceState
-from ..core.errors import AsperityError
+from ..core.errors import AsperityError, ConvergenceError
 from ..core.quantity import Labelled
 from ..core.status import Advice, Status
 from ..core.status import Outcome as Ended
@@ -276,7 +276,7 @@ def analysed(
 def _found(
     asks: Mapping[str, Any], solved: Solved, known: tuple[Part, ...]
 ) -> tuple[dict[str, Found], tuple[Advice, ...]]:
-    """What the parts find in a ``solved`` contact; a part that fails is a finding and ends no other."""
+    """What the parts find in a ``solved`` contact; a part that fails is a finding and ends no other, unless it is essential."""
     found: dict[str, Found] = {}
     failed: list[Advice] = []
     for part in known:
@@ -284,8 +284,12 @@ def _found(
             try:
                 found[part.name] = part.compute(asks[part.name], replace(solved, found=found))
             except Exception as error:
-                if isinstance(error, MemoryError):
+                if isinstance(error, MemoryError) or (part.essential and isinstance(error, AsperityError)):
                     raise
+                if part.essential:
+                    raise ConvergenceError(
+                        f"{part.title} could not be computed: {type(error).__name__}: {error}"
+                    ) from error
                 kind = "" if isinstance(error, AsperityError) else f"{type(error).__name__}: "
                 text = f"{part.title} could not be computed: {kind}{' '.join(str(error).split())}"
                 failed.append(Advice("warning", part.name.replace("_", " "), text))

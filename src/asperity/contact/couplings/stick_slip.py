@@ -74,13 +74,15 @@ class StickSlip:
     traction
         Shear traction (2, nx, ny) on the body in Pa.
     slip_increment, slip
-        Slip (2, nx, ny) of the counter body over the body in this step, and since the start of the history, in m.
+        Slip (2, nx, ny) of the counter body over the body in this step, and since the start of the history, in m. Under a force that is all that
+        friction bears it is the least that slides every point.
     tangential_displacement
         Displacement (2, nx, ny) of the body relative to the counter body along the surface, elastic, in m.
     shear_displacement
         Normal displacement (nx, ny) in m by the shear traction.
     shift_x, shift_y, twist
-        Rigid displacement (m) and rotation (rad) of the counter body since the start.
+        Rigid displacement (m) and rotation (rad) of the counter body since the start; the displacement is NaN once a tangential force was all that
+        friction bears, since it is not determined then.
     force_x, force_y, torque
         Tangential force (N) and torque about the centre of the grid (N·m) on the body.
     friction_limit
@@ -137,6 +139,16 @@ class StickSlip:
     def slipping(self) -> BoolArray:
         """(nx, ny), True where the surfaces slipped in this step."""
         return np.asarray(np.any(self.slip_increment != 0.0, axis=0))
+
+    def work_by(self, moved: RealArray, displaced: RealArray, pixel: float) -> float:
+        """Work (J) of tangential force and torque while the counter body ``moved`` (3,), on points of ``pixel`` m².
+
+        ``displaced`` (2, nx, ny) in m is what the step added to the displacement along the surface. Where the shift is not determined it is that of
+        the slip stated.
+        """
+        if np.isnan(moved).any():
+            return pixel * float(np.einsum("kij,kij->", self.traction, self.slip_increment + displaced))
+        return float(np.array([self.force_x, self.force_y, self.torque]) @ moved)
 
     @property
     def memory(self) -> Memory:
@@ -286,7 +298,7 @@ class StickSlipCoupling(Coupling):
         zero = np.zeros((2, *posed.profile.shape))
         if not memory:
             control = posed.tangential or Shift()
-            self._check(control, posed)
+            self._check(control, posed, np.zeros(3))
             start = zero if self.held is None else self.held.start
             return _Before(zero, start, zero, np.zeros(3), 0.0, control)
         traction = np.stack([memory["traction_x"], memory["traction_y"]])
@@ -295,7 +307,7 @@ class StickSlipCoupling(Coupling):
         shift, force = np.asarray(memory["shift"], dtype=float), np.asarray(memory["force"], dtype=float)
         kept = Shift(*shift) if np.isnan(force).any() else TangentialForce(*force)
         control = posed.tangential or kept
-        self._check(control, posed)
+        self._check(control, posed, shift)
         return _Before(traction, displacement, slip, shift, float(memory["dissipated"]), control)
 
     def _displacement_before(self, traction: RealArray, pressure: RealArray | None) -> RealArray:
@@ -305,11 +317,22 @@ class StickSlipCoupling(Coupling):
         found = self.operator.displacement(traction)
         return found if pressure is None else found + self.operator.drawn(pressure)
 
+    def _displaced(self, traction: RealArray, pressure: RealArray) -> RealArray:
+        """Displacement (2, nx, ny) in m along the surface at the end of the step."""
+        found = self.operator.displacement(traction) + self.operator.drawn(pressure)
+        return found if self.held is None else found + self.held.displacement
+
     def _free(self, before: _Before) -> RealArray:
         """Displacement (2, nx, ny) in m before the step less what the past leaves at its end."""
         return before.displacement if self.held is None else before.displacement - self.held.displacement
 
-    def _check(self, control: Tangential, posed: Posed) -> None:
+    def _check(self, control: Tangential, posed: Posed, before: RealArray) -> None:
+        if isinstance(control, Shift) and np.isnan(before).any():
+            raise NoSolutionError(
+                "shift must follow a step whose shift is known, but the tangential force of the step before was all that friction bears: how far "
+                "the body slid is not determined. Prescribe a Shift(...) in that step, or a smaller TangentialForce(...).",
+                subject="shift",
+            )
         if isinstance(control, Shift) and control.twist and any(posed.operator.boundary.wraps):
             raise InputError(
                 f"twist must be zero where the contact repeats, but is {control.twist:g} rad. Use the boundary Free()."
@@ -357,7 +380,7 @@ class StickSlipCoupling(Coupling):
             return posed if posed.solvable else None
         force = np.array([before.control.x, before.control.y])
         most = float(self.law.bound(_double(contact.pressure)).sum()) * grid.pixel_area
-        if float(np.hypot(*force)) >= _GROSS * most:
+        if slides_freely(before.control, most):
             return None
         posed = JointProblem(normal, self.operator, self.law, self._free(before), force / grid.area)
         return posed if posed.solvable else None
@@ -395,8 +418,8 @@ class StickSlipCoupling(Coupling):
         else:
             force = np.array([before.control.x, before.control.y])
             most = float(bound.sum()) * grid.pixel_area
-            size = float(np.hypot(*force))
-            if size >= _GROSS * most:
+            size = before.control.magnitude
+            if slides_freely(before.control, most):
                 solution = self._gross(bound, target, force / size if size else force)
                 return note.with_solution(solution)
             mean = force / grid.area
@@ -441,39 +464,60 @@ class StickSlipCoupling(Coupling):
         before, grid = note.before, self.operator.grid
         bound = self.law.bound(_double(contact.pressure))
         limit = float(bound.sum()) * grid.pixel_area
-        self._require_borne(before.control, limit)
+        self._require_borne(before.control, limit, contact)
         known = note.solution is not None and note.solved_for is contact.pressure
         if not known or note.solution.deviation.error > self.solver.tolerance:  # type: ignore[union-attr]
             note = self._solved(note, _double(contact.pressure), self.solver)
         found = self._outcome(replace(exchange, note=note), contact, limit)
         return found.memory, found
 
-    def _require_borne(self, control: Tangential, limit: float) -> None:
-        if isinstance(control, TangentialForce) and control.magnitude > limit * (2.0 - _GROSS):
+    def _require_borne(self, control: Tangential, limit: float, contact: Contact) -> None:
+        if not isinstance(control, TangentialForce) or control.magnitude <= limit * (2.0 - _GROSS):
+            return
+        if limit == 0.0:
+            why = "friction is zero" if contact.pressure.any() else "the surfaces do not touch"
             raise NoSolutionError(
-                f"tangential force must be at most {limit:.6g} N, which friction bears under this load, but is "
-                f"{control.magnitude:.6g} N: the body slides without end. Prescribe a Shift(...) instead.",
+                f"tangential force must be zero where {why}, but is {control.magnitude:.6g} N: nothing bears it. Prescribe a Shift(...) instead.",
                 subject="tangential force",
             )
+        raise NoSolutionError(
+            f"tangential force must be at most {limit:.6g} N, which friction bears under this load, but is "
+            f"{control.magnitude:.6g} N: the body slides without end. Prescribe a Shift(...) instead.",
+            subject="tangential force",
+        )
+
+    def _slip(self, solution: TangentialSolution, before: _Before, pressure: RealArray) -> RealArray:
+        """Slip of the step (2, nx, ny) in m, also of the points that touch and bear no shear."""
+        bare = (pressure > 0.0) & (self.law.bound(pressure) == 0.0)
+        if not bare.any():
+            return solution.slip
+        moved = (
+            _vector(before.control) - before.shift
+            if isinstance(before.control, Shift)
+            else np.append(solution.shift, 0.0)
+        )
+        residual = self._free(before) - self.operator.drawn(pressure) - self.operator.displacement(solution.traction)
+        return np.where(bare, residual + shift_field(self.operator.grid, moved), solution.slip)
 
     def _outcome(self, exchange: Exchange, contact: Contact, limit: float) -> StickSlip:
         note: _Note = exchange.note
         before, grid, pressure, solution = note.before, self.operator.grid, _double(contact.pressure), note.solution
         assert solution is not None
         control, traction = before.control, solution.traction
-        moved = _vector(control) if isinstance(control, Shift) else before.shift + np.append(solution.shift, 0.0)
-        displacement = self.operator.displacement(traction) + self.operator.drawn(pressure)
-        if self.held is not None:
-            displacement += self.held.displacement
-        density = np.einsum("kij,kij->ij", traction, solution.slip)
+        step = _vector(control) - before.shift if isinstance(control, Shift) else np.append(solution.shift, 0.0)
+        moved = _vector(control) if isinstance(control, Shift) else before.shift + step
+        if slides_freely(control, limit) and pressure.any():
+            moved = np.array([np.nan, np.nan, moved[2]])
+        slip, displacement = self._slip(solution, before, pressure), self._displaced(traction, pressure)
+        density = np.einsum("kij,kij->ij", traction, slip)
         dissipated = float(density.sum()) * grid.pixel_area
         force_x, force_y, torque = resultant(grid, traction)
         return StickSlip(
             law=self.law,
             tangential=control,
             traction=traction,
-            slip_increment=solution.slip,
-            slip=before.slip + solution.slip,
+            slip_increment=slip,
+            slip=before.slip + slip,
             tangential_displacement=displacement,
             shear_displacement=exchange.x,
             shift_x=float(moved[0]),
@@ -488,11 +532,16 @@ class StickSlipCoupling(Coupling):
             total_dissipated=before.total + dissipated,
             tangential_energy=0.5 * float(np.einsum("kij,kij->", traction, displacement)) * grid.pixel_area,
             duality_gap=solution.deviation.gap,
-            complementarity=_complementarity(contact, self.law.bound(pressure), solution, moved - before.shift, grid),
+            complementarity=_complementarity(contact, self.law.bound(pressure), solution, step, grid),
             iterations=note.steps,
             fft_pairs=note.pairs,
             status=solution.status,
         )
+
+
+def slides_freely(control: Tangential, limit: float) -> bool:
+    """Whether ``control`` is a force that is all of the ``limit`` (N) that friction bears: how far the body then slides is not determined."""
+    return isinstance(control, TangentialForce) and control.magnitude >= _GROSS * limit
 
 
 _SLIDES = Status(Outcome.CONVERGED, "All points slide.")
