@@ -1,7 +1,8 @@
 """A long step of an adhesive contact, divided by the range of the attraction so that the contact stays on its branch.
 
 Newton's method and the descent of the energy find the equilibrium downhill from where they start. A step of more than about a range may start behind
-the ridge that ends another branch. Parts of half a range follow the branch; where the work agrees with the change of the energy they grow.
+the ridge that ends another branch. Parts of half a range follow the branch. A part whose work does not agree with the change of the energy is divided further,
+to an eighth of the range; where both agree and the bodies are pressed together parts grow.
 """
 
 from __future__ import annotations
@@ -25,10 +26,10 @@ Solved = Callable[[Control, InterfaceState | None], ContactResult]
 PART = 0.5
 """Longest part over the range, or over the least gap where that is more: a Lennard-Jones contact of Tabor's parameter 1.5 kept its branch with 0.9."""
 
-_SMOOTH = 0.1
+_SMOOTH = 0.04
 """Share of |ΔF Δδ| by which the trapezoidal work of a smooth part may miss the change of the energy; a parabola misses less."""
 
-_LEVEL = 0.02
+_LEVEL = 0.005
 """Share of |F Δδ| that it may miss besides, for at the largest pull ΔF is zero."""
 
 _REFINED = 0.25
@@ -84,25 +85,26 @@ class _Failed(Exception):
 
 def _followed(law: Adhesion, way: _Way, control: Control, state: InterfaceState, solved: Solved) -> ContactResult:
     """The last of the parts, with what all of them lost."""
-    at, done, share = state, 0.0, 1.0 if way.force else _part(way, law, state.memory["adhesion"])
+    at, done, share = state, 0.0, _part(way, law, state.memory["adhesion"])
     found: list[ContactResult] = []
     while done < 1.0:
         known = at.memory["adhesion"]
         longest = _part(way, law, known)
-        least = min(_SHARES if way.force else _REFINED * longest, 1.0)
+        least = _SHARES if way.force else _REFINED * longest
         share = min(share, 1.0 - done)
         last = done + share >= 1.0 - 1e-9
         result = _tried(solved, control if last else way.control(done + share), at)
         smooth = result is not None and _is_smooth(result, known)
-        too_far = result is None or result.require_adhesion().jumped
-        if not (smooth or (not too_far and _is_short(way, law, result, known, share, longest))) and share > least:
+        followed = smooth or (way.force and result is not None and _is_short(law, result, known))
+        if not followed and share > least:
             share = max(0.5 * share, least)
             continue
         if result is None:
             raise _Failed
         found.append(result)
-        at, done = result.state, done + share
-        share = 2.0 * share if smooth else max(share, longest if not way.force else share)
+        at, done = result.state, 1.0 if last else done + share
+        grows = smooth and (way.force or result.require_adhesion().external_force > 0.0 < float(known["force"]))
+        share = 2.0 * share if grows else min(2.0 * share, longest)
     return _as_one(found, state)
 
 
@@ -114,15 +116,10 @@ def _tried(solved: Solved, control: Control, state: InterfaceState) -> ContactRe
     return result if result.converged else None
 
 
-def _is_short(
-    way: _Way, law: Adhesion, result: ContactResult | None, known: Mapping[str, RealArray], share: float, longest: float
-) -> bool:
-    """Whether a part moved the bodies by no more than the longest part."""
-    if result is None:
-        return False
-    if not way.force:
-        return share <= longest * (1.0 + 1e-9)
-    return abs(result.approach - float(known["approach"])) <= _length(law, known)
+def _is_short(law: Adhesion, result: ContactResult, known: Mapping[str, RealArray]) -> bool:
+    """Whether a part moved the bodies by no more than the longest part, without a jump."""
+    short = abs(result.approach - float(known["approach"])) <= _length(law, known)
+    return short and not result.require_adhesion().jumped
 
 
 def _is_smooth(result: ContactResult, known: Mapping[str, RealArray]) -> bool:
