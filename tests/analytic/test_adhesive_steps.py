@@ -69,7 +69,7 @@ def there_and_back(steps: int) -> np.ndarray:
 
 @pytest.mark.parametrize("kind", ["force", "mean gap", "approach"])
 def test_every_control_follows_the_branch(kind):
-    problem = ball(1.5, 32, periodic=kind == "mean gap")
+    problem = ball(1.0, 32, periodic=kind == "mean gap")
     unit, z = np.pi * problem.adhesion.work, SPACING
     starts = {"force": asp.Force(2.0 * unit), "approach": asp.Approach(3.0 * z), "mean gap": asp.MeanGap(3.5 * z)}
     make = {
