@@ -15,7 +15,7 @@ RANGE = WORK / strength_of(1.5)
 LAWS = (
     ExponentialAdhesion(WORK, RANGE),
     LinearAdhesion(WORK, RANGE),
-    DugdaleAdhesion(WORK, RANGE),
+    DugdaleAdhesion(WORK, RANGE, smoothing=0.0),
     VanDerWaalsAdhesion(WORK, 2.0 * RANGE),
     asp.JKRAdhesion(WORK),
 )

@@ -29,6 +29,23 @@ def test_pull_off_of_maugis_transition(row):
     assert pull_off == pytest.approx(row["minus_P_pulloff_norm"], rel=5e-3)
 
 
+@pytest.mark.parametrize("smoothing", [0.0, None, 1.0])
+@pytest.mark.parametrize(("tabor", "points", "size"), [(0.3, 20, 8.0), (0.3, 48, 8.0), (1.0, 38, 4.0), (1.0, 60, 4.0)])
+def test_a_resolved_pull_off_is_right_to_a_hundredth(tabor, points, size, smoothing):
+    """A step is 4 to 11 % off where the cohesive length has as many as 41 and 6.8 pixels; what is called resolved is Maugis' within 1e-2."""
+    transition = 1.157 * tabor
+    exact = maugis_pull_off(transition)
+    more = {} if smoothing is None else {"smoothing": smoothing}
+    law = DugdaleAdhesion(WORK, WORK / strength_of(transition), **more)
+    positions = float(exact.approach) + np.array([0.5, 0.2, 0.1, 0.05, 0.0, -0.05, -0.1, -0.15])
+    solved = asp.solve(sphere(points, size, law), asp.History([asp.FixedGrips(float(d) * APPROACH) for d in positions]))
+    forces = -np.array(solved.external_force) / FORCE
+    resolved = solved.steps[int(forces.argmax())].adhesion.resolved
+    assert resolved == ((smoothing != 0.0 and points in (48, 60)) or (smoothing == 1.0 and points == 38))
+    if resolved:
+        assert forces.max() == pytest.approx(-float(exact.load), rel=1e-2)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("tabor", "points", "size", "smoothing"),

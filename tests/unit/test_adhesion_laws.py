@@ -27,7 +27,7 @@ CUT_WORK = 0.84375
 """Work of the van der Waals law cut at 4 D0 over that of the uncut one, in whose units the rows are."""
 
 LAWS = {
-    "dugdale": DugdaleAdhesion(WORK, RANGE),
+    "dugdale": DugdaleAdhesion(WORK, RANGE, smoothing=0.0),
     "linear": LinearAdhesion(WORK, RANGE),
     "exponential": ExponentialAdhesion(WORK, RANGE),
     "van_der_waals_wall": VanDerWaalsAdhesion(WORK, 2.0 * RANGE),

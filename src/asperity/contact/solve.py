@@ -19,6 +19,7 @@ from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Progress, Status
 from ..solids.compliance.creep import contact_creep
 from ..solids.layers import relaxes
+from .adhesive_steps import divides, in_ranges
 from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
 from .couplings.adhesion import AdhesionCoupling
 from .couplings.balance import settle_forces
@@ -340,13 +341,16 @@ class Prepared:
         started = time.perf_counter()
         if self.in_time is not None:
             return self.in_time.step(step, state)
-        result = self.result(self.settled(step, state), state, time.perf_counter() - started)
-        if result.converged or self.problem.plastic_flow is None:
-            return result
 
         def solved(control: Control, at: InterfaceState | None) -> ContactResult:
             return self.result(self.settled(Step(control, step.tangential), at), at, time.perf_counter() - started)
 
+        if state is not None and step.tangential is None and divides(self.problem, state):
+            require_adhesion(self.problem, step.normal)
+            return in_ranges(self.problem, step.normal, state, solved)
+        result = solved(step.normal, state)
+        if result.converged or self.problem.plastic_flow is None:
+            return result
         return in_parts(step.normal, state, result, solved)
 
     def result(

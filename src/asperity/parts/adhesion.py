@@ -47,9 +47,6 @@ Law = Annotated[str, Choice({name: name for name in LAWS})]
 
 MachineStiffness = Annotated[float, Number("surface tension", above=0.0)]
 
-USUAL_SMOOTHING = 0.2
-"""Share of the range over which the attraction of Dugdale's law falls, in documents: no front that advances pixel by pixel."""
-
 USUAL_STEPS = 20
 """Steps of each way of approach and parting, if not said otherwise."""
 
@@ -159,7 +156,7 @@ class AdhesionSettings(Settings):
         if self.law == "lennard-jones":
             return LennardJonesAdhesion(work, 16.0 * reach / (9.0 * math.sqrt(3.0)))
         if self.law == "dugdale":
-            return DugdaleAdhesion(work, reach, USUAL_SMOOTHING)
+            return DugdaleAdhesion(work, reach)
         return LinearAdhesion(work, reach) if self.law == "linear" else ExponentialAdhesion(work, reach)
 
 
@@ -308,7 +305,7 @@ def _criteria(problem: ContactProblem) -> dict[str, float]:
 
 def _findings(solved: Solved) -> tuple[Advice, ...]:
     """A zone that the grid does not resolve, an unstable end, steps that failed."""
-    from ..contact.couplings.adhesion import PINNED, RESOLVED, RESOLVED_RADIUS
+    from ..contact.couplings.adhesion import PINNED, RESOLVED_RADIUS
 
     found, made = solved.result.require_adhesion(), []
     if not found.resolved and found.short_range:
@@ -323,9 +320,17 @@ def _findings(solved: Solved) -> tuple[Advice, ...]:
         effect = (
             "single pixels snap, and hysteresis and pull-off are those of the grid" if pinned else "pull-off may be off"
         )
+        where = (
+            f"the cohesive length E*w/σ0² is {show(found.cohesive_length, 'm', 3)}, {found.pixels_per_length:.2g} pixels, and should be at "
+            f"least {found.pixels_needed:.3g}"
+        )
+        if found.pixels_per_length >= found.pixels_needed:
+            where = (
+                f"the mean radius of contact spots with their zone is {show(found.zone_radius, 'm', 3)}, {found.pixels_per_radius:.2g} pixels, "
+                f"and should be at least {found.radius_needed:.3g}"
+            )
         text = (
-            f"The attracting zone is not resolved: the cohesive length E*w/σ0² is {show(found.cohesive_length, 'm', 3)}, "
-            f"{found.pixels_per_length:.2g} pixels, and should be at least {RESOLVED:g}; {effect}. Take a pixel of at most "
+            f"The attracting zone is not resolved: {where}; {effect}. Take a pixel of at most "
             f"{show(found.needed_pixel, 'm', 3)}, or a larger range at the same work of adhesion."
         )
         made.append(Advice("warning", "adhesive zone", text))

@@ -36,8 +36,14 @@ TOLERANCE = 1e-5
 _FINAL = 1e-13
 """Error of the last normal solve: the attraction changes with the gap, whose error goes with its root."""
 
-RESOLVED = 5.0
-"""Pixels that the cohesive length must span for the pull-off to be right to 1e-3 (an error of second order)."""
+RESOLVED, RESOLVED_ZONE = 5.0, 6.0
+"""Least pixels in the cohesive length, and in the radius of a contact spot with its zone, for a pull-off to 1e-2 of a law that falls over its range."""
+
+FALL = 2.0
+"""Pixels over the share of the range in which a law falls that both must have for that: below it the front of the zone advances pixel by pixel."""
+
+STEP, STEP_RADIUS = 75.0, 50.0
+"""Pixels from which on even a step holds 1e-2: its error is 0.7 pixels over the cohesive length, half a pixel over the radius of the zone."""
 
 RESOLVED_RADIUS = 20.0
 """Pixels in the radius of a contact spot from which on the pull-off without a range is right to 8 %; its error is of first order."""
@@ -113,6 +119,8 @@ class AdhesiveContact(Shown):
     dissipated_error
         Bound of the error of ``dissipated`` in J: of the rule half of |ΔF Δδ|, that of a force anywhere between those before and after; without a
         jump what the rule misses, in which a smaller jump may hide.
+    zone_radius
+        The same as ``spot_radius`` of spots with the zone that attracts around them, each weighted by its area.
     """
 
     law: Adhesion
@@ -138,6 +146,7 @@ class AdhesiveContact(Shown):
     status: Status
     spot_radius: float = math.nan
     dissipated_error: float = math.nan
+    zone_radius: float = math.nan
 
     @property
     def short_range(self) -> bool:
@@ -166,29 +175,49 @@ class AdhesiveContact(Shown):
         return self.spot_radius if self.short_range else self.cohesive_length
 
     @property
-    def _pixels_needed(self) -> float:
-        return RESOLVED_RADIUS if self.short_range else RESOLVED
+    def pixels_needed(self) -> float:
+        """Pixels that ``resolving_length`` must span: for a pull-off to 1e-2, without a range to 8 %."""
+        return RESOLVED_RADIUS if self.short_range else _pixels(self.law, RESOLVED, STEP)
+
+    @property
+    def radius_needed(self) -> float:
+        """Pixels that the radius of spots with their zone must span for the same; zero without a range."""
+        return 0.0 if self.short_range else _pixels(self.law, RESOLVED_ZONE, STEP_RADIUS)
 
     @property
     def pixels_per_length(self) -> float:
-        """That length over the pixel."""
+        """``resolving_length`` over the pixel."""
         return self.resolving_length / self.pixel
 
     @property
+    def pixels_per_radius(self) -> float:
+        """Radius of spots with their zone over the pixel; infinite where there are none."""
+        return self.zone_radius / self.pixel if self.zone_radius > 0.0 else math.inf
+
+    @property
     def resolved(self) -> bool:
-        """Whether the grid resolves it: ``RESOLVED`` pixels in ℓ, ``RESOLVED_RADIUS`` in the radius of a spot; also where nothing touches."""
-        apart = self.short_range and self.spot_radius == 0.0
-        return apart or self.pixels_per_length >= self._pixels_needed
+        """Whether the grid resolves both; also where nothing touches without a range, or nothing attracts with one."""
+        if self.short_range and self.spot_radius == 0.0:
+            return True
+        return self.pixels_per_length >= self.pixels_needed and self.pixels_per_radius >= self.radius_needed
 
     @property
     def needed_pixel(self) -> float:
         """Largest pixel in m that resolves it; NaN where there is nothing to resolve."""
-        return self.resolving_length / self._pixels_needed if self.resolving_length > 0.0 else math.nan
+        length = self.resolving_length / self.pixels_needed if self.resolving_length > 0.0 else math.nan
+        if self.short_range or not self.zone_radius > 0.0:
+            return length
+        return min(length, self.zone_radius / self.radius_needed)
 
     @property
     def stable(self) -> bool:
         """Whether the energy is at a minimum."""
         return self.margin > 0.0
+
+
+def _pixels(law: Adhesion, least: float, most: float) -> float:
+    """Pixels that a ``law`` with a range needs, of those of a gentle fall and of a step: ``FALL`` over the share of the range in which it falls."""
+    return min(max(least, FALL * law.steepest * law.range / law.strength), most)
 
 
 def method_of(law: Adhesion) -> type[MajoriseMinimise] | type[MovingFront] | type[SoftCoreNewton]:
@@ -401,9 +430,9 @@ class AdhesionCoupling(Coupling):
         """The change of the attraction, and the pixel that it needs where the grid does not resolve it."""
         length, pixel = cohesive_length(self.law, self.E_star), max(self.operator.grid.pixels)
         text = f"The attraction still changes by {exchange.residual:.1e} of its largest value"
-        if length == 0.0 or pixel * RESOLVED <= length:
+        if length == 0.0 or pixel <= (least := length / _pixels(self.law, RESOLVED, STEP)):
             return text
-        return f"{text}, whose zone takes a pixel of at most {length / RESOLVED:.3g} m where it is {pixel:.3g} m,"
+        return f"{text}, whose zone takes a pixel of at most {least:.3g} m where it is {pixel:.3g} m,"
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, AdhesiveContact]:
         """Memory of attraction and energies; what adhesion did."""
@@ -448,7 +477,8 @@ class AdhesionCoupling(Coupling):
             newton_steps=solution.newton_steps,
             fft_pairs=solution.fft_pairs,
             status=solution.status,
-            spot_radius=self._spot_radius(pressure > 0.0),
+            spot_radius=self._radius(pressure > 0.0),
+            zone_radius=self._radius((pressure > 0.0) | self._zone(pressure, gap), weighted=True),
         )
 
     def _lost(
@@ -460,12 +490,14 @@ class AdhesionCoupling(Coupling):
             return 0.0, abs(lost), jumped
         return lost, error, jumped and not (math.isinf(self.law.strength) and _creeps(before, gap))
 
-    def _spot_radius(self, touching: BoolArray) -> float:
+    def _radius(self, inside: BoolArray, *, weighted: bool = False) -> float:
+        """Radius in m of the mean spot of the points ``inside``, of the mean ``weighted`` by area if asked for."""
         grid = self.operator.grid
-        spots = measure.contact_spots(touching, wraps=self.operator.boundary.wraps)
+        spots = measure.contact_spots(inside, wraps=self.operator.boundary.wraps)
         if not spots.size:
             return 0.0
-        area = float(spots.mean()) * grid.pixel_area
+        mean = float((spots.astype(float) ** 2).sum() / spots.sum()) if weighted else float(spots.mean())
+        area = mean * grid.pixel_area
         if 1 in grid.shape:
             return 0.5 * area / grid.size[grid.shape.index(1)]
         return math.sqrt(area / math.pi)

@@ -94,6 +94,10 @@ class _BesideWall:
         return cls(work, require.magnitude(work, "work of adhesion (J/m^2)") / strength)  # type: ignore[call-arg]
 
 
+DUGDALE_SMOOTHING = 0.2
+"""Usual share of the range over which the attraction of Dugdale's law falls: a step takes seven times as many pixels (``couplings.adhesion``)."""
+
+
 @dataclass(frozen=True)
 class DugdaleAdhesion(_BesideWall):
     """σ = σ0 for g < ϱ, else 0, with σ0 = w/ϱ (Maugis 1992).
@@ -106,12 +110,13 @@ class DugdaleAdhesion(_BesideWall):
         ϱ in m, > 0, beyond which there is no attraction.
     smoothing
         Share ε of the range, from 0 to 2, over which the attraction falls to zero, from ϱ(1 - ε/2) to ϱ(1 + ε/2), with the
-        same work. On a grid the step makes the zone advance pixel by pixel; an ε of 0.2 takes away most of that.
+        same work; 0.2 by default. A step, zero, makes the zone advance pixel by pixel on a grid: it takes seven times as many
+        pixels for a pull-off to 1e-2.
     """
 
     work: float
     range: float
-    smoothing: float = 0.0
+    smoothing: float = DUGDALE_SMOOTHING
     name: ClassVar[str] = "Dugdale"
     citation_keys: ClassVar[tuple[str, ...]] = ("Maugis1992",)
 
