@@ -17,7 +17,7 @@ from contact_cases import elastic, rough
 
 import asperity as asp
 from asperity.contact.boundary import Boundary
-from asperity.contact.result import certify
+from asperity.contact.certificate import certify
 from asperity.contact.solvers import (
     ActiveSet,
     ConjugateGradient,

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import asperity as asp
-from asperity.contact.result import Certificate, certify
+from asperity.contact.certificate import Certificate, certify
 from asperity.contact.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, Solution, run
 from asperity.contact.solvers.protocol import SolverState, best_level, duality_gap, relative_error, scaled_to_load
 from asperity.core.arrays import RealArray

@@ -14,13 +14,14 @@ from ..solids.layers import Layered, RigidBase, materials_of, surface_material
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
 from ..theories.wet.meniscus import wetting_factor
+from .certificate import LARGEST_DUALITY_GAP
 from .couplings.menisci import Menisci
 from .couplings.plastic_flow import NAME as PLASTIC_FLOW
 from .couplings.plastic_flow import SMALL_STRAIN, PlasticBody, PlasticFlowCoupling
 from .couplings.stick_slip import slides_freely
 from .laws import LayeredHardness, LimitByDepth
 from .problem import ContactProblem, Control, Force, MeanPressure, mean_pressure
-from .result import LARGEST_DUALITY_GAP, ContactResult
+from .result import ContactResult
 
 LARGEST_SLOPE = 0.3
 """Half-space theory neglects slopes squared: 9 % at 0.3."""

@@ -20,13 +20,15 @@ from ..core.status import Outcome, Progress, Status
 from ..solids.compliance.creep import contact_creep
 from ..solids.layers import relaxes
 from .adhesive_steps import divides, in_ranges
+from .certificate import LARGEST_DUALITY_GAP, Certificate, certify
 from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
 from .couplings.adhesion import AdhesionCoupling
 from .couplings.balance import settle_forces
 from .couplings.creep import CreepCoupling, Remembering, remembering
-from .couplings.driver import Rounds, Settled, settle
+from .couplings.driver import Rounds, Settled
 from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
 from .couplings.hardness import ConstantHardness, DepthHardness
+from .couplings.held import settle_position
 from .couplings.menisci import TOLERANCE as MENISCUS_TOLERANCE
 from .couplings.menisci import MeniscusCoupling
 from .couplings.plastic_flow import PlasticFlowCoupling
@@ -56,7 +58,7 @@ from .problem import (
     mean_pressure,
     require_adhesion,
 )
-from .result import LARGEST_DUALITY_GAP, Certificate, ContactResult, assemble, certify
+from .result import ContactResult, assemble
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
 from .state import InterfaceState
@@ -388,7 +390,7 @@ def settled_with(
     Arguments and errors are those of ``settle``.
     """
     both = {AdhesionCoupling, MeniscusCoupling} <= {type(coupling) for coupling in couplings}
-    way = settle_forces if both and posed.balances_force else settle
+    way = settle_forces if both and posed.balances_force else settle_position
     return way(posed, couplings, memories, solver, **options)
 
 

@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from ..contact.certificate import Certificate
 from ..contact.couplings.menisci import Menisci
 from ..contact.couplings.sliding import GrossSliding
 from ..contact.history import HistoryResult
 from ..contact.laws import Coulomb
 from ..contact.problem import ContactProblem
-from ..contact.result import AREA_ERROR, WET_SCALARS, Certificate, ContactResult
+from ..contact.result import AREA_ERROR, WET_SCALARS, ContactResult
 from ..contact.rolling import RollingContact
 from ..contact.state import InterfaceState
 from ..contact.wetting import LiquidFilm, wetting
@@ -70,8 +71,8 @@ PARTS = ("body", "counter_body", "boundary", "law", "control")
 PHYSICS = ("film", "friction", "adhesion", "plastic_flow")
 """The same for physics that a problem need not have."""
 
-_CHECKS = ("couplings", "rounds", "complementarity")
-"""Entries of the certificate that files of format 1 lack, written as JSON texts."""
+_CHECKS = ("couplings", "rounds", "complementarity", "pressure_error")
+"""Entries of the certificate that older files lack, written as JSON texts."""
 
 _MENISCI = ("external_force", "meniscus_force", "dry_friction", "viscous_force", "feedback")
 """Numbers of the menisci that do not follow from contact and film."""

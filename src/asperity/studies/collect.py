@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..contact.result import Certificate
+from ..contact.certificate import Certificate
 from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions

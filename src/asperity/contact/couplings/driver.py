@@ -14,6 +14,7 @@ from ...core.errors import NoSolutionError
 from ...core.status import NoProgress, Outcome, Progress, Status
 from ..problem import Approach
 from ..solvers.active_set.solver import ActiveSet, Loaded
+from ..solvers.pressure_error import error_for_pressure
 from ..solvers.protocol import Constraint, ContactQP, FixedMean, FixedOffset, Solution, Solver, SolverState, run
 from .position import Position
 from .protocol import Contact, Coupling, Exchange, Foreseeing, Memory, Posed
@@ -88,6 +89,9 @@ _SLOWEST = 0.99
 _TIGHTER = 0.03
 """Factor to the error of the next solve for every round without progress: contacts of thin films differ by little energy.
 The search for a position alone has a bracket instead, and rounding may not allow every load to be solved that finely."""
+
+_RESCUES = 1000
+"""Changes of couplings at most for a load that they cannot bear; each halves a distance, so that some tens suffice."""
 
 _INNER = 0.01
 """Miss of a position over the residual of the others at which, when nested, these move again."""
@@ -175,9 +179,11 @@ def settle(
     *,
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
+    held: bool = False,
 ) -> Settled:
     """Contact that agrees with all ``couplings`` (each with a name of its own, in any order), with their ``memories`` of the step before.
 
+    An approach is ``held`` by its offset where the pressure is bounded; else the load that reaches it is one more unknown.
     The tolerance of ``solver`` is that of the last normal solve; those before are looser.
 
     Raises
@@ -185,7 +191,7 @@ def settle(
     NoSolutionError
         If the load cannot be borne, runs away, or the position has no solution.
     """
-    return _Iteration(posed, couplings, memories, solver, rounds, progress or NoProgress()).settled()
+    return _Iteration(posed, couplings, memories, solver, rounds, progress or NoProgress(), held=held).settled()
 
 
 class _Iteration:
@@ -199,13 +205,14 @@ class _Iteration:
         solver: Solver,
         rounds: Rounds,
         progress: Progress,
+        *,
+        held: bool = False,
     ) -> None:
         self.posed, self.solver, self.rounds = posed, solver, rounds
         self.couplings = {coupling.name: coupling for coupling in couplings}
         self.exchanges = {name: c.begin(posed, memories.get(name, {})) for name, c in self.couplings.items()}
-        by_offset = (
-            isinstance(posed.control, Approach) and not posed.operator.zero_mean_mode
-        )  # as the solver can hold it
+        # as the solver can hold it
+        by_offset = held or (isinstance(posed.control, Approach) and not posed.operator.zero_mean_mode)
         if posed.external_force is None and not by_offset and not any(coupling.positions for coupling in couplings):
             alone = not any(coupling.feedback for coupling in couplings)
             caps = [coupling.share(self.exchanges[name]).cap for name, coupling in self.couplings.items()]
@@ -213,7 +220,7 @@ class _Iteration:
             position = Position(alone, elastic, solver.tolerance)
             self.couplings[position.name], self.exchanges[position.name] = position, position.begin(posed, {})
         self.active = [name for name, coupling in self.couplings.items() if coupling.feedback]
-        self.reached = 0.0
+        self.reached, self.for_pressure = 0.0, np.inf
         self._need()
         self.pressures = [p for p in (posed.earlier, posed.start) if p is not None and p.any()]
         self.residuals: dict[str, list[float]] = {name: [] for name in self.active}
@@ -235,6 +242,10 @@ class _Iteration:
             if not contact.solution.status.converged:
                 return self._ended(contact, count, contact.solution.status)
             moves = self._reply(contact)
+            if tolerance <= self.finest:
+                state, asked = contact.solution.state, self.solver.tolerance
+                wanted = error_for_pressure(contact.qp, state, contact.totals, asked)
+                self.for_pressure = min(self.for_pressure, wanted)
             self._need()
             concerned = [name for name in self.active if not self.nested or (name == Position.name) == moves]
             worst = max((self._ratio(name) for name in concerned), default=0.0)
@@ -296,7 +307,8 @@ class _Iteration:
         """The largest and the smallest error of the normal solves that the couplings allow."""
         needed = min(exchange.accuracy for exchange in self.exchanges.values())
         final = min(exchange.final for exchange in self.exchanges.values())
-        self.loosest, finest = min(_LOOSEST, needed), min(self.solver.tolerance, _FINER * needed, final)
+        self.loosest = min(_LOOSEST, needed)
+        finest = min(self.solver.tolerance, _FINER * needed, final, self.for_pressure)
         self.finest = max(finest, self.reached)
 
     @property
@@ -326,7 +338,7 @@ class _Iteration:
 
     def _posed(self) -> ContactQP:
         """Discrete problem with the shares of all couplings; those that cannot bear the load are raised."""
-        while True:
+        for _ in range(_RESCUES):
             shares = [coupling.share(self.exchanges[name]) for name, coupling in self.couplings.items()]
             profile, self.indentation = self.posed.profile, sum(share.indentation for share in shares)
             cap: float | RealArray = np.inf
@@ -347,6 +359,7 @@ class _Iteration:
             if constraint.mean_pressure <= float(np.mean(cap)):
                 return replace(qp, cap=cap, constraint=constraint)
             self._rescue(constraint.mean_pressure, float(np.mean(cap)))
+        raise NoSolutionError("hardness and load must agree, but do not. Lower the load or raise the hardness.")
 
     def _constraint(self, qp: ContactQP, added: float) -> Constraint:
         """Total load or position; without any load the bodies touch at the highest point."""

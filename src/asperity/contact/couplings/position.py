@@ -55,6 +55,9 @@ _AT_FULL = 0.8
 """Logarithm of the load at full contact over rms height times stiffness, for the first guess. Periodic for 0, 0.4, 1.2, 2: 32,
 27, 32, 34; near full contact 72, 71, 53, 73; film 26, 22, 30, 31; at 2 one with a hardness finds no load."""
 
+_BEYOND = 10.0
+"""Logarithm of the load beyond full contact of the first guess at most: of flat bodies, whose rms height is rounding, it would be any number."""
+
 _FARTHEST = float(np.log(8.0))
 """Largest step of the logarithm of the load; of a factor of 2 the periodic contacts take 24.4 pairs for 23.7, and any
 larger one changes none: a guard against one extrapolation."""
@@ -66,6 +69,9 @@ take 23.6 pairs, for 0.1 periodic ones 29.2; at 0.3 a periodic one finds no load
 _CLOSED = 1e-12
 """Width of the bracket of the logarithm of the load that counts as closed, its rounding for loads between 1e-4 and 1e4 Pa per Pa
 of modulus; 0, 1e-14 and 1e-9 take the same pairs."""
+
+_ROUNDED = 1e-14
+"""Height of the highest point above the mean over the largest height, below which it is rounding and the surface flat."""
 
 _TOWARDS = 0.5
 """Share of its own step that a search alone takes at least: where the position hardly depends on the load, as beyond full
@@ -220,6 +226,12 @@ def closeness_wanted(posed: Posed, *, elastic: bool) -> tuple[float, float]:
     """
     control, h = posed.control, posed.dented
     highest, touch = float(h.max()), float(h.max() - h.mean())
+    flat = touch <= _ROUNDED * float(np.abs(h).max())
+    if flat and (elastic or isinstance(control, MeanGap)):
+        raise NoSolutionError(
+            f"{control.name} of flat bodies must be zero in contact, which is full as soon as they touch, whatever the load, but is "
+            f"{control.value:.6g} m. Prescribe MeanPressure(...) instead."
+        )
     if isinstance(control, Approach):
         if elastic and control.value >= posed.top - float(h.mean()):
             raise NoSolutionError(
@@ -254,5 +266,5 @@ def _first_guess(posed: Posed, touch: float, wanted: float) -> float:
     unit = _PERSSON * posed.height_scale
     light = unit / _LIGHT
     if wanted >= light:
-        return full - (touch - wanted) / unit
+        return full + min((wanted - touch) / unit, _BEYOND)
     return full - max(touch - light, 0.0) / unit + float(np.log(wanted / light)) / _LIGHT

@@ -102,6 +102,10 @@ class Operator(Protocol):
         """Largest entry of it (m/Pa), that of the longest waves; it sets the scale."""
 
     @property
+    def smallest(self) -> float:
+        """Compliance (m/Pa) of the wave of the grid that gives way least: p·Kp is at least this times p·p, which bounds the error of a pressure."""
+
+    @property
     def padded(self) -> tuple[int, int]:
         """Shape of the grid whose half spectrum ``kernel`` holds."""
 
@@ -139,6 +143,10 @@ def prepare_operator(
     raise InputError(f"boundary of an operator must be Periodic(), Free() or FreeLine(), but is {boundary!r}.")
 
 
+_LEAST_SHARE = 0.8
+"""Least eigenvalue of the compliance of a free grid over that of its waves an octave apart."""
+
+
 class _Prepared:
     """What periodic and free operators share: transforms and their buffers, prepared at first use and kept."""
 
@@ -146,6 +154,8 @@ class _Prepared:
     engine: Engine
     padded: tuple[int, int]
     kernel: RealArray
+    octaves: Octaves
+    zero_mean_mode: bool
 
     @cached_property
     def _resident(self) -> Any:
@@ -156,6 +166,24 @@ class _Prepared:
     def largest(self) -> float:
         """Largest compliance (m/Pa)."""
         return float(self._resident.max())
+
+    @cached_property
+    def smallest(self) -> float:
+        """Least compliance (m/Pa) of the waves on the grid, the mean mode aside where a uniform pressure moves nothing; infinite without waves.
+
+        Periodic eigenvalues are the entries of ``kernel``. On padded grids its least is below all, but for coated bodies, whose
+        influence is cut off, far below or negative; there waves an octave apart tell more: of random layered bodies the least
+        eigenvalue was 0.90 to 1.32 of theirs.
+        """
+        entries = self._resident.ravel()[1:] if self.zero_mean_mode else self._resident.ravel()
+        least = float(entries.min()) if entries.shape[0] else math.inf
+        if self.padded == self.grid.shape:
+            return least
+        qx, qy = (float(abs(q).max()) for q in self.grid.wavevector())
+        octaves = range(math.ceil(math.log2(max(self.grid.shape))) + 2)
+        return _LEAST_SHARE * float(
+            self.octaves.spectral(np.array([math.hypot(qx, qy) / 2.0**k for k in octaves])).min()
+        )
 
     @cached_property
     def _convolutions(self) -> dict[tuple[str, float], Convolution]:

@@ -419,7 +419,7 @@ _OFF_CENTRE, _FAR_FROM_ZERO = 10.0, 0.1
 """Mean height over rms height beyond which heights are centred: their rounding is then ten times as large; and over the deflection
 of the mean pressure in the longest wave: flat bodies at a height of 1000 such deflections ended at errors of 1e-7, of one at 1e-10."""
 
-_MOST_DEFLECTIONS = 30.0
+MOST_DEFLECTIONS = 30.0
 _FEWEST_DEFLECTIONS = 1e-4
 _UNRESOLVED = 1e-5
 
@@ -475,7 +475,7 @@ def scaled_error(qp: ContactQP, error: float, total: float, energy: float) -> fl
     * It is at least ``least_length``, beyond which rounding hides errors.
     """
     deflection = energy / total if total > 0.0 else 0.0
-    length = min(qp.height_scale, _MOST_DEFLECTIONS * (deflection + error))
+    length = min(qp.height_scale, MOST_DEFLECTIONS * (deflection + error))
     return over(error, max(length, least_length(qp, total, energy)))
 
 
@@ -494,6 +494,10 @@ def least_length(qp: ContactQP, total: float, energy: float) -> float:
 def over(error: float, scale: float) -> float:
     """``error`` over ``scale``; none is none on any scale, and any is infinite on a scale of zero."""
     return error / scale if scale > 0.0 else 0.0 if error == 0.0 else np.inf
+
+
+ROUNDING = 4.0 * np.finfo(float).eps
+"""Rounding of the sums in the error, relative to their terms: an error below it is reported as this large."""
 
 
 def relative_error(qp: ContactQP, pressure: RealArray, deflection: RealArray) -> float:

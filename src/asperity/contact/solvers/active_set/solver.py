@@ -24,6 +24,7 @@ from ....core.arrays import RealArray
 from ....core.engine import CpuEngine, FreeSet, Survey, Totals
 from ....core.errors import InputError
 from ..protocol import (
+    ROUNDING,
     ContactQP,
     SolverState,
     feasible_start,
@@ -38,10 +39,6 @@ from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradient
 # Error of an iterate.
 
 
-_ROUNDING = 4.0 * np.finfo(float).eps
-"""Rounding of the sums in the error, relative to their terms: an error below it is reported as this large."""
-
-
 def relative_error(work: Workspace, totals: Totals) -> float:
     """``protocol.relative_error`` from the sums over the iterate; infinite where a step has let go of every point of a load."""
     qp, total, energy = work.qp, totals.pressure, 0.5 * totals.deflected
@@ -49,7 +46,7 @@ def relative_error(work: Workspace, totals: Totals) -> float:
         return math.inf
     if work.load_prescribed and work.cap is None:
         lifted = totals.lowest * total
-        rounding = _ROUNDING * (abs(totals.work) + abs(lifted))  # the difference below is not known any better
+        rounding = ROUNDING * (abs(totals.work) + abs(lifted))  # the difference below is not known any better
         return scaled_error(qp, max(totals.work - lifted, rounding) / total, total, energy)
     iterate, level = (work.pressure, work.deflection, work.heights, work.cap), plane_level(qp, totals)
     found = work.engine.violation(*iterate, level)

@@ -1,0 +1,153 @@
+"""A prescribed position that no load singles out: held by its offset, where a hardness bounds the pressure.
+
+The load is the unknown of a position (``position``), and where nearly every point yields it is a poor one: whole intervals of positions belong to one
+load. Plateaus that yield as a whole sink until others touch, and fully yielded surfaces, at a mean pressure equal to the hardness, go on sinking, the plastic
+indentation taking the rest. With the pressure bounded the problem at a given offset has a solution at every offset
+(a convex function on a compact set), so the bodies are held there instead; a mean gap is a monotone function of the approach, which a bracket encloses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from ...core.arrays import RealArray
+from ...core.errors import NoSolutionError
+from ...core.status import Outcome, Progress, Status
+from ..problem import Approach, MeanGap
+from ..solvers.protocol import Solver
+from .driver import Rounds, Settled, settle
+from .hardness import ConstantHardness, DepthHardness
+from .position import TARGET_ERROR
+from .protocol import Coupling, Memory, Posed
+
+_STEPS = 80
+"""Approaches tried at most for a mean gap; ten to twenty are the rule."""
+
+_CLOSED = 4.0 * np.finfo(float).eps
+"""Width of the bracket of approaches over the range of heights that counts as closed."""
+
+_Holding = Callable[[float, RealArray | None], Settled]
+
+
+def settle_position(
+    posed: Posed,
+    couplings: Sequence[Coupling],
+    memories: Mapping[str, Memory],
+    solver: Solver,
+    *,
+    rounds: Rounds = Rounds(),
+    progress: Progress | None = None,
+) -> Settled:
+    """``settle``; where a hardness bounds the pressure and no load is found for a position, with the position held. The arguments are the same.
+
+    Raises
+    ------
+    NoSolutionError
+        As ``settle``.
+    """
+    searched = partial(settle, posed, couplings, memories, solver, rounds=rounds, progress=progress)
+    if not _can_be_held(posed, couplings):
+        return searched()
+
+    def held(approach: float, start: RealArray | None) -> Settled:
+        at = replace(posed, control=Approach(approach), start=start, earlier=None)
+        return settle(at, couplings, memories, solver, rounds=rounds, progress=progress, held=True)
+
+    full = _fully_yielded(posed, couplings)
+    if full is not None:
+        return held(posed.control.value, full)
+    found: Settled | None = None
+    failure: NoSolutionError | None = None
+    try:
+        found = searched()
+        if found.status.converged:
+            return found
+    except NoSolutionError as error:
+        failure = error
+    instead = _held(posed, held, None if found is None else found.contact.pressure)
+    if instead.status.converged or found is None:
+        if failure is not None and not instead.status.converged:
+            raise failure
+        return _as_posed(instead, posed)
+    return found
+
+
+def _can_be_held(posed: Posed, couplings: Sequence[Coupling]) -> bool:
+    """Whether a position is prescribed, a hardness bounds the pressure, and nothing else reacts to the contact."""
+    if not isinstance(posed.control, Approach | MeanGap) or any(coupling.positions for coupling in couplings):
+        return False
+    hardness = [coupling for coupling in couplings if isinstance(coupling, ConstantHardness | DepthHardness)]
+    if len(hardness) != 1 or any(coupling.feedback for coupling in couplings if coupling is not hardness[0]):
+        return False
+    return isinstance(hardness[0], DepthHardness) or bool(np.all(np.isfinite(hardness[0].law.pressure_cap())))
+
+
+def _fully_yielded(posed: Posed, couplings: Sequence[Coupling]) -> RealArray | None:
+    """Pressure (nx, ny) in Pa at the hardness everywhere, if the approach prescribed takes all points that far; of constant hardness alone."""
+    control = posed.control
+    if not isinstance(control, Approach) or control.value < posed.top - float(posed.dented.mean()):
+        return None
+    caps = [coupling.law.pressure_cap() for coupling in couplings if isinstance(coupling, ConstantHardness)]
+    if len(caps) != 1:
+        return None
+    pressure = np.array(np.broadcast_to(caps[0], posed.dented.shape), dtype=np.float64)
+    level = control.value - posed.top
+    reached = bool(np.all(posed.operator.apply(pressure) - posed.dented <= level))
+    return pressure if reached and control.value > 0.0 else None
+
+
+def _held(posed: Posed, held: _Holding, start: RealArray | None) -> Settled:
+    """Contact at the position that ``posed`` prescribes, started from the pressure ``start``."""
+    if isinstance(posed.control, Approach):
+        return held(posed.control.value, start)
+    return _at_gap(posed, held, start)
+
+
+def _at_gap(posed: Posed, held: _Holding, start: RealArray | None) -> Settled:
+    """Contact at the mean gap prescribed, by the regula falsi (Illinois) between approaches on either side."""
+    wanted, first = posed.control.value, posed.top - float(posed.dented.max())
+    depth = float(np.ptp(posed.dented)) or posed.height_scale
+    touch = float(posed.dented.max() - posed.dented.mean())
+    low, high = (
+        (first, touch - wanted),
+        (first + depth, -wanted),
+    )  # approach (m) and the gap there beyond the one wanted
+    found = held(high[0], start)
+    for _ in range(_STEPS):
+        if not found.status.converged:
+            return found
+        miss = float(found.contact.gap.mean()) - wanted
+        if miss <= 0.0 or abs(miss) <= TARGET_ERROR * wanted:
+            high = high[0], miss
+            break
+        low, depth = (high[0], miss), 2.0 * depth
+        high = first + depth, -wanted
+        found = held(high[0], found.contact.pressure)
+    side = 0
+    for step in range(_STEPS):
+        miss = float(found.contact.gap.mean()) - wanted
+        if not found.status.converged or abs(miss) <= TARGET_ERROR * wanted:
+            return found
+        if high[0] - low[0] <= _CLOSED * (depth + posed.top):
+            break
+        share = 0.5 if step % 4 == 3 or not low[1] > high[1] else low[1] / (low[1] - high[1])
+        at = low[0] + min(max(share, 1e-3), 1.0 - 1e-3) * (high[0] - low[0])
+        found = held(at, found.contact.pressure)
+        miss = float(found.contact.gap.mean()) - wanted
+        if miss > 0.0:
+            low, high = (at, miss), (high[0], 0.5 * high[1] if side > 0 else high[1])
+            side = 1
+        else:
+            low, high = (low[0], 0.5 * low[1] if side < 0 else low[1]), (at, miss)
+            side = -1
+    text = f"The mean gap prescribed is still missed by {abs(miss) / wanted:.1e} of itself; it jumps with the approach."
+    return replace(found, status=Status(Outcome.STAGNATED, text, "Prescribe a load or an approach."))
+
+
+def _as_posed(settled: Settled, posed: Posed) -> Settled:
+    """``settled`` with the control that was prescribed."""
+    return replace(settled, contact=replace(settled.contact, posed=posed))
