@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.errors import FileFormatError, OutputError
+from ..core.hdf5_files import SIGNATURE, require_own_dataset, require_sound_references
 from ..core.quantity import Labelled, Quantity
 from ..core.status import require_memory
 from ..core.text import require_file
@@ -114,7 +115,7 @@ def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
 
     require_file(path, "result file")
     with Path(path).open("rb") as start:
-        if start.read(8) != b"\x89HDF\r\n\x1a\n":
+        if start.read(8) != SIGNATURE:
             raise FileFormatError(
                 f"result file must be one that asperity has written (result.nc), but {path} is no NetCDF-4 file. "
                 f"What a file with heights holds is shown by: asperity info {path}"
@@ -191,8 +192,8 @@ def _size_of_own(group: Any, seen: set[Any]) -> float:
         if isinstance(item, h5py.Group):
             size += _size_of_own(item, seen)
         elif isinstance(item, h5py.Dataset):
-            if item.external or item.is_virtual:
-                raise FileFormatError(f"result file must hold its data itself, but {name!r} lies in another file.")
+            require_own_dataset(item, "result file", name)
+            require_sound_references(item, "result file", name)
             size += item.size * item.dtype.itemsize if item.shape is not None else 0.0
     return size
 

@@ -16,6 +16,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import AsperityError, FileFormatError, InputError, UnitError
+from ..core.hdf5_files import require_own_file
 from ..core.status import require_memory
 from ..core.units import show, unit_factor
 from .reader_library import opened_by_first_reader, opened_by_library
@@ -143,6 +144,7 @@ def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
     What cannot be read with the parts of the library that the reader imports is read with all of it.
     """
     failure: Exception | None = None
+    require_own_file(file, f"file {file}")
     with _quiet():
         for opened in (opened_by_first_reader, opened_by_library):
             try:
