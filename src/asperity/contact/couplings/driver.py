@@ -179,11 +179,9 @@ def settle(
     *,
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
-    held: bool = False,
 ) -> Settled:
     """Contact that agrees with all ``couplings`` (each with a name of its own, in any order), with their ``memories`` of the step before.
 
-    An approach is ``held`` by its offset where the pressure is bounded; else the load that reaches it is one more unknown.
     The tolerance of ``solver`` is that of the last normal solve; those before are looser.
 
     Raises
@@ -191,7 +189,7 @@ def settle(
     NoSolutionError
         If the load cannot be borne, runs away, or the position has no solution.
     """
-    return _Iteration(posed, couplings, memories, solver, rounds, progress or NoProgress(), held=held).settled()
+    return _Iteration(posed, couplings, memories, solver, rounds, progress or NoProgress()).settled()
 
 
 class _Iteration:
@@ -205,14 +203,12 @@ class _Iteration:
         solver: Solver,
         rounds: Rounds,
         progress: Progress,
-        *,
-        held: bool = False,
     ) -> None:
         self.posed, self.solver, self.rounds = posed, solver, rounds
         self.couplings = {coupling.name: coupling for coupling in couplings}
         self.exchanges = {name: c.begin(posed, memories.get(name, {})) for name, c in self.couplings.items()}
         # as the solver can hold it
-        by_offset = held or (isinstance(posed.control, Approach) and not posed.operator.zero_mean_mode)
+        by_offset = posed.held or (isinstance(posed.control, Approach) and not posed.operator.zero_mean_mode)
         if posed.external_force is None and not by_offset and not any(coupling.positions for coupling in couplings):
             alone = not any(coupling.feedback for coupling in couplings)
             caps = [coupling.share(self.exchanges[name]).cap for name, coupling in self.couplings.items()]

@@ -22,7 +22,7 @@ from ..solvers.protocol import Solver
 from .driver import Rounds, Settled, settle
 from .hardness import ConstantHardness, DepthHardness
 from .position import TARGET_ERROR
-from .protocol import Coupling, Memory, Posed
+from .protocol import Contact, Coupling, Memory, Posed
 
 _STEPS = 80
 """Approaches tried at most for a mean gap; ten to twenty are the rule."""
@@ -53,9 +53,14 @@ def settle_position(
     if not _can_be_held(posed, couplings):
         return searched()
 
+    last: Contact | None = None
+
     def held(approach: float, start: RealArray | None) -> Settled:
-        at = replace(posed, control=Approach(approach), start=start, earlier=None)
-        return settle(at, couplings, memories, solver, rounds=rounds, progress=progress, held=True)
+        nonlocal last
+        at = replace(posed, control=Approach(approach), start=start, earlier=None, held=True)
+        settled = settle(at, couplings, memories, solver, rounds=rounds, progress=progress)
+        last = settled.contact.with_work_of(last)
+        return replace(settled, contact=last)
 
     full = _fully_yielded(posed, couplings)
     if full is not None:
@@ -66,6 +71,7 @@ def settle_position(
         found = searched()
         if found.status.converged:
             return found
+        last = found.contact
     except NoSolutionError as error:
         failure = error
     instead = _held(posed, held, None if found is None else found.contact.pressure)

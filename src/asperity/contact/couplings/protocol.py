@@ -77,6 +77,8 @@ class Posed:
         Displacement (nx, ny) in m at the end of the step that earlier pressures leave in viscoelastic bodies; zero in elastic ones.
     ahead
         Length of this step of time over the one before, in which pressures are extrapolated to start from; None where it is not known.
+    held
+        Whether an approach is held by its offset, where the pressure is bounded; else the load that reaches it may be one more unknown.
     """
 
     operator: Operator
@@ -90,6 +92,7 @@ class Posed:
     retarded: RealArray | float = 0.0
     deflections: Deflections | None = None
     ahead: float | None = None
+    held: bool = False
 
     @cached_property
     def top(self) -> float:
