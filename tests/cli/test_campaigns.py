@@ -205,6 +205,24 @@ def test_pace_before_the_first_case():
     assert Pace(lambda: 0.0).text(0, 0, 0, 5) == ("0 of 5 cases, 0 cases/min, unknown time left", 0.0)
 
 
+def test_quiet_shows_no_progress(tmp_path, run: Runner):
+    said = run("run", written(tmp_path, axes=[LOADS]), "--workers", 1, "--quiet")
+    assert (said.exit_code, said.stdout) == (0, "")
+    assert " of 3 cases" not in said.stderr
+    assert "cases/min" not in said.stderr
+
+
+def test_records_of_a_changed_study_are_not_counted(tmp_path, run: Runner):
+    folder = tmp_path / "results"
+    assert run("run", written(tmp_path, axes=[LOADS]), "--out", folder, "--workers", 1).exit_code == 0
+    other = {**LOADS, "values": ["1 MPa", "3 MPa", "4 MPa"]}
+    said = run("run", written(tmp_path, axes=[other]), "--out", folder, "--workers", 1)
+    assert said.exit_code == 0
+    lines = [line for line in said.stderr.splitlines() if " of 3 cases" in line]
+    assert len(lines) == 1, said.stderr
+    assert ": 3 of 3 cases" in lines[0]
+
+
 def test_a_bar_on_a_terminal(monkeypatch, capsys):
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     with watched("study") as watch:

@@ -30,9 +30,9 @@ from ..report.study import (
 from ..run.document import ProblemDocument, relocated
 from ..studies.campaign import Campaign, CampaignState, open_study, prepare_study
 from ..studies.places import problem_table
-from ..studies.run import Watch
+from ..studies.run import NoWatch, Watch
 from .main import INTERRUPTED, NOT_CONVERGED, OK
-from .show import confirmed, console, error_console, print_files, say, short_names, table, watching
+from .show import Nowhere, confirmed, console, error_console, print_files, say, short_names, table, watching
 
 Folder = Annotated[
     Path, typer.Argument(help="Folder of the results, or the study document they lie beside.", metavar="FOLDER")
@@ -159,7 +159,13 @@ BETWEEN_LINES = 10.0
 
 @contextmanager
 def watched(title: str) -> Iterator[Watch]:
-    """Watch that shows the progress of a study on stderr, on a bar or in lines that begin with its ``title``."""
+    """Watch that shows the progress of a study on stderr, on a bar or in lines that begin with its ``title``.
+
+    It shows nothing where answers are dropped (``--quiet``).
+    """
+    if isinstance(sys.stdout, Nowhere):
+        yield NoWatch()
+        return
     if not watching():
         yield Lines(lambda text: _write(f"{title}: {text}\n"))
         return

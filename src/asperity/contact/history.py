@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Self, TypeAlias
+from typing import Self, TypeAlias, overload
 
 import numpy as np
 
@@ -154,7 +154,7 @@ def _leg(start: float, end: float, steps: int, *, graded: bool) -> RealArray:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HistoryResult(Stored):
-    """Results of the steps of a history, in order.
+    """Results of the steps of a history, in order: ``len``, iteration, ``history[i]`` and ``history[i:j]`` are those of ``steps``.
 
     Parameters
     ----------
@@ -167,6 +167,28 @@ class HistoryResult(Stored):
 
     steps: tuple[ContactResult, ...]
     start: InterfaceState | None = None
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def __iter__(self) -> Iterator[ContactResult]:
+        return iter(self.steps)
+
+    @overload
+    def __getitem__(self, index: int) -> ContactResult: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[ContactResult, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> ContactResult | tuple[ContactResult, ...]:
+        """Result of step ``index``, counted from zero or, if negative, from the end; of a slice the tuple of its results.
+
+        Raises
+        ------
+        IndexError
+            If there is no such step.
+        """
+        return self.steps[index]
 
     @property
     def last(self) -> ContactResult:

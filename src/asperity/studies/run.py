@@ -113,7 +113,8 @@ class _Work:
         self._plan, self._finished, self._stop = plan, finished, stopping(plan)
         self._quantity = stop_quantity(plan)
         self.found = 0
-        self.known = min(len(finished), plan.n_cases)
+        # a store may hold cases of an earlier version of the study too, which count for nothing
+        self.known = sum(case.key in finished for path in plan.paths() for case in path) if len(finished) else 0
 
     def tasks(self) -> Iterator[Task]:
         """One task for each path with missing cases; of finished ones the samples are counted on the way."""
