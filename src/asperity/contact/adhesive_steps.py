@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.arrays import RealArray
 from ..core.errors import NoSolutionError
-from .laws import Adhesion, SoftAdhesion
+from .laws import Adhesion, SoftAdhesion, cohesive_length
 from .problem import Approach, ContactProblem, Control, FixedGrips, Force, MeanGap, Pull, Unloaded, mean_pressure
 from .result import ContactResult
 from .state import InterfaceState
@@ -54,8 +54,13 @@ class _Way:
 
 
 def divides(problem: ContactProblem, state: InterfaceState | None) -> bool:
-    """Whether steps from ``state`` may be divided: adhesion of a finite range, and no physics beside it but a hardness or gross sliding."""
+    """Whether steps from ``state`` may be divided: adhesion of a finite range, and no physics beside it but a hardness or gross sliding.
+
+    Where the cohesive length is less than a pixel single points snap, and there is no branch to follow.
+    """
     if problem.adhesion is None or math.isinf(problem.adhesion.strength) or state is None:
+        return False
+    if cohesive_length(problem.adhesion, problem.contact_modulus) < max(problem.grid.pixels):
         return False
     alone = problem.film is None and problem.plastic_flow is None and "stick_slip" not in state.memory
     return alone and bool(state.memory.get("adhesion"))
