@@ -13,7 +13,8 @@ import pytest
 from cli.conftest import Runner
 
 from asperity import ConvergenceError
-from asperity.cli.main import INTERNAL_ERROR, INTERRUPTED, diagnosis
+from asperity.cli.interrupt import INTERRUPTED
+from asperity.cli.main import INTERNAL_ERROR, diagnosis
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -78,6 +79,32 @@ mean_gap = "1 nm"
 tolerance = 1e-30
 max_iterations = 1000000
 """
+
+
+INTERRUPTING = """
+import runpy, sys
+
+class Interrupt:
+    def find_spec(self, name, path=None, target=None):
+        if name == late:
+            sys.meta_path.remove(self)
+            raise KeyboardInterrupt
+
+late = sys.argv.pop()
+sys.meta_path.insert(0, Interrupt())
+runpy.run_module("asperity", run_name="__main__", alter_sys=True)
+"""
+
+
+@pytest.mark.parametrize("late", ["typer", "rich.console", "numpy", "scipy", "asperity.contact.solve", "matplotlib"])
+def test_ctrl_c_while_libraries_are_imported(late: str, tmp_path: Path) -> None:
+    """As in the middle of the work: an interrupt at whichever import ends with 130 and one sentence."""
+    command = [sys.executable, "-c", INTERRUPTING, "demo", "--out", "run", late]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == INTERRUPTED, done.stderr
+    assert done.stderr.endswith("asperity: Interrupted: the work was stopped and nothing is half-written.\n")
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to another process")

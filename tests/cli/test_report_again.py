@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import difflib
+import shutil
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from cli.conftest import SCALE, Runner
 from typer.testing import CliRunner
 
 import asperity as asp
-from asperity.cli.main import app
+from asperity.cli.main import BAD_INPUT, app
 from asperity.run.stored import load_outcome, outcome_to_xarray
 
 KINDS = {
@@ -52,6 +54,19 @@ def test_the_report_is_made_again(folder: Path, run: Runner, tmp_path: Path) -> 
     )
     differing = [line for line in difflib.ndiff(first, second) if line[0] in "+-"]
     assert all("written (UTC)" in line for line in differing), differing
+
+
+@pytest.mark.parametrize(
+    "damaged", ["", "{", "[]", "null", '{"created": "now"}', '{"created": "now", "software": {"a": {}}}']
+)
+def test_damaged_provenance_is_a_damaged_file(damaged: str, folder: Path, run: Runner, tmp_path: Path) -> None:
+    shutil.copy(folder / "result.nc", tmp_path / "result.nc")
+    with h5py.File(tmp_path / "result.nc", "r+") as file:
+        file.attrs["provenance"] = damaged
+    said = run("report", tmp_path / "result.nc", "--out", tmp_path / "again.html")
+    assert said.exit_code == BAD_INPUT
+    assert "must hold a whole result" in said.stderr
+    assert not (tmp_path / "again.html").exists()
 
 
 def test_the_pictures_are_drawn_again(folder: Path, run: Runner, tmp_path: Path) -> None:

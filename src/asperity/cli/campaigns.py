@@ -31,7 +31,8 @@ from ..run.document import ProblemDocument, relocated
 from ..studies.campaign import Campaign, CampaignState, open_study, prepare_study
 from ..studies.places import problem_table
 from ..studies.run import NoWatch, Watch
-from .main import INTERRUPTED, NOT_CONVERGED, OK
+from .interrupt import INTERRUPTED
+from .main import NOT_CONVERGED, OK
 from .show import Nowhere, confirmed, console, error_console, print_files, say, short_names, table, watching
 
 Folder = Annotated[

@@ -18,13 +18,13 @@ from typer.core import TyperGroup
 from ..core.errors import AsperityError, ConvergenceError
 from ..core.text import printable
 from ..core.units import prefixed
+from .interrupt import INTERRUPTED, SENTENCE
 
 OK = 0
 NOT_CONVERGED = 1
 BAD_INPUT = 2
 INTERNAL_ERROR = 3
-INTERRUPTED = 130
-"""Exit codes."""
+"""Exit codes, beside that of an interrupt."""
 
 GARBAGE = (10_000, 20, 20)
 """Allocations between two searches for garbage, and searches between two of older objects. Python's (700, 10, 10) suits programs with small
@@ -92,7 +92,7 @@ class Program(Listing):
         try:
             return super().invoke(ctx)
         except KeyboardInterrupt:
-            _say("Interrupted: the work was stopped and nothing is half-written.")
+            _say(SENTENCE)
             raise typer.Exit(INTERRUPTED) from None
         except Exception as error:
             if isinstance(error, typer.Exit | typer.Abort | BrokenPipeError) or (

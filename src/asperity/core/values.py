@@ -183,6 +183,8 @@ class Number(Values):
             number = float(value)
         except (TypeError, ValueError):
             raise InputError(f"{what} must be a number, but is {shown}.") from None
+        except OverflowError:
+            raise InputError(f"{what} must be {self.rule}, but is {_digits(value)}.") from None
         if not math.isfinite(number) and not (self.infinite and number > 0.0):
             raise InputError(f"{what} must be a finite number, but is {shown}.")
         if not (
@@ -239,7 +241,8 @@ class Whole(Values):
             or (self.most is not None and number > self.most)
             or (self.odd and number % 2 == 0)
         ):
-            raise InputError(f"{what} must be {self.rule}, but is {value!r}.")
+            shown = _digits(number) if isinstance(number, int) and abs(number) >= 2**63 else repr(value)
+            raise InputError(f"{what} must be {self.rule}, but is {shown}.")
         return int(number)
 
     def read(self, value: Any, what: str) -> int:
@@ -453,6 +456,11 @@ class Text(Values):
                 f"{what} must be {'text' if not isinstance(value, str) else 'text that is not empty'}, but is {value!r}."
             )
         return value
+
+
+def _digits(number: int) -> str:
+    """Words for an integer that is too long to be shown; Python writes none of more than 4300 digits."""
+    return f"an integer of {int(math.log10(abs(number))) + 1} digits"
 
 
 def _whole(value: Any) -> int | None:

@@ -134,9 +134,18 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
         for part in parts()
         if "words" in groups.get(part.name, Node()).attributes
     }
+    _require_provenance(json.loads(tree.attributes["provenance"]))
     findings = tuple(Advice(**finding) for finding in json.loads(tree.attributes["findings"]))
     outcome = Outcome(None, replace(solved, found=found), found, findings, status_from(tree.attributes))
     return replace(outcome, stored=dict(tree.attributes))
+
+
+def _require_provenance(stored: Any) -> None:
+    """That reports can name when and with what an outcome was made, and the digests of its surfaces; ValueError if not."""
+    surfaces = [stored[key]["digest"] for key in ("surface", "counter_surface") if key in stored]
+    for text in (stored["created"], *stored["software"].values(), *surfaces):
+        if not isinstance(text, str):
+            raise ValueError(f"{text!r:.60} in the provenance is no text")
 
 
 def part_group(part: Part, outcome: Outcome, before: Node = Node()) -> Node:

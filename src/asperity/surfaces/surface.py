@@ -89,6 +89,9 @@ class Surface(Drawn):
         if missing.all():
             raise InputError("surface heights must hold at least one valid point, but every point is missing.")
         values[missing] = np.nan
+        extent = float(np.nanmax(np.abs(values)))
+        if extent > 0.0:
+            require.magnitude(extent, "largest height of a surface (m)")  # squares of others overflow or vanish
         values.flags.writeable = False
         missing.flags.writeable = False
         grid = Grid((values.shape[0], values.shape[1]), (dx, dx if dy is None else dy))
