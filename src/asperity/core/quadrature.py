@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
+from numpy.polynomial import chebyshev
 
 from .arrays import RealArray
 
@@ -30,14 +31,11 @@ def gauss(breaks: RealArray, nodes: int) -> tuple[RealArray, RealArray]:
     return (low + half * (x + 1.0)).reshape(shape), (half * w).reshape(shape)
 
 
-@functools.cache
 def running(nodes: int) -> tuple[RealArray, RealArray]:
     """Chebyshev nodes (nodes,) on [-1, 1], both ends among them, and the matrix that makes integrals from -1 to each node of values there.
 
-    Exact for polynomials of degree below ``nodes`` >= 2 (Clenshaw & Curtis 1960). Shared: not to be written to.
+    Exact for polynomials of degree below ``nodes`` >= 2 (Clenshaw & Curtis 1960).
     """
-    from numpy.polynomial import chebyshev
-
     x = -np.cos(np.pi * np.arange(nodes) / (nodes - 1))
     series = np.linalg.inv(chebyshev.chebvander(x, nodes - 1))
     sums = chebyshev.chebvander(x, nodes) @ chebyshev.chebint(series, lbnd=-1.0)

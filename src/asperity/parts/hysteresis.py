@@ -16,7 +16,6 @@ from ..core.settings import Settings, setting
 from ..core.status import Advice
 from ..core.units import percent, show
 from ..core.values import Angle, Length, Number, Whole
-from ..theories.rough.rubber_friction import ORIGINAL
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
 
 if TYPE_CHECKING:
@@ -51,10 +50,10 @@ class HysteresisSettings(Settings):
     slowest: SlidingSpeed | None = setting(None, option="--slowest", help="First speed of a curve: 0.1mm/s")
     fastest: SlidingSpeed | None = setting(None, option="--fastest", help="Last speed of a curve: 10m/s")
     points: Annotated[int, Whole(2, 1000)] = setting(USUAL_POINTS, option="--speed-points", help="Speeds of the curve")
-    reduction: Share = setting(
-        ORIGINAL,
+    reduction: Share | None = setting(
+        None,
         option="--reduction",
-        help="Of the deformation in partial contact, gamma of Persson's theory, 1 for none",
+        help="Of the deformation in partial contact, gamma of Persson's theory; 1, for none, by default",
     )
 
     distance: Length | None = setting(
@@ -150,8 +149,9 @@ class Hysteresis(Part):
         import numpy as np
 
         from ..contact.steady_sliding import slide
+        from ..theories.rough.rubber_friction import ORIGINAL
 
-        problem, reduction = bare(solved.problem), float(ask.reduction)
+        problem, reduction = bare(solved.problem), ORIGINAL if ask.reduction is None else float(ask.reduction)
         direction: Any = {"direction": float(ask.direction)}
         speeds: Any = ()
         if ask.slowest is not None and ask.fastest is not None and solved.lines:
