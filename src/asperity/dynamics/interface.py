@@ -154,9 +154,10 @@ class NormalCompliance(Declared):
 
 
 def _power(depth: RealArray, exponent: float) -> RealArray:
-    """``depth`` >= 0 to the power of ``exponent``, zero without contact where that is negative too."""
-    found: RealArray = np.where(depth > 0.0, np.where(depth > 0.0, depth, 1.0) ** exponent, 0.0)
-    return found
+    """``depth`` >= 0 to the power of ``exponent``; where that is negative, zero without contact."""
+    if exponent >= 0.0:
+        return np.asarray(depth**exponent)
+    return np.where(depth > 0.0, np.where(depth > 0.0, depth, 1.0) ** exponent, 0.0)
 
 
 def metal_joint(compliance: float, exponent: float = 2.0, *, friction: float = 0.0) -> NormalCompliance:

@@ -138,17 +138,19 @@ def test_an_approach_above_the_dented_surface_has_no_solution():
 
 
 def test_a_position_that_no_load_reaches_is_flagged():
-    """Nearly every point of this sphere yields before its last gaps close: the mean gap jumps over small values."""
+    """Nearly every point of this sphere yields before its last gaps close: the mean gap jumps over values near rounding."""
     sphere = asp.generate.sphere(asp.Grid((24, 16), (1e-6, 1.25e-6)), radius=1e-3)
     law = asp.Hardness(200e6)
     problem = asp.ContactProblem(sphere, asp.Elastic(135e9, 0.3), boundary=asp.Free(), law=law)
-    reached = asp.solve(problem, asp.MeanGap(1e-9))
-    assert reached.mean_gap == pytest.approx(1e-9, rel=1e-4)
-    missed = asp.solve(problem, asp.MeanGap(1e-12), on_failure="return")
+    for gap in (1e-9, 1e-12):
+        reached = asp.solve(problem, asp.MeanGap(gap))
+        assert reached.mean_gap == pytest.approx(gap, rel=1e-4)
+        assert reached.max_pressure <= 200e6
+    missed = asp.solve(problem, asp.MeanGap(1e-18), on_failure="return")
     assert not missed.converged
     assert "No load reaches the prescribed position" in missed.status.message
     with pytest.raises(asp.ConvergenceError) as caught:
-        asp.solve(problem, asp.MeanGap(1e-12))
+        asp.solve(problem, asp.MeanGap(1e-18))
     assert caught.value.result.status == missed.status
 
 

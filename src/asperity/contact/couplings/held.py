@@ -76,7 +76,7 @@ def settle_position(
         failure = error
     instead = _held(posed, held, None if found is None else found.contact.pressure)
     if instead.status.converged or found is None:
-        if failure is not None and not instead.status.converged:
+        if failure is not None and not (instead.status.converged and instead.contact.pressure.any()):
             raise failure
         return _as_posed(instead, posed)
     return found

@@ -337,6 +337,10 @@ _FITTED = 0.4
 _FITTED_TO = "The law of one sphere was fitted to finite elements up to there."
 
 
+_LARGEST_STRAIN = 25.0
+"""Y/E* up to which exp(23 Y/E*) is a number."""
+
+
 @dataclass(frozen=True)
 class JacksonGreenSphere(ElasticPlasticSphere):
     """Sphere, Hertz up to x = ω/ω_c = 1.9, with a hardness H_G that depends on a/R beyond.
@@ -361,10 +365,10 @@ class JacksonGreenSphere(ElasticPlasticSphere):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.yield_stress >= self.E_star:
+        if self.yield_strain > _LARGEST_STRAIN:
             raise InputError(
-                f"yield stress (Pa) must be less than the contact modulus, {self.E_star:g} Pa, but is {self.yield_stress:g} Pa: "
-                "the laws were fitted to yield strains up to about 0.01."
+                f"yield stress (Pa) must be at most {_LARGEST_STRAIN:g} times the contact modulus of {self.E_star:g} Pa, for exp(23 Y/E*) to be a number, "
+                f"but is {self.yield_stress:g} Pa. The laws were fitted to yield strains up to about 0.01."
             )
 
     @property
