@@ -21,7 +21,7 @@ SPACING, BODY = 1e-4, asp.Elastic(0.91, 0.3)
 """z0 over the radius of the sphere; E* = 1, R = 1."""
 
 ROWS = [row for row in reference("adhesion/lennard_jones_pulloff") if row["tabor_mu"] <= 2.0]
-GRIDS = {0.2: (32, 8.0), 0.3: (32, 8.0), 1.0: (64, 6.0), 2.0: (144, 4.8)}
+GRIDS = {0.2: (32, 8.0), 0.3: (48, 8.0), 1.0: (64, 6.0), 2.0: (144, 4.8)}
 """Points along a side, and half of the side over (R z0)^(1/2)."""
 
 

@@ -230,7 +230,6 @@ def test_rubber_on_rough_ground_and_its_files(run: Runner, tmp_path: Path) -> No
         problem.counter_body.contact_relaxation.complex_modulus,
         speed=0.01,
         pressure=0.2e6,
-        reduction=0.5,
     )
     assert values["persson_friction"] == pytest.approx(theory.friction, rel=1e-6)
     assert values["persson_sliding_area_fraction"] == pytest.approx(theory.area_fraction, rel=1e-6)
