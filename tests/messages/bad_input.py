@@ -350,7 +350,7 @@ CALLS: Mapping[str, Callable[[], object]] = {
             boundary=asp.Free(),
             law=asp.Hardness(200e6),
         ),
-        asp.MeanGap(1e-12),
+        asp.MeanGap(1e-18),
     ),
     "a flat that yields as a whole": lambda: asp.plastic_load(
         _problem(surface=asp.Surface(np.zeros((8, 8)), 1.0, periodic=True), law=asp.Hardness(0.4))
