@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import csv
 import math
 import shutil
 import tempfile
@@ -25,6 +24,7 @@ from ..stress.survey import StressSurvey
 from .atomic import atomic_file
 from .results import ENERGIES
 from .stress_files import Fields, components, peeked
+from .tables import write_table
 from .words import CERTIFICATE
 
 VTK_TYPES = {"float64": "Float64", "float32": "Float32", "uint8": "UInt8"}
@@ -54,8 +54,7 @@ def export_csv(
         rows = _step_table(result)
     else:
         rows = _stress_table(result) if isinstance(result, StressSurvey) else _table(result, scalars)
-    with atomic_file(path, overwrite=overwrite) as partial, partial.open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows(rows)
+    write_table(rows, path, overwrite=overwrite)
 
 
 def _table(result: ContactResult, scalars: Iterable[Labelled]) -> Iterator[tuple[Any, ...]]:

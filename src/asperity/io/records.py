@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from ..core.quantity import Quantity
 from ..surfaces.characterise.summary import Characterisation
 from ..theories.ask import Evaluation, ways_of
 from ..theories.protocol import Described
-from .atomic import atomic_file
+from .tables import write_table
 
 # Answers of theories for other programs: a record for JSON, a table as CSV; and the catalogue as records.
 
@@ -89,15 +88,15 @@ def save_table(found: Evaluation, path: str | Path, *, overwrite: bool = False) 
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    with atomic_file(path, overwrite=overwrite) as partial, partial.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        if not found.columns:
-            writer.writerow(("name", "value", "unit", "meaning"))
-            writer.writerows((column.name, value, _unit(column), column.label) for column, value in found.numbers)
-            return
+    rows: list[tuple[Any, ...]]
+    if not found.columns:
+        rows = [("name", "value", "unit", "meaning")]
+        rows += [(column.name, value, _unit(column), column.label) for column, value in found.numbers]
+    else:
         units = [f"{column.name} ({column.unit})" if _unit(column) else column.name for column, _ in found.columns]
-        writer.writerow((*units, "valid"))
-        writer.writerows(zip(*(values.tolist() for _, values in found.columns), found.holds().tolist(), strict=True))
+        rows = [(*units, "valid")]
+        rows += zip(*(values.tolist() for _, values in found.columns), found.holds().tolist(), strict=True)
+    write_table(rows, path, overwrite=overwrite)
 
 
 def _unit(quantity: Quantity) -> str:

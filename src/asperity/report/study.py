@@ -14,6 +14,7 @@ from ..contact.advice import DOUBT
 from ..core.quantity import Labelled, Quantity
 from ..core.units import percent, show
 from ..io.atomic import atomic_file
+from ..io.tables import cell
 from ..io.tree import node_of, write_tree
 from ..io.words import Rows
 from ..parts.part import Table
@@ -425,4 +426,7 @@ def _table(data: xarray.Dataset, path: Path) -> None:
     """All variables of ``data`` by case, SI, exact."""
     with atomic_file(path, overwrite=True) as partial:
         frame = data.to_dataframe() if data.sizes else data.expand_dims("all").to_dataframe()
-        frame.to_csv(partial, index=bool(data.sizes))
+        frame = frame.reset_index() if data.sizes else frame
+        texts = frame.select_dtypes(exclude=["number", "bool"]).columns
+        frame[texts] = frame[texts].map(cell)
+        frame.rename(columns=cell).to_csv(partial, index=False)

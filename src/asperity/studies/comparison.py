@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 from collections.abc import Iterator, Mapping
@@ -18,8 +17,8 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.late import Drawn
 from ..core.status import Advice
 from ..core.units import percent, show
-from ..io.atomic import atomic_file
 from ..io.description import software, surface_provenance
+from ..io.tables import write_table
 from ..io.tree import FORMAT_VERSION, node_of, write_tree
 from ..surfaces.surface import Surface
 from ..theories.protocol import QUANTITIES, Prediction
@@ -331,10 +330,7 @@ def export_comparison_csv(comparison: Comparison, path: str | Path, *, overwrite
     OutputError
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
-    with atomic_file(path, overwrite=overwrite) as partial, partial.open("w", newline="", encoding="utf-8") as text:
-        writer = csv.writer(text)
-        writer.writerow(COLUMNS)
-        writer.writerows(_rows(comparison))
+    write_table([COLUMNS, *_rows(comparison)], path, overwrite=overwrite)
 
 
 def _rows(comparison: Comparison) -> Iterator[tuple[object, ...]]:

@@ -12,6 +12,7 @@ from nicegui import ui
 
 from ..core.errors import AsperityError
 from ..io.schemas.study import DEFAULT_QUANTITIES
+from ..io.tables import table_text
 from ..plots.picture import scale
 from ..studies.campaign import STUDY, open_study
 from ..studies.documents import study_from_table
@@ -166,9 +167,9 @@ class _Sweep:
         if found is None:
             return
         every = (found[0], *found[1])
-        lines = [",".join(f'"{with_unit(column.label, column.unit)}"' for column in every)]
-        lines += [",".join(map(repr, row)) for row in zip(*(column.values for column in every), strict=True)]
-        ui.download.content("\r\n".join(lines) + "\r\n", "sweep.csv")
+        names = [with_unit(column.label, column.unit) for column in every]
+        rows = zip(*(column.values for column in every), strict=True)
+        ui.download.content(table_text([names, *rows]), "sweep.csv")
 
 
 @dataclass(frozen=True)
