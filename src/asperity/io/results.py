@@ -47,6 +47,7 @@ from .memory_files import memories_of, memory_in, memory_node
 from .old_files import grouped
 from .rolling_files import ROLLING, rolling_in, rolling_node
 from .shear_files import PREFIX, shear_columns, shear_from, shear_in, shear_node
+from .soundness import sound
 from .stress_files import field_from, field_node
 from .tree import Node, coordinate, datatree, read_tree, require_sound_heaps, write_tree
 from .words import ALL_SCALARS, CERTIFICATE, FIELDS, WET_FIELDS
@@ -368,7 +369,7 @@ def contact_from(
     couplings |= flow_found(problem, memories.get(FLOW, {}))
     if shear is not None and problem.friction is not None:
         couplings[STICK_SLIP] = shear_in(shear, problem.friction)
-    return ContactResult(
+    found = ContactResult(
         problem=problem,
         control=control,
         plastic=arrays["plastic"].astype(bool),
@@ -382,6 +383,7 @@ def contact_from(
         **_values(arrays, FIELDS),
         **_values(node, _STORED),
     )
+    return sound(found)
 
 
 def film_node(result: ContactResult, menisci: Menisci) -> Node:
@@ -509,7 +511,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             **_values(at, (*FIELDS, *_STORED)),
         )
         before = (result.pressure if result.pressure.any() else None) if result.converged else before
-        results.append(result)
+        results.append(sound(result))
     return HistoryResult(tuple(results), start)
 
 
