@@ -14,6 +14,7 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Drawn
+from ..core.values import LEAST
 
 
 @dataclass(frozen=True)
@@ -89,9 +90,8 @@ class Surface(Drawn):
         if missing.all():
             raise InputError("surface heights must hold at least one valid point, but every point is missing.")
         values[missing] = np.nan
-        extent = float(np.nanmax(np.abs(values)))
-        if extent > 0.0:
-            require.magnitude(extent, "largest height of a surface (m)")  # squares of others overflow or vanish
+        if (highest := float(np.nanmax(np.abs(values)))) > LEAST:  # a lower one is flat
+            require.magnitude(highest, "largest height of a surface (m)")  # squares of a higher one overflow
         values.flags.writeable = False
         missing.flags.writeable = False
         grid = Grid((values.shape[0], values.shape[1]), (dx, dx if dy is None else dy))

@@ -35,14 +35,15 @@ def height_parameters(surface: Surface) -> HeightParameters:
     squared = np.square(z)
     mean_square = float(squared.mean())
     highest, lowest = float(z.max()), float(z.min())
+    flat = not mean_square**2 > 0.0  # also where the square of heights of 1e-82 m is no number any more
     return HeightParameters(
         Sa=float(np.abs(z).mean()),
         Sq=float(np.sqrt(mean_square)),
         Sp=highest,
         Sv=-lowest,
         Sz=highest - lowest,
-        Ssk=float((squared * z).mean()) / mean_square**1.5 if mean_square > 0.0 else math.nan,
-        Sku=float(np.square(squared).mean()) / mean_square**2 if mean_square > 0.0 else math.nan,
+        Ssk=float((squared * z).mean()) / mean_square**1.5 if not flat else math.nan,
+        Sku=float(np.square(squared).mean()) / mean_square**2 if not flat else math.nan,
     )
 
 
