@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import asperity as asp
+from asperity.contact.couplings.stick_slip import SERVES
 from asperity.contact.operators.tangential import TangentialOperator
 from asperity.contact.solvers import ActiveSet
 from asperity.contact.solvers.stick_slip.newton import StickSlipNewton
@@ -279,3 +280,24 @@ def test_random_problems_converge():
         if not found.status.converged:
             failed.append((case, found.deviation.error))
     assert failed == []
+
+
+def pressed(law: asp.Coulomb | asp.FullStick, points: int = 24) -> asp.HistoryResult:
+    """A rigid sphere of unit radius pressed in twelve steps on a body of Poisson's ratio zero, whose shear lifts the edge most."""
+    places = (np.arange(points) - (points - 1) / 2) * 0.24 / points
+    sphere = asp.Surface(-(places[:, None] ** 2 + places**2) / 2, 0.24 / points, periodic=False)
+    problem = asp.ContactProblem(sphere, asp.Elastic(1.0, 0.0), boundary=asp.Free(), friction=law)
+    loads = 4 / 3 * 0.1**3 * np.arange(1, 13) / 12
+    return asp.solve(problem, asp.History([asp.Step(asp.Force(load), asp.Shift()) for load in loads]))
+
+
+def test_full_stick_without_solution_names_the_friction_that_serves():
+    """Points at the edge open by the shear that they would bear: the error says so and which Coulomb's law stands for it."""
+    with pytest.raises(asp.ConvergenceError) as caught:
+        pressed(asp.FullStick())
+    assert f"Coulomb({SERVES:g})" in str(caught.value)
+    last = pressed(asp.Coulomb(SERVES)).last
+    assert last.converged
+    slipping = last.stick_slip.slipping
+    assert 0 < slipping.sum() < 0.2 * last.contact.sum()
+    assert abs(last.force - 4 / 3 * 0.1**3) <= 1e-8 * last.force

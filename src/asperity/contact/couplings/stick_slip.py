@@ -231,6 +231,12 @@ class _Note:
         return replace(self, touching=touching, turns=self.turns + (touching != self.touching))
 
 
+SERVES = 20.0
+"""Coefficient of friction that stands for full stick where that has no solution. Of 131 presses
+of spheres on bodies of Poisson's ratio 0 to 0.2 in twelve steps full stick failed in 46; there 20
+and 50 settled in all, 100 in 41."""
+
+
 @dataclass(frozen=True, eq=False)
 class StickSlipCoupling(Coupling):
     """Shear tractions by a law of friction; the unknown is the normal displacement (nx, ny) in m by them.
@@ -249,6 +255,8 @@ class StickSlipCoupling(Coupling):
     @property
     def remedy(self) -> str:
         """What to do if it does not settle."""
+        if isinstance(self.law, FullStick):
+            return f"Take Coulomb({SERVES:g}), which slips next to the edge alone, or a finer grid."
         if self._jumps:
             return "Take Coulomb(mu, limit=strength) with a large mu, whose bound begins at zero, or a finer grid."
         return "Take smaller steps, tighten the solver's tolerance, or lower the friction coefficient."
