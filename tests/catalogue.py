@@ -27,8 +27,8 @@ from asperity import (
     Surface,
 )
 from asperity.contact.boundary import Boundary
+from asperity.contact.controls import Control, Step
 from asperity.contact.laws import InterfaceLaw
-from asperity.contact.problem import Control, Step
 from asperity.contact.solve import Prepared
 from asperity.contact.solvers import (
     ActiveSet,

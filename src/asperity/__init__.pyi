@@ -5,6 +5,7 @@ from .contact.adhesive_branch import AdhesiveBranch, adhesive_branch, adhesive_j
 from .contact.adhesive_cycles import AdhesionLoop, adhesion_cycle, adhesion_loop
 from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
+from .contact.controls import Approach, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .contact.couplings.adhesion import AdhesiveContact
 from .contact.couplings.driver import CouplingCheck, Rounds
 from .contact.couplings.menisci import Menisci
@@ -33,18 +34,7 @@ from .contact.laws import (
 from .contact.linearised import TangentialStiffness, contraction_factor, tangential_stiffness
 from .contact.operators import prepare_operator
 from .contact.plastic_load import PlasticLoad, plastic_load
-from .contact.problem import (
-    Approach,
-    ContactProblem,
-    FixedGrips,
-    Flat,
-    Force,
-    MeanGap,
-    MeanPressure,
-    Pull,
-    Step,
-    Unloaded,
-)
+from .contact.problem import ContactProblem, Flat
 from .contact.result import ContactResult
 from .contact.rolling import Creepage, RollingContact, roll
 from .contact.rough_rolling import RoughRolling, roll_rough

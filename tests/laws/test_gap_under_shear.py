@@ -8,7 +8,7 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.contact.problem import Control
+from asperity.contact.controls import Control
 
 UNLIKE = asp.Elastic(1e9, 0.2)
 BALL = asp.generate.sphere(asp.Grid((24, 24), (1e-6, 1e-6)), radius=1e-4)

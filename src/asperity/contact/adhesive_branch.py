@@ -12,10 +12,10 @@ import numpy as np
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
+from .controls import FixedGrips
 from .history import HistoryResult
 from .laws import HardWall
 from .operators import prepare_operator
-from .problem import FixedGrips
 from .result import ContactResult
 from .solve import solve
 from .solvers.adhesion.continuation import BranchPoint, Continuation

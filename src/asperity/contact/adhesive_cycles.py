@@ -14,7 +14,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.quantity import Quantity
-from .problem import FixedGrips
+from .controls import FixedGrips
 from .result import ContactResult
 
 if TYPE_CHECKING:

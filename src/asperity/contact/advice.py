@@ -15,12 +15,13 @@ from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, st
 from ..surfaces.surface import Surface
 from ..theories.wet.meniscus import wetting_factor
 from .certificate import LARGEST_DUALITY_GAP
+from .controls import Control, Force, MeanPressure, mean_pressure
 from .couplings.menisci import Menisci
 from .couplings.plastic_flow import NAME as PLASTIC_FLOW
 from .couplings.plastic_flow import SMALL_STRAIN, PlasticBody, PlasticFlowCoupling
 from .couplings.stick_slip import slides_freely
 from .laws import LayeredHardness, LimitByDepth
-from .problem import ContactProblem, Control, Force, MeanPressure, mean_pressure
+from .problem import ContactProblem
 from .result import ContactResult
 
 LARGEST_SLOPE = 0.3

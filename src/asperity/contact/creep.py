@@ -19,8 +19,9 @@ from ..surfaces.surface import Surface
 from ..theories.friction.kalker import LARGEST_RATIO, SMALLEST_RATIO
 from ..theories.friction.rolling import CreepForces, Fastsim, KalkerLinear
 from .boundary import FreeLine, Periodic
+from .controls import Control
 from .laws import Coulomb
-from .problem import ContactProblem, Control
+from .problem import ContactProblem
 from .rolling import DIRECTIONS, Creepage, Rolling, RollingContact, roll
 from .rough_rolling import RoughRolling, roll_rough
 

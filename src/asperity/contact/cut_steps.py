@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from .controls import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
 from .couplings.plastic_flow import NAME
-from .problem import Approach, Control, Force, MeanGap, MeanPressure, Unloaded
 from .result import ContactResult
 from .state import InterfaceState
 

@@ -15,7 +15,7 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.late import Stored
 from .adhesive_cycles import adhesion_loop
-from .problem import Approach, Control, Force, MeanGap, MeanPressure, Step, Unloaded, as_step
+from .controls import Approach, Control, Force, MeanGap, MeanPressure, Step, Unloaded, as_step
 from .result import ContactResult
 from .state import InterfaceState
 from .tangential import Shift, TangentialForce

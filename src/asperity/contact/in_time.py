@@ -14,6 +14,7 @@ from ..core.errors import ConvergenceError, InputError
 from ..core.status import Outcome, Status
 from ..solids.compliance.creep import SharedCreep
 from . import measure
+from .controls import Approach, Control, MeanGap, Step, as_step
 from .couplings.adhesion import AdhesionCoupling, AdhesiveContact, in_time
 from .couplings.creep import LayeredPast, Past, Remembering, TimeWeights
 from .couplings.driver import Settled
@@ -27,7 +28,7 @@ from .energy_in_time import Account, accounted, balanced, force_work, step_error
 from .laws import JKRAdhesion
 from .operators import Operator
 from .operators.tangential import NO_COUPLING
-from .problem import Approach, ContactProblem, Control, MeanGap, Step, as_step
+from .problem import ContactProblem
 from .result import ContactResult
 from .solvers.protocol import ContactQP, FixedOffset, Solution, SolverState
 from .state import InterfaceState

@@ -15,10 +15,10 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.engine import CpuEngine
 from ..core.errors import InputError
+from .controls import Force, MeanPressure
 from .laws import Coulomb
 from .operators import prepare_operator
 from .operators.tangential import TangentialOperator
-from .problem import Force, MeanPressure
 from .result import ContactResult
 from .solvers.protocol import ContactQP, FixedMean, FixedOffset
 from .solvers.stick_slip.joint import JointIterate, JointProblem, JointSystem, Place

@@ -11,8 +11,9 @@ import numpy as np
 from ..core import require
 from ..core.errors import InputError, NoSolutionError
 from ..core.status import Progress
+from .controls import MeanPressure
 from .operators import Operator, prepare_operator
-from .problem import ContactProblem, MeanPressure
+from .problem import ContactProblem
 from .result import PLASTIC_FRACTION, ContactResult
 from .solve import Keep, solve
 from .solvers.protocol import Solver

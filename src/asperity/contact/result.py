@@ -20,11 +20,12 @@ from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from . import measure
 from .certificate import Certificate
+from .controls import Control
 from .couplings.menisci import Menisci
 from .couplings.protocol import Contact, Deflections, Memory
 from .couplings.sliding import GrossSliding
 from .operators import Operator, prepare_operator
-from .problem import ContactProblem, Control
+from .problem import ContactProblem
 from .state import InterfaceState
 
 if TYPE_CHECKING:

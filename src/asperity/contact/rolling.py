@@ -17,10 +17,11 @@ from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Status
+from .controls import Approach, Control
 from .laws import FrictionLaw, HardWall
 from .operators import Operator, prepare_operator
 from .operators.tangential import TangentialOperator
-from .problem import Approach, ContactProblem, Control, Flat
+from .problem import ContactProblem, Flat
 from .result import ContactResult
 from .solve import Keep, solve
 from .solvers.active_set.solver import ActiveSet

@@ -18,8 +18,9 @@ from ..core.errors import ConvergenceError, InputError
 from ..core.quantity import Quantity
 from ..core.status import NoProgress, Outcome, Progress, Status
 from ..surfaces.surface import Surface
+from .controls import Control
 from .laws import FrictionLaw
-from .problem import ContactProblem, Control
+from .problem import ContactProblem
 from .result import ContactResult
 from .rolling import DIRECTIONS, Creepage, Rolling, RollingBodies, RollingContact, require_rolling, slip_of
 from .solvers.stick_slip.newton import StickSlipNewton

@@ -21,6 +21,19 @@ from ..solids.compliance.creep import contact_creep
 from ..solids.layers import relaxes
 from .adhesive_steps import divides, in_ranges
 from .certificate import LARGEST_DUALITY_GAP, Certificate, certify
+from .controls import (
+    Approach,
+    Control,
+    FixedGrips,
+    Force,
+    MeanGap,
+    MeanPressure,
+    Pull,
+    Step,
+    Unloaded,
+    as_step,
+    mean_pressure,
+)
 from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
 from .couplings.adhesion import AdhesionCoupling
 from .couplings.balance import settle_forces
@@ -43,21 +56,7 @@ from .in_time import InTime, require_range
 from .laws import Coulomb, HardWall, LimitByDepth
 from .operators import Operator, prepare_operator
 from .operators.creep import OperatorsInTime
-from .problem import (
-    Approach,
-    ContactProblem,
-    Control,
-    FixedGrips,
-    Force,
-    MeanGap,
-    MeanPressure,
-    Pull,
-    Step,
-    Unloaded,
-    as_step,
-    mean_pressure,
-    require_adhesion,
-)
+from .problem import ContactProblem, require_adhesion
 from .result import ContactResult, assemble
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver

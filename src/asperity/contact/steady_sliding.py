@@ -35,6 +35,7 @@ from ..surfaces.surface import Surface
 from ..theories.rough.persson import IsotropicSpectrum
 from ..theories.rough.rubber_friction import ORIGINAL, RubberFriction, rubber_friction
 from .boundary import Periodic
+from .controls import Control, Unloaded
 from .couplings.driver import Rounds
 from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share, height_scale
 from .in_time import require_range
@@ -42,7 +43,7 @@ from .laws import HardWall
 from .moving_load import FreeMovingKernel, axis_of
 from .operators import Operator, prepare_operator
 from .operators.convolution import PeriodicOperator
-from .problem import ContactProblem, Control, Unloaded, require_adhesion
+from .problem import ContactProblem, require_adhesion
 from .result import ContactResult
 from .solve import couplings_of, finished, settled_with
 from .solvers.active_set.solver import ActiveSet

@@ -12,9 +12,9 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.quantity import Quantity
+from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .couplings.creep import Past
 from .couplings.protocol import Memory
-from .problem import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .tangential import Shift, Tangential, TangentialForce
 
 if TYPE_CHECKING:

@@ -23,8 +23,9 @@ from ..core.status import NoProgress, Progress
 from ..solids.layers import relaxes
 from ..surfaces.surface import Surface
 from .boundary import Periodic
+from .controls import Control, Unloaded
 from .couplings.driver import Rounds
-from .problem import ContactProblem, Control, Unloaded
+from .problem import ContactProblem
 from .result import ContactResult
 from .solve import Keep, Prepared
 from .time_steps import Creeping, Moment

@@ -15,6 +15,7 @@ from typing import Any, get_args
 import numpy as np
 
 from ..contact.boundary import Boundary
+from ..contact.controls import Control
 from ..contact.couplings.driver import CouplingCheck
 from ..contact.laws import (
     Coulomb,
@@ -31,7 +32,7 @@ from ..contact.laws import (
     TrescaFriction,
     VanDerWaalsAdhesion,
 )
-from ..contact.problem import Control, Flat
+from ..contact.problem import Flat
 from ..contact.result import ContactResult
 from ..contact.tangential import Tangential
 from ..contact.wetting import LiquidFilm

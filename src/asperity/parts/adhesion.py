@@ -31,8 +31,9 @@ from .part import Found, Part, Rows, Solved, Table, Words
 if TYPE_CHECKING:
     from ..contact.adhesive_branch import Jump
     from ..contact.adhesive_cycles import AdhesionLoop
+    from ..contact.controls import Control, Step
     from ..contact.laws import Adhesion as AdhesionLaw
-    from ..contact.problem import ContactProblem, Control, Step
+    from ..contact.problem import ContactProblem
     from ..contact.result import ContactResult
     from ..plots.picture import Figure
     from ..solids.surface_energy import PairAdhesion
@@ -221,7 +222,7 @@ class Adhesion(Part):
     def course(self, ask: Asked, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """Approach and parting, where they are asked for."""
         from ..contact.adhesive_cycles import adhesion_cycle
-        from ..contact.problem import as_step
+        from ..contact.controls import as_step
 
         table = ask.settings
         if table.retract is None:

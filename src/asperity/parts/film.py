@@ -29,9 +29,9 @@ from ..core.values import (
 from .part import Found, Part, Rows, Solved, Table, Words
 
 if TYPE_CHECKING:
+    from ..contact.controls import Control
     from ..contact.couplings.menisci import Menisci as SolvedMenisci
     from ..contact.laws import Coulomb, FrictionLaw, FullStick, TrescaFriction
-    from ..contact.problem import Control
     from ..contact.wet_theory import WetTheory as SolvedTheory
     from ..contact.wetting import LiquidFilm
     from ..plots.picture import Figure

@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from ..contact.controls import Approach
 from ..contact.couplings.plastic_flow import PlasticBody
 from ..contact.history import HistoryResult
 from ..contact.laws import Coulomb
 from ..contact.laws import PlasticFlow as Law
 from ..contact.laws.plastic_flow import plastic_body
-from ..contact.problem import Approach, ContactProblem
+from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..contact.solve import Keep, solve
 from ..core.arrays import RealArray

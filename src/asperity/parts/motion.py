@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.problem import MeanPressure
+from ..contact.controls import MeanPressure
 from ..contact.solve import steps
 from ..core.errors import ConvergenceError, InputError
 from ..core.status import Advice

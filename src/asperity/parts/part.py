@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 from ..core.status import NoProgress, Progress
 
 if TYPE_CHECKING:
+    from ..contact.controls import Control, Step
     from ..contact.history import HistoryResult
-    from ..contact.problem import ContactProblem, Control, Step
+    from ..contact.problem import ContactProblem
     from ..contact.result import ContactResult
     from ..contact.solvers.protocol import Solver
     from ..core.quantity import Quantity

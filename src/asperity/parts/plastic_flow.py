@@ -15,7 +15,8 @@ from .part import Found, Part, Solved, Stored, Words
 from .plastic_quantities import number_rows, quantities_of, tension_table, zones_table
 
 if TYPE_CHECKING:
-    from ..contact.problem import ContactProblem, Control, Step
+    from ..contact.controls import Control, Step
+    from ..contact.problem import ContactProblem
     from ..plots.picture import Figure
 
 PREFIX = "plastic_flow"
@@ -117,8 +118,8 @@ class PlasticFlow(Part):
 
     def course(self, ask: Flows, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """A single load in steps, and the way back."""
+        from ..contact.controls import Approach, Force, MeanPressure
         from ..contact.history import ramps
-        from ..contact.problem import Approach, Force, MeanPressure
 
         table = ask.settings
         (control,) = controls if len(controls) == 1 else (None,)

@@ -21,9 +21,10 @@ from .part import Found, Part, Rows, Solved, Stored, Table, Words
 from .stick_slip import law_text
 
 if TYPE_CHECKING:
+    from ..contact.controls import Control
     from ..contact.creep import CreepCurve
     from ..contact.laws import FrictionLaw
-    from ..contact.problem import ContactProblem, Control
+    from ..contact.problem import ContactProblem
     from ..contact.rolling import Creepage, RollingContact
     from ..contact.rough_rolling import RoughRolling
     from ..plots.picture import Figure

@@ -22,9 +22,10 @@ from .film import sticks
 from .part import Found, Part, Rows, Solved, Table, Words
 
 if TYPE_CHECKING:
+    from ..contact.controls import Control, Step
     from ..contact.fretting import Loop
     from ..contact.history import EnergyBalance, HistoryResult
-    from ..contact.problem import ContactProblem, Control, Step
+    from ..contact.problem import ContactProblem
     from ..contact.result import ContactResult
     from ..contact.tangential import Tangential
     from ..plots.picture import Figure
@@ -76,7 +77,7 @@ class ShearStep(Settings):
 
     def normal(self, before: Control) -> Control:
         """Load or position of this step."""
-        from ..contact.problem import Approach, Force, MeanPressure
+        from ..contact.controls import Approach, Force, MeanPressure
 
         kinds: dict[str, Any] = {"mean_pressure": MeanPressure, "load": Force, "approach": Approach}
         chosen: Control = next(
@@ -250,7 +251,7 @@ class StickSlip(Part):
 
     def course(self, ask: Sheared, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """The load with no shift, then the steps along the surface."""
-        from ..contact.problem import Step, as_step
+        from ..contact.controls import Step, as_step
         from ..contact.tangential import Shift, TangentialForce
 
         settings, last = ask.settings, as_step(controls[-1]).normal

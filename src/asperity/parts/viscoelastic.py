@@ -20,7 +20,8 @@ from ..core.values import Count, Fraction, Length, Number, Whole
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
 
 if TYPE_CHECKING:
-    from ..contact.problem import ContactProblem, Control, Step
+    from ..contact.controls import Control, Step
+    from ..contact.problem import ContactProblem
     from ..contact.result import ContactResult
     from ..contact.time_steps import Creeping
     from ..plots.picture import Figure
@@ -106,7 +107,7 @@ class InTime:
 
 def _rests(control: Step | Control) -> bool:
     """Whether nothing moves along the surfaces in the step ``control``."""
-    from ..contact.problem import as_step
+    from ..contact.controls import as_step
     from ..contact.tangential import Shift, TangentialForce
 
     return as_step(control).tangential in (None, Shift(), TangentialForce())
@@ -191,7 +192,7 @@ class Viscoelasticity(Part):
 
     def course(self, ask: InTime, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """Ramps to the turning points of the load, and holds there."""
-        from ..contact.problem import as_step
+        from ..contact.controls import as_step
 
         table = ask.settings
         if not table.in_time:

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 
 from ..contact.advice import advise, review
 from ..contact.boundary import Periodic
-from ..contact.problem import ContactProblem, MeanPressure
+from ..contact.controls import MeanPressure
+from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..contact.roughness import roughness_of
 from ..contact.solve import default_solver, steps

@@ -19,10 +19,11 @@ from ...core.errors import NoSolutionError
 from ...core.late import Shown
 from ...core.status import Status
 from .. import measure
+from ..controls import Control, FixedGrips, MeanGap
 from ..laws import Adhesion, Coulomb, HardWall, JKRAdhesion, SoftAdhesion, cohesive_length
 from ..operators import Operator
 from ..operators.creep import SummedOperator
-from ..problem import ContactProblem, Control, FixedGrips, MeanGap
+from ..problem import ContactProblem
 from ..solvers.adhesion.front import MovingFront, step_compliance
 from ..solvers.adhesion.problem import Adhered, AdhesiveProblem
 from ..solvers.adhesion.soft_core import SoftCoreNewton

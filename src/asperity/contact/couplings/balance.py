@@ -20,7 +20,7 @@ import numpy as np
 
 from ...core.errors import NoSolutionError
 from ...core.status import Outcome, Progress, Status
-from ..problem import Control, FixedGrips
+from ..controls import Control, FixedGrips
 from ..solvers.protocol import Solver
 from .adhesion import AdhesionCoupling
 from .driver import CouplingCheck, Rounds, Settled, settle

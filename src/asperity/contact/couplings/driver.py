@@ -12,7 +12,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
 from ...core.status import NoProgress, Outcome, Progress, Status
-from ..problem import Approach
+from ..controls import Approach
 from ..solvers.active_set.solver import ActiveSet, Loaded
 from ..solvers.pressure_error import error_for_pressure
 from ..solvers.protocol import Constraint, ContactQP, FixedMean, FixedOffset, Solution, Solver, SolverState, run

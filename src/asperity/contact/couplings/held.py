@@ -17,7 +17,7 @@ import numpy as np
 from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
 from ...core.status import Outcome, Progress, Status
-from ..problem import Approach, MeanGap
+from ..controls import Approach, MeanGap
 from ..solvers.protocol import Solver
 from .driver import Rounds, Settled, settle
 from .hardness import ConstantHardness, DepthHardness

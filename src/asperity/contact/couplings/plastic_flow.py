@@ -25,9 +25,10 @@ from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Layered, RigidBase
 from ...solids.plasticity import J2, WEIGHTS, LinearHardening
 from ..boundary import Free
+from ..controls import Approach, MeanGap
 from ..laws import Coulomb
 from ..laws.plastic_flow import PlasticFlow, plastic_body
-from ..problem import Approach, ContactProblem, MeanGap
+from ..problem import ContactProblem
 from ..solvers.active_set.solver import ActiveSet
 from ..solvers.protocol import FixedOffset, Solver, run
 from .position import closeness_wanted

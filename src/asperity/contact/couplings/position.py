@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.errors import NoSolutionError
-from ..problem import Approach, MeanGap
+from ..controls import Approach, MeanGap
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 
 # Pairs of ``benchmarks/constants.py``: periodic elastic contacts (23.7 as it is), near full contact (64.2), with a hardness (23.3) and

@@ -14,8 +14,8 @@ from ...core.arrays import BoolArray, RealArray
 from ...core.engine import Totals
 from ...core.errors import NoSolutionError
 from ...core.status import Progress, Status
+from ..controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Unloaded, mean_pressure
 from ..operators.convolution import Operator
-from ..problem import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Unloaded, mean_pressure
 from ..solvers.protocol import Constraint, ContactQP, Solution, Solver, level_of
 from ..tangential import Tangential
 
