@@ -5,12 +5,13 @@ from __future__ import annotations
 from architecture.source import PACKAGE, Import, Module, imports, library
 
 LAYERS = {
-    8: ("cli", "web"),
-    7: ("studies",),
-    6: ("report",),
-    5: ("run",),
-    4: ("parts",),
-    3: ("plots", "io"),
+    9: ("cli", "web"),
+    8: ("studies",),
+    7: ("report",),
+    6: ("run",),
+    5: ("parts",),
+    4: ("plots", "io"),
+    3: ("physics",),
     2: ("contact", "stress", "dynamics", "fem"),
     1: ("surfaces", "solids", "theories"),
     0: ("core",),
@@ -93,6 +94,7 @@ def test_upward_and_sideways_imports_are_found() -> None:
         ("asperity.contact.solve", "from .. import stress"),
         ("asperity.contact.laws.adhesion", "from ...stress.field import Field"),
         ("asperity.contact.couplings.wet", "from ...parts.wet import Settings"),
+        ("asperity.contact.problem", "from ..physics.menisci.physics import Wet"),
         ("asperity.stress.layered", "from ..contact.result import Result"),
         ("asperity.solids.library", "from ..surfaces import surface"),
         ("asperity.surfaces.pair", "from ..solids import elastic"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Self, TypeAlias, overload
@@ -14,8 +14,9 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.late import Stored
-from .adhesive_cycles import adhesion_loop
+from ..core.registry import ENERGY_TERMS
 from .controls import Approach, Control, Force, MeanGap, MeanPressure, Step, Unloaded, as_step
+from .known import EnergyNames
 from .result import ContactResult
 from .state import InterfaceState
 from .tangential import Shift, TangentialForce
@@ -268,7 +269,7 @@ class HistoryResult(Stored):
 
 
 @dataclass(frozen=True, eq=False)
-class EnergyBalance:
+class EnergyBalance(EnergyNames):
     """Energies after each step of a history in J, counted from the touching of the unloaded bodies, dented as it found them.
 
     A history that goes on from a loaded interface, or with adhesion, is counted from its first step instead. Integrals are trapezia through
@@ -285,8 +286,6 @@ class EnergyBalance:
     ----------
     external_work
         ∫ F dδ of the force between the solids over the approach, so of external load and menisci.
-    meniscus_work
-        The part of it that the menisci do.
     elastic_energy
         Half of pressure times displacement, and of shear traction times tangential displacement, less that at the start; with
         adhesion the energy of the interface too.
@@ -303,127 +302,90 @@ class EnergyBalance:
     viscous_work
         Heat of viscoelastic bodies. Their external work is that of all steps of time, of a step at once what is stored and taken
         (``Creeping.work``), and the elastic energy what their springs store.
+    supplied, taken, included
+        What the physics of the problem add by name, each an attribute as well, zero where the problem has none: works beside the external
+        one, ``tangential_work``; what else is stored or lost; and parts of the external work, ``meniscus_work``.
+    meniscus_work
+        The part of the external work that the menisci do.
     jump_work
         What adhesive contacts lose as they jump: in the steps with a jump all that nothing else takes.
     """
 
     external_work: RealArray
-    meniscus_work: RealArray
     elastic_energy: RealArray
     plastic_work: RealArray
-    shear_work: RealArray
-    tangential_work: RealArray
-    slip_work: RealArray
-    step_work: RealArray
     viscous_work: RealArray
-    jump_work: RealArray
+    supplied: Mapping[str, RealArray]
+    taken: Mapping[str, RealArray]
+    included: Mapping[str, RealArray]
+
+    def __getattr__(self, name: str) -> RealArray:
+        own = vars(self)
+        for terms in ("supplied", "taken", "included"):
+            if name in own.get(terms, {}):
+                found: RealArray = own[terms][name]
+                return found
+        if name in ENERGY_TERMS:
+            return np.zeros(own["external_work"].shape)
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     @property
     def residual(self) -> RealArray:
-        """External and tangential work less all others: the error of the trapezoidal rule, or of the steps of time, of second order."""
-        done = self.external_work + self.tangential_work
-        return (
-            done
-            - self.elastic_energy
-            - self.plastic_work
-            - self.shear_work
-            - self.slip_work
-            - self.step_work
-            - self.viscous_work
-            - self.jump_work
-        )
+        """Works less all that is stored or taken: the error of the trapezoidal rule, or of the steps of time, of second order."""
+        left = self.external_work + sum(self.supplied.values(), np.zeros(self.external_work.shape))
+        return left - sum(self.taken.values(), self.elastic_energy + self.plastic_work + self.viscous_work)
 
     @property
     def relative_error(self) -> float:
-        """Largest magnitude of the residual over the largest external and tangential work; zero where no work was done."""
-        largest = float(max(np.abs(self.external_work).max(), np.abs(self.tangential_work).max()))
+        """Largest magnitude of the residual over the largest external or tangential work; zero where no work was done."""
+        largest = max(float(np.abs(work).max()) for work in (self.external_work, *self.supplied.values()))
         return float(np.abs(self.residual).max()) / largest if largest > 0.0 else 0.0
 
 
 def _balance(history: HistoryResult) -> EnergyBalance:
     from scipy.integrate import cumulative_trapezoid
 
-    force, approach, elastic = history.force, history.approach, history.elastic_energy
-    adhesive = [0.0 if step.adhesion is None else step.adhesion.interface_energy for step in history.steps]
-    force = force - [0.0 if step.adhesion is None else step.adhesion.attractive_force for step in history.steps]
-    elastic = elastic + adhesive
-    flowed = [step.plastic_flow for step in history.steps if step.plastic_flow is not None]
-    elastic = elastic + ([each.residual_energy for each in flowed] or 0.0)
-    plastic, pull = (
-        np.cumsum(history.plastic_work + ([each.step_work for each in flowed] or 0.0)),
-        force - history.external_force,
-    )
-    shear, along = _shear_works(history), _tangential_works(history)
-    elastic = elastic + [  # that stored in viscoelastic bodies has it
-        0.0 if step.stick_slip is None or step.creep is not None else step.stick_slip.tangential_energy
-        for step in history.steps
+    steps, start = history.steps, history.start
+    problem, approach = steps[0].problem, history.approach
+    attraction = [[each.pulls() for each in step.answers if each.traction_beside() is not None] for step in steps]
+    attracted, from_first = np.array([sum(pulls) for pulls in attraction]), bool(attraction[0])
+    by_answers = [next((w for w in (each.worked() for each in step.answers) if w is not None), None) for step in steps]
+    force = history.force - attracted
+    pull = force - history.external_force
+    elastic = history.elastic_energy + [
+        sum(each.stores(relaxing=worked is not None) for each in step.answers)
+        for step, worked in zip(steps, by_answers, strict=True)
     ]
-    start = history.start
-    adhesion = history.steps[0].adhesion is not None
-    if not adhesion and (start is None or not start.pressure.any()):
-        virgin = history.steps[0].problem.profile()
+    plastic = np.cumsum(history.plastic_work + [sum(each.flows() for each in step.answers) for step in steps])
+    terms = {name: np.cumsum(each) for item in problem.physics for name, each in item.works(steps).items()}
+    loaded = start is not None and bool(start.pressure.any())
+    if not from_first and not loaded:
+        virgin = problem.profile()
         dented = virgin if start is None else virgin - start.permanent_indentation - start.imprint
         approach = np.concatenate([[float(virgin.max() - dented.max())], approach])
         work, pulled = (cumulative_trapezoid(np.concatenate([[0.0], f]), approach) for f in (force, pull))
-        shear, along = np.cumsum(shear), np.cumsum(along, axis=1)
     else:
         work, pulled = (cumulative_trapezoid(f, approach, initial=0) for f in (force, pull))
-        if adhesion:
-            work = adhesion_loop(history.steps).work + pulled
+        for known in (item.work(steps) for item in problem.physics):
+            work = work if known is None else known + pulled
         elastic, plastic = elastic - elastic[0], plastic - plastic[0]
-        shear, along = np.cumsum(shear) - shear[0], np.cumsum(along, axis=1) - along[:, :1]
-    viscous, moments = np.zeros(elastic.shape), [step.creep for step in history.steps if step.creep is not None]
-    if moments:
-        work, viscous = np.cumsum([each.work for each in moments]), np.cumsum([each.dissipated for each in moments])
-        if adhesion or (start is not None and start.pressure.any()):
+        terms = {name: each - each[0] for name, each in terms.items()}
+    viscous = np.cumsum([sum(each.heat() for each in step.answers) for step in steps])
+    if None not in by_answers:
+        work = np.cumsum(np.array(by_answers))
+        if from_first or loaded:
             work, viscous = work - work[0], viscous - viscous[0]
-    tangential, slip, taken = along
-    found = EnergyBalance(work, pulled, elastic, plastic, shear, tangential, slip, taken, viscous, np.zeros(work.shape))
-    return replace(found, jump_work=_jump_works(history, found.residual))
-
-
-def _jump_works(history: HistoryResult, left: RealArray) -> RealArray:
-    """Energy (J) lost in jumps up to each step: of what nothing else takes, ``left``, the part of the steps with a jump."""
-    jumped = np.array([step.adhesion is not None and step.adhesion.jumped for step in history.steps])
-    jumped[0] = False  # from which energies are counted
-    lost: RealArray = np.cumsum(np.where(jumped, np.diff(left, prepend=0.0), 0.0))
-    return lost
-
-
-def _shear_works(history: HistoryResult) -> RealArray:
-    """Σ p du (J) of the displacement by shear in every step, by the mean of the pressures before and after."""
-    pixel, works = history.steps[0].problem.grid.pixel_area, []
-    none = np.zeros(history.steps[0].pressure.shape)
-    pressure: RealArray = none
-    lift: RealArray = none
-    for result in history.steps:
-        if result.creep is not None:  # through its steps of time
-            works.append(result.creep.shear_work)
-            continue
-        now = none if result.sliding is None else result.sliding.shear_displacement
-        works.append(0.5 * float(((result.pressure + pressure) * (now - lift)).sum()) * pixel)
-        pressure, lift = result.pressure, now
-    return np.array(works)
-
-
-def _tangential_works(history: HistoryResult) -> RealArray:
-    """(3, steps): Q·Δδ, energy dissipated by slip and ½ Σ Δq·Δu (J) of every step; zero without stick and slip."""
-    pixel, works = history.steps[0].problem.grid.pixel_area, np.zeros((3, len(history.steps)))
-    before = None
-    for number, result in enumerate(history.steps):
-        now = result.stick_slip
-        if now is None:
-            continue
-        moved = np.array([now.shift_x, now.shift_y, now.twist])
-        traction, displacement = now.traction, now.tangential_displacement
-        if before is not None:
-            moved = moved - [before.shift_x, before.shift_y, before.twist]
-            traction, displacement = traction - before.traction, displacement - before.tangential_displacement
-        works[1, number], creep = now.dissipated, result.creep
-        if creep is None:
-            works[0, number] = now.work_by(moved, displacement, pixel)
-            works[2, number] = 0.5 * float(np.einsum("kij,kij->", traction, displacement)) * pixel
-        else:
-            works[0, number], works[2, number] = creep.tangential_work, creep.step_work
-        before = now
-    return works
+    supplying = {name for item in problem.physics for name in item.supplies}
+    found = EnergyBalance(
+        work,
+        elastic,
+        plastic,
+        viscous,
+        supplied={name: each for name, each in terms.items() if name in supplying},
+        taken={name: each for name, each in terms.items() if name not in supplying},
+        included={item.pull_term: pulled for item in problem.physics if item.pull_term},
+    )
+    for item in problem.physics:
+        lost = item.losses(steps, found.residual)
+        found = replace(found, taken={**found.taken, **lost}) if lost else found
+    return found

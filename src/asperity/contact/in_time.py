@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.arrays import RealArray
-from ..core.errors import ConvergenceError, InputError
+from ..core.errors import ConvergenceError
 from ..core.status import Outcome, Status
-from ..solids.compliance.creep import SharedCreep
+from ..solids.compliance.creep import SharedCreep, contact_creep
 from . import measure
 from .controls import Approach, Control, MeanGap, Step, as_step
-from .couplings.adhesion import AdhesionCoupling, AdhesiveContact, in_time
-from .couplings.creep import LayeredPast, Past, Remembering, TimeWeights
+from .couplings.adhesion import AdhesiveContact, in_time
+from .couplings.creep import CreepCoupling, LayeredPast, Past, TimeWeights, remembering
 from .couplings.driver import Settled
 from .couplings.layered_shear import LayeredShear
 from .couplings.menisci import Menisci, MeniscusCoupling
@@ -25,10 +25,9 @@ from .couplings.shear_creep import ShearMemory
 from .couplings.sliding import GrossSliding, SlidingCoupling
 from .couplings.stick_slip import StickSlip, StickSlipCoupling
 from .energy_in_time import Account, accounted, balanced, force_work, step_error
-from .laws import JKRAdhesion
 from .operators import Operator
+from .operators.creep import OperatorsInTime
 from .operators.tangential import NO_COUPLING
-from .problem import ContactProblem
 from .result import ContactResult
 from .solvers.protocol import ContactQP, FixedOffset, Solution, SolverState
 from .state import InterfaceState
@@ -38,24 +37,21 @@ if TYPE_CHECKING:
     from .solve import Prepared
 
 
-def require_range(problem: ContactProblem) -> None:
-    """Refuse adhesion without range of bodies that relax with an InputError."""
-    if isinstance(problem.adhesion, JKRAdhesion):
-        raise InputError(
-            "adhesion of viscoelastic bodies must have a range, but is JKRAdhesion (coupling adhesion), whose edge would lose energy at all "
-            "wavelengths. Take ExponentialAdhesion(work, range)."
-        )
-
-
 class InTime:
     """Steps of time of a prepared problem with viscoelastic bodies."""
 
-    def __init__(self, prepared: Prepared, remembering: Remembering) -> None:
-        self.prepared, self.remembering = prepared, remembering
-        self.shear: ShearMemory | LayeredShear | None = None
-        if any(isinstance(coupling, StickSlipCoupling | SlidingCoupling) for coupling in prepared.couplings):
-            self.shear = self._prepared_shear()
-            prepared.couplings = tuple(self._lifting(coupling) for coupling in prepared.couplings)
+    def __init__(self, prepared: Prepared) -> None:
+        problem, operator = prepared.problem, prepared.operator
+        for physics in problem.physics:
+            physics.check_relaxing(problem)
+        sheared = any(isinstance(coupling, StickSlipCoupling | SlidingCoupling) for coupling in prepared.couplings)
+        creep = contact_creep(problem.body, problem.counter_body, shear=sheared)
+        assert creep is not None
+        self.prepared, self.remembering = prepared, remembering(creep, operator)
+        self.operators = OperatorsInTime(creep, operator)
+        self.shear: ShearMemory | LayeredShear | None = self._prepared_shear() if sheared else None
+        lifting = (self._lifting(coupling) if sheared else coupling for coupling in prepared.couplings)
+        prepared.couplings = (*lifting, CreepCoupling())
 
     @property
     def _sticks(self) -> bool:
@@ -65,7 +61,7 @@ class InTime:
         threads = getattr(self.prepared.operator.engine, "threads", None)
         if isinstance(self.remembering, LayeredPast):
             return LayeredShear.prepared(self.prepared.problem, self.remembering, threads)
-        creep = self.prepared.operators.creep
+        creep = self.operators.creep
         assert isinstance(creep, SharedCreep)
         return ShearMemory.prepared(self.prepared.problem, creep, threads)
 
@@ -100,7 +96,8 @@ class InTime:
         last = replace(last, ends=_summed(moments))
         settled = replace(settled, status=balanced(settled.status, creeping))
         last = replace(last, past=replace(last.past, account=account.numbers))
-        result = prepared.result(settled, before, time.perf_counter() - started, (creeping, last))
+        ends = with_creep(last, creeping)
+        result = prepared.result(settled, before, time.perf_counter() - started, ends)
         if before is not state:  # the work since the step began, not since the last moment
             vars(result)["plastic_work"] = result.total_plastic_work - (0.0 if state is None else state.plastic_work)
         return result
@@ -174,7 +171,7 @@ class InTime:
         prepared, problem = self.prepared, self.prepared.problem
         weights = TimeWeights.of(self.remembering.times, length)
         retarded = self.remembering.lift(moment.past, weights)
-        operator = prepared.operators.at(weights.after, self.remembering.summed(weights))
+        operator = self.operators.at(weights.after, self.remembering.summed(weights))
         ahead = length / moment.length if moment.length else None
         couplings, step = self._couplings(operator, moment, weights), as_step(control)
         settled = self._apart(step, moment.state, operator, retarded, couplings) or prepared._settled(
@@ -246,9 +243,7 @@ class InTime:
         found: list[Coupling] = []
         past = moment.past
         for coupling in self.prepared.couplings:
-            if isinstance(coupling, AdhesionCoupling):
-                found.append(replace(coupling, operator=operator))
-            elif isinstance(coupling, SlidingCoupling) and coupling.feedback:
+            if isinstance(coupling, SlidingCoupling) and coupling.feedback:
                 assert self.shear is not None
                 lifted = self.shear.lifted(past, coupling.traction(_pressure_before(moment)), weights)
                 found.append(coupling.in_time(self.shear.operator(weights).coupling, lifted))
@@ -257,7 +252,7 @@ class InTime:
                 held = self.shear.held(past, _traction_before(moment.state, past.pressure.shape), weights)
                 found.append(replace(coupling, operator=self.shear.operator(weights), held=held))
             else:
-                found.append(coupling)
+                found.append(coupling.at(operator))
         return tuple(found)
 
     def _apart(
@@ -270,7 +265,11 @@ class InTime:
     ) -> Settled | None:
         """The surfaces without contact, where they lie apart at the prescribed position; None elsewhere."""
         prepared, control = self.prepared, step.normal
-        if not isinstance(control, Approach | MeanGap) or not retarded.any() or prepared.problem.adhesion is not None:
+        if (
+            not isinstance(control, Approach | MeanGap)
+            or not retarded.any()
+            or any(item.bears_pull for item in prepared.problem.physics)
+        ):
             return None
         dented = prepared.profile - retarded
         if state is not None:
@@ -307,6 +306,11 @@ class InTime:
         shape = third.past.pressure.shape
         tractions = tuple(_traction_before(moment.state, shape) for moment in (first, second, third))
         return max(found, self.shear.curvature(pasts, tractions, weights))
+
+
+def with_creep(moment: Moment, creeping: Creeping) -> dict[str, tuple[Memory, object]]:
+    """What all couplings remember and found in the ``moment``, with what happened in time."""
+    return {**moment.ends, "creep": (moment.past.memory, creeping)}
 
 
 def _pressure_before(moment: Moment) -> RealArray:

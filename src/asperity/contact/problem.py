@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeAlias, Unpack
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Shown
+from ..core.registry import PHYSICS, home
 from ..core.values import LEAST
 from ..solids.compliance.halfspace import Compliance, contact_compliance
 from ..solids.elastic import Elastic, Rigid
@@ -21,10 +23,149 @@ from ..solids.layers import Body, Layered, contact_modulus
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from .boundary import Boundary, FreeLine, Periodic
-from .controls import Control, FixedGrips, Pull
-from .laws import Adhesion, Coulomb, FrictionLaw, HardWall, InterfaceLaw, PlasticFlow
-from .laws.plastic_flow import require_bodies
-from .wetting import LiquidFilm
+from .controls import Control, FixedGrips, Pull, Step
+from .known import Keywords, ProblemNames
+from .laws import HardWall, InterfaceLaw
+
+if TYPE_CHECKING:
+    from .couplings.protocol import Coupling
+    from .operators import Operator
+    from .result import ContactResult
+    from .state import InterfaceState
+
+Solved: TypeAlias = "Callable[[Control, InterfaceState | None], ContactResult]"
+"""Gives the contact under a control, started from a state."""
+
+
+@dataclass(frozen=True)
+class Preparing:
+    """What is known when couplings are prepared: tolerances by name, whether surfaces stick and slip, number of threads."""
+
+    tolerances: Mapping[str, float]
+    sticks: bool
+    threads: int | None
+
+
+class Physics:
+    """One physics of the interface: frozen settings, given to a ``ContactProblem`` by its ``keyword`` or in ``physics``."""
+
+    keyword: ClassVar[str] = ""
+    attracts: ClassVar[bool] = False
+    """Whether it holds the surfaces together, without a load too."""
+    bears_pull: ClassVar[bool] = False
+    """Whether a ``Pull`` and ``FixedGrips`` can be prescribed with it."""
+    moving: ClassVar[str] = "it is not known how it moves"
+    """Why it has no steady state under a load that moves; empty where it has one."""
+
+    supplies: ClassVar[tuple[str, ...]] = ()
+    """Those of its ``works`` that are done on the bodies; the others are stored or lost."""
+    pull_term: ClassVar[str] = ""
+    """Name in ``EnergyBalance`` of the work that its pull does over the approach."""
+
+    @property
+    def given(self) -> Any:
+        """What the keyword was given."""
+        return self
+
+    @classmethod
+    def of(cls, given: Any) -> Self:
+        """The physics of what the keyword was ``given``; a TypeError if it is none."""
+        raise NotImplementedError
+
+    @property
+    def citation_keys(self) -> tuple[str, ...]:
+        """Papers it rests on."""
+        return tuple(getattr(self.given, "citation_keys", ())) if self.given is not self else ()
+
+    def check(self, problem: ContactProblem) -> None:
+        """Refuse with an InputError what does not go with it in ``problem``."""
+
+    def check_relaxing(self, problem: ContactProblem) -> None:
+        """The same where a body of ``problem`` is viscoelastic."""
+
+    def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
+        """Its couplings, prepared for the ``problem`` with its ``operator``."""
+        raise NotImplementedError
+
+    def sticks(self, state: InterfaceState | None, *, tangential: bool) -> bool:
+        """Whether surfaces stick and slip, in steps from ``state`` of which one or more are ``tangential``."""
+        return False
+
+    def normal_tolerance(self, *, sticks: bool) -> float | None:
+        """Tolerance that normal solves need beside it, where that is less than usual; in steps where surfaces may stick."""
+        return None
+
+    def followed(self, problem: ContactProblem, step: Step, solved: Solved) -> Solved:
+        """How results under the normal control of ``step`` are ``solved``, where the step may have to be divided."""
+        return solved
+
+    @classmethod
+    def types(cls) -> tuple[type, ...]:
+        """Types of what it is given, which files may name."""
+        return ()
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Label and text of it for a problem in words."""
+        return []
+
+    def work(self, steps: Sequence[ContactResult]) -> RealArray | None:
+        """Work (J) of the force between the solids up to each of the ``steps`` of a history, where it is known better than by the trapezoidal rule."""
+        return None
+
+    def works(self, steps: Sequence[ContactResult]) -> Mapping[str, RealArray]:
+        """Energies (J) in each of the ``steps`` of a history that it adds to the balance, by their names in ``EnergyBalance``."""
+        return {}
+
+    def losses(self, steps: Sequence[ContactResult], left: RealArray) -> Mapping[str, RealArray]:
+        """Energies (J) up to each of the ``steps``, by name, that it takes of what nothing else takes, ``left`` (J)."""
+        return {}
+
+
+def _joined(physics: Iterable[Physics], given: Mapping[str, Any]) -> tuple[Physics, ...]:
+    """All ``physics`` of a problem in the order of the registry, those of one's own last; what is ``given`` by keyword takes the place of others.
+
+    InputError if one is no physics, or given twice.
+    """
+    found: dict[str, Physics] = {}
+    for item in physics:
+        if not isinstance(item, Physics):
+            raise InputError(f"physics of a ContactProblem must be Physics, but is {type(item).__name__}.")
+        name = item.keyword or type(item).__qualname__
+        if name in found:
+            raise InputError(f"physics of a ContactProblem must be given once, but {name} is given twice.")
+        found[name] = item
+    for keyword, value in given.items():
+        if keyword not in PHYSICS:
+            raise TypeError(f"ContactProblem() got an unexpected keyword argument {keyword!r}")
+        found.pop(keyword, None)
+        if value is not None:
+            found[keyword] = _of(keyword, value)
+    order = list(PHYSICS)
+    return tuple(sorted(found.values(), key=lambda p: order.index(p.keyword) if p.keyword in order else len(order)))
+
+
+def _of(keyword: str, value: Any) -> Physics:
+    try:
+        made: Physics = home(PHYSICS[keyword].home).of(value)
+    except TypeError:
+        raise InputError(
+            f"{keyword} of a ContactProblem must be {PHYSICS[keyword].must_be} or None, but is {type(value).__name__}."
+        ) from None
+    return made
+
+
+class WithPhysics:
+    """Attributes of a problem by keyword: what was given for it, None for nothing."""
+
+    physics: tuple[Physics, ...]
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in PHYSICS:
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        return next((item.given for item in vars(self).get("physics", ()) if item.keyword == name), None)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *PHYSICS]
 
 
 @dataclass(frozen=True)
@@ -36,8 +177,8 @@ CounterSurface: TypeAlias = Surface | Flat
 """Surface of the counter body."""
 
 
-@dataclass(frozen=True, repr=False)
-class ContactProblem(Shown):
+@dataclass(frozen=True, repr=False, init=False)
+class ContactProblem(ProblemNames, WithPhysics, Shown):
     """Two bodies with their surfaces, pressed together.
 
     Parameters
@@ -64,6 +205,8 @@ class ContactProblem(Shown):
         Attraction of the surfaces, such as ``ExponentialAdhesion(0.05, 1e-9)``; None for none.
     plastic_flow
         Plastic flow in the volume of ``body``, or where that is rigid of the counter body: ``PlasticFlow(J2(...))``; None for none.
+    physics
+        Further ``Physics`` of the interface, also of one's own. Those given by keyword are among them afterwards.
 
     Notes
     -----
@@ -82,28 +225,37 @@ class ContactProblem(Shown):
     counter_body: Body = Rigid()
     boundary: Boundary = Periodic()
     law: InterfaceLaw = HardWall()
-    film: LiquidFilm | None = None
-    friction: FrictionLaw | None = None
-    adhesion: Adhesion | None = None
-    plastic_flow: PlasticFlow | None = None
+    physics: tuple[Physics, ...] = ()
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self,
+        surface: Surface,
+        body: Body,
+        counter_surface: CounterSurface = Flat(),
+        counter_body: Body = Rigid(),
+        boundary: Boundary = Periodic(),
+        law: InterfaceLaw = HardWall(),
+        *,
+        physics: Iterable[Physics] = (),
+        **given: Unpack[Keywords],
+    ) -> None:
+        values = (surface, body, counter_surface, counter_body, boundary, law, _joined(physics, given))
+        for name, value in zip(self.__dataclass_fields__, values, strict=True):
+            object.__setattr__(self, name, value)
+        self._check()
+
+    def with_physics(self, **given: Unpack[Keywords]) -> ContactProblem:
+        """The same problem with what is ``given`` by keyword, None to leave it out, in place of what it has."""
+        return replace(self, **given)  # type: ignore[misc]
+
+    def _check(self) -> None:
         _require(self.surface, Surface, "surface", "a Surface (see asperity.read and asperity.generate)")
         _require(self.counter_surface, Surface | Flat, "counter_surface", "a Surface or Flat()")
         _require(self.boundary, Boundary, "boundary", "Periodic(), Free() or FreeLine()")
         for body, what in ((self.body, "body"), (self.counter_body, "counter_body")):
             _require(body, Body, what, "Elastic(...), a named material, Layered(...) or Rigid()")
         _require(self.law, InterfaceLaw, "law", "HardWall() or Hardness(...)")
-        _require(self.film, LiquidFilm | None, "film", "LiquidFilm.of(liquid, thickness) or None")
-        _require(
-            self.friction,
-            FrictionLaw | None,
-            "friction",
-            "Coulomb(coefficient), TrescaFriction(strength), FullStick() or None",
-        )
-        self._check_adhesion()
         self._check_materials()
-        self._check_plastic_flow()
         for spacing in self.grid.spacing:
             require.magnitude(spacing, "pixel size (m)")
         if isinstance(self.boundary, FreeLine):
@@ -118,43 +270,13 @@ class ContactProblem(Shown):
                 require.magnitude(extent, "range of the heights (m)")  # a smaller one is rounding of a flat surface
         if isinstance(self.counter_surface, Surface):
             composite(self.surface, self.counter_surface)
-        self._check_friction()
+        for physics in self.physics:
+            physics.check(self)
         cap = self.law.pressure_cap()
         if isinstance(cap, np.ndarray) and cap.shape != self.surface.shape:
             raise InputError(
                 f"hardness array must have the shape {self.surface.shape} of the surface, but has {cap.shape}."
             )
-
-    def _check_adhesion(self) -> None:
-        _require(self.adhesion, Adhesion | None, "adhesion", "a law such as ExponentialAdhesion(work, range) or None")
-        if self.adhesion is not None and self.adhesion.spacing > 0.0 and not isinstance(self.law, HardWall):
-            raise InputError(
-                f"law of a contact with the adhesion {self.adhesion.name} must be HardWall(), but is {self.law!r}: its core has no wall whose "
-                "pressure a hardness could limit. Use ExponentialAdhesion(...) of the same work and strength."
-            )
-
-    def _check_plastic_flow(self) -> None:
-        flow = self.plastic_flow
-        _require(flow, PlasticFlow | None, "plastic_flow", "PlasticFlow(J2(...)) or None")
-        if flow is None:
-            return
-        friction = None if isinstance(self.friction, Coulomb | None) else self.friction
-        for found, what, remedy in (
-            (
-                self.law if not isinstance(self.law, HardWall) else None,
-                "law",
-                "A hardness is a model of the same flow.",
-            ),
-            (self.film, "film", "Solve the dry contact."),
-            (self.adhesion, "adhesion", "Solve it without adhesion."),
-            (friction, "friction", "Use Coulomb(coefficient), under which all points slide."),
-            (self.boundary if isinstance(self.boundary, FreeLine) else None, "boundary", "Use Periodic() or Free()."),
-        ):
-            if found is not None:
-                raise InputError(
-                    f"{what} of a contact with plastic flow must be another or none, but is {found!r}. {remedy}"
-                )
-        require_bodies(flow, self.body, self.counter_body)
 
     def _check_materials(self) -> None:
         for body in (self.body, self.counter_body):
@@ -164,20 +286,15 @@ class ContactProblem(Shown):
                     require.magnitude(solid.youngs_modulus, "Young's modulus (Pa)")
         contact_modulus(self.body, self.counter_body)
 
-    def _check_friction(self) -> None:
-        values = {"coefficient": "friction coefficient", "strength": "shear strength of the interface"}
-        for name, what in values.items():
-            found = getattr(self.friction, name, 0.0)
-            if isinstance(found, np.ndarray) and found.shape != self.surface.shape:
-                raise InputError(
-                    f"{what} must have the shape {self.surface.shape} of the surface, but has {found.shape}."
-                )
-            if isinstance(found, np.ndarray) and self.film is not None:
-                raise InputError(f"{what} beside a film of liquid must be one number, but is an array.")
-        if self.film is not None and not isinstance(self.friction, Coulomb | None):
-            raise InputError(
-                f"friction beside a film of liquid must be Coulomb(coefficient) or None, but is {self.friction!r}."
-            )
+    @property
+    def attracts(self) -> bool:
+        """Whether a physics holds the surfaces together."""
+        return any(physics.attracts for physics in self.physics)
+
+    @property
+    def bears_pull(self) -> bool:
+        """Whether the bodies can be pulled."""
+        return any(physics.bears_pull for physics in self.physics)
 
     @property
     def grid(self) -> Grid:
@@ -198,10 +315,8 @@ class ContactProblem(Shown):
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers the problem rests on."""
         pair = ("Peng2001",) if isinstance(self.counter_surface, Surface) else ()
-        physics = [
-            part for part in (self.law, self.film, self.friction, self.adhesion, self.plastic_flow) if part is not None
-        ]
-        parts = citation_keys(self.surface, self.counter_surface, self.compliance, self.boundary, *physics)
+        whole = self.surface, self.counter_surface, self.compliance, self.boundary, self.law
+        parts = citation_keys(*whole, *self.physics)
         return (*parts, *pair, "Kalker1977", "Yastrebov2017")
 
     def profile(self) -> RealArray:
@@ -216,9 +331,9 @@ def _require(value: object, kind: object, what: str, must_be: str) -> None:
         raise InputError(f"{what} of a ContactProblem must be {must_be}, but is {type(value).__name__}.")
 
 
-def require_adhesion(problem: ContactProblem, control: Control) -> None:
-    """Refuse with an InputError what only adhesion bears, in a ``problem`` without."""
-    if problem.adhesion is None and isinstance(control, Pull | FixedGrips):
+def require_borne(problem: ContactProblem, control: Control) -> None:
+    """Refuse with an InputError what no physics of the ``problem`` bears."""
+    if isinstance(control, Pull | FixedGrips) and not problem.bears_pull:
         raise InputError(
             f"control of a problem without adhesion must be one that presses, but is {control!r}. Give "
             "ContactProblem(..., adhesion=ExponentialAdhesion(work, range)), or prescribe Force(...) or Approach(...)."

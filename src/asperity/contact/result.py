@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING, Any, Generic, Literal, TypeVar
+from typing import Any, Generic, Literal, TypeVar
 
 import numpy as np
 
@@ -19,20 +19,14 @@ from ..core.status import Status
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from . import measure
+from .answer import Answer, WithOutcomes, imprint_of, outside
 from .certificate import Certificate
 from .controls import Control
-from .couplings.menisci import Menisci
 from .couplings.protocol import Contact, Deflections, Memory
-from .couplings.sliding import GrossSliding
+from .known import ResultNames
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem
 from .state import InterfaceState
-
-if TYPE_CHECKING:
-    from .couplings.adhesion import AdhesiveContact
-    from .couplings.plastic_flow import PlasticBody
-    from .couplings.stick_slip import StickSlip
-    from .time_steps import Creeping
 
 PLASTIC_FRACTION = 0.02
 """Share of plastic in real area above which a contact is called plastic (Greenwood & Williamson 1966)."""
@@ -116,7 +110,7 @@ class Late(Generic[Value]):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ContactResult(Stored):
+class ContactResult(ResultNames, WithOutcomes, Stored):
     """Solution of a contact problem. Fields are (nx, ny) arrays, all values SI.
 
     Attributes
@@ -223,98 +217,9 @@ class ContactResult(Stored):
         return float(self.spot_areas.mean()) if self.n_spots else 0.0
 
     @property
-    def menisci(self) -> Menisci | None:
-        """Menisci of the film; None in a dry contact."""
-        return self.couplings.get("menisci")
-
-    def require_menisci(self) -> Menisci:
-        """Menisci of the film.
-
-        Raises
-        ------
-        InputError
-            If the problem has no film.
-        """
-        if self.menisci is None:
-            raise InputError(
-                "problem of the result must have a film of liquid, but has none. Give it as film=LiquidFilm.of(...)."
-            )
-        return self.menisci
-
-    @property
-    def sliding(self) -> GrossSliding | None:
-        """What the shear traction does to the contact; None where it is left out."""
-        return self.couplings.get("sliding")
-
-    @property
-    def stick_slip(self) -> StickSlip | None:
-        """Shear traction and slip of a step with stick and slip; None in other contacts."""
-        return self.couplings.get("stick_slip")
-
-    @property
-    def adhesion(self) -> AdhesiveContact | None:
-        """What the attraction of the surfaces does; None without adhesion."""
-        return self.couplings.get("adhesion")
-
-    def require_adhesion(self) -> AdhesiveContact:
-        """What the attraction of the surfaces does.
-
-        Raises
-        ------
-        InputError
-            If the problem has no adhesion.
-        """
-        if self.adhesion is None:
-            raise InputError(
-                "problem of the result must have adhesion, but has none. Give it as adhesion=ExponentialAdhesion(work, range)."
-            )
-        return self.adhesion
-
-    def require_stick_slip(self) -> StickSlip:
-        """Shear traction and slip of the step.
-
-        Raises
-        ------
-        InputError
-            If the result has none.
-        """
-        if self.stick_slip is None:
-            raise InputError(
-                "result must be one of a step with stick and slip, but has none. Solve ContactProblem(..., friction=Coulomb(0.3)) "
-                "under Step(normal, Shift(5e-9))."
-            )
-        return self.stick_slip
-
-    @property
-    def creep(self) -> Creeping | None:
-        """What happened in time during the step that the result ends; None if nothing relaxes."""
-        return self.couplings.get("creep")
-
-    @property
-    def plastic_flow(self) -> PlasticBody | None:
-        """What has flowed beneath the surface; None without plastic flow in the volume."""
-        return self.couplings.get("plastic_flow")
-
-    def require_plastic_flow(self) -> PlasticBody:
-        """What has flowed beneath the surface.
-
-        Raises
-        ------
-        InputError
-            If the problem has no plastic flow.
-        """
-        if self.plastic_flow is None:
-            raise InputError(
-                "problem of the result must have a plastic flow, but has none. Give it as plastic_flow=PlasticFlow(J2(...))."
-            )
-        return self.plastic_flow
-
-    @property
     def external_force(self) -> float:
         """Force in N that is applied from outside: ``force`` less what menisci and adhesion pull."""
-        if self.adhesion is not None:
-            return self.adhesion.external_force - (0.0 if self.menisci is None else self.menisci.meniscus_force)
-        return self.force if self.menisci is None else self.menisci.external_force
+        return outside(self.answers, self.force)
 
     @property
     def contact(self) -> BoolArray:
@@ -363,7 +268,7 @@ class ContactResult(Stored):
         """Surface that is left when the load is taken away: the one before less the permanent indentation and the imprint of plastic flow.
 
         The imprint is that of the plastic strain so far: what flows in reverse while the load is taken away is not in it. Its zero is that
-        of ``plastic_flow.displacement``, and around it the surface may be piled up.
+        of the displacement by plastic strain, and around it the surface may be piled up.
 
         Parameters
         ----------
@@ -387,8 +292,8 @@ class ContactResult(Stored):
             before = composite(surface, counter) if pair else surface  # type: ignore[arg-type]
         load = f"{self.mean_pressure:.6g} Pa"
         left: RealArray = before.heights - self.permanent_indentation
-        if self.plastic_flow is not None and part in ("composite", self.plastic_flow.of):
-            left = left - self.plastic_flow.displacement
+        for imprint in (answer.imprint(part) for answer in self.answers):
+            left = left if imprint is None else left - imprint
         return before.with_heights(left, f"indented for good, last load {load}")
 
 
@@ -414,9 +319,10 @@ def assemble(
     p, u, grid, wraps = found.pressure, found.solution.state.deflection, problem.grid, problem.boundary.wraps
     offset = -found.level
     displacement = u if lift is None else u + lift
-    creeping = outcomes.get("creep")
-    if creeping is not None:
-        displacement = displacement + creeping.retarded_displacement
+    answers = [outcome for outcome in outcomes.values() if isinstance(outcome, Answer)]
+    for retarded in (answer.retarded() for answer in answers):
+        displacement = displacement if retarded is None else displacement + retarded
+    springs = [energy for energy in (answer.springs() for answer in answers) if energy is not None]
     capped = np.zeros(p.shape, dtype=bool) if found.qp.elastic else (p > 0.0) & (p >= found.cap)
     yielding = 0 if found.qp.elastic else int(np.count_nonzero(capped))
     computed = found.qp.as_computed(found.solution.state)[0]
@@ -446,7 +352,7 @@ def assemble(
         max_pressure=float(computed.max()),
         approach=found.posed.top - offset,
         mean_gap=Later(_mean_gap),
-        elastic_energy=0.5 * work * grid.pixel_area if creeping is None else creeping.stored_energy,
+        elastic_energy=springs[0] if springs else 0.5 * work * grid.pixel_area,
         plastic_area_fraction=yielding / pixels if pixels else 0.0,
         normal_stiffness=later,
         spot_areas=Later(_spot_areas),
@@ -458,7 +364,7 @@ def assemble(
         memory={name: memory for name, memory in memories.items() if memory and name != "hardness"},
         earlier=before.pressure if before is not None and before.pressure.any() else None,
         deflections=_deflections(found, before) if found.qp.elastic and attraction is None else None,
-        **_indentation(problem, before, memories["hardness"], outcomes.get("plastic_flow")),
+        **_indentation(problem, before, memories["hardness"], imprint_of(answers)),
     )
 
 
@@ -499,13 +405,13 @@ def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operato
 
 
 def _indentation(
-    problem: ContactProblem, state: InterfaceState | None, memory: Memory, flow: PlasticBody | None
+    problem: ContactProblem, state: InterfaceState | None, memory: Memory, imprint: RealArray | None
 ) -> dict[str, Any]:
-    """Values of a result for the permanent indentation in ``memory``, which takes the place of that of ``state``, and the imprint of ``flow``."""
+    """Values of a result for the permanent indentation in ``memory``, which takes the place of that of ``state``, and the ``imprint`` (nx, ny) in m of flow in the volume."""
     known, total, pixel = memory.get("indentation"), float(memory["work"]), problem.grid.pixel_area
     permanent = np.zeros(1) if known is None else known
-    dent = permanent if flow is None else np.maximum(permanent + flow.displacement, 0.0)
-    virgin = flow is None and not permanent.any()
+    dent = permanent if imprint is None else np.maximum(permanent + imprint, 0.0)
+    virgin = imprint is None and not permanent.any()
     return {
         "permanent_indentation": Later(_unindented) if known is None else known,
         "plastic_work": total - (0.0 if state is None else state.plastic_work),

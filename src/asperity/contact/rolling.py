@@ -283,12 +283,10 @@ def require_rolling(problem: ContactProblem, creepage: Creepage, direction: Roll
     require.one_of(direction, DIRECTIONS, "direction of rolling")
     if problem.friction is None:
         raise InputError("friction of a rolling contact must be given, but is None. Write friction=Coulomb(0.3).")
-    if problem.film is not None:
-        raise InputError("film of a rolling contact must be None: menisci of moving surfaces are not steady.")
-    if problem.adhesion is not None:
-        raise InputError(
-            f"adhesion of a rolling contact must be None, but is {problem.adhesion!r}: edges that open and close would take their own energy."
-        )
+    for physics in problem.physics:
+        if physics.moving:
+            name = physics.keyword or "physics"
+            raise InputError(f"{name} of a rolling contact must be None, but is {physics.given!r}: {physics.moving}.")
     if not isinstance(problem.law, HardWall):
         raise InputError(
             f"law of a rolling contact must be HardWall(), but is {problem.law!r}: what is dented does not stay in the contact."
@@ -322,7 +320,7 @@ class RollingBodies:
         rigid = np.empty((2, *grid.shape))
         rigid[0], rigid[1] = along_x - creepage.spin * y, along_y + creepage.spin * x
         return cls(
-            replace(problem, friction=None, counter_surface=Flat()),
+            replace(problem.with_physics(friction=None), counter_surface=Flat()),
             prepare_operator(problem.compliance, grid, problem.boundary),
             TangentialOperator(grid, (problem.body, problem.counter_body), problem.boundary),
             rigid * grid.spacing[axis.axis],

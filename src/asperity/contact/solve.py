@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from threading import Event
-from typing import Any, Literal, TypedDict, Unpack, overload
+from typing import Any, Literal, Protocol, TypedDict, Unpack, overload
 
 import numpy as np
 
@@ -16,10 +16,10 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.engine import CpuEngine, Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
+from ..core.registry import IN_TIME, PAIRS, home
 from ..core.status import Outcome, Progress, Status
-from ..solids.compliance.creep import contact_creep
 from ..solids.layers import relaxes
-from .adhesive_steps import divides, in_ranges
+from .answer import Answer
 from .certificate import LARGEST_DUALITY_GAP, Certificate, certify
 from .controls import (
     Approach,
@@ -34,34 +34,20 @@ from .controls import (
     as_step,
     mean_pressure,
 )
-from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
-from .couplings.adhesion import AdhesionCoupling
-from .couplings.balance import settle_forces
-from .couplings.creep import CreepCoupling, Remembering, remembering
 from .couplings.driver import Rounds, Settled
 from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
 from .couplings.hardness import ConstantHardness, DepthHardness
 from .couplings.held import settle_position
-from .couplings.menisci import TOLERANCE as MENISCUS_TOLERANCE
-from .couplings.menisci import MeniscusCoupling
-from .couplings.plastic_flow import PlasticFlowCoupling
 from .couplings.protocol import Coupling, Memory, Posed, height_scale
-from .couplings.sliding import TOLERANCE as SLIDING_TOLERANCE
-from .couplings.sliding import SlidingCoupling
-from .couplings.stick_slip import TOLERANCE as STICK_SLIP_TOLERANCE
-from .couplings.stick_slip import StickSlipCoupling
-from .cut_steps import in_parts
 from .history import History, HistoryResult
-from .in_time import InTime, require_range
-from .laws import Coulomb, HardWall, LimitByDepth
+from .laws import HardWall, LimitByDepth
 from .operators import Operator, prepare_operator
-from .operators.creep import OperatorsInTime
-from .problem import ContactProblem, require_adhesion
+from .problem import ContactProblem, Preparing, Solved, require_borne
 from .result import ContactResult, assemble
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
 from .state import InterfaceState
-from .time_steps import Creeping, Moment, TimeSteps
+from .time_steps import TimeSteps
 
 
 @dataclass(frozen=True)
@@ -250,6 +236,13 @@ def _all_results(
                 job.cancel()
 
 
+class InTime(Protocol):
+    """What takes over the steps of bodies that relax."""
+
+    def step(self, step: Step, state: InterfaceState | None) -> ContactResult:
+        """Result at the end of ``step``, started from ``state``."""
+
+
 class Prepared:
     """A problem with everything prepared once for all its steps."""
 
@@ -277,17 +270,8 @@ class Prepared:
         self.couplings = couplings_of(problem, self.operator, rounds, sticks=sticks)
         self.profile, self.time_steps = problem.profile(), time_steps
         self._measured: tuple[RealArray, float] | None = None
-        shear = any(isinstance(coupling, SlidingCoupling | StickSlipCoupling) for coupling in self.couplings)
         relaxing = relaxes(problem.body) or relaxes(problem.counter_body)
-        creep = contact_creep(problem.body, problem.counter_body, shear=shear) if relaxing else None
-        self.remembering: Remembering | None = None
-        self.in_time: InTime | None = None
-        if creep is not None:
-            require_range(problem)
-            self.remembering = remembering(creep, self.operator)
-            self.operators = OperatorsInTime(creep, self.operator)
-            self.couplings = (*self.couplings, CreepCoupling())
-            self.in_time = InTime(self, self.remembering)
+        self.in_time: InTime | None = home(IN_TIME)(self) if relaxing else None
 
     @property
     def remembers_nothing(self) -> bool:
@@ -314,7 +298,7 @@ class Prepared:
             if (indentation := state.permanent_indentation).any():
                 dented = self.profile - indentation
             start = state.pressure if state.pressure.any() else None
-        require_adhesion(self.problem, control)
+        require_borne(self.problem, control)
         if isinstance(control, Approach | MeanGap):
             require.magnitude(control.value, f"{control.name} (m)")
         elif not isinstance(control, Unloaded | Pull | FixedGrips):
@@ -346,36 +330,33 @@ class Prepared:
         def solved(control: Control, at: InterfaceState | None) -> ContactResult:
             return self.result(self.settled(Step(control, step.tangential), at), at, time.perf_counter() - started)
 
-        if state is not None and step.tangential is None and divides(self.problem, state):
-            require_adhesion(self.problem, step.normal)
-            return in_ranges(self.problem, step.normal, state, solved)
-        result = solved(step.normal, state)
-        if result.converged or self.problem.plastic_flow is None:
-            return result
-        return in_parts(step.normal, state, result, solved)
+        require_borne(self.problem, step.normal)
+        way: Solved = solved
+        for physics in self.problem.physics:
+            way = physics.followed(self.problem, step, way)
+        return way(step.normal, state)
 
     def result(
         self,
         settled: Settled,
         state: InterfaceState | None,
         seconds: float,
-        in_time: tuple[Creeping, Moment] | None = None,
+        ends: Mapping[str, tuple[Memory, object]] | None = None,
     ) -> ContactResult:
-        """Result of what ``settled`` in so many ``seconds``, started from ``state``, with what happened in time."""
-        ends: dict[str, tuple[Memory, object]]
-        if in_time is None:
+        """Result of what ``settled`` in so many ``seconds``, started from ``state``; ``ends`` of all couplings where they are known."""
+        if ends is None:
             ends = {c.name: c.end(settled.exchanges[c.name], settled.contact) for c in self.couplings}
-        else:
-            ends = {**in_time[1].ends, "creep": (in_time[1].past.memory, in_time[0])}
         found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items()}
-        sheared = [found[name].shear_displacement for name in ("sliding", "stick_slip") if found.get(name) is not None]
+        lifts = [
+            lift for lift in (each.lifted() for each in found.values() if isinstance(each, Answer)) if lift is not None
+        ]
         return finished(
             self.problem,
             settled,
             ends,
             self.solver,
             before=state,
-            lift=sheared[0] if sheared else None,
+            lift=lifts[0] if lifts else None,
             seconds=seconds,
             stiffness=self.keep.stiffness,
         )
@@ -384,13 +365,15 @@ class Prepared:
 def settled_with(
     couplings: tuple[Coupling, ...], posed: Posed, memories: Mapping[str, Memory], solver: Solver, **options: Any
 ) -> Settled:
-    """Contact that agrees with all ``couplings``; where adhesion and menisci carry a force together, by a search for their balance.
+    """Contact that agrees with all ``couplings``; where two of them carry a force together, in the way that the registry names for the pair.
 
     Arguments and errors are those of ``settle``.
     """
-    both = {AdhesionCoupling, MeniscusCoupling} <= {type(coupling) for coupling in couplings}
-    way = settle_forces if both and posed.balances_force else settle_position
-    return way(posed, couplings, memories, solver, **options)
+    names = {coupling.name for coupling in couplings}
+    together = [place for pair, place in PAIRS.items() if pair <= names] if posed.balances_force else []
+    way = home(together[0]) if together else settle_position
+    settled: Settled = way(posed, couplings, memories, solver, **options)
+    return settled
 
 
 def finished(
@@ -410,16 +393,18 @@ def finished(
     """
     contact = settled.contact
     found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
-    attraction = found["adhesion"].attraction if "adhesion" in found else None
+    answers = [outcome for outcome in found.values() if isinstance(outcome, Answer)]
+    attractions = [beside for beside in (answer.traction_beside() for answer in answers) if beside is not None]
+    attraction = sum(attractions[1:], attractions[0]) if attractions else None
     if attraction is not None:
         lift = (0.0 if lift is None else lift) - contact.posed.operator.apply(attraction)
     certificate = _certified(settled, solver, seconds)
-    if "stick_slip" in found:
-        certificate = replace(certificate, complementarity=found["stick_slip"].complementarity)
+    for answer in answers:
+        certificate = answer.certified(certificate)
     status = doubted(settled.status, certificate)
-    for name in ("stick_slip", "adhesion"):
-        if status.converged and name in found and not found[name].status.converged:
-            status = found[name].status
+    for ended in (answer.ended() for answer in answers):
+        if status.converged and ended is not None and not ended.converged:
+            status = ended
     papers = (key for outcome in found.values() for key in getattr(outcome, "citation_keys", ()))
     return assemble(
         problem,
@@ -454,60 +439,33 @@ def sticks(problem: ContactProblem, ordered: Iterable[Step], state: InterfaceSta
     InputError if a step is tangential and the problem has no friction.
     """
     tangential = any(step.tangential is not None for step in ordered)
-    if problem.friction is None:
-        if tangential:
-            raise InputError(
-                "friction of a problem under a Shift or TangentialForce must be given, but is None. "
-                "Write ContactProblem(..., friction=Coulomb(0.3))."
-            )
-        return False
-    gross = isinstance(problem.friction, Coulomb) and problem.friction.limit == np.inf
-    return tangential or not gross or (state is not None and "stick_slip" in state.memory)
+    if any(physics.sticks(state, tangential=tangential) for physics in problem.physics):
+        return True
+    if tangential:
+        raise InputError(
+            "friction of a problem under a Shift or TangentialForce must be given, but is None. "
+            "Write ContactProblem(..., friction=Coulomb(0.3))."
+        )
+    return False
 
 
 def default_solver(problem: ContactProblem, *, sticks: bool = False) -> Solver:
-    """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size.
-
-    Where shear changes the pressure the tolerance is 1e-12, so that the error of the normal solve (which goes with its
-    root) does not hide that the displacement by shear has settled to 1e-6. With stick and slip, settled to 1e-5, it is 1e-8.
-    """
-    friction = problem.friction
-    if sticks:
-        return ActiveSet(tolerance=1e-8)
-    return ActiveSet(tolerance=1e-12) if isinstance(friction, Coulomb) and friction.couples else ActiveSet()
+    """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size, as tight as its physics need."""
+    wanted = (physics.normal_tolerance(sticks=sticks) for physics in problem.physics)
+    tolerance = min((each for each in wanted if each is not None), default=None)
+    return ActiveSet() if tolerance is None else ActiveSet(tolerance=tolerance)
 
 
 def couplings_of(
     problem: ContactProblem, operator: Operator, rounds: Rounds = Rounds(), *, sticks: bool = False
 ) -> tuple[Coupling, ...]:
     """Couplings of the physics that ``problem`` holds, prepared for ``operator``; friction with stick and slip if it ``sticks``."""
-    law, film, friction, tolerances = problem.law, problem.film, problem.friction, rounds.tolerances
-    found: list[Coupling] = []
+    law, tolerances = problem.law, rounds.tolerances
+    first: Coupling = ConstantHardness(law)
     if isinstance(law, LimitByDepth) and np.ndim(law.cap_at(np.zeros(problem.grid.shape))):
-        found.append(DepthHardness.prepared(law, operator, tolerances.get("hardness", HARDNESS_TOLERANCE)))
-    else:
-        found.append(ConstantHardness(law))
-    if film is not None:
-        tolerance = tolerances.get("menisci", MENISCUS_TOLERANCE)
-        dry = friction if isinstance(friction, Coulomb) else Coulomb(0.0)
-        found.append(MeniscusCoupling(film, problem.boundary.wraps, dry, tolerance))
-    if problem.adhesion is not None:
-        found.append(AdhesionCoupling.prepared(problem, operator, tolerances.get("adhesion", ADHESION_TOLERANCE)))
-    threads = getattr(operator.engine, "threads", None)
-    if problem.plastic_flow is not None:
-        if sticks:
-            raise InputError(
-                "friction of a contact with plastic flow must slide everywhere, but a step prescribes a shift or a tangential force. "
-                "Leave that out: under Coulomb(mu) all points slide."
-            )
-        found.append(PlasticFlowCoupling.prepared(problem, tolerances.get("plastic_flow"), threads))
-    if sticks:
-        tolerance = tolerances.get("stick_slip", STICK_SLIP_TOLERANCE)
-        found.append(StickSlipCoupling.prepared(problem, tolerance, threads))
-    elif isinstance(friction, Coulomb) and friction.couples:
-        tolerance, stiffest = tolerances.get("sliding", SLIDING_TOLERANCE), operator.largest
-        found.append(SlidingCoupling.prepared(problem, friction, stiffest, tolerance, threads))
-    return tuple(found)
+        first = DepthHardness.prepared(law, operator, tolerances.get("hardness", HARDNESS_TOLERANCE))
+    how = Preparing(tolerances, sticks, getattr(operator.engine, "threads", None))
+    return (first, *(found for item in problem.physics for found in item.couplings(problem, operator, how)))
 
 
 _GAPS = 1e3

@@ -38,12 +38,11 @@ from .boundary import Periodic
 from .controls import Control, Unloaded
 from .couplings.driver import Rounds
 from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share, height_scale
-from .in_time import require_range
 from .laws import HardWall
 from .moving_load import FreeMovingKernel, axis_of
 from .operators import Operator, prepare_operator
 from .operators.convolution import PeriodicOperator
-from .problem import ContactProblem, require_adhesion
+from .problem import ContactProblem, require_borne
 from .result import ContactResult
 from .solve import couplings_of, finished, settled_with
 from .solvers.active_set.solver import ActiveSet
@@ -354,7 +353,7 @@ def slide(
     started = time.perf_counter()
     angle = require.finite(direction, "direction of sliding (rad)")
     require_slidable(problem, angle)
-    require_adhesion(problem, control)
+    require_borne(problem, control)
     if isinstance(control, Unloaded):
         raise InputError("control of steady sliding must be a load or position, but is Unloaded().")
     v = require.not_negative(speed, "sliding speed (m/s)")
@@ -418,7 +417,8 @@ def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
         raise InputError(
             "friction and plastic_flow of steady sliding must be None: the friction found is that of hysteresis alone, and shear of the interface adds to it."
         )
-    require_range(problem)
+    for physics in problem.physics:
+        physics.check_relaxing(problem)
     pairs: tuple[tuple[Body, object, str], ...] = (
         (problem.body, problem.surface, "surface"),
         (problem.counter_body, problem.counter_surface, "counter_surface"),

@@ -12,6 +12,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.quantity import Quantity
+from .answer import Answer
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .couplings.creep import Past
 from .couplings.protocol import Memory
@@ -90,7 +91,7 @@ COLUMNS = (
 
 
 @dataclass(frozen=True, eq=False)
-class Creeping:
+class Creeping(Answer):
     """What happened to a viscoelastic contact during one step of a history.
 
     Attributes
@@ -142,6 +143,22 @@ class Creeping:
     def citation_keys(self) -> tuple[str, ...]:
         """Papers of contacts that grow and recede."""
         return ("Ferry1980", "Lee1960", "Park1999", "Ting1966")
+
+    def springs(self) -> float:
+        """Energy of all springs."""
+        return self.stored_energy
+
+    def retarded(self) -> RealArray:
+        """The retarded displacement."""
+        return self.retarded_displacement
+
+    def worked(self) -> float:
+        """Work through the steps of time."""
+        return self.work
+
+    def heat(self) -> float:
+        """Heat of this step."""
+        return self.dissipated
 
     def column(self, name: str) -> RealArray:
         """Values of the column ``name`` of ``COLUMNS``, the first one before the step. InputError if there is none."""

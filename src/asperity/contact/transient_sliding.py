@@ -25,6 +25,7 @@ from ..surfaces.surface import Surface
 from .boundary import Periodic
 from .controls import Control, Unloaded
 from .couplings.driver import Rounds
+from .in_time import InTime, with_creep
 from .problem import ContactProblem
 from .result import ContactResult
 from .solve import Keep, Prepared
@@ -205,7 +206,7 @@ class _Motion:
         assert isinstance(moving, Surface)
         self.moving, self.heights = moving, np.asarray(moving.heights, dtype=float)
         self.prepared = Prepared(problem, rounds=rounds, keep=Keep(stiffness=False))
-        assert self.prepared.in_time is not None
+        assert isinstance(self.prepared.in_time, InTime)
         self.in_time = self.prepared.in_time
         self.at_rest = self.prepared.profile - self.heights
 
@@ -285,7 +286,7 @@ class _Motion:
         records = np.stack([before.record, moment.record])
         retarded = np.broadcast_to(moment.retarded, moment.past.pressure.shape)
         creeping = Creeping(records, retarded, moment.stored, heat, float(work), 1)
-        result = self.prepared.result(settled, before.state, seconds, (creeping, moment))
+        result = self.prepared.result(settled, before.state, seconds, with_creep(moment, creeping))
         self.prepared.problem = self.problem
         return result
 

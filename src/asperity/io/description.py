@@ -17,31 +17,16 @@ import numpy as np
 from ..contact.boundary import Boundary
 from ..contact.controls import Control
 from ..contact.couplings.driver import CouplingCheck
-from ..contact.laws import (
-    Coulomb,
-    DugdaleAdhesion,
-    ExponentialAdhesion,
-    FullStick,
-    Hardness,
-    HardWall,
-    JKRAdhesion,
-    LayeredHardness,
-    LennardJonesAdhesion,
-    LinearAdhesion,
-    PlasticFlow,
-    TrescaFriction,
-    VanDerWaalsAdhesion,
-)
+from ..contact.laws import Hardness, HardWall, LayeredHardness
 from ..contact.problem import Flat
 from ..contact.result import ContactResult
 from ..contact.tangential import Tangential
-from ..contact.wetting import LiquidFilm
 from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
+from ..core.registry import PHYSICS, home
 from ..core.spectral import fft_library
 from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
-from ..solids.plasticity import J2, LinearHardening, Swift, Voce
 from ..solids.viscoelastic import TemperatureShift, Viscoelastic
 from ..stress.regions import Region
 from ..surfaces.surface import Surface
@@ -53,33 +38,24 @@ TYPES: tuple[type, ...] = (
     *get_args(Interface),
     *get_args(Tangential),
     *get_args(TemperatureShift),
-    Coulomb,
     CouplingCheck,
-    DugdaleAdhesion,
-    ExponentialAdhesion,
     Flat,
-    FullStick,
     Hardness,
     HardWall,
-    J2,
-    JKRAdhesion,
     LayeredHardness,
     Layer,
-    LennardJonesAdhesion,
-    LinearAdhesion,
-    LinearHardening,
-    LiquidFilm,
-    PlasticFlow,
     Region,
     RigidBase,
     Strength,
-    Swift,
-    TrescaFriction,
     Viscoelastic,
-    VanDerWaalsAdhesion,
-    Voce,
 )
-"""Types that can be written: frozen dataclasses of numbers, text, arrays, tuples and one another."""
+"""Types that can be written beside those of the physics: frozen dataclasses of numbers, text, arrays, tuples and one another."""
+
+
+def known_types() -> tuple[type, ...]:
+    """All types that can be written."""
+    return *TYPES, *(kind for known in PHYSICS.values() for kind in home(known.home).types())
+
 
 ARRAY = "array"
 """Key that stands for an (nx, ny) array, which is kept beside the dictionary under the name it holds."""
@@ -107,12 +83,12 @@ def describe(value: object, arrays: dict[str, RealArray] | None = None, name: st
     if isinstance(value, np.ndarray) and arrays is not None and name not in arrays:
         arrays[name] = value
         return {ARRAY: name}
-    if is_dataclass(value) and type(value) in TYPES:
+    if is_dataclass(value) and type(value) in known_types():
         entries = {f.name: getattr(value, f.name) for f in fields(value) if f.init}
         kind = type(value).__name__
         return {"type": kind, **{key: describe(item, arrays, f"{kind}_{key}") for key, item in entries.items()}}
     raise InputError(
-        f"every part of a result to be saved must be one of {', '.join(sorted(t.__name__ for t in TYPES))}, numbers "
+        f"every part of a result to be saved must be one of {', '.join(sorted(t.__name__ for t in known_types()))}, numbers "
         f"or text, but {name or 'one'} is {type(value).__name__}; export its fields instead."
     )
 
@@ -135,7 +111,7 @@ def rebuild(description: Any, arrays: Mapping[str, RealArray] | None = None) -> 
         if arrays is None or description[ARRAY] not in arrays:
             raise FileFormatError(f"result file must hold the array {description[ARRAY]!r}, but does not.")
         return arrays[description[ARRAY]]
-    kinds = {kind.__name__: kind for kind in TYPES}
+    kinds = {kind.__name__: kind for kind in known_types()}
     name = description.get("type")
     if name not in kinds:
         raise FileFormatError(

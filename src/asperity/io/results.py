@@ -26,6 +26,7 @@ from ..contact.wetting import LiquidFilm, wetting
 from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
 from ..core.quantity import Labelled, Quantity
+from ..core.registry import PHYSICS
 from ..core.status import Outcome, Status
 from ..core.text import require_file
 from ..stress.field import StressField
@@ -68,9 +69,6 @@ Result: TypeAlias = "ContactResult | HistoryResult | RollingContact | StressFiel
 
 PARTS = ("body", "counter_body", "boundary", "law", "control")
 """Attributes that describe problem and control, each a JSON text."""
-
-PHYSICS = ("film", "friction", "adhesion", "plastic_flow")
-"""The same for physics that a problem need not have."""
 
 _CHECKS = ("couplings", "rounds", "complementarity", "pressure_error")
 """Entries of the certificate that older files lack, written as JSON texts."""
@@ -321,10 +319,7 @@ def contact_node(result: ContactResult) -> Node:
     owners: dict[str, Any] = {"control": result} | dict.fromkeys(PARTS[:4], problem)
     attributes = {part: json.dumps(describe(getattr(owners[part], part), arrays, part)) for part in PARTS}
     values = [*grid_lines(result), _field(Quantity("heights", "m", "heights of the surface"), problem.surface.heights)]
-    physics = {part: getattr(problem, part) for part in PHYSICS}
-    attributes |= {
-        part: json.dumps(describe(value, arrays, part)) for part, value in physics.items() if value is not None
-    }
+    attributes |= {item.keyword: json.dumps(describe(item.given, arrays, item.keyword)) for item in problem.physics}
     attributes["surface"] = _surface_text(problem.surface)
     if isinstance(problem.counter_surface, Surface):
         quantity = Quantity("counter_heights", "m", "heights of the counter surface")
@@ -404,7 +399,7 @@ def _with_film(node: Node, contact: ContactResult) -> ContactResult:
     stands = wetting(contact.gap, contact.contact, film, wraps=contact.problem.boundary.wraps)
     return replace(
         contact,
-        problem=replace(contact.problem, film=film, friction=friction),
+        problem=contact.problem.with_physics(film=film, friction=friction),
         control=rebuild(json.loads(attributes["control"])),
         status=status_from(attributes),
         certificate=replace(contact.certificate, rounds=int(attributes["stored_rounds"])),

@@ -422,9 +422,7 @@ def problem_rows(problem: ContactProblem) -> Rows:
     rows.append((modulus_label(problem), show(problem.contact_modulus, "Pa")))
     law = f"{problem.law.name} {limit_text(problem)}".rstrip()
     rows.append(("boundary, interface law", f"{problem.boundary.name}, {law}"))
-    if problem.adhesion is not None:
-        rows.append(("adhesion", f"{problem.adhesion.name}, {show(problem.adhesion.work, 'J/m**2')}"))
-    return rows
+    return [*rows, *(row for item in problem.physics for row in item.rows())]
 
 
 def surface_text(surface: Surface) -> str:

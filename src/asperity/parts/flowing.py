@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -190,7 +189,7 @@ def _elastic_forces(solved: Solved, path: HistoryResult) -> list[float]:
     """Forces of the elastic contact at the approaches up to the peak; NaN beyond, and nothing where no pictures are drawn."""
     if not solved.lines:
         return []
-    elastic, found = replace(solved.problem, plastic_flow=None), []
+    elastic, found = solved.problem.with_physics(plastic_flow=None), []
     peak = int(np.argmax([step.force for step in path.steps]))
     for step in path.steps[: peak + 1]:
         try:

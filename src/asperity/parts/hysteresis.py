@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -205,7 +204,7 @@ def bare(problem: ContactProblem) -> ContactProblem:
     from ..contact.laws import Coulomb
 
     plain = isinstance(problem.friction, Coulomb) and not problem.friction.coupled
-    return replace(problem, friction=None) if plain else problem
+    return problem.with_physics(friction=None) if plain else problem
 
 
 def _numbers(found: SteadySliding) -> dict[str, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -114,7 +114,7 @@ class PlasticFlow(Part):
         """``problem`` with the laws of its bodies, by which the flow joins the solve."""
         from .flowing import flow_law
 
-        return replace(problem, plastic_flow=flow_law(ask.settings, problem))
+        return problem.with_physics(plastic_flow=flow_law(ask.settings, problem))
 
     def course(self, ask: Flows, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """A single load in steps, and the way back."""

@@ -171,11 +171,11 @@ class Rolling(Part):
         """Refuse what cannot roll."""
         from ..contact.rolling import require_rolling
 
-        require_rolling(replace(problem, friction=ask.law), ask.creepage, ask.settings.direction)  # type: ignore[arg-type]
+        require_rolling(problem.with_physics(friction=ask.law), ask.creepage, ask.settings.direction)  # type: ignore[arg-type]
 
     def compute(self, ask: Rolls, solved: Solved) -> Found:
         """Forces, fields and curves."""
-        problem = replace(solved.problem, friction=ask.law)
+        problem = solved.problem.with_physics(friction=ask.law)
         with solved.stage("rolling") as progress:
             rough = None if ask.roughness is None else _rolled(problem, solved.control, ask, progress)
             contact = _smooth(problem, solved.control, ask) if rough is None else rough.last

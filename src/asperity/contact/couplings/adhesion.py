@@ -19,6 +19,7 @@ from ...core.errors import NoSolutionError
 from ...core.late import Shown
 from ...core.status import Status
 from .. import measure
+from ..answer import Answer
 from ..controls import Control, FixedGrips, MeanGap
 from ..laws import Adhesion, Coulomb, HardWall, JKRAdhesion, SoftAdhesion, cohesive_length
 from ..operators import Operator
@@ -69,7 +70,7 @@ _POSITION_ERROR = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class AdhesiveContact(Shown):
+class AdhesiveContact(Answer, Shown):
     """What adhesion does in a contact; fields are (nx, ny) arrays, all values SI.
 
     Attributes
@@ -158,6 +159,30 @@ class AdhesiveContact(Shown):
     def citation_keys(self) -> tuple[str, ...]:
         """Papers of law and method."""
         return (*self.law.citation_keys, *method_of(self.law).citation_keys)
+
+    def traction_beside(self) -> RealArray:
+        """The attraction."""
+        return self.attraction
+
+    def pulls(self) -> float:
+        """Its force."""
+        return self.attractive_force
+
+    def outside(self, force: float, *, alone: bool) -> float:
+        """The external force, which is known to the last digit; ``force`` is that of the contact."""
+        return self.external_force
+
+    def held_at(self) -> float:
+        """The approach of the grips."""
+        return self.grips
+
+    def stores(self, *, relaxing: bool) -> float:
+        """The energy of the interface."""
+        return self.interface_energy
+
+    def ended(self) -> Status:
+        """How the adhesive solver ended."""
+        return self.status
 
     def memory(self, gap: RealArray, approach: float) -> Memory:
         """What the next step starts from, with the ``gap`` (nx, ny) in m and the ``approach`` in m of this one."""
@@ -305,6 +330,10 @@ class AdhesionCoupling(Coupling):
             and not isinstance(problem.adhesion, JKRAdhesion)
         )
         return cls(problem.adhesion, operator, problem.contact_modulus, conserves, solver, tolerance)
+
+    def at(self, operator: Operator) -> Self:
+        """The same of bodies with this ``operator``."""
+        return replace(self, operator=operator)
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The attraction that is remembered, followed to this load or position."""

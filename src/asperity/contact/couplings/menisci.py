@@ -20,6 +20,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
 from ...core.late import Shown
+from ..answer import Answer
 from ..laws import Coulomb
 from ..wetting import LiquidFilm, Wetting, wetting
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
@@ -42,7 +43,7 @@ _FULL = (
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Menisci(Shown):
+class Menisci(Answer, Shown):
     """What a film of liquid does in a contact, all values SI.
 
     Attributes
@@ -68,6 +69,14 @@ class Menisci(Shown):
     dry_friction: float
     viscous_force: float
     feedback: float
+
+    def pulls(self) -> float:
+        """Force of the menisci."""
+        return self.meniscus_force
+
+    def outside(self, force: float, *, alone: bool) -> float:
+        """The external force, which menisci that pull alone know to the last digit."""
+        return self.external_force if alone else super().outside(force, alone=alone)
 
     @property
     def relative_meniscus_force(self) -> float:

@@ -24,6 +24,7 @@ from ...solids.eigenstrain.operator import EigenstrainOperator
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Layered, RigidBase
 from ...solids.plasticity import J2, WEIGHTS, LinearHardening
+from ..answer import Answer
 from ..boundary import Free
 from ..controls import Approach, MeanGap
 from ..laws import Coulomb
@@ -110,7 +111,7 @@ class PlasticZone:
 
 
 @dataclass(frozen=True, eq=False)
-class PlasticBody:
+class PlasticBody(Answer):
     """Plastic flow of the body since it was virgin, after a step.
 
     Attributes
@@ -145,6 +146,18 @@ class PlasticBody:
     reaches_end: bool
     iterations: int = 0
     citation_keys: ClassVar[tuple[str, ...]] = ("Frerot2019", "Jacq2002")
+
+    def imprint(self, part: str = "composite") -> RealArray | None:
+        """Displacement by the plastic strain, in the composite surface and in that of the body which flows."""
+        return self.displacement if part in ("composite", self.of) else None
+
+    def stores(self, *, relaxing: bool) -> float:
+        """Energy of the residual stress."""
+        return self.residual_energy
+
+    def flows(self) -> float:
+        """Plastic work of this step."""
+        return self.step_work
 
     @property
     def small_strain(self) -> bool:

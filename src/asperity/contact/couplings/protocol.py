@@ -326,6 +326,10 @@ class Coupling(Protocol):
         """Whether its share holds the bodies at the position prescribed."""
         return False
 
+    def at(self, operator: Operator) -> Coupling:
+        """The same with another ``operator`` of the bodies, that of a step of time."""
+        return self
+
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """Exchange before the first round, from the ``memory`` of the step before (empty for a virgin interface)."""
 

@@ -16,6 +16,7 @@ import numpy as np
 from ...core.arrays import RealArray
 from ...core.spectral import thread_count
 from ...solids.compliance.tensor import BodiesSurface
+from ..answer import Answer
 from ..laws import Coulomb
 from ..operators.tangential import NO_COUPLING, CouplingKernel
 from ..problem import ContactProblem
@@ -26,7 +27,7 @@ TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class GrossSliding:
+class GrossSliding(Answer):
     """What the shear traction of a sliding contact does to it.
 
     Attributes
@@ -40,6 +41,10 @@ class GrossSliding:
     friction: float | RealArray
     direction: float
     shear_displacement: RealArray
+
+    def lifted(self) -> RealArray:
+        """Displacement by shear."""
+        return self.shear_displacement
 
 
 class ShearKernel:

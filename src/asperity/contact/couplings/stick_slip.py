@@ -13,7 +13,7 @@ sampled finely enough that slip does not turn or reverse within a step.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from ...core.engine import CpuEngine
 from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
 from ...core.status import Outcome, Status
+from ..answer import Answer
 from ..laws import Coulomb, FrictionLaw, FullStick, TrescaFriction
 from ..operators.tangential import TangentialOperator, slips_inside
 from ..problem import ContactProblem
@@ -31,6 +32,9 @@ from ..solvers.stick_slip.newton import StickSlipNewton
 from ..solvers.stick_slip.problem import Deviation, TangentialQP, TangentialSolution, TangentialSolver, at_bound
 from ..tangential import Shift, Tangential, TangentialForce, resultant, shift_field
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+
+if TYPE_CHECKING:
+    from ..certificate import Certificate
 
 TOLERANCE = 1e-5
 """Relative change of the displacement by shear that does not count. On a rough surface (512², ν = 0.3, rigid counter body, Q up to half
@@ -62,7 +66,7 @@ _GROSS = 1.0 - 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class StickSlip:
+class StickSlip(Answer):
     """Shear and slip at the end of one step. Fields are (nx, ny) arrays or (2, nx, ny) arrays of x and y components, all values SI.
 
     Attributes
@@ -129,6 +133,22 @@ class StickSlip:
     status: Status
     citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "DeSaxce1998", "Kalker1990", "Panagiotopoulos1975")
     """Papers of law and method."""
+
+    def lifted(self) -> RealArray:
+        """Displacement by shear."""
+        return self.shear_displacement
+
+    def stores(self, *, relaxing: bool) -> float:
+        """The tangential energy, which is part of that of the springs of ``relaxing`` bodies."""
+        return 0.0 if relaxing else self.tangential_energy
+
+    def ended(self) -> Status:
+        """How it ended."""
+        return self.status
+
+    def certified(self, certificate: Certificate) -> Certificate:
+        """The ``certificate`` with De Saxcé's residual."""
+        return replace(certificate, complementarity=self.complementarity)
 
     @property
     def traction_magnitude(self) -> RealArray:

@@ -1,0 +1,130 @@
+"""What a coupling has found in a contact, and what result, history and files ask of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from ..core.errors import InputError
+from ..core.registry import OUTCOMES, PHYSICS
+
+if TYPE_CHECKING:
+    from ..core.arrays import RealArray
+    from ..core.status import Advice, Status
+    from .certificate import Certificate
+
+
+class Answer:
+    """What a coupling has found in a contact: base of frozen dataclasses, whose methods say nothing where it has no part in what is asked."""
+
+    def traction_beside(self) -> RealArray | None:
+        """Attraction (nx, ny) in Pa beside the pressure."""
+        return None
+
+    def lifted(self) -> RealArray | None:
+        """Elastic displacement (nx, ny) in m of the surface that is neither by pressure nor by attraction."""
+        return None
+
+    def imprint(self, part: str = "composite") -> RealArray | None:
+        """Displacement (nx, ny) in m, into the body, that stays in this ``part``: "body", "counter_body" or the "composite" surface."""
+        return None
+
+    def pulls(self) -> float:
+        """Force in N with which it holds the surfaces together."""
+        return 0.0
+
+    def outside(self, force: float, *, alone: bool) -> float:
+        """Force (N) from outside that with what it pulls makes the ``force``; where it pulls ``alone`` it may know that to the last digit."""
+        return force - self.pulls()
+
+    def held_at(self) -> float | None:
+        """Approach (m) of what holds the bodies, where that is not theirs."""
+        return None
+
+    def stores(self, *, relaxing: bool) -> float:
+        """Energy (J) that it stores, beside the elastic energy of the result, which in ``relaxing`` bodies is that of all their springs."""
+        return 0.0
+
+    def springs(self) -> float | None:
+        """Elastic energy (J) of the bodies, where that is not half of pressure times displacement."""
+        return None
+
+    def retarded(self) -> RealArray | None:
+        """Displacement (nx, ny) in m that is by earlier loads."""
+        return None
+
+    def worked(self) -> float | None:
+        """Work (J) of the force between the solids in this step, where it is known better than by the trapezoidal rule."""
+        return None
+
+    def heat(self) -> float:
+        """Heat (J) of the bodies in this step."""
+        return 0.0
+
+    def flows(self) -> float:
+        """Plastic work (J) of this step beside that at the surface."""
+        return 0.0
+
+    def ended(self) -> Status | None:
+        """How its own solver ended."""
+        return None
+
+    def certified(self, certificate: Certificate) -> Certificate:
+        """The ``certificate`` of the contact with what it adds."""
+        return certificate
+
+    def findings(self, certificate: Certificate) -> Iterator[Advice]:
+        """What should be known before the numbers of a result with this ``certificate`` are used."""
+        yield from ()
+
+
+def outside(answers: Iterable[Answer], force: float) -> float:
+    """Force (N) from outside that with what the ``answers`` pull makes the ``force`` between the solids, attractions first."""
+    pulling = sorted((item for item in answers if item.pulls()), key=lambda item: item.traction_beside() is None)
+    for answer in pulling:
+        force = answer.outside(force, alone=len(pulling) == 1)
+    return force
+
+
+def imprint_of(answers: Iterable[Answer]) -> RealArray | None:
+    """Sum (nx, ny) in m of the imprints of the ``answers``; None if there is none."""
+    imprints = [each for each in (answer.imprint() for answer in answers) if each is not None]
+    return sum(imprints[1:], imprints[0]) if imprints else None
+
+
+class WithOutcomes:
+    """Attributes of a result by the names of its couplings, None where it has none; ``require_name()`` refuses None."""
+
+    couplings: Mapping[str, Any]
+
+    def __getattr__(self, name: str) -> Any:
+        found = vars(self).get("couplings", {})
+        if name in OUTCOMES or name in found:
+            return found.get(name)
+        if name.startswith("require_") and name.removeprefix("require_") in OUTCOMES:
+            return lambda: self.require(name.removeprefix("require_"))
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *OUTCOMES, *self.couplings]
+
+    def require(self, name: str) -> Any:
+        """What the coupling of that ``name`` has found.
+
+        Raises
+        ------
+        InputError
+            If the result has none.
+        """
+        found = self.couplings.get(name)
+        if found is None:
+            said = {key: sentence for known in PHYSICS.values() for key, sentence in known.absent.items()}
+            raise InputError(
+                said.get(name, f"couplings of the result must hold {name!r}, but hold {sorted(self.couplings)}.")
+            )
+        return found
+
+    @property
+    def answers(self) -> tuple[Answer, ...]:
+        """What the couplings have found."""
+        return tuple(item for item in self.couplings.values() if isinstance(item, Answer))

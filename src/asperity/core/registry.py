@@ -1,0 +1,83 @@
+"""Which physics of the interface there are: the list of those of this package, in plain text, so that nothing is imported before it is used."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+
+class Known(NamedTuple):
+    """A physics by the keyword of a problem.
+
+    Attributes
+    ----------
+    home
+        Where its class stands, such as ``physics.menisci.physics:Wet``.
+    must_be
+        What the keyword takes, for messages.
+    absent
+        What is said where a result is asked for what a coupling of it finds, but has none: a sentence by the name of the coupling.
+    """
+
+    home: str
+    must_be: str
+    absent: Mapping[str, str]
+
+
+PHYSICS: Mapping[str, Known] = MappingProxyType(
+    {
+        "film": Known(
+            "physics.menisci.physics:Wet",
+            "LiquidFilm.of(liquid, thickness)",
+            {
+                "menisci": "problem of the result must have a film of liquid, but has none. Give it as film=LiquidFilm.of(...)."
+            },
+        ),
+        "adhesion": Known(
+            "physics.adhesion.physics:Adhesive",
+            "a law such as ExponentialAdhesion(work, range)",
+            {
+                "adhesion": "problem of the result must have adhesion, but has none. Give it as adhesion=ExponentialAdhesion(work, range)."
+            },
+        ),
+        "plastic_flow": Known(
+            "physics.plastic_flow.physics:Flowing",
+            "PlasticFlow(J2(...))",
+            {
+                "plastic_flow": "problem of the result must have a plastic flow, but has none. Give it as plastic_flow=PlasticFlow(J2(...))."
+            },
+        ),
+        "friction": Known(
+            "physics.friction.physics:Rubbing",
+            "Coulomb(coefficient), TrescaFriction(strength), FullStick()",
+            {
+                "sliding": "result must be one of gross sliding with Coulomb friction, but is not. Give the problem friction=Coulomb(0.3).",
+                "stick_slip": "result must be one of a step with stick and slip, but has none. Solve ContactProblem(..., friction=Coulomb(0.3)) "
+                "under Step(normal, Shift(5e-9)).",
+            },
+        ),
+    }
+)
+"""Every physics of this package by its keyword, in the order in which couplings are prepared."""
+
+PAIRS: Mapping[frozenset[str], str] = MappingProxyType(
+    {frozenset({"adhesion", "menisci"}): "contact.couplings.balance:settle_forces"}
+)
+"""How couplings settle that must balance a force together, by their names."""
+
+IN_TIME = "contact.in_time:InTime"
+"""What takes over the steps of a prepared problem whose bodies relax."""
+
+OUTCOMES = (*(name for known in PHYSICS.values() for name in known.absent), "creep")
+"""Names of what couplings of this package find, that of bodies that relax last."""
+
+ENERGY_TERMS = ("meniscus_work", "shear_work", "tangential_work", "slip_work", "step_work", "jump_work")
+"""Names of what the physics of this package add to the energies of a history."""
+
+
+def home(place: str) -> Any:
+    """What stands at ``place``, such as ``physics.adhesion.physics:Adhesive``."""
+    module, _, name = place.partition(":")
+    return getattr(import_module(f"asperity.{module}"), name)

@@ -1,0 +1,1 @@
+"""Adhesion: surfaces attract each other where they do not touch, or hold together where they do."""

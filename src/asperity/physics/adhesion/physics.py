@@ -1,0 +1,116 @@
+"""Adhesion as a physics of a problem: what it refuses, its coupling, and its share of the energies of a history."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import numpy as np
+
+from ...contact.controls import Control, Step
+from ...contact.laws import (
+    Adhesion,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
+    HardWall,
+    JKRAdhesion,
+    LennardJonesAdhesion,
+    LinearAdhesion,
+    VanDerWaalsAdhesion,
+)
+from ...contact.problem import ContactProblem, Physics, Preparing, Solved
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.units import show
+
+if TYPE_CHECKING:
+    from ...contact.couplings.protocol import Coupling
+    from ...contact.operators import Operator
+    from ...contact.result import ContactResult
+    from ...contact.state import InterfaceState
+
+
+@dataclass(frozen=True)
+class Adhesive(Physics):
+    """Attraction of the surfaces by a ``law``."""
+
+    law: Adhesion
+    keyword: ClassVar[str] = "adhesion"
+    attracts: ClassVar[bool] = True
+    bears_pull: ClassVar[bool] = True
+    moving: ClassVar[str] = "edges that open and close would take their own energy"
+
+    @property
+    def given(self) -> Adhesion:
+        """The law."""
+        return self.law
+
+    @classmethod
+    def of(cls, given: Any) -> Self:
+        """Adhesion by the law ``given``."""
+        if not isinstance(given, Adhesion):
+            raise TypeError
+        return cls(given)
+
+    def check(self, problem: ContactProblem) -> None:
+        """A core has no wall whose pressure a hardness could limit."""
+        if self.law.spacing > 0.0 and not isinstance(problem.law, HardWall):
+            raise InputError(
+                f"law of a contact with the adhesion {self.law.name} must be HardWall(), but is {problem.law!r}: its core has no wall whose "
+                "pressure a hardness could limit. Use ExponentialAdhesion(...) of the same work and strength."
+            )
+
+    def check_relaxing(self, problem: ContactProblem) -> None:
+        """An edge without range would lose energy at all wavelengths."""
+        if isinstance(self.law, JKRAdhesion):
+            raise InputError(
+                "adhesion of viscoelastic bodies must have a range, but is JKRAdhesion (coupling adhesion), whose edge would lose energy at all "
+                "wavelengths. Take ExponentialAdhesion(work, range)."
+            )
+
+    def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
+        """The attraction."""
+        from ...contact.couplings.adhesion import TOLERANCE, AdhesionCoupling
+
+        yield AdhesionCoupling.prepared(problem, operator, how.tolerances.get("adhesion", TOLERANCE))
+
+    def followed(self, problem: ContactProblem, step: Step, solved: Solved) -> Solved:
+        """Long steps are divided by the range of the attraction."""
+        from ...contact.adhesive_steps import divides, in_ranges
+
+        def by_ranges(control: Control, state: InterfaceState | None) -> ContactResult:
+            if state is None or step.tangential is not None or not divides(problem, state):
+                return solved(control, state)
+            return in_ranges(problem, control, state, solved)
+
+        return by_ranges
+
+    @classmethod
+    def types(cls) -> tuple[type, ...]:
+        """The laws."""
+        return (
+            DugdaleAdhesion,
+            ExponentialAdhesion,
+            JKRAdhesion,
+            LennardJonesAdhesion,
+            LinearAdhesion,
+            VanDerWaalsAdhesion,
+        )
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Law and work of adhesion."""
+        return [("adhesion", f"{self.law.name}, {show(self.law.work, 'J/m**2')}")]
+
+    def work(self, steps: Sequence[ContactResult]) -> RealArray:
+        """What the solids store and lose, which is exact on a branch."""
+        from ...contact.adhesive_cycles import adhesion_loop
+
+        return adhesion_loop(steps).work
+
+    def losses(self, steps: Sequence[ContactResult], left: RealArray) -> Mapping[str, RealArray]:
+        """Of what nothing else takes, the part of the steps with a jump."""
+        jumped = np.array([step.require_adhesion().jumped for step in steps])
+        jumped[0] = False  # from which energies are counted
+        lost: RealArray = np.cumsum(np.where(jumped, np.diff(left, prepend=0.0), 0.0))
+        return {"jump_work": lost}

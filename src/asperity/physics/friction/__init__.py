@@ -1,0 +1,1 @@
+"""Friction: shear tractions of gross sliding, or of stick and slip."""

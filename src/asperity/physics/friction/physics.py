@@ -1,0 +1,134 @@
+"""Friction as a physics of a problem: what it refuses, its coupling, and its share of the energies of a history."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import numpy as np
+
+from ...contact.laws import Coulomb, FrictionLaw, FullStick, TrescaFriction
+from ...contact.problem import ContactProblem, Physics, Preparing
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+
+if TYPE_CHECKING:
+    from ...contact.couplings.protocol import Coupling
+    from ...contact.operators import Operator
+    from ...contact.result import ContactResult
+    from ...contact.state import InterfaceState
+
+
+@dataclass(frozen=True)
+class Rubbing(Physics):
+    """Shear of the interface by a ``law`` of friction."""
+
+    law: FrictionLaw
+    keyword: ClassVar[str] = "friction"
+    moving: ClassVar[str] = ""
+    supplies: ClassVar[tuple[str, ...]] = ("tangential_work",)
+
+    @property
+    def given(self) -> FrictionLaw:
+        """The law."""
+        return self.law
+
+    @classmethod
+    def of(cls, given: Any) -> Self:
+        """Friction by the law ``given``."""
+        if not isinstance(given, FrictionLaw):
+            raise TypeError
+        return cls(given)
+
+    def check(self, problem: ContactProblem) -> None:
+        """Maps of the law have the shape of the surface."""
+        for name, what in {
+            "coefficient": "friction coefficient",
+            "strength": "shear strength of the interface",
+        }.items():
+            found = getattr(self.law, name, 0.0)
+            if isinstance(found, np.ndarray) and found.shape != problem.surface.shape:
+                raise InputError(
+                    f"{what} must have the shape {problem.surface.shape} of the surface, but has {found.shape}."
+                )
+
+    def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
+        """Shear of stick and slip, or of gross sliding where that changes the pressure."""
+        if how.sticks:
+            from ...contact.couplings.stick_slip import TOLERANCE, StickSlipCoupling
+
+            yield StickSlipCoupling.prepared(problem, how.tolerances.get("stick_slip", TOLERANCE), how.threads)
+        elif isinstance(self.law, Coulomb) and self.law.couples:
+            from ...contact.couplings.sliding import TOLERANCE as SLIDING
+            from ...contact.couplings.sliding import SlidingCoupling
+
+            tolerance = how.tolerances.get("sliding", SLIDING)
+            yield SlidingCoupling.prepared(problem, self.law, operator.largest, tolerance, how.threads)
+
+    def sticks(self, state: InterfaceState | None, *, tangential: bool) -> bool:
+        """Where a step prescribes it, the interface remembers it, or the law knows no gross sliding."""
+        gross = isinstance(self.law, Coulomb) and self.law.limit == np.inf
+        return tangential or not gross or (state is not None and "stick_slip" in state.memory)
+
+    def normal_tolerance(self, *, sticks: bool) -> float | None:
+        """1e-12 where shear changes the pressure, so that the error of the normal solve (which goes with its root) does not hide that the
+        displacement by shear has settled to 1e-6; 1e-8 with stick and slip, which settle to 1e-5."""
+        if sticks:
+            return 1e-8
+        return 1e-12 if isinstance(self.law, Coulomb) and self.law.couples else None
+
+    @classmethod
+    def types(cls) -> tuple[type, ...]:
+        """The laws."""
+        return Coulomb, FullStick, TrescaFriction
+
+    def works(self, steps: Sequence[ContactResult]) -> Mapping[str, RealArray]:
+        """Work of the displacement by the shear of gross sliding; of surfaces that stick and slip that of the tangential force, what slip
+        dissipates, and what the length of implicit steps takes."""
+        along = _tangential_works(steps)
+        return {
+            "shear_work": _shear_works(steps),
+            "tangential_work": along[0],
+            "slip_work": along[1],
+            "step_work": along[2],
+        }
+
+
+def _shear_works(steps: Sequence[ContactResult]) -> RealArray:
+    """Σ p du (J) of the displacement by the shear of gross sliding in every step, by the mean of the pressures before and after."""
+    pixel, works = steps[0].problem.grid.pixel_area, []
+    none = np.zeros(steps[0].pressure.shape)
+    pressure: RealArray = none
+    lift: RealArray = none
+    for result in steps:
+        if result.creep is not None:  # through its steps of time
+            works.append(result.creep.shear_work)
+            continue
+        now = none if result.sliding is None else result.sliding.shear_displacement
+        works.append(0.5 * float(((result.pressure + pressure) * (now - lift)).sum()) * pixel)
+        pressure, lift = result.pressure, now
+    return np.array(works)
+
+
+def _tangential_works(steps: Sequence[ContactResult]) -> RealArray:
+    """(3, steps): Q·Δδ, energy dissipated by slip and ½ Σ Δq·Δu (J) of every step; zero without stick and slip."""
+    pixel, works = steps[0].problem.grid.pixel_area, np.zeros((3, len(steps)))
+    before = None
+    for number, result in enumerate(steps):
+        now = result.stick_slip
+        if now is None:
+            continue
+        moved = np.array([now.shift_x, now.shift_y, now.twist])
+        traction, displacement = now.traction, now.tangential_displacement
+        if before is not None:
+            moved = moved - [before.shift_x, before.shift_y, before.twist]
+            traction, displacement = traction - before.traction, displacement - before.tangential_displacement
+        works[1, number], creep = now.dissipated, result.creep
+        if creep is None:
+            works[0, number] = now.work_by(moved, displacement, pixel)
+            works[2, number] = 0.5 * float(np.einsum("kij,kij->", traction, displacement)) * pixel
+        else:
+            works[0, number], works[2, number] = creep.tangential_work, creep.step_work
+        before = now
+    return works

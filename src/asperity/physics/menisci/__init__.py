@@ -1,0 +1,1 @@
+"""Menisci: a film of liquid holds the surfaces together."""

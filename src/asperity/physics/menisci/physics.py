@@ -1,0 +1,67 @@
+"""A film of liquid as a physics of a problem: what it refuses, and its coupling."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import numpy as np
+
+from ...contact.laws import Coulomb
+from ...contact.problem import ContactProblem, Physics, Preparing
+from ...contact.wetting import LiquidFilm
+from ...core.errors import InputError
+
+if TYPE_CHECKING:
+    from ...contact.couplings.protocol import Coupling
+    from ...contact.operators import Operator
+
+
+@dataclass(frozen=True)
+class Wet(Physics):
+    """A film of liquid whose menisci pull the surfaces together."""
+
+    film: LiquidFilm
+    keyword: ClassVar[str] = "film"
+    attracts: ClassVar[bool] = True
+    moving: ClassVar[str] = "menisci of moving surfaces are not steady"
+    pull_term: ClassVar[str] = "meniscus_work"
+
+    @property
+    def given(self) -> LiquidFilm:
+        """The film."""
+        return self.film
+
+    @classmethod
+    def of(cls, given: Any) -> Self:
+        """Menisci of the film ``given``."""
+        if not isinstance(given, LiquidFilm):
+            raise TypeError
+        return cls(given)
+
+    def check(self, problem: ContactProblem) -> None:
+        """The force of the menisci is shared by all points, so that friction is one number."""
+        friction = problem.friction
+        for name, what in {
+            "coefficient": "friction coefficient",
+            "strength": "shear strength of the interface",
+        }.items():
+            if isinstance(getattr(friction, name, 0.0), np.ndarray):
+                raise InputError(f"{what} beside a film of liquid must be one number, but is an array.")
+        if not isinstance(friction, Coulomb | None):
+            raise InputError(
+                f"friction beside a film of liquid must be Coulomb(coefficient) or None, but is {friction!r}."
+            )
+
+    def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
+        """The force of the menisci."""
+        from ...contact.couplings.menisci import TOLERANCE, MeniscusCoupling
+
+        dry = problem.friction if isinstance(problem.friction, Coulomb) else Coulomb(0.0)
+        yield MeniscusCoupling(self.film, problem.boundary.wraps, dry, how.tolerances.get("menisci", TOLERANCE))
+
+    @classmethod
+    def types(cls) -> tuple[type, ...]:
+        """The film."""
+        return (LiquidFilm,)

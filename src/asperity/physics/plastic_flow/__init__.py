@@ -1,0 +1,1 @@
+"""Plastic flow in the volume below the surface."""

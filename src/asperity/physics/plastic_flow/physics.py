@@ -1,0 +1,93 @@
+"""Plastic flow in the volume as a physics of a problem: what it refuses, and its coupling."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+from ...contact.boundary import FreeLine
+from ...contact.controls import Control, Step
+from ...contact.laws import Coulomb, HardWall, PlasticFlow
+from ...contact.laws.plastic_flow import require_bodies
+from ...contact.problem import ContactProblem, Physics, Preparing, Solved
+from ...core.errors import InputError
+from ...solids.plasticity import J2, LinearHardening, Swift, Voce
+
+if TYPE_CHECKING:
+    from ...contact.couplings.protocol import Coupling
+    from ...contact.operators import Operator
+    from ...contact.result import ContactResult
+    from ...contact.state import InterfaceState
+
+
+@dataclass(frozen=True)
+class Flowing(Physics):
+    """Plastic flow of a body by a ``flow`` law of its parts."""
+
+    flow: PlasticFlow
+    keyword: ClassVar[str] = "plastic_flow"
+    moving: ClassVar[str] = "what has flowed would have to move with the surface"
+
+    @property
+    def given(self) -> PlasticFlow:
+        """The flow."""
+        return self.flow
+
+    @classmethod
+    def of(cls, given: Any) -> Self:
+        """The flow ``given``."""
+        if not isinstance(given, PlasticFlow):
+            raise TypeError
+        return cls(given)
+
+    def check(self, problem: ContactProblem) -> None:
+        """Bodies, boundary and the other physics that a flow goes with."""
+        friction = None if isinstance(problem.friction, Coulomb | None) else problem.friction
+        for found, what, remedy in (
+            (
+                problem.law if not isinstance(problem.law, HardWall) else None,
+                "law",
+                "A hardness is a model of the same flow.",
+            ),
+            (problem.film, "film", "Solve the dry contact."),
+            (problem.adhesion, "adhesion", "Solve it without adhesion."),
+            (friction, "friction", "Use Coulomb(coefficient), under which all points slide."),
+            (
+                problem.boundary if isinstance(problem.boundary, FreeLine) else None,
+                "boundary",
+                "Use Periodic() or Free().",
+            ),
+        ):
+            if found is not None:
+                raise InputError(
+                    f"{what} of a contact with plastic flow must be another or none, but is {found!r}. {remedy}"
+                )
+        require_bodies(self.flow, problem.body, problem.counter_body)
+
+    def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
+        """The lift by plastic strain."""
+        from ...contact.couplings.plastic_flow import PlasticFlowCoupling
+
+        if how.sticks:
+            raise InputError(
+                "friction of a contact with plastic flow must slide everywhere, but a step prescribes a shift or a tangential force. "
+                "Leave that out: under Coulomb(mu) all points slide."
+            )
+        yield PlasticFlowCoupling.prepared(problem, how.tolerances.get("plastic_flow"), how.threads)
+
+    def followed(self, problem: ContactProblem, step: Step, solved: Solved) -> Solved:
+        """A step in which the flow does not settle is cut into parts."""
+
+        def by_parts(control: Control, state: InterfaceState | None) -> ContactResult:
+            from ...contact.cut_steps import in_parts
+
+            result = solved(control, state)
+            return result if result.converged else in_parts(control, state, result, solved)
+
+        return by_parts
+
+    @classmethod
+    def types(cls) -> tuple[type, ...]:
+        """The flow, and the laws of its parts."""
+        return J2, LinearHardening, PlasticFlow, Swift, Voce
