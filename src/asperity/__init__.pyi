@@ -15,22 +15,12 @@ from .contact.couplings.stick_slip import StickSlip
 from .contact.creep import CreepCurve, creep_curve
 from .contact.harmonic import HarmonicResponse, harmonic
 from .contact.history import EnergyBalance, History, HistoryResult, ramps, shear_cycles
-from .contact.laws import (
-    Coulomb,
-    CustomAdhesion,
-    DugdaleAdhesion,
-    ExponentialAdhesion,
-    FullStick,
-    Hardness,
-    HardWall,
-    JKRAdhesion,
-    LayeredHardness,
-    LennardJonesAdhesion,
-    LinearAdhesion,
-    PlasticFlow,
-    TrescaFriction,
-    VanDerWaalsAdhesion,
-)
+from .contact.laws.adhesion import CustomAdhesion, DugdaleAdhesion, ExponentialAdhesion, LennardJonesAdhesion, LinearAdhesion, VanDerWaalsAdhesion
+from .contact.laws.friction import Coulomb, FullStick, TrescaFriction
+from .contact.laws.layered_hardness import LayeredHardness
+from .contact.laws.plastic_flow import PlasticFlow
+from .contact.laws.protocol import Hardness, HardWall
+from .contact.laws.short_range import JKRAdhesion
 from .contact.linearised import TangentialStiffness, contraction_factor, tangential_stiffness
 from .contact.operators import prepare_operator
 from .contact.plastic_load import PlasticLoad, plastic_load
@@ -43,7 +33,8 @@ from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
 from .contact.steady_sliding import SteadySliding, slide
 from .contact.tangential import Shift, TangentialForce
-from .contact.time_steps import Creeping, TimeSteps
+from .contact.time_division import TimeSteps
+from .contact.time_steps import Creeping
 from .contact.transient_sliding import TransientSliding, slide_in_time
 from .contact.wet_theory import WetTheory, wet_theory
 from .contact.wetting import LiquidFilm

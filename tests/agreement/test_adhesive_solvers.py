@@ -11,14 +11,7 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.adhesive_cycles import adhesion_cycle, adhesion_loop
-from asperity.contact.laws import (
-    CustomAdhesion,
-    DugdaleAdhesion,
-    ExponentialAdhesion,
-    LennardJonesAdhesion,
-    LinearAdhesion,
-    VanDerWaalsAdhesion,
-)
+from asperity.contact.laws.adhesion import CustomAdhesion, DugdaleAdhesion, ExponentialAdhesion, LennardJonesAdhesion, LinearAdhesion, VanDerWaalsAdhesion
 from asperity.contact.operators import prepare_operator
 from asperity.contact.solvers.adhesion.problem import AdhesiveProblem
 from asperity.contact.solvers.adhesion.solver import MajoriseMinimise

@@ -8,7 +8,7 @@ from adhesive_cases import APPROACH, WORK, sphere, strength_of
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.laws import DugdaleAdhesion, ExponentialAdhesion, LinearAdhesion, VanDerWaalsAdhesion
+from asperity.contact.laws.adhesion import DugdaleAdhesion, ExponentialAdhesion, LinearAdhesion, VanDerWaalsAdhesion
 from asperity.core.errors import InputError
 
 RANGE = WORK / strength_of(1.5)

@@ -13,7 +13,7 @@ from reference_data import reference
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.laws import DugdaleAdhesion, ExponentialAdhesion
+from asperity.contact.laws.adhesion import DugdaleAdhesion, ExponentialAdhesion
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.theories.adhesion.spheres import maugis_at_ring
 

@@ -11,15 +11,7 @@ from reference_data import every_row, reference
 from refusals import refused
 from scipy.integrate import quad
 
-from asperity.contact.laws import (
-    CustomAdhesion,
-    DugdaleAdhesion,
-    ExponentialAdhesion,
-    LennardJonesAdhesion,
-    LinearAdhesion,
-    VanDerWaalsAdhesion,
-    cohesive_length,
-)
+from asperity.contact.laws.adhesion import CustomAdhesion, DugdaleAdhesion, ExponentialAdhesion, LennardJonesAdhesion, LinearAdhesion, VanDerWaalsAdhesion, cohesive_length
 from asperity.core.errors import InputError
 
 WORK, RANGE = 0.05, 2e-9

@@ -17,7 +17,8 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
-from .laws import Adhesion, HardWall
+from .laws.adhesion import Adhesion
+from .laws.protocol import HardWall
 from .operators import Operator, prepare_operator
 from .result import ContactResult
 from .solvers.adhesion.problem import AdhesiveProblem

@@ -14,7 +14,7 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from .controls import FixedGrips
 from .history import HistoryResult
-from .laws import HardWall
+from .laws.protocol import HardWall
 from .operators import prepare_operator
 from .result import ContactResult
 from .solve import solve

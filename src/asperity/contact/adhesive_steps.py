@@ -16,7 +16,7 @@ import numpy as np
 from ..core.arrays import RealArray
 from ..core.errors import NoSolutionError
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, Pull, Unloaded, mean_pressure
-from .laws import Adhesion, SoftAdhesion, cohesive_length
+from .laws.adhesion import Adhesion, SoftAdhesion, cohesive_length
 from .problem import ContactProblem
 from .result import ContactResult
 from .state import InterfaceState

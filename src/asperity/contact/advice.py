@@ -20,7 +20,8 @@ from .couplings.menisci import Menisci
 from .couplings.plastic_flow import NAME as PLASTIC_FLOW
 from .couplings.plastic_flow import SMALL_STRAIN, PlasticBody, PlasticFlowCoupling
 from .couplings.stick_slip import slides_freely
-from .laws import LayeredHardness, LimitByDepth
+from .laws.layered_hardness import LayeredHardness
+from .laws.protocol import LimitByDepth
 from .problem import ContactProblem
 from .result import ContactResult
 

@@ -20,7 +20,7 @@ from ..theories.friction.kalker import LARGEST_RATIO, SMALLEST_RATIO
 from ..theories.friction.rolling import CreepForces, Fastsim, KalkerLinear
 from .boundary import FreeLine, Periodic
 from .controls import Control
-from .laws import Coulomb
+from .laws.friction import Coulomb
 from .problem import ContactProblem
 from .rolling import DIRECTIONS, Creepage, Rolling, RollingContact, roll
 from .rough_rolling import RoughRolling, roll_rough

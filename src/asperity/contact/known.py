@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from .couplings.plastic_flow import PlasticBody
     from .couplings.sliding import GrossSliding
     from .couplings.stick_slip import StickSlip
-    from .laws import Adhesion, FrictionLaw, PlasticFlow
+    from .laws.adhesion import Adhesion
+    from .laws.friction import FrictionLaw
+    from .laws.plastic_flow import PlasticFlow
     from .time_steps import Creeping
     from .wetting import LiquidFilm
 

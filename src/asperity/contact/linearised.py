@@ -16,7 +16,7 @@ from ..core.arrays import RealArray
 from ..core.engine import CpuEngine
 from ..core.errors import InputError
 from .controls import Force, MeanPressure
-from .laws import Coulomb
+from .laws.friction import Coulomb
 from .operators import prepare_operator
 from .operators.tangential import TangentialOperator
 from .result import ContactResult

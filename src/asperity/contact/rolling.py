@@ -18,7 +18,8 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.status import Outcome, Status
 from .controls import Approach, Control
-from .laws import FrictionLaw, HardWall
+from .laws.friction import FrictionLaw
+from .laws.protocol import HardWall
 from .operators import Operator, prepare_operator
 from .operators.tangential import TangentialOperator
 from .problem import ContactProblem, Flat

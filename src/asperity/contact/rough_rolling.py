@@ -19,7 +19,7 @@ from ..core.quantity import Quantity
 from ..core.status import NoProgress, Outcome, Progress, Status
 from ..surfaces.surface import Surface
 from .controls import Control
-from .laws import FrictionLaw
+from .laws.friction import FrictionLaw
 from .problem import ContactProblem
 from .result import ContactResult
 from .rolling import DIRECTIONS, Creepage, Rolling, RollingBodies, RollingContact, require_rolling, slip_of

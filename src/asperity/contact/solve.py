@@ -40,14 +40,14 @@ from .couplings.hardness import ConstantHardness, DepthHardness
 from .couplings.held import settle_position
 from .couplings.protocol import Coupling, Memory, Posed, height_scale
 from .history import History, HistoryResult
-from .laws import HardWall, LimitByDepth
+from .laws.protocol import HardWall, LimitByDepth
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem, Preparing, Solved, require_borne
 from .result import ContactResult, assemble
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
 from .state import InterfaceState
-from .time_steps import TimeSteps
+from .time_division import TimeSteps
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ from .boundary import Periodic
 from .controls import Control, Unloaded
 from .couplings.driver import Rounds
 from .couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share, height_scale
-from .laws import HardWall
+from .laws.protocol import HardWall
 from .moving_load import FreeMovingKernel, axis_of
 from .operators import Operator, prepare_operator
 from .operators.convolution import PeriodicOperator

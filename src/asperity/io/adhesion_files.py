@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..contact.couplings.adhesion import AdhesiveContact
-from ..contact.laws import Adhesion
+from ..contact.laws.adhesion import Adhesion
 from ..core.quantity import Labelled, Quantity
 from ..core.status import Outcome, Status
 from .description import describe, rebuild

@@ -17,7 +17,7 @@ from ..contact.certificate import Certificate
 from ..contact.couplings.menisci import Menisci
 from ..contact.couplings.sliding import GrossSliding
 from ..contact.history import HistoryResult
-from ..contact.laws import Coulomb
+from ..contact.laws.friction import Coulomb
 from ..contact.problem import ContactProblem
 from ..contact.result import AREA_ERROR, WET_SCALARS, ContactResult
 from ..contact.rolling import RollingContact

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..contact.couplings.stick_slip import StickSlip
 from ..contact.fretting import NUMBERS
-from ..contact.laws import FrictionLaw
+from ..contact.laws.friction import FrictionLaw
 from ..core.quantity import Labelled, Quantity
 from ..core.status import Outcome, Status
 from .description import describe, rebuild

@@ -13,7 +13,7 @@ import numpy as np
 from ..contact.advice import doubts
 from ..contact.couplings.menisci import Menisci
 from ..contact.history import HistoryResult
-from ..contact.laws import LayeredHardness
+from ..contact.laws.layered_hardness import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError

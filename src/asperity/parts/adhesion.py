@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from ..contact.adhesive_branch import Jump
     from ..contact.adhesive_cycles import AdhesionLoop
     from ..contact.controls import Control, Step
-    from ..contact.laws import Adhesion as AdhesionLaw
+    from ..contact.laws.adhesion import Adhesion as AdhesionLaw
     from ..contact.problem import ContactProblem
     from ..contact.result import ContactResult
     from ..plots.picture import Figure
@@ -137,14 +137,8 @@ class AdhesionSettings(Settings):
 
     def adhesion(self) -> AdhesionLaw:
         """The law."""
-        from ..contact.laws import (
-            DugdaleAdhesion,
-            ExponentialAdhesion,
-            JKRAdhesion,
-            LennardJonesAdhesion,
-            LinearAdhesion,
-            VanDerWaalsAdhesion,
-        )
+        from ..contact.laws.adhesion import DugdaleAdhesion, ExponentialAdhesion, LennardJonesAdhesion, LinearAdhesion, VanDerWaalsAdhesion
+        from ..contact.laws.short_range import JKRAdhesion
 
         work = float(self.work) if self.work is not None else self.of_pair().work
         if self.law == WITHOUT_RANGE:

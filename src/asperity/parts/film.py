@@ -31,7 +31,7 @@ from .part import Found, Part, Rows, Solved, Table, Words
 if TYPE_CHECKING:
     from ..contact.controls import Control
     from ..contact.couplings.menisci import Menisci as SolvedMenisci
-    from ..contact.laws import Coulomb, FrictionLaw, FullStick, TrescaFriction
+    from ..contact.laws.friction import Coulomb, FrictionLaw, FullStick, TrescaFriction
     from ..contact.wet_theory import WetTheory as SolvedTheory
     from ..contact.wetting import LiquidFilm
     from ..plots.picture import Figure
@@ -87,7 +87,7 @@ class FrictionSettings(Settings):
 
 def friction_law(settings: FrictionSettings, *, sheared: bool = False) -> Coulomb | TrescaFriction | FullStick:
     """Law of friction of a problem with these ``settings``; ``sheared`` where it has stick and slip."""
-    from ..contact.laws import Coulomb, FullStick, TrescaFriction
+    from ..contact.laws.friction import Coulomb, FullStick, TrescaFriction
 
     if settings.law == "tresca":
         return TrescaFriction(settings.strength or 0.0)

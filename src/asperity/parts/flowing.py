@@ -10,8 +10,8 @@ import numpy as np
 from ..contact.controls import Approach
 from ..contact.couplings.plastic_flow import PlasticBody
 from ..contact.history import HistoryResult
-from ..contact.laws import Coulomb
-from ..contact.laws import PlasticFlow as Law
+from ..contact.laws.friction import Coulomb
+from ..contact.laws.plastic_flow import PlasticFlow as Law
 from ..contact.laws.plastic_flow import plastic_body
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult

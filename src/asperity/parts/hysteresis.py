@@ -201,7 +201,7 @@ class Hysteresis(Part):
 
 def bare(problem: ContactProblem) -> ContactProblem:
     """``problem`` without friction that does not change its pressure."""
-    from ..contact.laws import Coulomb
+    from ..contact.laws.friction import Coulomb
 
     plain = isinstance(problem.friction, Coulomb) and not problem.friction.coupled
     return problem.with_physics(friction=None) if plain else problem

@@ -23,7 +23,7 @@ from .stick_slip import law_text
 if TYPE_CHECKING:
     from ..contact.controls import Control
     from ..contact.creep import CreepCurve
-    from ..contact.laws import FrictionLaw
+    from ..contact.laws.friction import FrictionLaw
     from ..contact.problem import ContactProblem
     from ..contact.rolling import Creepage, RollingContact
     from ..contact.rough_rolling import RoughRolling

@@ -208,7 +208,7 @@ class Viscoelasticity(Part):
 
     def options(self, ask: InTime) -> Mapping[str, Any]:
         """How durations are divided."""
-        from ..contact.time_steps import TimeSteps
+        from ..contact.time_division import TimeSteps
 
         return {"time_steps": TimeSteps(float(ask.settings.tolerance), ask.settings.steps)}
 

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..contact.boundary import Periodic
-from ..contact.laws import HardWall, LayeredHardness
+from ..contact.laws.layered_hardness import LayeredHardness
+from ..contact.laws.protocol import HardWall
 from ..contact.problem import ContactProblem
 from ..core import require
 from ..core.arrays import BoolArray, RealArray

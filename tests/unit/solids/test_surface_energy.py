@@ -8,7 +8,7 @@ import pytest
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.laws import VanDerWaalsAdhesion
+from asperity.contact.laws.adhesion import VanDerWaalsAdhesion
 from asperity.core.errors import InputError
 from asperity.solids.surface_energy import solid_pairs, solid_surfaces
 

@@ -21,7 +21,10 @@ from ...core.status import Status
 from .. import measure
 from ..answer import Answer
 from ..controls import Control, FixedGrips, MeanGap
-from ..laws import Adhesion, Coulomb, HardWall, JKRAdhesion, SoftAdhesion, cohesive_length
+from ..laws.adhesion import Adhesion, SoftAdhesion, cohesive_length
+from ..laws.friction import Coulomb
+from ..laws.protocol import HardWall
+from ..laws.short_range import JKRAdhesion
 from ..operators import Operator
 from ..operators.creep import SummedOperator
 from ..problem import ContactProblem

@@ -21,7 +21,7 @@ from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
 from ...core.late import Shown
 from ..answer import Answer
-from ..laws import Coulomb
+from ..laws.friction import Coulomb
 from ..wetting import LiquidFilm, Wetting, wetting
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 

@@ -27,7 +27,7 @@ from ...solids.plasticity import J2, WEIGHTS, LinearHardening
 from ..answer import Answer
 from ..boundary import Free
 from ..controls import Approach, MeanGap
-from ..laws import Coulomb
+from ..laws.friction import Coulomb
 from ..laws.plastic_flow import PlasticFlow, plastic_body
 from ..problem import ContactProblem
 from ..solvers.active_set.solver import ActiveSet

@@ -17,7 +17,7 @@ from ...core.arrays import RealArray
 from ...core.spectral import thread_count
 from ...solids.compliance.tensor import BodiesSurface
 from ..answer import Answer
-from ..laws import Coulomb
+from ..laws.friction import Coulomb
 from ..operators.tangential import NO_COUPLING, CouplingKernel
 from ..problem import ContactProblem
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share

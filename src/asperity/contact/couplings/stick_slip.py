@@ -23,7 +23,7 @@ from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
 from ...core.status import Outcome, Status
 from ..answer import Answer
-from ..laws import Coulomb, FrictionLaw, FullStick, TrescaFriction
+from ..laws.friction import Coulomb, FrictionLaw, FullStick, TrescaFriction
 from ..operators.tangential import TangentialOperator, slips_inside
 from ..problem import ContactProblem
 from ..solvers.protocol import FixedMean

@@ -9,16 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 
 from ...contact.controls import Control, Step
-from ...contact.laws import (
-    Adhesion,
-    DugdaleAdhesion,
-    ExponentialAdhesion,
-    HardWall,
-    JKRAdhesion,
-    LennardJonesAdhesion,
-    LinearAdhesion,
-    VanDerWaalsAdhesion,
-)
+from ...contact.laws.adhesion import Adhesion, DugdaleAdhesion, ExponentialAdhesion, LennardJonesAdhesion, LinearAdhesion, VanDerWaalsAdhesion
+from ...contact.laws.protocol import HardWall
+from ...contact.laws.short_range import JKRAdhesion
 from ...contact.problem import ContactProblem, Physics, Preparing, Solved
 from ...core.arrays import RealArray
 from ...core.errors import InputError

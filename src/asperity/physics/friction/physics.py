@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from ...contact.laws import Coulomb, FrictionLaw, FullStick, TrescaFriction
+from ...contact.laws.friction import Coulomb, FrictionLaw, FullStick, TrescaFriction
 from ...contact.problem import ContactProblem, Physics, Preparing
 from ...core.arrays import RealArray
 from ...core.errors import InputError

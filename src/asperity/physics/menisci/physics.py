@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from ...contact.laws import Coulomb
+from ...contact.laws.friction import Coulomb
 from ...contact.problem import ContactProblem, Physics, Preparing
 from ...contact.wetting import LiquidFilm
 from ...core.errors import InputError

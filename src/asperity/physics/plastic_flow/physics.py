@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from ...contact.boundary import FreeLine
 from ...contact.controls import Control, Step
-from ...contact.laws import Coulomb, HardWall, PlasticFlow
+from ...contact.laws.friction import Coulomb
+from ...contact.laws.plastic_flow import PlasticFlow
+from ...contact.laws.protocol import HardWall
 from ...contact.laws.plastic_flow import require_bodies
 from ...contact.problem import ContactProblem, Physics, Preparing, Solved
 from ...core.errors import InputError

@@ -23,7 +23,7 @@ import numpy as np
 
 from ....core.arrays import BoolArray, RealArray
 from ....core.engine import CpuEngine, FreeSet
-from ...laws import FrictionLaw
+from ...laws.friction import FrictionLaw
 from ...laws.friction import at_points
 from ...operators.tangential import TangentialOperator
 from ..active_set.bounds import free_set
