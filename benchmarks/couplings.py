@@ -16,7 +16,7 @@ import numpy as np
 
 import asperity as asp
 from asperity.contact.solve import Keep
-from asperity.contact.wetting import wetting
+from asperity.physics.menisci.film import wetting
 
 NM = 1e-9
 LOAD = 20e6

@@ -18,10 +18,10 @@ import numpy as np
 from surfaces import self_affine
 
 import asperity as asp
-from asperity.contact.operators.tangential import TangentialOperator
-from asperity.contact.solvers.stick_slip.newton import StickSlipNewton
-from asperity.contact.solvers.stick_slip.problem import Deviation, Points, TangentialQP, best_shift
 from asperity.core.arrays import RealArray
+from asperity.physics.friction.operator import TangentialOperator
+from asperity.physics.friction.solver.newton import StickSlipNewton
+from asperity.physics.friction.solver.problem import Deviation, Points, TangentialQP, best_shift
 
 FRICTION = 0.3
 LOAD = 0.05

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import asperity as asp
-from asperity.contact.laws.adhesion import Adhesion
+from asperity.physics.adhesion.law import Adhesion
 
 E_STAR, RADIUS, WORK = 1e6, 1e-4, 0.05
 K = 4.0 / 3.0 * E_STAR

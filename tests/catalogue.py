@@ -28,7 +28,7 @@ from asperity import (
 )
 from asperity.contact.boundary import Boundary
 from asperity.contact.controls import Control, Step
-from asperity.contact.laws.protocol import InterfaceLaw
+from asperity.contact.law import InterfaceLaw
 from asperity.contact.solve import Prepared
 from asperity.contact.solvers import (
     ActiveSet,

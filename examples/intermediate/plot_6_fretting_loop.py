@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity as asp
-from asperity.contact.fretting import loop_of
+from asperity.physics.friction.fretting import loop_of
 
 # %%
 # Both bodies carry the same coating, so that shear does not change the pressure.

@@ -1,43 +1,21 @@
 from . import dynamics, fem, theories
 from .contact import solvers
-from .contact.adhesive_bound import EnergyBound, energy_bound
-from .contact.adhesive_branch import AdhesiveBranch, adhesive_branch, adhesive_jumps
-from .contact.adhesive_cycles import AdhesionLoop, adhesion_cycle, adhesion_loop
 from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
 from .contact.controls import Approach, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
-from .contact.couplings.adhesion import AdhesiveContact
 from .contact.couplings.driver import CouplingCheck, Rounds
-from .contact.couplings.menisci import Menisci
-from .contact.couplings.plastic_flow import PlasticBody, PlasticZone
-from .contact.couplings.sliding import GrossSliding
-from .contact.couplings.stick_slip import StickSlip
-from .contact.creep import CreepCurve, creep_curve
-from .contact.harmonic import HarmonicResponse, harmonic
 from .contact.history import EnergyBalance, History, HistoryResult, ramps, shear_cycles
-from .contact.laws.adhesion import CustomAdhesion, DugdaleAdhesion, ExponentialAdhesion, LennardJonesAdhesion, LinearAdhesion, VanDerWaalsAdhesion
-from .contact.laws.friction import Coulomb, FullStick, TrescaFriction
-from .contact.laws.layered_hardness import LayeredHardness
-from .contact.laws.plastic_flow import PlasticFlow
-from .contact.laws.protocol import Hardness, HardWall
-from .contact.laws.short_range import JKRAdhesion
-from .contact.linearised import TangentialStiffness, contraction_factor, tangential_stiffness
+from .contact.law import Hardness, HardWall
+from .contact.layered_hardness import LayeredHardness
 from .contact.operators import prepare_operator
 from .contact.plastic_load import PlasticLoad, plastic_load
 from .contact.problem import ContactProblem, Flat
 from .contact.result import ContactResult
-from .contact.rolling import Creepage, RollingContact, roll
-from .contact.rough_rolling import RoughRolling, roll_rough
 from .contact.roughness import roughness_of
 from .contact.solve import Keep, solve
 from .contact.state import InterfaceState
-from .contact.steady_sliding import SteadySliding, slide
 from .contact.tangential import Shift, TangentialForce
 from .contact.time_division import TimeSteps
-from .contact.time_steps import Creeping
-from .contact.transient_sliding import TransientSliding, slide_in_time
-from .contact.wet_theory import WetTheory, wet_theory
-from .contact.wetting import LiquidFilm
 from .core.citations import cite
 from .core.engine import CpuEngine
 from .core.engine.array_api import ArrayEngine
@@ -57,6 +35,36 @@ from .io.export import export_csv, export_stress_vtk, export_vtk
 from .io.results import load, open_tree, save
 from .io.stress_files import save_stress
 from .io.surface_files import save_endless, save_gaussian, save_surface
+from .physics.adhesion.answer import AdhesiveContact
+from .physics.adhesion.bound import EnergyBound, energy_bound
+from .physics.adhesion.branch import AdhesiveBranch, adhesive_branch, adhesive_jumps
+from .physics.adhesion.jkr import JKRAdhesion
+from .physics.adhesion.law import (
+    CustomAdhesion,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
+    LennardJonesAdhesion,
+    LinearAdhesion,
+    VanDerWaalsAdhesion,
+)
+from .physics.adhesion.loop import AdhesionLoop, adhesion_cycle, adhesion_loop
+from .physics.adhesion.surface_energy import work_of_adhesion
+from .physics.friction.answer import StickSlip
+from .physics.friction.law import Coulomb, FullStick, TrescaFriction
+from .physics.friction.linearised import TangentialStiffness, contraction_factor, tangential_stiffness
+from .physics.friction.sliding import GrossSliding
+from .physics.menisci.coupling import Menisci
+from .physics.menisci.film import LiquidFilm
+from .physics.menisci.summits import WetTheory, wet_theory
+from .physics.plastic_flow.answer import PlasticBody, PlasticZone
+from .physics.plastic_flow.law import PlasticFlow
+from .physics.rolling.creep_curve import CreepCurve, creep_curve
+from .physics.rolling.rolling import Creepage, RollingContact, roll
+from .physics.rolling.rough import RoughRolling, roll_rough
+from .physics.viscoelastic.harmonic import HarmonicResponse, harmonic
+from .physics.viscoelastic.moments import Creeping
+from .physics.viscoelastic.steady_sliding import SteadySliding, slide
+from .physics.viscoelastic.transient_sliding import TransientSliding, slide_in_time
 from .plots.contact import save_path_plots, save_plots, save_surface_plot
 from .plots.surface import save_roughness_plots
 from .report.animation import save_plastic_animation
@@ -80,7 +88,6 @@ from .solids.layers import (
 from .solids.library import Liquid, liquid, liquids, material, materials
 from .solids.plasticity import J2, LinearHardening, PlasticState, Swift, Voce
 from .solids.strength import plastic_parts, plastic_solid
-from .solids.surface_energy import work_of_adhesion
 from .solids.viscoelastic import Arrhenius, MasterCurve, Viscoelastic, WilliamsLandelFerry, fitted_solid
 from .stress.compute import stress, stress_planes
 from .stress.criteria import MaxPrincipal, Tresca, VonMises

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from scipy.special import ndtri
 
 import asperity as asp
-from asperity.contact.stickiness import stickiness
+from asperity.physics.adhesion.stickiness import stickiness
 from asperity.theories import catalogue
 from asperity.theories.protocol import ContactAnswer, Prediction
 from asperity.theories.rough.persson import IsotropicSpectrum

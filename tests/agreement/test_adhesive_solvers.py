@@ -10,14 +10,21 @@ from adhesive_cases import APPROACH, BODY, E_STAR, FORCE, LENGTH, RADIUS, WORK, 
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.adhesive_cycles import adhesion_cycle, adhesion_loop
-from asperity.contact.laws.adhesion import CustomAdhesion, DugdaleAdhesion, ExponentialAdhesion, LennardJonesAdhesion, LinearAdhesion, VanDerWaalsAdhesion
 from asperity.contact.operators import prepare_operator
-from asperity.contact.solvers.adhesion.problem import AdhesiveProblem
-from asperity.contact.solvers.adhesion.solver import MajoriseMinimise
 from asperity.contact.solvers.protocol import FixedOffset
-from asperity.contact.solvers.reference.adhesive import adhesive_gap
 from asperity.core.errors import InputError, NoSolutionError
+from asperity.physics.adhesion.law import (
+    CustomAdhesion,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
+    LennardJonesAdhesion,
+    LinearAdhesion,
+    VanDerWaalsAdhesion,
+)
+from asperity.physics.adhesion.loop import adhesion_cycle, adhesion_loop
+from asperity.physics.adhesion.solver.dense import adhesive_gap
+from asperity.physics.adhesion.solver.problem import AdhesiveProblem
+from asperity.physics.adhesion.solver.solver import MajoriseMinimise
 
 RANGE = WORK / strength_of(1.0)
 EXPONENTIAL = ExponentialAdhesion(WORK, RANGE)

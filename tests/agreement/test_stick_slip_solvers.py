@@ -5,10 +5,10 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.contact.operators.tangential import TangentialOperator
-from asperity.contact.solvers.reference.stick_slip import AcceleratedGradient, ProjectedGradients
-from asperity.contact.solvers.stick_slip.newton import StickSlipNewton
-from asperity.contact.solvers.stick_slip.problem import TangentialQP
+from asperity.physics.friction.operator import TangentialOperator
+from asperity.physics.friction.solver.newton import StickSlipNewton
+from asperity.physics.friction.solver.problem import TangentialQP
+from asperity.physics.friction.solver.reference import AcceleratedGradient, ProjectedGradients
 
 COATED = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.25), 1.5)], base=asp.Elastic(1.0, 0.3))
 ON_RIGID = asp.Layered([asp.Layer(asp.Elastic(1.0, 0.4), 5.0)], base=asp.RigidBase())

@@ -8,8 +8,8 @@ from adhesive_cases import APPROACH, WORK, sphere, strength_of
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.laws.adhesion import DugdaleAdhesion, ExponentialAdhesion, LinearAdhesion, VanDerWaalsAdhesion
 from asperity.core.errors import InputError
+from asperity.physics.adhesion.law import DugdaleAdhesion, ExponentialAdhesion, LinearAdhesion, VanDerWaalsAdhesion
 
 RANGE = WORK / strength_of(1.5)
 LAWS = (

@@ -13,8 +13,8 @@ from reference_data import reference
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.laws.adhesion import DugdaleAdhesion, ExponentialAdhesion
 from asperity.core.errors import InputError, NoSolutionError
+from asperity.physics.adhesion.law import DugdaleAdhesion, ExponentialAdhesion
 from asperity.theories.adhesion.spheres import maugis_at_ring
 
 

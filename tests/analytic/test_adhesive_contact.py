@@ -8,7 +8,7 @@ from adhesive_cases import APPROACH, BODY, E_STAR, FORCE, LENGTH, RADIUS, WORK, 
 from reference_data import every_row, reference
 
 import asperity as asp
-from asperity.contact.laws.adhesion import DugdaleAdhesion, ExponentialAdhesion
+from asperity.physics.adhesion.law import DugdaleAdhesion, ExponentialAdhesion
 from asperity.theories.adhesion.spheres import maugis_pull_off
 
 TRANSITION = [row for row in reference("adhesion/maugis_transition") if row["lambda"] in (0.2, 0.4, 0.8, 1.2)]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import asperity as asp
-from asperity.contact.adhesive_cycles import adhesion_loop
+from asperity.physics.adhesion.loop import adhesion_loop
 
 SPACING = 1e-4
 

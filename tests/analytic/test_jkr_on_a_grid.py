@@ -12,8 +12,8 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.operators import prepare_operator
-from asperity.contact.solvers.adhesion.front import step_compliance
 from asperity.core.errors import InputError, NoSolutionError
+from asperity.physics.adhesion.solver.front import step_compliance
 from asperity.solids.compliance.halfspace import contact_compliance
 from asperity.theories.adhesion.short_range import PowerLawJKR, WavyJKR
 

@@ -11,11 +11,11 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.operators import prepare_operator
-from asperity.contact.solvers.adhesion.problem import AdhesiveProblem
-from asperity.contact.solvers.adhesion.soft_core import SoftCoreNewton
 from asperity.contact.solvers.protocol import FixedOffset
-from asperity.contact.solvers.reference.adhesive import adhesive_gap
 from asperity.core.errors import InputError, NoSolutionError
+from asperity.physics.adhesion.solver.dense import adhesive_gap
+from asperity.physics.adhesion.solver.problem import AdhesiveProblem
+from asperity.physics.adhesion.solver.soft_core import SoftCoreNewton
 
 SPACING, BODY = 1e-4, asp.Elastic(0.91, 0.3)
 """z0 over the radius of the sphere; E* = 1, R = 1."""

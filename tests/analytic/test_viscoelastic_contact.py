@@ -12,9 +12,9 @@ from reference_data import Row, reference
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.couplings.creep import TimeWeights
 from asperity.contact.measure import normal_stiffness
 from asperity.contact.solve import steps
+from asperity.physics.viscoelastic.coupling import TimeWeights
 from asperity.solids.compliance.creep import LayeredCreep, SharedCreep, complex_compliance, contact_creep
 from asperity.stress.survey import StressRequest, survey
 

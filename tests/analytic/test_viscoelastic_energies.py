@@ -11,7 +11,7 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.advice import review
-from asperity.contact.energy_in_time import LARGEST_MISS
+from asperity.physics.viscoelastic.energy import LARGEST_MISS
 from asperity.solids.layers import Body
 
 RELAXED, FIRST, MILDLY, TIME = 3e6, 300e6, 12e6, 1e-3

@@ -12,11 +12,11 @@ from refusals import refused
 from sheared_loop import LOAD, MU, left_of_a_loop, sphere
 
 import asperity as asp
-from asperity.contact.couplings.creep import LayeredPast, TimeWeights
-from asperity.contact.couplings.layered_shear import LayeredShear
 from asperity.contact.operators import prepare_operator
-from asperity.contact.operators.tangential import TangentialOperator
 from asperity.core.arrays import ComplexArray, RealArray
+from asperity.physics.friction.operator import TangentialOperator
+from asperity.physics.viscoelastic.coupling import LayeredPast, TimeWeights
+from asperity.physics.viscoelastic.layered_shear import LayeredShear
 from asperity.solids.compliance.creep import LayeredCreep, contact_creep
 from asperity.solids.compliance.layered import PlaneCompliance, operational_plane
 from asperity.solids.compliance.retardation_fit import responses

@@ -9,9 +9,9 @@ import pytest
 from sheared_loop import LOAD, MU, left_of_a_loop, sphere
 
 import asperity as asp
-from asperity.contact.couplings.creep import TimeWeights
-from asperity.contact.couplings.shear_creep import ShearMemory
-from asperity.contact.operators.tangential import TangentialOperator
+from asperity.physics.friction.operator import TangentialOperator
+from asperity.physics.viscoelastic.coupling import TimeWeights
+from asperity.physics.viscoelastic.shear import ShearMemory
 from asperity.solids.compliance.creep import SharedCreep, contact_creep
 
 SOLID = asp.Viscoelastic.standard_linear(1.0, 4.0, 1.0, 0.3)

@@ -9,9 +9,6 @@ LIMITS: dict[str, dict[str, str]] = {
         "rise": "what a kernel calls is compiled once more in each of its callers",
         "fall": "what a kernel calls is compiled once more in each of its callers",
         "at_points": "what a kernel calls is compiled once more in each of its callers",
-        "entering_levels": "what a kernel calls is compiled once more in each of its callers",
-        "_down": "what a kernel calls is compiled once more in each of its callers",
-        "press": "what a kernel calls is compiled once more in each of its callers",
     },
     "parameters": {
         "app": "one for each option of the command line",
@@ -55,6 +52,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "factorise_tensors": "a compiled pass takes its arrays and numbers one by one",
         "vector_deflections": "a compiled pass takes its arrays and numbers one by one",
         "_invariant": "a compiled pass takes its arrays and numbers one by one",
+        "ContactProblem.__init__": "the fields of a problem, of which all but two have a default",
         "execute": "independent keyword-only choices of the callers, each with a default",
         "assemble": "gathers what the separate stages of a solve produced, in one place",
         "Prepared.__init__": "the choices of solve, for all steps of a history",

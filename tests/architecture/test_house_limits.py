@@ -13,7 +13,7 @@ from house_size import Size
 
 SOFT_AND_HARD = {
     "file lines": (600, 600),
-    "function lines": (40, 80),
+    "function lines": (60, 100),
     "parameters": (6, 10),
 }
 FUNCTION = (ast.FunctionDef, ast.AsyncFunctionDef)

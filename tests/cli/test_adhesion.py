@@ -12,8 +12,8 @@ from cli.conftest import Runner
 from refusals import refused, subject_of
 
 import asperity as asp
-from asperity.contact.stickiness import stickiness
 from asperity.core.errors import ConvergenceError, InputError
+from asperity.physics.adhesion.stickiness import stickiness
 from asperity.run.build import build
 from asperity.run.document import checked, dumps
 from asperity.run.stored import load_outcome

@@ -13,7 +13,7 @@ from study_cases import InProcess, plan
 
 import asperity as asp
 from asperity.core.errors import InputError
-from asperity.parts.rolling import FIELDS, SCALARS
+from asperity.physics.rolling.part import FIELDS, SCALARS
 from asperity.run.build import build
 from asperity.run.document import checked, dumps, loads
 from asperity.run.stored import load_outcome

@@ -12,8 +12,8 @@ import pytest
 from cli.conftest import LOAD, SCALE, Runner
 
 import asperity as asp
-from asperity.contact.fretting import SHEAR_SCALARS
 from asperity.core.errors import InputError
+from asperity.physics.friction.fretting import SHEAR_SCALARS
 from asperity.run.build import build
 from asperity.run.document import checked, dumps, loads
 from asperity.run.stored import load_outcome

@@ -16,12 +16,12 @@ from study_cases import InProcess, plan
 
 import asperity as asp
 from asperity.contact.roughness import roughness_of
-from asperity.contact.time_steps import COLUMNS
-from asperity.contact.transient_sliding import COLUMNS as WAY
 from asperity.core.errors import InputError
-from asperity.parts.hysteresis import COLUMNS as SPEED_COLUMNS
-from asperity.parts.hysteresis import SCALARS as SLIDING
-from asperity.parts.viscoelastic import SCALARS, STEPS
+from asperity.physics.viscoelastic.moments import COLUMNS
+from asperity.physics.viscoelastic.part import SCALARS, STEPS
+from asperity.physics.viscoelastic.part_hysteresis import COLUMNS as SPEED_COLUMNS
+from asperity.physics.viscoelastic.part_hysteresis import SCALARS as SLIDING
+from asperity.physics.viscoelastic.transient_sliding import COLUMNS as WAY
 from asperity.run.build import build
 from asperity.run.document import checked, dumps, loads
 from asperity.run.stored import load_outcome, save_outcome

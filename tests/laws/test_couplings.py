@@ -14,7 +14,7 @@ import asperity as asp
 from asperity.contact.couplings.driver import settle
 from asperity.contact.couplings.protocol import Coupling, Exchange, Posed, Share
 from asperity.contact.solve import Prepared, steps
-from asperity.contact.wetting import wetting
+from asperity.physics.menisci.film import wetting
 
 NM = 1e-9
 BODY = asp.Elastic(100e9, 0.15)

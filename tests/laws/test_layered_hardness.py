@@ -10,7 +10,7 @@ from contact_cases import rough
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.laws.protocol import LimitByDepth
+from asperity.contact.law import LimitByDepth
 from asperity.contact.solvers import ActiveSet
 
 SOLVER = ActiveSet(tolerance=1e-10)

@@ -9,8 +9,8 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.advice import review
-from asperity.contact.fretting import loop_of, shear_numbers
-from asperity.contact.rolling import Creepage
+from asperity.physics.friction.fretting import loop_of, shear_numbers
+from asperity.physics.rolling.rolling import Creepage
 
 SOFT, STIFF = asp.Elastic(1.0, 0.3), asp.Elastic(5.0, 0.1)
 LOAD = asp.MeanPressure(0.1)

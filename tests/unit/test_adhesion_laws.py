@@ -11,8 +11,16 @@ from reference_data import every_row, reference
 from refusals import refused
 from scipy.integrate import quad
 
-from asperity.contact.laws.adhesion import CustomAdhesion, DugdaleAdhesion, ExponentialAdhesion, LennardJonesAdhesion, LinearAdhesion, VanDerWaalsAdhesion, cohesive_length
 from asperity.core.errors import InputError
+from asperity.physics.adhesion.law import (
+    CustomAdhesion,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
+    LennardJonesAdhesion,
+    LinearAdhesion,
+    VanDerWaalsAdhesion,
+    cohesive_length,
+)
 
 WORK, RANGE = 0.05, 2e-9
 CUT_WORK = 0.84375

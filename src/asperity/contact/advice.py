@@ -10,18 +10,13 @@ import numpy as np
 from ..core.status import Advice, free_memory, room_text
 from ..core.units import percent, show
 from ..solids.elastic import Elastic
-from ..solids.layers import Layered, RigidBase, materials_of, surface_material
+from ..solids.layers import Layered, materials_of, surface_material
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
-from ..theories.wet.meniscus import wetting_factor
 from .certificate import LARGEST_DUALITY_GAP
 from .controls import Control, Force, MeanPressure, mean_pressure
-from .couplings.menisci import Menisci
-from .couplings.plastic_flow import NAME as PLASTIC_FLOW
-from .couplings.plastic_flow import SMALL_STRAIN, PlasticBody, PlasticFlowCoupling
-from .couplings.stick_slip import slides_freely
-from .laws.layered_hardness import LayeredHardness
-from .laws.protocol import LimitByDepth
+from .law import LimitByDepth
+from .layered_hardness import LayeredHardness
 from .problem import ContactProblem
 from .result import ContactResult
 
@@ -62,19 +57,6 @@ PIXELS_PER_LAYER = 1.0
 LARGEST_THICKNESS = 0.5
 """Thickness over period at which the longest wave has decayed to (1 + pi) exp(-pi) = 18 % of its pressure below the layers."""
 
-FEWEST_MENISCUS_PIXELS = 5.0
-"""Radius of an island in pixels below which counting errs by more than about 2 %; 10 pixels give 1 %."""
-
-CONTINUUM = 1e-9
-"""Radius in m below which a meniscus of water is a few molecules across: 50 % relative humidity."""
-
-MOLECULE = 0.28e-9
-"""Diameter of a molecule of water in m; other liquids have larger ones."""
-
-LEAST_ENERGY_ERROR = 5e-3
-"""Energy in time that is missed over the largest work and does not count: the estimate of what steps explain is too small for a ramp of few steps from
-first touch. One such ramp in some 70 random histories, with menisci, missed 3.8e-3 where 1.0e-3 was explained."""
-
 DOUBT = "duality gap"
 """Criterion of the warning that stands above all others."""
 
@@ -94,8 +76,7 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
 
 
 def review(result: ContactResult) -> tuple[Advice, ...]:
-    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, plastic flow, energies in time, menisci."""
-    wet = () if result.menisci is None else (*_meniscus_pixels(result.menisci), *_molecules(result.menisci))
+    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, and those of each physics."""
     return (
         *doubts(result),
         *_contact_pixels(result),
@@ -104,11 +85,7 @@ def review(result: ContactResult) -> tuple[Advice, ...]:
         *_seam(result),
         *_plastic(result),
         *_hardness(result),
-        *_shift(result),
-        *_flow_settled(result),
-        *_energies_in_time(result),
-        *(() if result.plastic_flow is None else _flow(result.plastic_flow)),
-        *wet,
+        *(found for answer in result.answers for found in answer.findings(result.certificate)),
     )
 
 
@@ -306,10 +283,10 @@ def _plastic(result: ContactResult) -> Iterator[Advice]:
 
 
 def _hardness(result: ContactResult) -> Iterator[Advice]:
-    law, flow = result.problem.law, result.plastic_flow
+    law = result.problem.law
     for name_of in ("body", "counter_body"):
         body = getattr(result.problem, name_of)
-        if flow is not None and flow.of == name_of:
+        if any(answer.imprint(name_of) is not None for answer in result.answers):
             continue  # its flow is solved
         if isinstance(law, LayeredHardness) and law.body == body:
             continue  # pressed through its top layer it bears more or less than that layer's hardness
@@ -324,82 +301,6 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
                 f"The maximum pressure {above} the hardness of {name}: it would yield. Use the law Hardness(...) with that hardness "
                 "(--hardness body).",
             )
-
-
-def _energies_in_time(result: ContactResult) -> Iterator[Advice]:
-    """Whether works and what is stored or taken differ by more than the steps of time explain."""
-    found = result.creep
-    if found is None or found.energy_error <= max(found.explained_error, LEAST_ENERGY_ERROR):
-        return
-    yield Advice(
-        "warning",
-        "energy balance",
-        f"The energies of the viscoelastic contact miss by {percent(found.energy_error, 2)} of the largest work, where its steps of time explain "
-        f"{percent(found.explained_error, 2)}: heat and force may be wrong. Take a smaller tolerance (--time-tolerance) or more steps of time "
-        "(--time-steps).",
-    )
-
-
-def _shift(result: ContactResult) -> Iterator[Advice]:
-    """Whether how far the counter body slid is not determined."""
-    found = result.stick_slip
-    if found is None or not math.isnan(found.shift_x):
-        return
-    if slides_freely(found.tangential, found.friction_limit):
-        why = f"The tangential force is all that friction bears, {show(found.friction_limit, 'N')}: every point slides, and the shift is not determined"
-    else:
-        why = "In an earlier step the tangential force was all that friction bears: the shift is not determined since"
-    yield Advice(
-        "warning",
-        "shift not determined",
-        f"{why}. Slip and heat stated are those of the least shift that slides every point. Prescribe a shift (Shift(...), --shift), or a smaller force.",
-    )
-
-
-def _flow_settled(result: ContactResult) -> Iterator[Advice]:
-    for check in result.certificate.couplings:
-        if check.name == PLASTIC_FLOW and check.residual > check.tolerance:
-            yield Advice(
-                "warning",
-                "plastic flow",
-                f"The plastic strain is not settled: the return mapping still changes it by {check.residual:.1e} of itself (at most "
-                f"{check.tolerance:g} wanted). {PlasticFlowCoupling.remedy}",
-            )
-
-
-def _flow(flow: PlasticBody) -> Iterator[Advice]:
-    """Strains that are not small, and zones deeper than the cells."""
-    if not flow.small_strain:
-        zone = max(flow.zones, key=lambda item: item.largest_strain)
-        yield Advice(
-            "warning",
-            "small strain",
-            f"The plastic strain reaches {percent(zone.largest_strain)}, {show(zone.place[2], 'm')} deep in {_part(zone.name)}; above "
-            f"{percent(SMALL_STRAIN)} small strains are no longer a good description. Lower the load or smooth sharp summits, or take "
-            "imprint and pressures as qualitative there.",
-        )
-    body = flow.problem.body if flow.of == "body" else flow.problem.counter_body
-    end = float(flow.flowed.edges[-1]) if flow.reaches_end else math.inf
-    on_rigid = isinstance(body, Layered) and isinstance(body.base, RigidBase) and end > (1.0 - 1e-9) * body.thickness
-    if flow.reaches_end and not on_rigid:
-        yield Advice(
-            "warning",
-            "depth of the cells",
-            f"Points in the deepest cell flow, at {show(end, 'm', 3)}, and what lies below is held elastic: plastic "
-            "strain and imprint are too small. Give a larger depth, or none (--plastic-depth).",
-        )
-
-    if flow.reaches_edge:
-        yield Advice(
-            "warning",
-            "edge of the grid",
-            "Points under the edge of the grid flow, and what lies beside the grid is held elastic: loads are too large, and plastic strain "
-            "and imprint too small. Give a grid with a wider margin around the contact: on one of five contact radii loads are within 0.2 %.",
-        )
-
-
-def _part(name: str) -> str:
-    return "the base" if name == "base" else name
 
 
 def _mean_square(profile: Surface, axis: str, order: int) -> float:
@@ -470,35 +371,3 @@ def _differs(body: Layered) -> bool:
     """Whether the base is of another plane-strain modulus than the lowest layer."""
     base = body.base.plane_strain_modulus if isinstance(body.base, Elastic) else math.inf
     return base != body.layers[-1].material.plane_strain_modulus
-
-
-def _meniscus_pixels(found: Menisci) -> Iterator[Advice]:
-    if found.wetting.regime == "dry":
-        return
-    # the mean over the area: many islands of a pixel or two hardly pull
-    pixels = np.bincount(found.wetting.labels.ravel())[1:].astype(float)
-    radius = math.sqrt(float((pixels**2).sum() / pixels.sum()) / math.pi)
-    if radius < FEWEST_MENISCUS_PIXELS:
-        yield Advice(
-            "warning",
-            "meniscus pixels",
-            f"Menisci are counted in pixels, but have a radius of {radius:.2g} pixels (less than {FEWEST_MENISCUS_PIXELS:g}): the force "
-            "may be off by several per cent. Refine the grid, or generate the surface with more points.",
-        )
-
-
-def _molecules(found: Menisci) -> Iterator[Advice]:
-    film = found.film
-    radius = film.meniscus_height / wetting_factor(*film.contact_angles)
-    remarks = []
-    if radius < CONTINUUM:
-        remarks.append(
-            f"The menisci have a radius of {1e9 * radius:.2g} nm: below about 1 nm Laplace's equation is a formality."
-        )
-    if film.thickness < MOLECULE:
-        remarks.append(
-            f"The film is {1e9 * film.thickness:.2g} nm thick, less than a molecule of water ({1e9 * MOLECULE:.2g} nm): it "
-            "covers the surface in part only."
-        )
-    if remarks:
-        yield Advice("note", "molecules", " ".join(remarks))

@@ -8,16 +8,16 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..core.arrays import RealArray
-    from .couplings.adhesion import AdhesiveContact
-    from .couplings.menisci import Menisci
-    from .couplings.plastic_flow import PlasticBody
-    from .couplings.sliding import GrossSliding
-    from .couplings.stick_slip import StickSlip
-    from .laws.adhesion import Adhesion
-    from .laws.friction import FrictionLaw
-    from .laws.plastic_flow import PlasticFlow
-    from .time_steps import Creeping
-    from .wetting import LiquidFilm
+    from ..physics.adhesion.answer import AdhesiveContact
+    from ..physics.adhesion.law import Adhesion
+    from ..physics.friction.answer import StickSlip
+    from ..physics.friction.law import FrictionLaw
+    from ..physics.friction.sliding import GrossSliding
+    from ..physics.menisci.coupling import Menisci
+    from ..physics.menisci.film import LiquidFilm
+    from ..physics.plastic_flow.answer import PlasticBody
+    from ..physics.plastic_flow.law import PlasticFlow
+    from ..physics.viscoelastic.moments import Creeping
 
 
 class Keywords(TypedDict, total=False):

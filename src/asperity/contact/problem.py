@@ -25,7 +25,7 @@ from ..surfaces.surface import Surface
 from .boundary import Boundary, FreeLine, Periodic
 from .controls import Control, FixedGrips, Pull, Step
 from .known import Keywords, ProblemNames
-from .laws.protocol import HardWall, InterfaceLaw
+from .law import HardWall, InterfaceLaw
 
 if TYPE_CHECKING:
     from .couplings.protocol import Coupling

@@ -40,7 +40,7 @@ from .couplings.hardness import ConstantHardness, DepthHardness
 from .couplings.held import settle_position
 from .couplings.protocol import Coupling, Memory, Posed, height_scale
 from .history import History, HistoryResult
-from .laws.protocol import HardWall, LimitByDepth
+from .law import HardWall, LimitByDepth
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem, Preparing, Solved, require_borne
 from .result import ContactResult, assemble

@@ -63,11 +63,11 @@ PHYSICS: Mapping[str, Known] = MappingProxyType(
 """Every physics of this package by its keyword, in the order in which couplings are prepared."""
 
 PAIRS: Mapping[frozenset[str], str] = MappingProxyType(
-    {frozenset({"adhesion", "menisci"}): "contact.couplings.balance:settle_forces"}
+    {frozenset({"adhesion", "menisci"}): "physics.pairs.adhesion_menisci:settle_forces"}
 )
 """How couplings settle that must balance a force together, by their names."""
 
-IN_TIME = "contact.in_time:InTime"
+IN_TIME = "physics.viscoelastic.in_time:InTime"
 """What takes over the steps of a prepared problem whose bodies relax."""
 
 OUTCOMES = (*(name for known in PHYSICS.values() for name in known.absent), "creep")

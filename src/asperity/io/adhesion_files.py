@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.couplings.adhesion import AdhesiveContact
-from ..contact.laws.adhesion import Adhesion
 from ..core.quantity import Labelled, Quantity
 from ..core.status import Outcome, Status
+from ..physics.adhesion.answer import AdhesiveContact
+from ..physics.adhesion.law import Adhesion
 from .description import describe, rebuild
 
 STICK_SLIP, ADHESION = "stick_slip", "adhesion"

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..contact.result import ContactResult
-from ..contact.time_steps import COLUMNS, Creeping
 from ..core.quantity import Labelled, Quantity
+from ..physics.viscoelastic.moments import COLUMNS, Creeping
 from .memory_files import memory_in, memory_node
 from .tree import Node
 

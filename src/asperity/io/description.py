@@ -17,8 +17,8 @@ import numpy as np
 from ..contact.boundary import Boundary
 from ..contact.controls import Control
 from ..contact.couplings.driver import CouplingCheck
-from ..contact.laws.layered_hardness import LayeredHardness
-from ..contact.laws.protocol import Hardness, HardWall
+from ..contact.law import Hardness, HardWall
+from ..contact.layered_hardness import LayeredHardness
 from ..contact.problem import Flat
 from ..contact.result import ContactResult
 from ..contact.tangential import Tangential

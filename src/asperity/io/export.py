@@ -14,11 +14,11 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from ..contact.fretting import SHEAR_SCALARS, shear_numbers
 from ..contact.history import HistoryResult
 from ..contact.result import SCALARS, WET_SCALARS, ContactResult
 from ..core.errors import InputError
 from ..core.quantity import Labelled, Quantity
+from ..physics.friction.fretting import SHEAR_SCALARS, shear_numbers
 from ..stress.field import Peak, StressField
 from ..stress.survey import StressSurvey
 from .atomic import atomic_file

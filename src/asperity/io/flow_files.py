@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.couplings.plastic_flow import found_in
-from ..contact.laws.plastic_flow import plastic_body
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..core.quantity import Labelled, Quantity
+from ..physics.plastic_flow.coupling import found_in
+from ..physics.plastic_flow.law import plastic_body
 from .tree import Node
 
 FLOW = "plastic_flow"

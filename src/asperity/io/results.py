@@ -14,21 +14,21 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from ..contact.certificate import Certificate
-from ..contact.couplings.menisci import Menisci
-from ..contact.couplings.sliding import GrossSliding
 from ..contact.history import HistoryResult
-from ..contact.laws.friction import Coulomb
 from ..contact.problem import ContactProblem
 from ..contact.result import AREA_ERROR, WET_SCALARS, ContactResult
-from ..contact.rolling import RollingContact
 from ..contact.state import InterfaceState
-from ..contact.wetting import LiquidFilm, wetting
 from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
 from ..core.quantity import Labelled, Quantity
 from ..core.registry import PHYSICS
 from ..core.status import Outcome, Status
 from ..core.text import require_file
+from ..physics.friction.law import Coulomb
+from ..physics.friction.sliding import GrossSliding
+from ..physics.menisci.coupling import Menisci
+from ..physics.menisci.film import LiquidFilm, wetting
+from ..physics.rolling.rolling import RollingContact
 from ..stress.field import StressField
 from ..surfaces.surface import Origin, Surface
 from .adhesion_files import (

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from ..contact.result import ContactResult
-from ..contact.rolling import DIRECTIONS, Creepage, RollingContact
 from ..core.arrays import RealArray
 from ..core.quantity import Labelled, Quantity
 from ..core.status import Outcome, Status
+from ..physics.rolling.rolling import DIRECTIONS, Creepage, RollingContact
 from .description import describe, rebuild
 from .tree import Node
 

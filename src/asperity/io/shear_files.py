@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.couplings.stick_slip import StickSlip
-from ..contact.fretting import NUMBERS
-from ..contact.laws.friction import FrictionLaw
 from ..core.quantity import Labelled, Quantity
 from ..core.status import Outcome, Status
+from ..physics.friction.answer import StickSlip
+from ..physics.friction.fretting import NUMBERS
+from ..physics.friction.law import FrictionLaw
 from .description import describe, rebuild
 from .tree import Node
 

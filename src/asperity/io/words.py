@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 
 from ..contact.advice import doubts
-from ..contact.couplings.menisci import Menisci
 from ..contact.history import HistoryResult
-from ..contact.laws.layered_hardness import LayeredHardness
+from ..contact.layered_hardness import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.text import printable
 from ..core.units import percent, show
+from ..physics.menisci.coupling import Menisci
 from ..solids.elastic import Elastic, Strength
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..solids.viscoelastic import Viscoelastic
@@ -524,7 +524,7 @@ def text(thing: object) -> str:
 
 
 def _line(thing: object) -> str:
-    from ..contact.couplings.adhesion import AdhesiveContact
+    from ..physics.adhesion.answer import AdhesiveContact
     from ..stress.yielding import YieldReport
 
     if isinstance(thing, Elastic):

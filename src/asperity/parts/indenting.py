@@ -15,15 +15,22 @@ from ..fem.history import IndentationStep, SolidFields
 from ..fem.indent import Indentation, Load
 from ..fem.indenters import Cone, Paraboloid
 from ..fem.mesh import Resolution
-from ..plots.plastic import step_label
+from ..physics.plastic_flow.figures import step_label
+from ..physics.plastic_flow.part_quantities import Detail
+from ..physics.plastic_flow.part_values import (
+    PlasticValues,
+    inferred_strengths,
+    interfaces_of,
+    layer_names,
+    meshed_laws,
+    zone_table,
+)
 from ..solids.elastic import Elastic, Rigid
 from ..solids.layers import Body, Layered, materials_of
 from ..solids.strength import flow_stress
 from ..theories.hardness.unloading import analyse_indentation
 from .indentation import FEW, KEYS, PREFIX, SCALARS, SMALL_STRAIN
 from .part import Found
-from .plastic_quantities import Detail
-from .plastic_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, meshed_laws, zone_table
 
 LEFT = 4.0
 """How far the cut reaches across and into the body, in radii of the indenter at the surface."""

@@ -14,8 +14,8 @@ from ..core.quantity import Quantity
 from ..core.settings import Settings, setting
 from ..core.units import percent, show
 from ..core.values import Choice, Force, Length, NonNegative, Number, Pressure, Whole
+from ..physics.plastic_flow.part_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
-from .plastic_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem
@@ -194,8 +194,8 @@ class Passes(Part):
 
     def check(self, ask: Passing, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
+        from ..physics.plastic_flow.part_values import require_flow
         from .passing import require_course
-        from .plastic_values import require_flow
 
         body = _body(ask, problem)
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
@@ -216,11 +216,11 @@ class Passes(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Zones, residual stress, stress under load, groove; residual stress against depth; what each pass adds."""
+        from ..physics.plastic_flow.figures import plots_of
+        from ..physics.plastic_flow.part_values import picture_of
         from ..plots.passes import pass_plots
         from ..plots.picture import figures_by
-        from ..plots.plastic import plots_of
         from .passing import pass_picture
-        from .plastic_values import picture_of
 
         shown = picture_of(PREFIX, found.values, found.detail.facts)
         passes = pass_picture(found)
@@ -244,15 +244,15 @@ KEYS = ("SimoTaylor1985", "Johnson1962", "Hearle1985")
 
 def _body(ask: Passing, problem: ContactProblem) -> Any:
     """The body that is passed over; InputError if it is rigid."""
-    from .plastic_values import meshed_body
+    from ..physics.plastic_flow.part_values import meshed_body
 
     return meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
 
 
 def _course(ask: Passing, problem: ContactProblem) -> Course:
     """What passes, with the radius of the summits where none is given; InputError if there are none."""
+    from ..physics.plastic_flow.part_values import summit_radius
     from .passing import course_of
-    from .plastic_values import summit_radius
 
     table = ask.settings
     radius = table.radius

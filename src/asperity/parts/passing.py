@@ -19,6 +19,15 @@ from ..fem.mesh import Resolution
 from ..fem.pass_fields import interface_tractions
 from ..fem.pass_histories import hertz_steps, sliding_steps
 from ..fem.passes import PassState, Track, cylinder_track, sphere_track
+from ..physics.plastic_flow.part_quantities import Detail
+from ..physics.plastic_flow.part_values import (
+    PlasticValues,
+    inferred_strengths,
+    interfaces_of,
+    layer_names,
+    meshed_laws,
+    zone_table,
+)
 from ..plots.passes import PassPicture
 from ..solids.elastic import Elastic
 from ..solids.layers import Body, Layered
@@ -29,8 +38,6 @@ from ..theories.subsurface.point_shakedown import sphere_shakedown
 from ..theories.subsurface.shakedown import cylinder_shakedown
 from .part import Found
 from .passes import EACH, KEYS, PREFIX, SCALARS, PassesSettings, verdict
-from .plastic_quantities import Detail
-from .plastic_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, meshed_laws, zone_table
 
 REACH = 2.0
 """How far the cut reaches beyond the track, and half as far as it reaches into the body, in contact radii."""

@@ -8,20 +8,20 @@ from collections.abc import Iterable
 from importlib import metadata
 
 from ..core.errors import InputError
-from .adhesion import Adhesion
+from ..physics.adhesion.part import Adhesion
+from ..physics.friction.part_stick_slip import StickSlip
+from ..physics.menisci.part import Friction, Menisci, WetTheory
+from ..physics.plastic_flow.part import PlasticFlow
+from ..physics.rolling.part import Rolling
+from ..physics.viscoelastic.part import Viscoelasticity
+from ..physics.viscoelastic.part_hysteresis import Hysteresis
+from ..physics.viscoelastic.part_sliding_start import SlidingStart
 from .contact import Contact, LoadPath, Plasticity, PlasticLoad
 from .dynamics import Dynamics
-from .film import Friction, Menisci, WetTheory
-from .hysteresis import Hysteresis
 from .indentation import Indentation
 from .part import Part
 from .passes import Passes
-from .plastic_flow import PlasticFlow
-from .rolling import Rolling
-from .sliding_start import SlidingStart
-from .stick_slip import StickSlip
 from .stress import Stress, Yielding
-from .viscoelastic import Viscoelasticity
 
 GROUP = "asperity.parts"
 """Entry points of packages that add parts; each names a ``Part``, the class or an instance of it."""

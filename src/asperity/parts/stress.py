@@ -21,11 +21,11 @@ from .part import Found, Part, Rows, Solved, Stored, Table, Words
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem
+    from ..physics.menisci.part import FrictionSettings
     from ..plots.picture import Figure
     from ..stress.field import Peak, StressField
     from ..stress.regions import Region
     from ..stress.survey import Place, StressRequest, StressSurvey, SurveyedSection
-    from .film import FrictionSettings
 
 
 PLACES = ("max", "pressure")

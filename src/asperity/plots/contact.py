@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.history import HistoryResult
-from ..contact.laws.protocol import LimitByDepth
+from ..contact.law import LimitByDepth
 from ..contact.measure import distribution
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray

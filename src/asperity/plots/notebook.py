@@ -14,6 +14,7 @@ from ..core import require
 from ..core.grid import Grid
 from ..core.text import printable
 from ..io.words import heading_and_rows
+from ..physics.friction.figures import LOOP_PLOTS, SHEAR_PLOTS
 from ..stress.field import StressField
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
@@ -22,7 +23,6 @@ from .comparison import comparison_plots
 from .contact import MENISCI, PATH_PLOTS, PLASTIC_PLOTS, PLOTS
 from .maps import plot_heights
 from .picture import CURVE_SIZE, VIEW_SIZE, Plot, map_size, png, style
-from .shear import LOOP_PLOTS, SHEAR_PLOTS
 from .stress import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
 from .surface import SURFACE_PLOTS, plot_surface_view
 

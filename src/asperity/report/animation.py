@@ -13,9 +13,9 @@ from ..core.errors import InputError
 from ..parts.indentation import PREFIX as INDENTED
 from ..parts.part import Found
 from ..parts.passes import PREFIX as PASSED
-from ..parts.plastic_flow import PREFIX as FLOW
-from ..parts.plastic_values import picture_of
-from ..plots.plastic import Cut, save_cuts, step_label
+from ..physics.plastic_flow.figures import Cut, save_cuts, step_label
+from ..physics.plastic_flow.part import PREFIX as FLOW
+from ..physics.plastic_flow.part_values import picture_of
 from ..run.execute import Outcome
 
 

@@ -36,11 +36,11 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.fretting import loop_of
 from ..contact.history import HistoryResult
 from ..core.arrays import RealArray
 from ..core.grid import Grid
 from ..core.units import show
+from ..physics.friction.fretting import loop_of
 from ..plots.contact import row_of_section
 from ..plots.maps import DECADES, Field, Kinds, Look, limits
 from ..plots.picture import AxesCurves, Figure, colour_table, scale

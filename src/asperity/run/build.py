@@ -14,8 +14,8 @@ from pydantic import ValidationError
 from ..contact.boundary import Boundary, Free, FreeLine, Periodic
 from ..contact.controls import Approach, Control, Force, MeanGap, MeanPressure, Step, as_step
 from ..contact.history import Ramped, ramps
-from ..contact.laws.layered_hardness import LayeredHardness
-from ..contact.laws.protocol import Hardness, HardWall, InterfaceLaw
+from ..contact.law import Hardness, HardWall, InterfaceLaw
+from ..contact.layered_hardness import LayeredHardness
 from ..contact.problem import ContactProblem, Flat
 from ..contact.solve import default_solver, sticks
 from ..contact.solvers.by_name import solver_by_name

@@ -20,15 +20,15 @@ from ..core.errors import AsperityError, ConvergenceError
 from ..core.quantity import Labelled
 from ..core.status import Advice, Status
 from ..core.status import Outcome as Ended
-from ..parts.adhesion import Adhesion
 from ..parts.contact import STIFFNESS
-from ..parts.film import FrictionSettings
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
-from ..parts.plastic_flow import PlasticFlow
 from ..parts.registry import parts, with_own
-from ..parts.stick_slip import StickSlip
 from ..parts.stress import Stress, Yielding, stress_request
-from ..parts.viscoelastic import Viscoelasticity
+from ..physics.adhesion.part import Adhesion
+from ..physics.friction.part_stick_slip import StickSlip
+from ..physics.menisci.part import FrictionSettings
+from ..physics.plastic_flow.part import PlasticFlow
+from ..physics.viscoelastic.part import Viscoelasticity
 from .build import Case, build
 from .document import TRACTIONS, ProblemDocument, checked, read_table
 

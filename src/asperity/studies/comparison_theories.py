@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..contact.boundary import Periodic
-from ..contact.laws.layered_hardness import LayeredHardness
-from ..contact.laws.protocol import HardWall
+from ..contact.law import HardWall
+from ..contact.layered_hardness import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..core import require
 from ..core.arrays import BoolArray, RealArray

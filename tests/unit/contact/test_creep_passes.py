@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import asperity as asp
-from asperity.contact.couplings.creep import LayeredPast, Past, TimeWeights
 from asperity.contact.operators import prepare_operator
 from asperity.core.arrays import RealArray
+from asperity.physics.viscoelastic.coupling import LayeredPast, Past, TimeWeights
 from asperity.solids.compliance.creep import LayeredCreep, contact_creep
 
 SOFT = asp.Viscoelastic.prony(1.0, ((2.0, 10.0), (3.0, 1.0)), 0.4)

@@ -366,7 +366,7 @@ def test_a_mean_pressure_at_which_the_body_yields_in_itself_ends() -> None:
 @pytest.mark.parametrize("control", [asp.MeanPressure(0.5e9), asp.Approach(1.1e-9)])
 def test_a_step_that_does_not_settle_is_cut(control: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Equal parts from the last state that settled, as a history of them would give; the result says so and holds the work of all parts."""
-    from asperity.contact.couplings import plastic_flow
+    from asperity.physics.plastic_flow import coupling as plastic_flow
 
     begun = asp.solve(problem(), asp.MeanPressure(0.05e9))
     whole = asp.solve(problem(), control, state=begun.state)

@@ -13,9 +13,9 @@ from reference_data import every_row, reference
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.couplings.menisci import viscous_force
-from asperity.contact.wetting import LiquidFilm, wetting
 from asperity.core.errors import InputError
+from asperity.physics.menisci.coupling import viscous_force
+from asperity.physics.menisci.film import LiquidFilm, wetting
 from asperity.theories.wet.meniscus import film_force
 
 MODES = defaultdict(list)

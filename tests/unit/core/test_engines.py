@@ -20,7 +20,7 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.controls import Control
-from asperity.contact.laws.protocol import InterfaceLaw
+from asperity.contact.law import InterfaceLaw
 from asperity.contact.solvers.active_set.bounds import _PRIOR, _SCATTER_SHARE, entering_levels, free_set
 from asperity.core.arrays import RealArray
 from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel, cpu

@@ -5,9 +5,9 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.contact.operators.tangential import TangentialOperator
 from asperity.contact.solvers.active_set.nested_cells import PIXEL_SHARE, hierarchies
 from asperity.core.engine.vectors import VectorCells
+from asperity.physics.friction.operator import TangentialOperator
 
 
 def model(shape, hierarchy):

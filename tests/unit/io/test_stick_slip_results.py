@@ -10,8 +10,8 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.contact.fretting import NUMBERS
 from asperity.io.shear_files import SHEAR_FIELDS, VECTORS
+from asperity.physics.friction.fretting import NUMBERS
 from asperity.run.stored import load_outcome
 
 COATED = asp.Layered([asp.Layer(asp.Elastic(2.0, 0.3), 2.0)], asp.Elastic(0.5, 0.2))

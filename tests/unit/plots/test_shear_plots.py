@@ -8,8 +8,8 @@ from contact_cases import rough
 from matplotlib.figure import Figure
 
 import asperity as asp
-from asperity.contact.fretting import OPEN, SLIPS, STICKS, kinds, loop_of
 from asperity.core.errors import InputError
+from asperity.physics.friction.fretting import OPEN, SLIPS, STICKS, kinds, loop_of
 
 
 @pytest.fixture(scope="module")

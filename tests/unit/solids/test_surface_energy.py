@@ -8,9 +8,9 @@ import pytest
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.laws.adhesion import VanDerWaalsAdhesion
 from asperity.core.errors import InputError
-from asperity.solids.surface_energy import solid_pairs, solid_surfaces
+from asperity.physics.adhesion.law import VanDerWaalsAdhesion
+from asperity.physics.adhesion.surface_energy import solid_pairs, solid_surfaces
 
 
 def test_equal_surfaces_take_twice_their_energy():

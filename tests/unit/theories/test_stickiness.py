@@ -8,8 +8,8 @@ from reference_data import every_row, reference
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.stickiness import stickiness
 from asperity.core.errors import InputError
+from asperity.physics.adhesion.stickiness import stickiness
 from asperity.theories.adhesion.stickiness import stickiness_of
 
 

@@ -31,7 +31,7 @@ import numpy as np
 
 from ...core.arrays import RealArray
 from ...core.status import Progress
-from ..laws.protocol import InterfaceLaw, LimitByDepth, work_density
+from ..law import InterfaceLaw, LimitByDepth, work_density
 from ..operators.convolution import Operator
 from ..solvers.active_set.solver import ActiveSet
 from ..solvers.active_set.yielding import FallingLimit, follow

@@ -9,13 +9,20 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 
 from ...contact.controls import Control, Step
-from ...contact.laws.adhesion import Adhesion, DugdaleAdhesion, ExponentialAdhesion, LennardJonesAdhesion, LinearAdhesion, VanDerWaalsAdhesion
-from ...contact.laws.protocol import HardWall
-from ...contact.laws.short_range import JKRAdhesion
+from ...contact.law import HardWall
 from ...contact.problem import ContactProblem, Physics, Preparing, Solved
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.units import show
+from .jkr import JKRAdhesion
+from .law import (
+    Adhesion,
+    DugdaleAdhesion,
+    ExponentialAdhesion,
+    LennardJonesAdhesion,
+    LinearAdhesion,
+    VanDerWaalsAdhesion,
+)
 
 if TYPE_CHECKING:
     from ...contact.couplings.protocol import Coupling
@@ -64,13 +71,13 @@ class Adhesive(Physics):
 
     def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
         """The attraction."""
-        from ...contact.couplings.adhesion import TOLERANCE, AdhesionCoupling
+        from .coupling import TOLERANCE, AdhesionCoupling
 
         yield AdhesionCoupling.prepared(problem, operator, how.tolerances.get("adhesion", TOLERANCE))
 
     def followed(self, problem: ContactProblem, step: Step, solved: Solved) -> Solved:
         """Long steps are divided by the range of the attraction."""
-        from ...contact.adhesive_steps import divides, in_ranges
+        from .steps import divides, in_ranges
 
         def by_ranges(control: Control, state: InterfaceState | None) -> ContactResult:
             if state is None or step.tangential is not None or not divides(problem, state):
@@ -97,7 +104,7 @@ class Adhesive(Physics):
 
     def work(self, steps: Sequence[ContactResult]) -> RealArray:
         """What the solids store and lose, which is exact on a branch."""
-        from ...contact.adhesive_cycles import adhesion_loop
+        from .loop import adhesion_loop
 
         return adhesion_loop(steps).work
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from ...contact.laws.friction import Coulomb, FrictionLaw, FullStick, TrescaFriction
 from ...contact.problem import ContactProblem, Physics, Preparing
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from .law import Coulomb, FrictionLaw, FullStick, TrescaFriction
 
 if TYPE_CHECKING:
     from ...contact.couplings.protocol import Coupling
@@ -56,12 +56,12 @@ class Rubbing(Physics):
     def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
         """Shear of stick and slip, or of gross sliding where that changes the pressure."""
         if how.sticks:
-            from ...contact.couplings.stick_slip import TOLERANCE, StickSlipCoupling
+            from .stick_slip import TOLERANCE, StickSlipCoupling
 
             yield StickSlipCoupling.prepared(problem, how.tolerances.get("stick_slip", TOLERANCE), how.threads)
         elif isinstance(self.law, Coulomb) and self.law.couples:
-            from ...contact.couplings.sliding import TOLERANCE as SLIDING
-            from ...contact.couplings.sliding import SlidingCoupling
+            from .sliding import TOLERANCE as SLIDING
+            from .sliding import SlidingCoupling
 
             tolerance = how.tolerances.get("sliding", SLIDING)
             yield SlidingCoupling.prepared(problem, self.law, operator.largest, tolerance, how.threads)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from ...contact.laws.friction import Coulomb
 from ...contact.problem import ContactProblem, Physics, Preparing
-from ...contact.wetting import LiquidFilm
 from ...core.errors import InputError
+from ..friction.law import Coulomb
+from .film import LiquidFilm
 
 if TYPE_CHECKING:
     from ...contact.couplings.protocol import Coupling
@@ -56,7 +56,7 @@ class Wet(Physics):
 
     def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
         """The force of the menisci."""
-        from ...contact.couplings.menisci import TOLERANCE, MeniscusCoupling
+        from .coupling import TOLERANCE, MeniscusCoupling
 
         dry = problem.friction if isinstance(problem.friction, Coulomb) else Coulomb(0.0)
         yield MeniscusCoupling(self.film, problem.boundary.wraps, dry, how.tolerances.get("menisci", TOLERANCE))

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from ...contact.boundary import FreeLine
 from ...contact.controls import Control, Step
-from ...contact.laws.friction import Coulomb
-from ...contact.laws.plastic_flow import PlasticFlow
-from ...contact.laws.protocol import HardWall
-from ...contact.laws.plastic_flow import require_bodies
+from ...contact.law import HardWall
 from ...contact.problem import ContactProblem, Physics, Preparing, Solved
 from ...core.errors import InputError
 from ...solids.plasticity import J2, LinearHardening, Swift, Voce
+from ..friction.law import Coulomb
+from .law import PlasticFlow, require_bodies
 
 if TYPE_CHECKING:
     from ...contact.couplings.protocol import Coupling
@@ -69,7 +68,7 @@ class Flowing(Physics):
 
     def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
         """The lift by plastic strain."""
-        from ...contact.couplings.plastic_flow import PlasticFlowCoupling
+        from .coupling import PlasticFlowCoupling
 
         if how.sticks:
             raise InputError(
@@ -82,7 +81,7 @@ class Flowing(Physics):
         """A step in which the flow does not settle is cut into parts."""
 
         def by_parts(control: Control, state: InterfaceState | None) -> ContactResult:
-            from ...contact.cut_steps import in_parts
+            from .cut_steps import in_parts
 
             result = solved(control, state)
             return result if result.converged else in_parts(control, state, result, solved)

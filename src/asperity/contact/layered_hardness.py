@@ -1,0 +1,102 @@
+"""Pressure limited by the hardness of a coated body, which changes with the depth of the indentation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+
+from ..core import require
+from ..core.arrays import RealArray
+from ..core.errors import InputError
+from ..solids.elastic import Elastic
+from ..solids.layers import Layered
+from ..theories.hardness.effective_hardness import EffectiveHardness, StackHardness
+from .law import Hardness
+
+
+@dataclass(frozen=True)
+class LayeredHardness:
+    """0 <= p <= H_e(w): every point bears the effective hardness at its own permanent indentation w.
+
+    Parameters
+    ----------
+    body
+        ``Layered`` body, every material of which has a known hardness. Where both sides of a face state their yield
+        stresses, these enter the law; else Y = H/2.8 on both.
+
+    Notes
+    -----
+    The depth in the law of Bhattacharya & Nix is that of an indenter; here it is the local permanent indentation, which
+    is what a pixel has been pressed in beyond its elastic recovery.
+
+    Raises
+    ------
+    InputError
+        If the body is not ``Layered``, lies on a rigid base, or the hardness of one of its materials is not known.
+    """
+
+    body: Layered
+    _stack: StackHardness | None = field(init=False, repr=False, compare=False)
+    name: ClassVar[str] = "effective hardness"
+    citation_keys: ClassVar[tuple[str, ...]] = (
+        *Hardness.citation_keys,
+        *StackHardness.citation_keys,
+        "Anderson1965",
+    )
+
+    def __post_init__(self) -> None:
+        require.instance(self.body, Layered, "body of an effective hardness", "Use Hardness(H) for a single material.")
+        reduced = self.body.reduced
+        materials = [*((layer.material, f"layer {n}") for n, layer in enumerate(reduced.layers, 1))]
+        if not isinstance(reduced.base, Elastic):
+            raise InputError(
+                "base of a body with an effective hardness must be a material of known hardness, but is rigid."
+            )
+        materials.append((reduced.base, "the base"))
+        for solid, place in materials:
+            if math.isnan(solid.strength.hardness):
+                raise InputError(
+                    f"hardness of {solid.name or 'the material'} in {place} must be known for an effective hardness, but is "
+                    "not. Give it as Strength(hardness=...) (hardness, H=...), or limit the pressure by a number."
+                )
+        depths = np.cumsum([layer.thickness for layer in reduced.layers])
+        faces, places = [], []
+        for (upper, _), (lower, _), depth in zip(materials, materials[1:], depths, strict=False):
+            if upper.strength.hardness != lower.strength.hardness:  # a face between equal hardnesses changes nothing
+                faces.append(_face(upper, lower))
+                places.append(float(depth))
+        object.__setattr__(self, "_stack", StackHardness(tuple(faces), tuple(places)) if faces else None)
+
+    def pressure_cap(self) -> float:
+        """Hardness in Pa of the virgin surface, that of the top layer."""
+        top = self.body.surface_material
+        assert isinstance(top, Elastic)
+        return top.strength.hardness
+
+    @property
+    def base_hardness(self) -> float:
+        """Hardness in Pa of the base, met far below the coatings."""
+        base = self.body.reduced.base
+        assert isinstance(base, Elastic)
+        return base.strength.hardness
+
+    def cap_at(self, indentation: RealArray) -> float | RealArray:
+        """Largest pressure (nx, ny) in Pa where the surface is indented by ``indentation`` (nx, ny) in m."""
+        return self.pressure_cap() if self._stack is None else self._stack.at(indentation)
+
+    def work_at(self, indentation: RealArray) -> RealArray:
+        """Work (nx, ny) in J/m² to indent the virgin surface by ``indentation`` (nx, ny) in m."""
+        return self.pressure_cap() * indentation if self._stack is None else self._stack.work(indentation)
+
+
+def _face(upper: Elastic, lower: Elastic) -> EffectiveHardness:
+    ratio = upper.strength.yield_stress / lower.strength.yield_stress
+    return EffectiveHardness(
+        upper.strength.hardness,
+        lower.strength.hardness,
+        upper.youngs_modulus / lower.youngs_modulus,
+        None if math.isnan(ratio) else ratio,
+    )

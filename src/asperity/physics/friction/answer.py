@@ -1,0 +1,165 @@
+"""Shear and slip that a step with stick and slip leaves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from ...contact.answer import Answer
+from ...contact.certificate import Certificate
+from ...contact.couplings.protocol import Memory
+from ...contact.tangential import Shift, Tangential, TangentialForce
+from ...core.arrays import BoolArray, RealArray
+from ...core.status import Advice, Status
+from ...core.units import show
+from .law import FrictionLaw
+
+GROSS = 1.0 - 1e-9
+"""Share of the largest friction force from which on a prescribed force slides everything."""
+
+
+@dataclass(frozen=True, eq=False)
+class StickSlip(Answer):
+    """Shear and slip at the end of one step. Fields are (nx, ny) arrays or (2, nx, ny) arrays of x and y components, all values SI.
+
+    Attributes
+    ----------
+    law
+        Law of friction.
+    tangential
+        What was prescribed in this step.
+    traction
+        Shear traction (2, nx, ny) on the body in Pa.
+    slip_increment, slip
+        Slip (2, nx, ny) of the counter body over the body in this step, and since the start of the history, in m. Under a force that is all that
+        friction bears it is the least that slides every point.
+    tangential_displacement
+        Displacement (2, nx, ny) of the body relative to the counter body along the surface, elastic, in m.
+    shear_displacement
+        Normal displacement (nx, ny) in m by the shear traction.
+    shift_x, shift_y, twist
+        Rigid displacement (m) and rotation (rad) of the counter body since the start; the displacement is NaN once a tangential force was all that
+        friction bears, since it is not determined then.
+    force_x, force_y, torque
+        Tangential force (N) and torque about the centre of the grid (N·m) on the body.
+    friction_limit
+        Largest tangential force in N that the contact bears: sum of the bounds.
+    dissipation_density
+        Energy turned into heat in this step, (nx, ny) in J/m², >= 0.
+    dissipated, total_dissipated
+        Its integral in J, and the sum over all steps.
+    tangential_energy
+        Half of shear traction times tangential displacement, J.
+    duality_gap
+        Bound on the relative error of the tangential energy for the pressure found.
+    complementarity
+        De Saxcé's residual Σ [p (g + μ|s|) - q·s] over Σ p |shift of the step|, which vanishes at solutions of the coupled problem; over the
+        work of the slip where nothing was shifted.
+    iterations, fft_pairs
+        Newton steps, and FFT pairs of the grid, of all tangential and joint solves.
+    status
+        How it ended.
+    """
+
+    law: FrictionLaw
+    tangential: Tangential
+    traction: RealArray
+    slip_increment: RealArray
+    slip: RealArray
+    tangential_displacement: RealArray
+    shear_displacement: RealArray
+    shift_x: float
+    shift_y: float
+    twist: float
+    force_x: float
+    force_y: float
+    torque: float
+    friction_limit: float
+    dissipation_density: RealArray
+    dissipated: float
+    total_dissipated: float
+    tangential_energy: float
+    duality_gap: float
+    complementarity: float
+    iterations: int
+    fft_pairs: float
+    status: Status
+    citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "DeSaxce1998", "Kalker1990", "Panagiotopoulos1975")
+    """Papers of law and method."""
+
+    def lifted(self) -> RealArray:
+        """Displacement by shear."""
+        return self.shear_displacement
+
+    def stores(self, *, relaxing: bool) -> float:
+        """The tangential energy, which is part of that of the springs of ``relaxing`` bodies."""
+        return 0.0 if relaxing else self.tangential_energy
+
+    def ended(self) -> Status:
+        """How it ended."""
+        return self.status
+
+    def certified(self, certificate: Certificate) -> Certificate:
+        """The ``certificate`` with De Saxcé's residual."""
+        return replace(certificate, complementarity=self.complementarity)
+
+    def findings(self, certificate: Certificate) -> Iterator[Advice]:
+        """Whether how far the counter body slid is not determined."""
+        if not math.isnan(self.shift_x):
+            return
+        if slides_freely(self.tangential, self.friction_limit):
+            limit = show(self.friction_limit, "N")
+            why = f"The tangential force is all that friction bears, {limit}: every point slides, and the shift is not determined"
+        else:
+            why = (
+                "In an earlier step the tangential force was all that friction bears: the shift is not determined since"
+            )
+        yield Advice(
+            "warning",
+            "shift not determined",
+            f"{why}. Slip and heat stated are those of the least shift that slides every point. Prescribe a shift (Shift(...), --shift), or a smaller force.",
+        )
+
+    @property
+    def traction_magnitude(self) -> RealArray:
+        """Magnitude of the shear traction, (nx, ny) in Pa."""
+        return np.asarray(np.hypot(*self.traction))
+
+    @property
+    def slipping(self) -> BoolArray:
+        """(nx, ny), True where the surfaces slipped in this step."""
+        return np.asarray(np.any(self.slip_increment != 0.0, axis=0))
+
+    def work_by(self, moved: RealArray, displaced: RealArray, pixel: float) -> float:
+        """Work (J) of tangential force and torque while the counter body ``moved`` (3,), on points of ``pixel`` m².
+
+        ``displaced`` (2, nx, ny) in m is what the step added to the displacement along the surface. Where the shift is not determined it is that of
+        the slip stated.
+        """
+        if np.isnan(moved).any():
+            return pixel * float(np.einsum("kij,kij->", self.traction, self.slip_increment + displaced))
+        return float(np.array([self.force_x, self.force_y, self.torque]) @ moved)
+
+    @property
+    def memory(self) -> Memory:
+        """What the next step starts from; the force is NaN where a shift was prescribed."""
+        control = self.tangential
+        force = (np.nan, np.nan) if isinstance(control, Shift) else (control.x, control.y)
+        return {
+            "traction_x": self.traction[0],
+            "traction_y": self.traction[1],
+            "slip_x": self.slip[0],
+            "slip_y": self.slip[1],
+            "shift": np.array([self.shift_x, self.shift_y, self.twist]),
+            "force": np.array(force),
+            "dissipated": np.asarray(self.total_dissipated),
+        }
+
+
+def slides_freely(control: Tangential, limit: float) -> bool:
+    """Whether ``control`` is a force that is all of the ``limit`` (N) that friction bears: how far the body then slides is not determined."""
+    return isinstance(control, TangentialForce) and control.magnitude >= GROSS * limit

@@ -1,0 +1,399 @@
+"""Friction between the bodies, and a liquid film between them: its menisci, and the theory of summits beside them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import model_validator
+
+from ...core.errors import InputError
+from ...core.quantity import Quantity
+from ...core.settings import Settings, setting
+from ...core.units import percent, show
+from ...core.values import Angle, Choice, Humidity, Length, NonEmpty, Number, Pressure, Speed, SurfaceTension, Viscosity
+from ...parts.part import Found, Part, Rows, Solved, Table, Words
+
+if TYPE_CHECKING:
+    from ...contact.controls import Control
+    from ...plots.picture import Figure
+    from ..friction.law import Coulomb, FrictionLaw, FullStick, TrescaFriction
+    from .coupling import Menisci as SolvedMenisci
+    from .film import LiquidFilm
+    from .summits import WetTheory as SolvedTheory
+
+Coefficient = Annotated[float, Number(least=0.0, fix="Turn the direction by 180 deg instead.")]
+
+
+LAWS = ("coulomb", "tresca", "full stick")
+"""Laws of friction in documents."""
+
+Law = Annotated[str, Choice({name: name for name in LAWS})]
+
+
+class FrictionSettings(Settings):
+    """Friction of the contact; stresses, menisci, plastic flow in the volume and, if it is ``coupled``, the pressure take it from here.
+
+    Beside a table [shear], and under any law but plain Coulomb's, the surfaces stick and slip; else all points slide.
+    """
+
+    law: Law = setting("coulomb", option="--friction-law", help="Largest shear traction of a point")
+    coefficient: Coefficient = setting(0.0, option="--friction", help="Shear traction over pressure: 0.3")
+    direction: Angle = setting(
+        "0 deg", option="--direction", help="Of the shear traction on the body, from x towards y: 90deg"
+    )
+    coupled: bool | None = setting(
+        None,
+        option="--coupled",
+        help="Let the shear traction change the pressure; so it does where surfaces stick and slip",
+    )
+    limit: Pressure | None = setting(
+        None, option="--friction-limit", help="Largest shear traction whatever the pressure, for stick and slip: 200MPa"
+    )
+    strength: Pressure | None = setting(
+        None, option="--friction-strength", help="Shear traction of the law tresca: 20MPa"
+    )
+    speed: Speed | None = setting(
+        None, option="--speed", help="Sliding speed, for the viscous part of the friction of a film: 1mm/s"
+    )
+
+    @model_validator(mode="after")
+    def _fitting(self) -> FrictionSettings:
+        if (self.strength is None) != (self.law != "tresca"):
+            raise InputError(
+                f" must give the strength (--friction-strength) for the law tresca and for no other, but the law is {self.law} "
+                f'{"with" if self.strength else "without"} one. Give both, such as law = "tresca" and strength = "20 MPa".'
+            )
+        if self.law != "coulomb" and (self.coefficient or self.limit):
+            raise InputError(
+                f" must give no coefficient and limit for the law {self.law}, but does: they are those of Coulomb friction."
+            )
+        return self
+
+
+def friction_law(settings: FrictionSettings, *, sheared: bool = False) -> Coulomb | TrescaFriction | FullStick:
+    """Law of friction of a problem with these ``settings``; ``sheared`` where it has stick and slip."""
+    from ..friction.law import Coulomb, FullStick, TrescaFriction
+
+    if settings.law == "tresca":
+        return TrescaFriction(settings.strength or 0.0)
+    if settings.law == "full stick":
+        return FullStick()
+    coupled = sheared if settings.coupled is None else settings.coupled
+    limit = math.inf if settings.limit is None else settings.limit
+    return Coulomb(settings.coefficient, settings.direction, settings.speed or 0.0, coupled, limit)
+
+
+def sticks(document: Any) -> bool:
+    """Whether the surfaces of a ``document`` stick and slip: with a table [shear], or a law that is not plain Coulomb's; not where they roll."""
+    table: FrictionSettings = document.friction
+    if rolls(document):
+        return False
+    return document.shear is not None or table.law != "coulomb" or table.limit is not None
+
+
+def rolls(document: Any) -> bool:
+    """Whether the friction of a ``document`` is that of its table [rolling]."""
+    return getattr(document, "rolling", None) is not None
+
+
+class Friction(Part):
+    """Shear traction that changes the pressure or makes the body flow."""
+
+    name = "friction"
+    title = "Friction"
+    table = "friction"
+    settings = FrictionSettings
+    in_every_document = True
+
+    def asked(self, document: Any, folder: Path) -> FrictionLaw | None:
+        """The law, where the friction takes part in the solve."""
+        table: FrictionSettings = document.friction
+        if rolls(document):
+            return None
+        sheared, flow = sticks(document), getattr(document, "plastic_flow", None)
+        felt = table.coupled or (
+            flow is not None and flow.active
+        )  # shear makes the body flow, whether or not it changes the pressure
+        return friction_law(table, sheared=sheared) if sheared or (felt and table.coefficient) else None
+
+    def coupling(self, ask: FrictionLaw) -> Mapping[str, Any]:
+        """Sliding, or stick and slip, joins the solve."""
+        return {"friction": ask}
+
+
+# A liquid film.
+
+
+class FilmSettings(Settings):
+    """A liquid film.
+
+    The liquid is a named one or given by its ``surface_tension``, which else replaces that of the named one. Either the
+    ``humidity`` fixes the height of the menisci, and for water the thickness of the film, or ``thickness`` and
+    ``meniscus_height`` are given, the second being the first by default. One ``contact_angle`` is that on the surface
+    opposite the film. Friction is that of the table [friction].
+    """
+
+    liquid: NonEmpty | None = setting(None, option="--liquid", help="Name: water, PFPE; `asperity liquids` lists all")
+    liquids_file: NonEmpty | None = setting(None, option="--liquids-file", help="Your own liquids, a TOML file")
+    surface_tension: SurfaceTension | None = setting(
+        None, option="--surface-tension", help="Instead of that of the liquid: 25mN/m"
+    )
+    humidity: Humidity | None = setting(
+        None, option="--humidity", help="Relative humidity, for the height of the menisci: 80%"
+    )
+    thickness: Length | None = setting(None, option="--film", help="Thickness; from the humidity by default, for water")
+    meniscus_height: Length | None = setting(
+        None, option="--meniscus-height", help="Gap at the rim of a meniscus; --film by default"
+    )
+    contact_angle: tuple[Angle, ...] = setting(
+        ("0 deg",), option="--contact-angle", help="Opposite the film, or on both surfaces: 10deg; 60deg,60deg"
+    )
+    viscosity: Viscosity | None = setting(None, option="--viscosity", help="For the viscous part of friction: 10mPa*s")
+    shear_strength: Pressure | None = setting(
+        None, option="--shear-strength", help="Of the liquid, at which its viscous stress ends: 10MPa"
+    )
+
+    @model_validator(mode="after")
+    def _whole(self) -> FilmSettings:
+        if len(self.contact_angle) not in (1, 2):
+            raise InputError(
+                f'.contact_angle must be one or two angles, such as "10 deg" or ["60 deg", "60 deg"], but is {len(self.contact_angle)}.'
+            )
+        if self.liquid is None and self.surface_tension is None:
+            raise InputError(
+                ' must give a liquid, such as "water" (--liquid), or its surface_tension (--surface-tension), but gives neither.'
+            )
+        if self.liquid is None and self.humidity is not None:
+            raise InputError(
+                " must name its liquid (--liquid) beside a humidity, which needs the molar volume, but does not."
+            )
+        if self.humidity is None and self.thickness is None:
+            raise InputError(
+                ' must give the thickness of the film, such as "2 nm" (--film), or a humidity (--humidity), but gives neither.'
+            )
+        if self.humidity is not None and self.meniscus_height is not None:
+            raise InputError(" must not give both a humidity and a meniscus_height: the second follows from the first.")
+        return self
+
+
+@dataclass(frozen=True)
+class Wetted:
+    """The film that is asked for, and its friction."""
+
+    film: LiquidFilm
+    friction: FrictionLaw
+
+
+class Menisci(Part):
+    """Menisci that press the surfaces together."""
+
+    name = "film"
+    title = "Liquid film and menisci"
+    table = "film"
+    settings = FilmSettings
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
+        """Scalars of a wet contact."""
+        from ...contact.result import WET_SCALARS
+
+        return WET_SCALARS
+
+    def asked(self, document: Any, folder: Path) -> Wetted:
+        """The film of the table [film], with the friction of the table [friction]."""
+        law = friction_law(document.friction, sheared=sticks(document))
+        return Wetted(_film(document.film, folder), law)
+
+    def coupling(self, ask: Wetted) -> Mapping[str, Any]:
+        """The film joins the solve."""
+        return {"film": ask.film, "friction": ask.friction}
+
+    def compute(self, ask: Wetted, solved: Solved) -> Found:
+        """Scalars of the menisci."""
+        from ...contact.result import WET_SCALARS
+
+        menisci = solved.result.require_menisci()
+        values = {q.name: getattr(menisci, q.name) for q in WET_SCALARS}
+        return Found(values, menisci, (), menisci.citation_keys)
+
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Map of the menisci."""
+        from ...plots.contact import wet_figures
+
+        return wet_figures(solved.result)
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Liquid, menisci and friction."""
+        return film_words(found.detail, solved.control)
+
+
+class WetTheory(Part):
+    """The theory of summits beside the menisci of the map."""
+
+    name = "wet_theory"
+    title = "Statistical theory beside it"
+    table = "film"
+    quantities = (Quantity("statistical_meniscus_force", "N", "meniscus force of the theory of summits", costly=True),)
+
+    def compute(self, ask: Any, solved: Solved) -> Found:
+        """Meniscus force of the theory; NaN with the reason as detail where it has none."""
+        from .summits import wet_theory
+
+        try:
+            theory = wet_theory(solved.result)
+        except InputError as error:
+            return Found({"statistical_meniscus_force": math.nan}, str(error))
+        return Found({"statistical_meniscus_force": theory.meniscus_force}, theory, (), theory.citation_keys)
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Summits, forces and growth, or why there is no theory."""
+        return theory_words(found.detail, solved.found["film"].detail)
+
+
+def _film(table: FilmSettings, folder: Path) -> LiquidFilm:
+    """Film that ``table`` describes; the path of its liquids file starts at ``folder``.
+
+    Raises
+    ------
+    InputError
+        If the liquid is unknown, does not wet, or lacks a value that is needed.
+    """
+    from ...solids.library import Liquid, liquid
+    from .film import LiquidFilm
+
+    tension = math.nan if table.surface_tension is None else table.surface_tension
+    if table.liquid is None:
+        substance = Liquid(tension)
+    else:
+        substance = liquid(table.liquid, library=None if table.liquids_file is None else folder / table.liquids_file)
+        substance = substance if math.isnan(tension) else replace(substance, surface_tension=tension)
+    angles = table.contact_angle
+    sides = (angles[0], angles[1] if len(angles) == 2 else 0.0)
+    if table.humidity is not None:
+        thickness = math.nan if table.thickness is None else table.thickness
+        film = LiquidFilm.at_humidity(substance, table.humidity, thickness=thickness, contact_angles=sides)
+    else:
+        height = math.nan if table.meniscus_height is None else table.meniscus_height
+        film = LiquidFilm.of(substance, float(table.thickness or 0.0), meniscus_height=height, contact_angles=sides)
+    known = {key: value for key in ("viscosity", "shear_strength") if (value := getattr(table, key)) is not None}
+    return replace(film, **known)
+
+
+REGIMES = {
+    "dry": "no liquid bridges the gap",
+    "toe-dipping": "menisci stand around single summits",
+    "pillbox": "a meniscus reaches across the surface",
+    "flooded": "liquid and contact fill nearly the whole area",
+}
+"""What each regime means."""
+
+REMARK = (
+    "The film lies as it was before contact and is not redistributed; the suction acts on the area of the menisci without "
+    "the solid contact, and presses the surfaces together as an additional load."
+)
+"""What the model assumes."""
+
+
+THEORY_REMARK = (
+    "Statistical theory of the summits of this surface: independent Hertz contacts, their heights by skewness and kurtosis (Kotwal "
+    "and Bhushan), each summit in the film pulled by the full force of a touching sphere (Gao, Tian and Bhushan). The map above counts the "
+    "area at the meniscus height instead, leaves out the contact, and lets the summits push each other: an estimate beside it."
+)
+"""What the theory of summits is, and why it differs."""
+
+
+def film_words(result: SolvedMenisci, control: Control) -> Words:
+    """Liquid, menisci and friction."""
+    cells = tuple(wet_rows(result))
+    return Words(
+        wet_sentence(result),
+        rows=film_rows(result, control),
+        tables=(("", Table(("Quantity", "Value"), cells)),),
+        remarks=(REMARK,),
+    )
+
+
+def theory_words(found: SolvedTheory | str, result: SolvedMenisci) -> Words:
+    """Results of the theory of summits beside the ``result`` on the map, or why there are none."""
+    return Words(rows=theory_rows(found, result), remarks=() if isinstance(found, str) else (THEORY_REMARK,))
+
+
+def theory_rows(found: SolvedTheory | str, result: SolvedMenisci) -> Rows:
+    """Statistical and kinetic menisci beside the ``result`` on the map."""
+    from .summits import HAMAKER
+
+    if isinstance(found, str):
+        return [("no statistical theory", found)] if found else []
+    contact, load = found.statistical.contact, result.external_force
+    rows = [
+        ("summits", f"{found.summits} of radius {show(contact.radius, 'm', 3)}"),
+        ("standard deviation of their heights", show(contact.height_deviation, "m", 3)),
+        ("meniscus force", show(found.meniscus_force, "N")),
+        ("meniscus force / external force", f"{found.meniscus_force / load:.4g}"),
+        ("meniscus force / that of the map", _over(found.meniscus_force, result.meniscus_force)),
+        ("growth of the force with the load, dF/dL", f"{found.feedback:.3g}"),
+    ]
+    if result.dry_friction > 0.0:
+        friction = result.dry_friction * (1.0 + found.meniscus_force / load)
+        rows.append(("static friction coefficient, without viscous part", f"{friction:.4g}"))
+    if found.growth is None:
+        why = (
+            "not known without a viscosity"
+            if math.isnan(result.film.viscosity)
+            else "none: the film holds its liquid back"
+        )
+        return [*rows, ("growth of the menisci with time", why)]
+    grown = show(found.growth.time_to(0.99), "s", 3)
+    return [
+        *rows,
+        ("meniscus force just after contact", show(found.first_force, "N")),
+        ("menisci grow to 99 % within", f"{grown} (Hamaker constant {HAMAKER:g} J, assumed)"),
+    ]
+
+
+def _over(force: float, other: float) -> str:
+    return f"{force / other:.3g}" if other > 0.0 else "–"
+
+
+def film_rows(result: SolvedMenisci, control: Control) -> Rows:
+    """Liquid and film."""
+    film = result.film
+    angles = " and ".join(f"{math.degrees(angle):.4g}°" for angle in film.contact_angles)
+    rows = [
+        (f"prescribed {control.name}", show(control.value, control.unit)),
+        ("surface tension", show(film.surface_tension, "N/m")),
+        ("contact angles", angles),
+    ]
+    if result.viscous_force > 0.0:
+        rows.append(("viscosity", show(film.viscosity, "Pa*s")))
+    rows.append(("dry friction coefficient", f"{result.dry_friction:g}"))
+    return rows
+
+
+def wet_rows(result: SolvedMenisci) -> Rows:
+    """Every scalar of the menisci, and the regime; without friction where none was given."""
+    from ...contact.result import WET_SCALARS
+    from ...io.words import value_text
+
+    regime = result.wetting.regime
+    rows = [("regime", f"{regime}: {REGIMES[regime]}")]
+    silent = {"friction_force", "viscous_force", "static_friction"} if result.friction_force == 0.0 else set()
+    for quantity in WET_SCALARS:
+        if quantity.name not in silent:
+            rows.append((quantity.label, value_text(quantity, getattr(result, quantity.name))))
+    return rows
+
+
+def wet_sentence(result: SolvedMenisci) -> str:
+    """One sentence on the menisci."""
+    if result.wetting.regime == "dry":
+        return "No liquid bridges the gap: the contact is dry."
+    share = percent(result.meniscus_area_fraction)
+    pull = show(result.meniscus_force, "N")
+    if math.isnan(result.relative_meniscus_force):
+        return f"Menisci on {share} of the nominal area pull with {pull}, more than the contact force."
+    return f"Menisci on {share} of the nominal area pull with {pull}, {result.relative_meniscus_force:.3g} times the external force."

@@ -1,0 +1,1 @@
+"""What two physics must settle together."""

@@ -1,0 +1,252 @@
+"""Balance of adhesion and menisci together, by a search for the approach at which the forces add up.
+
+Attraction and menisci change each other's contact, and menisci come and go pixel by pixel: rounds at a given force may come to rest where
+the forces do not add up. At a given approach both are found without feedback. The search follows the curve of external force against
+approach from where the surfaces are until the force wanted is between two approaches, and closes in on it, always from the contact nearer to
+the start.
+
+Where pixels of liquid come or go the force jumps, and what is wanted may lie in the jump: then part of them is there. Contact and attraction
+hardly change across it, so that the force of the liquid is what the balance leaves to it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from ...contact.controls import Control, FixedGrips
+from ...contact.couplings.driver import CouplingCheck, Rounds, Settled, settle
+from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed
+from ...contact.solvers.protocol import Solver
+from ...core.errors import NoSolutionError
+from ...core.status import Outcome, Progress, Status
+from ..adhesion.coupling import AdhesionCoupling
+from ..menisci.coupling import MeniscusCoupling
+
+_EXACT = 1e-4
+"""Error of the force over the reference at which it is balanced."""
+
+_FIRST = 1e-2
+"""First step of the approach over the range of the attraction and the thickness of the film, whichever is less."""
+
+_GROWTH = 2.0
+_STEPS = 60
+_NARROW = 1e-7
+"""Width of the bracket, over the first step, at which the contact itself jumps."""
+
+_INSIDE = 0.1
+"""Share of the bracket that a step by the secant keeps from its ends."""
+
+_UNKNOWN: Memory = {key: np.asarray(math.nan) for key in ("energy", "force", "approach", "gap")} | {
+    key: np.asarray(0.0) for key in ("jumps", "dissipated")
+}
+"""What the adhesion remembers of a virgin interface."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Held:
+    """Contact held at an ``approach`` (m): force (N) between the ``solids`` less that wanted from outside, and that of the ``liquid``."""
+
+    approach: float
+    solids: float
+    liquid: float
+    settled: Settled
+
+    @property
+    def force(self) -> float:
+        """External force (N) less the one wanted."""
+        return self.solids - self.liquid
+
+    @property
+    def converged(self) -> bool:
+        """Whether its couplings have settled; if not, its force tells nothing, and the search ends with it."""
+        return self.settled.status.converged
+
+
+def settle_forces(
+    posed: Posed,
+    couplings: Sequence[Coupling],
+    memories: Mapping[str, Memory],
+    solver: Solver,
+    *,
+    rounds: Rounds = Rounds(),
+    progress: Progress | None = None,
+) -> Settled:
+    """``settle`` for couplings that hold adhesion and menisci, where a force is balanced; the arguments are the same.
+
+    Rounds are tried first. Where their forces do not add up to 1e-4 of the external force, or of the menisci's if that is larger, the approach is searched for.
+
+    Raises
+    ------
+    NoSolutionError
+        If the interface bears no such force.
+    """
+    held = partial(settle, couplings=couplings, solver=solver, rounds=rounds, progress=progress)
+    search = _Search(posed, couplings, memories, held)
+    first: Settled | None = None
+    try:
+        first = held(posed, memories=memories)
+    except NoSolutionError as error:
+        if error.subject != "force":
+            raise
+    if first is not None and first.status.converged:
+        start = search.measured(first)
+        if abs(start.force) <= search.exact(start):
+            return first
+    return search.found(first)
+
+
+class _Search:
+    """Contacts of one step held at approaches, by ``settle`` of the couplings."""
+
+    def __init__(
+        self, posed: Posed, couplings: Sequence[Coupling], memories: Mapping[str, Memory], held: Callable[..., Settled]
+    ) -> None:
+        self.posed, self.memories, self.settle = posed, memories, held
+        self.law = next(c for c in couplings if isinstance(c, AdhesionCoupling)).law
+        self.film = next(c for c in couplings if isinstance(c, MeniscusCoupling)).film
+        self.pixel = self.film.suction * posed.operator.grid.pixel_area
+        self.count = 0
+
+    def found(self, first: Settled | None) -> Settled:
+        """The balance, or the jump that takes its place, from the rounds ``first`` or from before the step."""
+        near, far = self._bracket(self._start(first))
+        narrow = _NARROW * self._first_step
+        while abs(far.solids - near.solids) > self.exact(near) and abs(far.approach - near.approach) > narrow:
+            middle = self._between(near, far)
+            if not middle.converged or abs(middle.force) <= self.exact(middle):
+                near = far = middle
+            elif middle.force * near.force > 0.0:
+                near = middle
+            else:
+                far = middle
+        return self._ended(near, far, first)
+
+    def measured(self, settled: Settled) -> _Held:
+        """Approach and force of what has ``settled``."""
+        contact, exchanges = settled.contact, settled.exchanges
+        grid, approach = self.posed.operator.grid, self.posed.top + settled.contact.level
+        pull = float(exchanges["adhesion"].x.sum()) * grid.pixel_area
+        liquid = float(exchanges["menisci"].note.force)
+        return _Held(approach, contact.force - pull - self._wanted(approach), liquid, settled)
+
+    def exact(self, held: _Held) -> float:
+        """Error (N) of the force at which it is balanced."""
+        return _EXACT * self._reference(held)
+
+    def _reference(self, held: _Held) -> float:
+        return max(abs(self._wanted(held.approach)), held.liquid, self.pixel)
+
+    def _wanted(self, approach: float) -> float:
+        """External force (N) wanted at this ``approach`` (m)."""
+        control: Control = self.posed.control
+        if isinstance(control, FixedGrips):
+            return control.stiffness * (control.value - approach)
+        force = self.posed.external_force
+        assert force is not None
+        return force
+
+    @property
+    def _first_step(self) -> float:
+        lengths = [self.film.meniscus_height, self.law.range or self.posed.height_scale]
+        return _FIRST * min(lengths)
+
+    def _start(self, first: Settled | None) -> _Held:
+        """The approach that rounds came to, else that before the step, else first touch."""
+        if first is not None:
+            return self._held(self.measured(first).approach, first)
+        known = self.memories.get("adhesion", {})
+        return self._held(float(known["approach"]) if "approach" in known else 0.0, None)
+
+    def _held(self, approach: float, before: Settled | None) -> _Held:
+        """Contact at this ``approach`` (m), followed from the one ``before``."""
+        self.count += 1
+        posed = replace(self.posed, control=FixedGrips(approach), earlier=None, deflections=None, ahead=None)
+        memories = dict(self.memories)
+        if before is not None:
+            followed = {"attraction": before.exchanges["adhesion"].x}
+            memories["adhesion"] = {**_UNKNOWN, **self.memories.get("adhesion", {}), **followed}
+            pressure = before.contact.pressure
+            posed = replace(posed, start=pressure if pressure.any() else posed.start)
+        return self.measured(self.settle(posed, memories=memories))
+
+    def _bracket(self, near: _Held) -> tuple[_Held, _Held]:
+        """Contacts on both sides of the force wanted, the nearer to the start first."""
+        step = -math.copysign(self._first_step, near.force)
+        for _ in range(_STEPS):
+            if not near.converged or abs(near.force) <= self.exact(near):
+                return near, near
+            if near.force > 0.0 and self._apart(near):
+                break
+            further = self._held(near.approach + step, near.settled)
+            if further.converged and further.force * near.force <= 0.0:
+                return near, further
+            near, step = further, _GROWTH * step
+        raise NoSolutionError(
+            f"force must be one that the adhesion and the menisci bear, but {self._wanted(near.approach):.6g} N is not: the surfaces part. "
+            "Prescribe the position, with FixedGrips(...), to follow them.",
+            subject="force",
+        )
+
+    def _apart(self, held: _Held) -> bool:
+        """Whether no force is left."""
+        left = held.force + self._wanted(held.approach)
+        contact: Contact = held.settled.contact
+        return not contact.pressure.any() and abs(left) <= _EXACT * self.pixel
+
+    def _between(self, near: _Held, far: _Held) -> _Held:
+        """Contact between these two, by the secant or by half."""
+        share = near.force / (near.force - far.force)
+        if self.count % 2 or not _INSIDE < share < 1.0 - _INSIDE:
+            share = 0.5
+        return self._held(near.approach + share * (far.approach - near.approach), near.settled)
+
+    def _ended(self, near: _Held, far: _Held, first: Settled | None) -> Settled:
+        """The contact between these two under the control, with how well its forces add up."""
+        best = min((near, far), key=lambda held: abs(held.force))
+        settled, allowed = best.settled, self.exact(best)
+        within = abs(far.solids - near.solids) <= allowed  # the jump is one of the liquid
+        missed = abs(far.solids - near.solids) if within else abs(best.force)
+        exchanges = dict(settled.exchanges)
+        adhesion, menisci = exchanges["adhesion"], exchanges["menisci"]
+        liquid = best.solids if within and abs(best.force) > allowed else best.liquid
+        exchanges["adhesion"] = replace(adhesion, note=replace(adhesion.note, posed=self.posed))
+        exchanges["menisci"] = replace(menisci, x=np.asarray(liquid), note=self._note(menisci, liquid, first))
+        reference = self._reference(best)
+        check = CouplingCheck("menisci", missed / reference, 0.0, allowed / reference)
+        status = (
+            self._status(best, abs(far.liquid - near.liquid), missed) if settled.status.converged else settled.status
+        )
+        return replace(
+            settled,
+            contact=replace(settled.contact, posed=self.posed).with_work_of(None if first is None else first.contact),
+            exchanges=exchanges,
+            checks=(check, *(item for item in settled.checks if item.name != check.name)),
+            rounds=self.count + (0 if first is None else first.rounds),
+            status=status,
+        )
+
+    def _note(self, menisci: Exchange, liquid: float, first: Settled | None) -> object:
+        """Where the ``liquid`` stands and its force (N), with that of the first round, which tells the feedback."""
+        known = replace(menisci.note, was_dry=False) if first is None else first.exchanges["menisci"].note
+        return replace(known, found=menisci.note.found, force=liquid, external=self.posed.external_force or 0.0)
+
+    def _status(self, best: _Held, jump: float, missed: float) -> Status:
+        where = f"at the approach {best.approach:.6g} m, found by {self.count} contacts"
+        forces = "Attraction, menisci and external force"
+        if missed > self.exact(best):
+            return Status(
+                Outcome.STAGNATED,
+                f"{forces} miss their balance by {missed:.3g} N in a jump of the contact {where}.",
+                "Take smaller steps of the load, or prescribe the position, with FixedGrips(...).",
+            )
+        inside = (
+            f" in a jump of the menisci by {jump:.3g} N, of which part is there,"
+            if abs(best.force) > self.exact(best)
+            else ""
+        )
+        return Status(Outcome.CONVERGED, f"{forces} are in balance to {missed:.1e} N{inside} {where}.")

@@ -1,0 +1,1 @@
+"""Rolling: bodies that roll with creepage, smooth or rough."""

@@ -1,0 +1,1 @@
+"""Bodies that relax: steps of time, harmonic motion, and sliding with hysteresis."""
