@@ -3,19 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..core.errors import InputError
 from ..core.registry import OUTCOMES, PHYSICS
 
 if TYPE_CHECKING:
     from ..core.arrays import RealArray
+    from ..core.quantity import Quantity
     from ..core.status import Advice, Status
     from .certificate import Certificate
 
 
 class Answer:
     """What a coupling has found in a contact: base of frozen dataclasses, whose methods say nothing where it has no part in what is asked."""
+
+    quantities: ClassVar[tuple[Quantity, ...]] = ()
+    """Its numbers in the table of a result, in their order."""
+
+    def line(self) -> str:
+        """What it is in one line; empty for the name of its type."""
+        return ""
 
     def traction_beside(self) -> RealArray | None:
         """Attraction (nx, ny) in Pa beside the pressure."""

@@ -61,25 +61,6 @@ SCALARS = (
 """Every scalar of a result in the order of tables."""
 
 
-WET_SCALARS = (
-    Quantity("external_force", "N", "external force"),
-    Quantity("meniscus_force", "N", "meniscus force"),
-    Quantity("relative_meniscus_force", "1", "meniscus force / external force"),
-    Quantity("suction", "Pa", "pressure deficit in the menisci"),
-    Quantity("meniscus_height", "m", "meniscus height"),
-    Quantity("film_thickness", "m", "film thickness"),
-    Quantity("meniscus_area_fraction", "1", "area of the menisci / nominal area"),
-    Quantity("wetted_area_fraction", "1", "wetted area with contact / nominal area"),
-    Quantity("cut_area_fraction", "1", "cross-cut area at the meniscus height / nominal area"),
-    Quantity("n_menisci", "1", "number of menisci"),
-    Quantity("friction_force", "N", "static friction force"),
-    Quantity("viscous_force", "N", "viscous part of the friction force"),
-    Quantity("static_friction", "1", "static friction coefficient, friction / external force"),
-    Quantity("feedback", "1", "share of the meniscus force that the menisci themselves cause"),
-)
-"""Every scalar of the menisci, in the order of tables."""
-
-
 Value = TypeVar("Value")
 
 
@@ -402,6 +383,13 @@ def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operato
     problem = result.problem
     operator = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     return measure.normal_stiffness(operator, result.contact & ~result.plastic)
+
+
+def follows_from_pressure(result: ContactResult) -> bool:
+    """Whether the displacement of ``result`` is by the pressure alone, so that it has a ``stiffness_of`` its own."""
+    lifts = (answer.lifted() for answer in result.answers)
+    sheared = any(lift is not None and lift.any() for lift in lifts)
+    return not sheared and all(answer.traction_beside() is None for answer in result.answers)
 
 
 def _indentation(

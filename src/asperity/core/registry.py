@@ -19,11 +19,14 @@ class Known(NamedTuple):
         What the keyword takes, for messages.
     absent
         What is said where a result is asked for what a coupling of it finds, but has none: a sentence by the name of the coupling.
+    figures
+        Where the figures of a result stand that has what a coupling of it finds, by the name of the coupling.
     """
 
     home: str
     must_be: str
     absent: Mapping[str, str]
+    figures: Mapping[str, str] = MappingProxyType({})
 
 
 PHYSICS: Mapping[str, Known] = MappingProxyType(
@@ -34,6 +37,7 @@ PHYSICS: Mapping[str, Known] = MappingProxyType(
             {
                 "menisci": "problem of the result must have a film of liquid, but has none. Give it as film=LiquidFilm.of(...)."
             },
+            {"menisci": "physics.menisci.figures:PLOTS"},
         ),
         "adhesion": Known(
             "physics.adhesion.physics:Adhesive",

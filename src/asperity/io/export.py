@@ -15,7 +15,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from ..contact.history import HistoryResult
-from ..contact.result import SCALARS, WET_SCALARS, ContactResult
+from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
 from ..core.quantity import Labelled, Quantity
 from ..physics.friction.fretting import SHEAR_SCALARS, shear_numbers
@@ -60,7 +60,7 @@ def export_csv(
 def _table(result: ContactResult, scalars: Iterable[Labelled]) -> Iterator[tuple[Any, ...]]:
     yield ("name", "value", "unit", "label")
     known = [Labelled(q, getattr(result, q.name)) for q in SCALARS]
-    known += [Labelled(q, getattr(result.menisci, q.name)) for q in WET_SCALARS if result.menisci is not None]
+    known += [Labelled(q, getattr(answer, q.name)) for answer in result.answers for q in answer.quantities]
     known += [Labelled(q, value) for q, value in _shear(result)]
     values = {item.quantity.name: item for item in (*scalars, *known)}
     first = dict.fromkeys(item.quantity.name for item in known)

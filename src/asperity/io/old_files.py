@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from ..contact.result import WET_SCALARS
+from ..physics.menisci.quantities import WET_FIELDS, WET_SCALARS
 from .tree import Node
-from .words import WET_FIELDS
 
 
 def grouped(old: Node) -> Node:

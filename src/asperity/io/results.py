@@ -16,7 +16,7 @@ import numpy as np
 from ..contact.certificate import Certificate
 from ..contact.history import HistoryResult
 from ..contact.problem import ContactProblem
-from ..contact.result import AREA_ERROR, WET_SCALARS, ContactResult
+from ..contact.result import AREA_ERROR, ContactResult
 from ..contact.state import InterfaceState
 from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
@@ -28,6 +28,7 @@ from ..physics.friction.law import Coulomb
 from ..physics.friction.sliding import GrossSliding
 from ..physics.menisci.coupling import Menisci
 from ..physics.menisci.film import LiquidFilm, wetting
+from ..physics.menisci.quantities import WET_FIELDS, WET_SCALARS
 from ..physics.rolling.rolling import RollingContact
 from ..stress.field import StressField
 from ..surfaces.surface import Origin, Surface
@@ -51,7 +52,7 @@ from .shear_files import PREFIX, shear_columns, shear_from, shear_in, shear_node
 from .soundness import sound
 from .stress_files import field_from, field_node
 from .tree import Node, coordinate, datatree, read_tree, require_sound_heaps, write_tree
-from .words import ALL_SCALARS, CERTIFICATE, FIELDS, WET_FIELDS
+from .words import ALL_SCALARS, CERTIFICATE, FIELDS
 
 if TYPE_CHECKING:
     import xarray

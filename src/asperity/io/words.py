@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 
 from ..contact.advice import doubts
+from ..contact.answer import Answer
 from ..contact.history import HistoryResult
 from ..contact.layered_hardness import LayeredHardness
 from ..contact.problem import ContactProblem
@@ -19,7 +20,6 @@ from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.text import printable
 from ..core.units import percent, show
-from ..physics.menisci.coupling import Menisci
 from ..solids.elastic import Elastic, Strength
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..solids.viscoelastic import Viscoelastic
@@ -39,12 +39,6 @@ FIELDS = (
     Quantity("permanent_indentation", "m", "permanent indentation of the composite profile"),
 )
 """Fields (nx, ny) that a result stores."""
-
-WET_FIELDS = (
-    Quantity("menisci", "1", "whether a meniscus bridges the gap", dims=("x", "y")),
-    Quantity("wetted", "1", "whether the gap is in the film", dims=("x", "y")),
-)
-"""Fields of a wet contact."""
 
 OFFSET = Quantity("offset", "m", "rigid-body position: gap = offset + displacement - profile + permanent indentation")
 """The scalar from which fields follow, not in the table for people."""
@@ -524,19 +518,14 @@ def text(thing: object) -> str:
 
 
 def _line(thing: object) -> str:
-    from ..physics.adhesion.answer import AdhesiveContact
     from ..stress.yielding import YieldReport
 
     if isinstance(thing, Elastic):
         return f"{type(thing).__name__} {body_text(thing)}"
     if isinstance(thing, Layered):
         return f"Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}"
-    if isinstance(thing, Menisci):
-        pull, share = show(thing.meniscus_force, "N"), f"{thing.relative_meniscus_force:.3g}"
-        return f"Menisci: {thing.n_menisci}, meniscus force {pull}, {share} of the external force"
-    if isinstance(thing, AdhesiveContact):
-        pull = f"attractive force {show(thing.attractive_force, 'N')}, external force {show(thing.external_force, 'N')}"
-        return f"AdhesiveContact: {thing.law.name}, {pull}, margin of stability {thing.margin:.3g}"
+    if isinstance(thing, Answer) and (line := thing.line()):
+        return line
     if isinstance(thing, YieldReport):
         worst = thing.first or max(thing.regions, key=lambda part: part.peak.value)
         stress = f"{thing.criterion.name} {show(worst.peak.value, 'Pa')}"

@@ -174,6 +174,10 @@ class Part:
     in_every_document: ClassVar[bool] = False
     essential: ClassVar[bool] = False
     quantities: ClassVar[tuple[Quantity, ...]] = ()
+    whole_path: ClassVar[bool] = False
+    """Whether it needs all steps of a load path."""
+    of_result: ClassVar[str] = ""
+    """Name of the coupling whose answer a result must have for the part to be made from the result alone; empty if that is not enough."""
 
     def settings_in(self, document: Any) -> Any:
         """The settings that ``document`` holds in the table of this part; None if it holds none, True without a table."""
@@ -223,6 +227,10 @@ class Part:
 
     def restored(self, stored: Stored, solved: Solved) -> Any:
         """Detail of what was found, for the figures, from what a file has ``stored``."""
+        return None
+
+    def made_from(self, result: ContactResult) -> Found | None:
+        """What it finds in a ``result`` alone, where that takes no settings; None where it is computed as ever."""
         return None
 
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:

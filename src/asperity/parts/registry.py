@@ -9,8 +9,9 @@ from importlib import metadata
 
 from ..core.errors import InputError
 from ..physics.adhesion.part import Adhesion
+from ..physics.friction.part import Friction
 from ..physics.friction.part_stick_slip import StickSlip
-from ..physics.menisci.part import Friction, Menisci, WetTheory
+from ..physics.menisci.part import Menisci, WetTheory
 from ..physics.plastic_flow.part import PlasticFlow
 from ..physics.rolling.part import Rolling
 from ..physics.viscoelastic.part import Viscoelasticity

@@ -21,7 +21,7 @@ from .part import Found, Part, Rows, Solved, Stored, Table, Words
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem
-    from ..physics.menisci.part import FrictionSettings
+    from ..physics.friction.part import FrictionSettings
     from ..plots.picture import Figure
     from ..stress.field import Peak, StressField
     from ..stress.regions import Region

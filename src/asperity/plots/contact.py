@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,12 +15,12 @@ from ..contact.law import LimitByDepth
 from ..contact.measure import distribution
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
+from ..core.registry import PHYSICS, home
 from ..core.units import show
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
 from .maps import (
     Field,
-    Kinds,
     contact_kinds,
     enlarge_contact,
     enlarge_indentation,
@@ -30,7 +31,6 @@ from .maps import (
     plot_gap,
     plot_heights,
     plot_indentation,
-    plot_map,
     plot_pressure,
     plot_residual,
     pressure_field,
@@ -40,12 +40,10 @@ from .picture import (
     BLACK,
     BLUE,
     GREEN,
-    NO_CONTACT,
     ORANGE,
     PURPLE,
     SKY,
     VERMILLION,
-    YELLOW,
     Figure,
     Plot,
     Scale,
@@ -179,51 +177,6 @@ def _mark(ax: Axes, at: float, label: str, color: str, linestyle: str) -> None:
     ax.axvline(at, color=color, linestyle=linestyle, label=label.format(at))
 
 
-# Map of the menisci of a wet contact.
-
-
-KINDS = (("no liquid", NO_CONTACT), ("within height, dry", YELLOW), ("meniscus", SKY), ("contact", VERMILLION))
-"""Name and colour of each kind of point, in the order of their numbers."""
-
-
-def meniscus_kinds(result: ContactResult) -> Kinds:
-    """Where the bodies touch, where menisci bridge the gap, and where it is low enough but dry.
-
-    Raises InputError if the contact has no film of liquid.
-    """
-    stands = result.require_menisci().wetting
-    kinds = np.where(stands.cut, 1.0, 0.0)
-    kinds[stands.menisci] = 2.0
-    kinds[result.contact] = 3.0
-    return Kinds(kinds, result.problem.grid, KINDS)
-
-
-def plot_menisci(result: ContactResult, ax: Axes) -> Axes:
-    """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low enough but dry.
-
-    Raises InputError if the contact has no film of liquid.
-    """
-    return plot_map(meniscus_kinds(result), ax)
-
-
-MENISCI = Plot(
-    "menisci",
-    "Menisci",
-    "Where the bodies touch, and where menisci bridge the gap. Points within the height of a meniscus that no film "
-    "reaches stay dry.",
-    plot_menisci,
-    "map",
-    enlarge_contact,
-    shows=meniscus_kinds,
-)
-"""The figure of a contact with a film of liquid."""
-
-
-def wet_figures(result: ContactResult) -> tuple[Figure, ...]:
-    """Figures of the menisci of ``result``."""
-    return figures_by([MENISCI], result)
-
-
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.
 
 
@@ -335,12 +288,20 @@ def contact_figures(result: ContactResult) -> tuple[Figure, ...]:
     return figures_by(PLOTS, result)
 
 
+def physics_plots(result: ContactResult | None = None) -> Iterator[tuple[Plot, ...]]:
+    """Figures of each physics whose answer a result shows, of those that ``result`` has; of all without one."""
+    for known in PHYSICS.values():
+        for name, place in known.figures.items():
+            if result is None or name in result.couplings:
+                yield home(place)
+
+
 def figures_of(result: Any) -> tuple[Figure, ...]:
     """All figures of a ``result`` (a contact or load path)."""
     contact = result.last if isinstance(result, HistoryResult) else result
     path = figures_by(PATH_PLOTS, result) if isinstance(result, HistoryResult) else ()
-    wet = () if contact.menisci is None else wet_figures(contact)
-    return (*figures_by(plots_of(contact), contact), *path, *wet)
+    own = (plot for plots in physics_plots(contact) for plot in plots)
+    return (*figures_by(plots_of(contact), contact), *path, *figures_by(tuple(own), contact))
 
 
 def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:

@@ -6,6 +6,7 @@ import base64
 from collections.abc import Callable, Sequence
 from functools import partial
 from html import escape
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..contact.history import HistoryResult
@@ -20,7 +21,7 @@ from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
 from .comparison import SIZE as COMPARISON_SIZE
 from .comparison import comparison_plots
-from .contact import MENISCI, PATH_PLOTS, PLASTIC_PLOTS, PLOTS
+from .contact import PATH_PLOTS, PLASTIC_PLOTS, PLOTS, physics_plots
 from .maps import plot_heights
 from .picture import CURVE_SIZE, VIEW_SIZE, Plot, map_size, png, style
 from .stress import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
@@ -101,7 +102,7 @@ def _plots(thing: Any) -> tuple[str, str, Sequence[Plot]]:
     if isinstance(thing, Characterisation):
         return "a characterisation", "distribution", SURFACE_PLOTS
     if isinstance(thing, ContactResult):
-        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, MENISCI, *SHEAR_PLOTS)
+        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable(physics_plots()), *SHEAR_PLOTS)
     if isinstance(thing, HistoryResult):
         first = "load_loop" if thing.last.stick_slip is None else LOOP_PLOTS[0].name
         return "a load history", first, (*PATH_PLOTS, *LOOP_PLOTS)

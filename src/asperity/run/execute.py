@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from ..contact.history import HistoryResult
 from ..contact.operators import Operator, prepare_operator
-from ..contact.result import ContactResult, stiffness_of
+from ..contact.result import ContactResult, follows_from_pressure, stiffness_of
 from ..contact.solve import Keep, solve, steps
 from ..contact.state import InterfaceState
 from ..core.errors import AsperityError, ConvergenceError
@@ -24,11 +24,7 @@ from ..parts.contact import STIFFNESS
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts, with_own
 from ..parts.stress import Stress, Yielding, stress_request
-from ..physics.adhesion.part import Adhesion
-from ..physics.friction.part_stick_slip import StickSlip
-from ..physics.menisci.part import FrictionSettings
-from ..physics.plastic_flow.part import PlasticFlow
-from ..physics.viscoelastic.part import Viscoelasticity
+from ..physics.friction.part import FrictionSettings
 from .build import Case, build
 from .document import TRACTIONS, ProblemDocument, checked, read_table
 
@@ -301,10 +297,6 @@ def _is_wanted(part: Part, wanted: frozenset[str] | None) -> bool:
     return wanted is None or any(not item.costly or item.name in wanted for item in part.quantities)
 
 
-_WHOLE = frozenset({StickSlip.name, Adhesion.name, PlasticFlow.name, Viscoelasticity.name})
-"""Parts that need all steps of a load path."""
-
-
 @dataclass(frozen=True, eq=False)
 class _Solving:
     """One case on its way through the solver."""
@@ -363,9 +355,9 @@ class _Solving:
         case = self.case
         with self.stage(f"solving {len(case.path)} steps") as progress:
             stream = steps(case.problem, case.path, progress=progress, **self._options())
-            results = list(deque(stream, maxlen=None if self.lines or _WHOLE & set(case.asks) else 1))
+            whole = self.lines or any(part.whole_path for part in case.parts if part.name in case.asks)
+            results = list(deque(stream, maxlen=None if whole else 1))
         last = results[-1]
-        shear = last.sliding or last.stick_slip
-        if self._stiffness and last.adhesion is None and (shear is None or not shear.shear_displacement.any()):
+        if self._stiffness and follows_from_pressure(last):
             results[-1] = replace(last, normal_stiffness=stiffness_of(last, operator=self.warm.operator))
         return (HistoryResult(tuple(results)) if len(results) == len(case.path) else None), results[-1]

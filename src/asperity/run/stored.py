@@ -120,17 +120,16 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
     course = None if steps is None or "control" not in steps else path_from(steps, contact)
     if OF_OUTCOME not in tree.attributes:
         asks = {"contact": True, "plasticity": True} | ({} if course is None else {"path": True})
-        asks |= {} if contact.stick_slip is None else {"stick_slip": True}
-        asks |= {} if contact.adhesion is None else {"adhesion": True}
+        there = [part for part in parts() if part.of_result in contact.couplings]
+        made = {part.name: part.made_from(contact) for part in there}
+        asks |= {name: True for name, found in made.items() if found is None}
         outcome = analysed(contact, asks, course)
-        if contact.menisci is None:
-            return outcome
-        film = Found({}, contact.menisci, citation_keys=contact.menisci.citation_keys)
-        return replace(outcome, found={**outcome.found, "film": film})
+        return replace(
+            outcome, found={**outcome.found} | {name: found for name, found in made.items() if found is not None}
+        )
     solved = Solved(contact.problem, contact.control, contact, course)
-    known = {"film": contact.menisci, "path": course}
     found = {
-        part.name: _found(part, groups[part.name], solved, known.get(part.name))
+        part.name: _found(part, groups[part.name], solved, course if part.name == "path" else None)
         for part in parts()
         if "words" in groups.get(part.name, Node()).attributes
     }
@@ -171,7 +170,8 @@ def _found(part: Part, node: Node, solved: Solved, known: Any) -> Found:
     values = {item.quantity.name: item.values for item in node.values}
     fields = {name: field_from(child) for name, child in node.children.items() if "xx" in child}
     stored = Stored(fields, json.loads(node.attributes["facts"]))
-    detail = known if known is not None else part.restored(stored, solved)
+    made = part.made_from(solved.result) if known is None else None
+    detail = known if known is not None else part.restored(stored, solved) if made is None else made.detail
     keys = tuple(str(node.attributes["citation_keys"]).split())
     return Found(values, detail, citation_keys=keys, words=_words(json.loads(node.attributes["words"])))
 

@@ -10,8 +10,8 @@ from contact_cases import wetted
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.result import WET_SCALARS
-from asperity.plots.contact import KINDS, plot_menisci
+from asperity.physics.menisci.figures import KINDS, plot_menisci
+from asperity.physics.menisci.quantities import WET_SCALARS
 
 
 @pytest.fixture(scope="module")

@@ -12,6 +12,7 @@ from ...contact.couplings.protocol import Memory
 from ...core.arrays import RealArray
 from ...core.late import Shown
 from ...core.status import Status
+from ...core.units import show
 from .jkr import JKRAdhesion
 from .law import Adhesion
 from .solver.front import MovingFront
@@ -124,6 +125,11 @@ class AdhesiveContact(Answer, Shown):
     def citation_keys(self) -> tuple[str, ...]:
         """Papers of law and method."""
         return (*self.law.citation_keys, *method_of(self.law).citation_keys)
+
+    def line(self) -> str:
+        """Law, forces and stability."""
+        pull = f"attractive force {show(self.attractive_force, 'N')}, external force {show(self.external_force, 'N')}"
+        return f"AdhesiveContact: {self.law.name}, {pull}, margin of stability {self.margin:.3g}"
 
     def traction_beside(self) -> RealArray:
         """The attraction."""

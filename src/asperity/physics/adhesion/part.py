@@ -190,6 +190,8 @@ class Adhesion(Part):
     title = "Adhesion"
     table = "adhesion"
     settings = AdhesionSettings
+    whole_path = True
+    of_result = "adhesion"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]

@@ -19,7 +19,7 @@ from ...core.status import Advice
 from ...core.units import percent, show
 from ...core.values import Angle, Count, Number, SignedLength, Whole
 from ...parts.part import Found, Part, Rows, Solved, Table, Words
-from ..menisci.part import sticks
+from .part import sticks
 
 if TYPE_CHECKING:
     from ...contact.controls import Control, Step
@@ -211,6 +211,8 @@ class StickSlip(Part):
     title = "Stick and slip"
     table = "shear"
     settings = ShearSettings
+    whole_path = True
+    of_result = "stick_slip"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]

@@ -24,10 +24,13 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
 from ...core.late import Shown
+from ...core.quantity import Quantity
 from ...core.status import Advice
+from ...core.units import show
 from ..friction.law import Coulomb
 from .advice import findings
 from .film import LiquidFilm, Wetting, wetting
+from .quantities import WET_SCALARS
 
 COLLAPSED = 0.5
 """Share of the nominal area up to which an interface that ends flooded was open, and so has collapsed."""
@@ -73,6 +76,12 @@ class Menisci(Answer, Shown):
     dry_friction: float
     viscous_force: float
     feedback: float
+    quantities: ClassVar[tuple[Quantity, ...]] = WET_SCALARS
+
+    def line(self) -> str:
+        """Number and force of the menisci."""
+        pull, share = show(self.meniscus_force, "N"), f"{self.relative_meniscus_force:.3g}"
+        return f"Menisci: {self.n_menisci}, meniscus force {pull}, {share} of the external force"
 
     def findings(self, certificate: Certificate) -> Iterator[Advice]:
         """Menisci of few pixels or molecules."""

@@ -1,4 +1,4 @@
-"""Friction between the bodies, and a liquid film between them: its menisci, and the theory of summits beside them."""
+"""A liquid film between the bodies: its menisci, and the theory of summits beside them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import model_validator
 
@@ -14,118 +14,18 @@ from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
 from ...core.units import percent, show
-from ...core.values import Angle, Choice, Humidity, Length, NonEmpty, Number, Pressure, Speed, SurfaceTension, Viscosity
+from ...core.values import Angle, Humidity, Length, NonEmpty, Pressure, SurfaceTension, Viscosity
 from ...parts.part import Found, Part, Rows, Solved, Table, Words
+from ..friction.part import friction_law, sticks
 
 if TYPE_CHECKING:
     from ...contact.controls import Control
+    from ...contact.result import ContactResult
     from ...plots.picture import Figure
-    from ..friction.law import Coulomb, FrictionLaw, FullStick, TrescaFriction
+    from ..friction.law import FrictionLaw
     from .coupling import Menisci as SolvedMenisci
     from .film import LiquidFilm
     from .summits import WetTheory as SolvedTheory
-
-Coefficient = Annotated[float, Number(least=0.0, fix="Turn the direction by 180 deg instead.")]
-
-
-LAWS = ("coulomb", "tresca", "full stick")
-"""Laws of friction in documents."""
-
-Law = Annotated[str, Choice({name: name for name in LAWS})]
-
-
-class FrictionSettings(Settings):
-    """Friction of the contact; stresses, menisci, plastic flow in the volume and, if it is ``coupled``, the pressure take it from here.
-
-    Beside a table [shear], and under any law but plain Coulomb's, the surfaces stick and slip; else all points slide.
-    """
-
-    law: Law = setting("coulomb", option="--friction-law", help="Largest shear traction of a point")
-    coefficient: Coefficient = setting(0.0, option="--friction", help="Shear traction over pressure: 0.3")
-    direction: Angle = setting(
-        "0 deg", option="--direction", help="Of the shear traction on the body, from x towards y: 90deg"
-    )
-    coupled: bool | None = setting(
-        None,
-        option="--coupled",
-        help="Let the shear traction change the pressure; so it does where surfaces stick and slip",
-    )
-    limit: Pressure | None = setting(
-        None, option="--friction-limit", help="Largest shear traction whatever the pressure, for stick and slip: 200MPa"
-    )
-    strength: Pressure | None = setting(
-        None, option="--friction-strength", help="Shear traction of the law tresca: 20MPa"
-    )
-    speed: Speed | None = setting(
-        None, option="--speed", help="Sliding speed, for the viscous part of the friction of a film: 1mm/s"
-    )
-
-    @model_validator(mode="after")
-    def _fitting(self) -> FrictionSettings:
-        if (self.strength is None) != (self.law != "tresca"):
-            raise InputError(
-                f" must give the strength (--friction-strength) for the law tresca and for no other, but the law is {self.law} "
-                f'{"with" if self.strength else "without"} one. Give both, such as law = "tresca" and strength = "20 MPa".'
-            )
-        if self.law != "coulomb" and (self.coefficient or self.limit):
-            raise InputError(
-                f" must give no coefficient and limit for the law {self.law}, but does: they are those of Coulomb friction."
-            )
-        return self
-
-
-def friction_law(settings: FrictionSettings, *, sheared: bool = False) -> Coulomb | TrescaFriction | FullStick:
-    """Law of friction of a problem with these ``settings``; ``sheared`` where it has stick and slip."""
-    from ..friction.law import Coulomb, FullStick, TrescaFriction
-
-    if settings.law == "tresca":
-        return TrescaFriction(settings.strength or 0.0)
-    if settings.law == "full stick":
-        return FullStick()
-    coupled = sheared if settings.coupled is None else settings.coupled
-    limit = math.inf if settings.limit is None else settings.limit
-    return Coulomb(settings.coefficient, settings.direction, settings.speed or 0.0, coupled, limit)
-
-
-def sticks(document: Any) -> bool:
-    """Whether the surfaces of a ``document`` stick and slip: with a table [shear], or a law that is not plain Coulomb's; not where they roll."""
-    table: FrictionSettings = document.friction
-    if rolls(document):
-        return False
-    return document.shear is not None or table.law != "coulomb" or table.limit is not None
-
-
-def rolls(document: Any) -> bool:
-    """Whether the friction of a ``document`` is that of its table [rolling]."""
-    return getattr(document, "rolling", None) is not None
-
-
-class Friction(Part):
-    """Shear traction that changes the pressure or makes the body flow."""
-
-    name = "friction"
-    title = "Friction"
-    table = "friction"
-    settings = FrictionSettings
-    in_every_document = True
-
-    def asked(self, document: Any, folder: Path) -> FrictionLaw | None:
-        """The law, where the friction takes part in the solve."""
-        table: FrictionSettings = document.friction
-        if rolls(document):
-            return None
-        sheared, flow = sticks(document), getattr(document, "plastic_flow", None)
-        felt = table.coupled or (
-            flow is not None and flow.active
-        )  # shear makes the body flow, whether or not it changes the pressure
-        return friction_law(table, sheared=sheared) if sheared or (felt and table.coefficient) else None
-
-    def coupling(self, ask: FrictionLaw) -> Mapping[str, Any]:
-        """Sliding, or stick and slip, joins the solve."""
-        return {"friction": ask}
-
-
-# A liquid film.
 
 
 class FilmSettings(Settings):
@@ -195,11 +95,12 @@ class Menisci(Part):
     title = "Liquid film and menisci"
     table = "film"
     settings = FilmSettings
+    of_result = "menisci"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Scalars of a wet contact."""
-        from ...contact.result import WET_SCALARS
+        from .quantities import WET_SCALARS
 
         return WET_SCALARS
 
@@ -214,17 +115,23 @@ class Menisci(Part):
 
     def compute(self, ask: Wetted, solved: Solved) -> Found:
         """Scalars of the menisci."""
-        from ...contact.result import WET_SCALARS
+        from .quantities import WET_SCALARS
 
         menisci = solved.result.require_menisci()
         values = {q.name: getattr(menisci, q.name) for q in WET_SCALARS}
         return Found(values, menisci, (), menisci.citation_keys)
 
+    def made_from(self, result: ContactResult) -> Found | None:
+        """The menisci."""
+        menisci = result.menisci
+        return None if menisci is None else Found({}, menisci, citation_keys=menisci.citation_keys)
+
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Map of the menisci."""
-        from ...plots.contact import wet_figures
+        from ...plots.picture import figures_by
+        from .figures import PLOTS
 
-        return wet_figures(solved.result)
+        return figures_by(PLOTS, solved.result)
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Liquid, menisci and friction."""
@@ -376,8 +283,8 @@ def film_rows(result: SolvedMenisci, control: Control) -> Rows:
 
 def wet_rows(result: SolvedMenisci) -> Rows:
     """Every scalar of the menisci, and the regime; without friction where none was given."""
-    from ...contact.result import WET_SCALARS
     from ...io.words import value_text
+    from .quantities import WET_SCALARS
 
     regime = result.wetting.regime
     rows = [("regime", f"{regime}: {REGIMES[regime]}")]

@@ -91,6 +91,7 @@ class PlasticFlow(Part):
     title = "Plastic flow"
     table = "plastic_flow"
     settings = PlasticFlowSettings
+    whole_path = True
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]

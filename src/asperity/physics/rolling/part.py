@@ -17,8 +17,8 @@ from ...core.status import Advice
 from ...core.units import percent, show
 from ...core.values import Choice, Length, NonEmpty, Number, Whole
 from ...parts.part import Found, Part, Rows, Solved, Stored, Table, Words
+from ..friction.part import friction_law
 from ..friction.part_stick_slip import law_text
-from ..menisci.part import friction_law
 
 if TYPE_CHECKING:
     from ...contact.controls import Control

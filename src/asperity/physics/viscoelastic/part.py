@@ -149,6 +149,7 @@ class Viscoelasticity(Part):
     title = "Viscoelasticity"
     table = "viscoelastic"
     settings = ViscoelasticSettings
+    whole_path = True
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
