@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 from judge import history, interface, normal, shear
-from judge.checks import Check
+from judge.checks import Check, norm
 from judge.normal import Pressed
 from judge.problems import Case
 from judge.solved import Solved
@@ -42,6 +42,9 @@ def _of_step(
         return interface.adhesion(replace(of, lift=-operator.apply(attraction)), step.normal)
     if case.kind == "stick-slip":
         along = shear.operator_of(case.problem)
+        if result.stick_slip is None:
+            lift, checks = shear.sliding(along, result)
+            return [*_pressed(replace(of, lift=lift, lift_error=shear.SLIDING * norm(lift)), step.normal), *checks]
         lift, error = along.lift(result.require_stick_slip().traction), shear.lift_error(along, result)
         lifted = replace(of, lift=lift, lift_error=error)
         return [*_pressed(lifted, step.normal), *shear.stick_slip(along, result, before, step.tangential)]
@@ -49,8 +52,16 @@ def _of_step(
         imprint = result.require_plastic_flow().displacement
         return [*_pressed(replace(of, imprint=imprint), step.normal), *history.plastic_flow(result, before)]
     if case.kind == "wet":
-        checks = [*normal.bounds(of), *normal.complementarity(of), *normal.gaps(of), *interface.menisci(of, step.normal)]
-        return [*checks, *([] if isinstance(step.normal, asp.MeanPressure | asp.Force) else normal.load(of, step.normal))]
+        checks = [
+            *normal.bounds(of),
+            *normal.complementarity(of),
+            *normal.gaps(of),
+            *interface.menisci(of, step.normal),
+        ]
+        return [
+            *checks,
+            *([] if isinstance(step.normal, asp.MeanPressure | asp.Force) else normal.load(of, step.normal)),
+        ]
     return _pressed(of, step.normal)
 
 

@@ -19,8 +19,9 @@ from asperity.contact.operators import Operator
 from asperity.contact.problem import mean_pressure
 from asperity.core.arrays import RealArray
 
-UNRESOLVED = 1e-5
-"""Deflection over that of the mean pressure in the longest wave below which flat bodies count as undeformed (``solvers.protocol.least_length``)."""
+UNRESOLVED, OF_DEFLECTION, MOST_DEFLECTIONS = 1e-5, 1e-4, 30.0
+"""Lengths that errors are relative to at least: of the deflection of the mean pressure in the longest wave, and of the deflection under load; and at
+most, deflections under load (``solvers.protocol.scaled_error``)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,9 +83,42 @@ class Pressed:
         return max(elastic + yielded, least)
 
     @property
+    def length(self) -> float:
+        """Length (m) to which the errors of the certificate are relative: the rms height; of flat bodies what they deform by; at least what is resolved."""
+        p = self.pressure
+        rms = float(self.result.problem.profile().std())
+        if rms == 0.0:
+            rms = float(np.abs(self.operator.apply(np.full(p.shape, p.mean()))).max())
+        return max(rms, self.least)
+
+    @property
+    def least(self) -> float:
+        """Length (m) that is resolved: shares of the deflections by the mean pressure and under load."""
+        return max(
+            UNRESOLVED * self.factor * self.operator.largest * float(self.pressure.mean()),
+            OF_DEFLECTION * self.deflected,
+        )
+
+    @property
+    def deflected(self) -> float:
+        """Half of the mean deflection (m) under load."""
+        return over(0.5 * float((self.pressure * self.deflection).sum()), float(self.pressure.sum()))
+
+    @property
+    def placed(self) -> float:
+        """Error (m) of a position or level that the tolerance of the solver allows."""
+        deflections = MOST_DEFLECTIONS * self.deflected
+        return self.result.certificate.tolerance * max(min(self.length, deflections), self.least)
+
+    @property
+    def resolved(self) -> float:
+        """Rounding (m) of the gap, whose approach and offset are differences of heights."""
+        return float(self.rounding.max()) + ROUNDING * float(np.abs(self.result.problem.profile()).max())
+
+    @property
     def rounding(self) -> RealArray:
-        """Rounding (m) of the gap at each point."""
-        sizes = np.abs(self.deflection).max() + np.abs(self.lift).max() + abs(self.result.approach)
+        """Rounding (m) at each point of the gap at no approach."""
+        sizes = np.abs(self.deflection).max() + np.abs(self.lift).max()
         return ROUNDING * (sizes + np.abs(self.depth) + self.indentation + np.abs(self.imprint))
 
 
@@ -110,7 +144,7 @@ def complementarity(of: Pressed) -> list[Check]:
     p, cap, result = of.pressure, of.cap, of.result
     total = float(p.sum())
     if total == 0.0:
-        return [Check("no overlap", over(float(np.maximum(-of.gap, 0.0).max()), float(of.rounding.max())), 1.0)]
+        return [Check("no overlap", over(float(np.maximum(-of.gap, 0.0).max()), of.resolved), 1.0)]
     levels = of.apart - of.indentation + of.before
     hard = bool(np.isfinite(np.max(cap)))
     found = _least(p, levels, cap) if hard else float((p * (levels - levels.min())).sum())
@@ -146,14 +180,15 @@ def gaps(of: Pressed) -> list[Check]:
     if total == 0.0:
         return []
     certificate = result.certificate
-    length = max(float(result.problem.profile().std()), UNRESOLVED * of.factor * of.operator.largest * total / p.size)
-    rounding = float(of.rounding.max())
-    stated = certificate.penetration * length + certificate.field_error * length + rounding + of.lift_error
+    length = of.length
+    stated = (
+        certificate.penetration * length + certificate.field_error * length + of.resolved + of.lift_error + of.placed
+    )
     stated += float(np.finfo(result.pressure.dtype).eps) * float(np.abs(of.deflection).max())
     error = float(np.abs(np.asarray(result.gap, dtype=float) - np.maximum(g, 0.0)).max())
     open_ = float((p * np.abs(g)).sum())
-    closed = certificate.field_error * length * total + float((p * of.rounding).sum()) + of.lift_error * norm(p)
-    return [Check("stated gap", error, stated), Check("gap under pressure", open_, closed + stated * total * EPS)]
+    closed = (certificate.field_error * length + of.resolved + of.placed) * total + of.lift_error * norm(p)
+    return [Check("stated gap", error, stated), Check("gap under pressure", open_, closed)]
 
 
 def load(of: Pressed, control: object, *, pulled: float = 0.0) -> list[Check]:
@@ -185,8 +220,7 @@ def _position(of: Pressed, control: object) -> list[Check]:
         size = wanted
     else:
         return []
-    length = max(float(result.problem.profile().std()), 0.0)
-    stated = tolerance * size + result.certificate.field_error * length + float(of.rounding.max()) + of.lift_error
+    stated = tolerance * size + of.placed + of.resolved + of.lift_error
     return [Check("position", abs(found - wanted), stated)]
 
 

@@ -70,7 +70,7 @@ def _chosen(rng: np.random.Generator, options: tuple[Any, ...]) -> Any:
 
 def _shape(rng: np.random.Generator, largest: int, *, line: float = 0.15) -> tuple[int, int]:
     """Up to ``largest`` points a side, most of them few; one point wide with the probability ``line``."""
-    nx, ny = (int(round(2.0 * (0.5 * largest) ** rng.random())) for _ in range(2))
+    nx, ny = (int(round(4.0 * (0.25 * largest) ** rng.random())) for _ in range(2))
     return nx, 1 if rng.random() < line else ny
 
 
@@ -225,7 +225,7 @@ def _hardness(seed: int, rng: np.random.Generator) -> Case:
 def _wet(seed: int, rng: np.random.Generator) -> Case:
     """Films of a hundredth to the whole of the roughness; menisci that pull by a millionth to a hundredth of E* times the slope."""
     shape = _shape(rng, 24)
-    surface = _surface(rng, shape, (heights.rough, heights.waves, heights.sphere, heights.cut_off), (-4.0, 0.0))
+    surface = _surface(rng, shape, (heights.rough, heights.waves, heights.sphere), (-4.0, 0.0))
     body = _elastic(rng)
     boundary = _boundary(rng, shape, body)
     modulus, slope = asp.ContactProblem(surface, body).contact_modulus, slope_of(surface)
@@ -258,6 +258,8 @@ def adhesion_law(rng: np.random.Generator, modulus: float, pixel: float, slope: 
         lambda: asp.LinearAdhesion(work, reach),
         lambda: asp.DugdaleAdhesion(work, reach),
         lambda: asp.DugdaleAdhesion(work, reach, smoothing=1.0),
+        lambda: asp.DugdaleAdhesion(work, reach, smoothing=0.0),
+        lambda: asp.VanDerWaalsAdhesion(work, 2.0 * reach, reach=8.0 * reach),
         lambda: asp.VanDerWaalsAdhesion(work, 2.0 * reach),
         lambda: asp.LennardJonesAdhesion(work, reach),
         lambda: asp.JKRAdhesion(work),
@@ -284,13 +286,21 @@ def _adhesive(seed: int, rng: np.random.Generator) -> Case:
     touch = float(np.max(surface.heights) - np.mean(surface.heights))
     deepest = 0.5 * touch if isinstance(boundary, asp.Periodic) else range_
     controls: list[Control] = []
-    if rng.random() < 0.5:
+    drawn = rng.random()
+    if drawn < 0.1:
+        controls = [
+            asp.MeanGap(touch * (1.0 - _log(rng, -2.0, -0.5))) if law.spacing == 0.0 else asp.Approach(0.3 * deepest)
+        ]
+    elif drawn < 0.5:
         stiffness = math.inf if rng.random() < 0.7 else modulus * math.sqrt(grid.area) * _log(rng, -1.0, 2.0)
         places = [deepest * rng.uniform(0.05, 1.0), deepest * rng.uniform(0.05, 1.0), -deepest * rng.uniform(0.0, 0.3)]
         controls += [asp.FixedGrips(float(place), stiffness) for place in places[: rng.integers(1, 4)]]
     else:
         size = modulus * slope
         controls += [_load(rng, size * _log(rng, -6.0, -0.3), grid) for _ in range(rng.integers(1, 4))]
+        if rng.random() < 0.3:
+            point = min(law.strength, math.sqrt(law.work * modulus / max(grid.pixels))) * grid.pixel_area
+            controls.append(asp.Pull(1e-2 * point) if rng.random() < 0.5 else asp.Unloaded())
     return Case(seed, "adhesive", posed, tuple(map(asp.Step, controls)))
 
 
@@ -320,7 +330,7 @@ def _pair(rng: np.random.Generator, *, coupled: bool) -> tuple[Body, Body]:
 
 
 def _stick_slip(seed: int, rng: np.random.Generator) -> Case:
-    """A load, then shifts or forces there and back."""
+    """A load, then shifts or forces there and back; or everything slides."""
     shape = _shape(rng, 16)
     surface = _surface(rng, shape, heights.GENTLE, (-3.0, -0.3))
     bodies = _pair(rng, coupled=rng.random() < 0.5)
@@ -330,12 +340,19 @@ def _stick_slip(seed: int, rng: np.random.Generator) -> Case:
     mean = bare.contact_modulus * slope * _log(rng, -6.0, -0.5)
     law = friction_law(rng, mean, shape)
     if isinstance(law, asp.TrescaFriction | asp.FullStick) and bodies[1] != bodies[0]:
-        bodies = bodies[0], bodies[0]  # a point that bears shear as soon as it touches may have no solution where shear opens it
+        bodies = (
+            bodies[0],
+            bodies[0],
+        )  # a point that bears shear as soon as it touches may have no solution where shear opens it
     posed = asp.ContactProblem(surface, bodies[0], counter_body=bodies[1], boundary=boundary, friction=law)
     grid = surface.grid
     normal, coefficient = _load(rng, mean, grid), getattr(law, "coefficient", None)
     angle = rng.uniform(0.0, 2.0 * np.pi)
     x, y = math.cos(angle), math.sin(angle)
+    if isinstance(law, asp.Coulomb) and law.limit == math.inf and rng.random() < 0.2:
+        sliding = asp.Coulomb(law.coefficient, direction=float(angle))
+        slid = asp.ContactProblem(surface, bodies[0], counter_body=bodies[1], boundary=boundary, friction=sliding)
+        return Case(seed, "stick-slip", slid, (asp.Step(normal),))
     steps = [asp.Step(normal, asp.Shift())]
     by_force = coefficient is not None and getattr(law, "limit", math.inf) == math.inf and rng.random() < 0.4
     most = 0.0 if coefficient is None else float(np.min(coefficient)) * mean * grid.area
@@ -401,20 +418,23 @@ def _in_time(seed: int, rng: np.random.Generator) -> Case:
     if rng.random() < 0.1:
         body: asp.Viscoelastic = asp.Viscoelastic.maxwell(modulus, time, nu)
     else:
-        body = asp.Viscoelastic(modulus, nu, spectrum=spectrum)
+        body = asp.Viscoelastic(modulus, nu, spectrum=spectrum, elastic_bulk=nu < 0.45 and rng.random() < 0.3)
     boundary = _boundary(rng, shape, body)
     posed = asp.ContactProblem(surface, body, boundary=boundary)
     size = posed.contact_modulus * slope_of(surface)
+    shortest = min((lam for _, lam in body.spectrum), default=time)
+    by_error = rng.random() < 0.3
     steps: list[asp.Step] = []
-    normal: Control | None = None
+    before = mean = 0.0
     for _ in range(rng.integers(1, 4)):
-        if normal is None or rng.random() < 0.6:
-            normal = _load(rng, size * _log(rng, -6.0, -0.5), surface.grid)
-        duration = 0.0 if rng.random() < 0.15 else time * _log(rng, -1.5, 1.0)
-        steps.append(asp.Step(normal, duration=duration))
-    if rng.random() < 0.3:
-        return Case(seed, "in time", posed, tuple(steps), asp.TimeSteps(tolerance=1e-2))
-    return Case(seed, "in time", posed, tuple(steps), asp.TimeSteps(number=1))
+        if mean == 0.0 or rng.random() < 0.6:
+            mean = size * _log(rng, -4.0, -0.5)
+        duration = 0.0 if rng.random() < 0.15 else (time if by_error else shortest) * _log(rng, -1.5, 0.7)
+        parts = 1 if by_error or duration == 0.0 else 8
+        loads = [before + (mean - before) * (part / parts) for part in range(1, parts + 1)]
+        steps += [asp.Step(asp.MeanPressure(load), duration=duration / parts) for load in loads]
+        before = mean
+    return Case(seed, "in time", posed, tuple(steps), asp.TimeSteps() if by_error else asp.TimeSteps(number=1))
 
 
 def _plastic_flow(seed: int, rng: np.random.Generator) -> Case:

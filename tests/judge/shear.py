@@ -18,6 +18,9 @@ from asperity.core.arrays import RealArray
 TOLERANCE = 1e-5
 """Relative change of the displacement by shear at which steps with stick and slip are settled."""
 
+SLIDING = 1e-6
+"""The same where everything slides."""
+
 INACTIVE = 10.0
 """Bounds over the largest traction from which on they count as this many times it."""
 
@@ -46,9 +49,9 @@ def cone(traction: RealArray, bound: RealArray) -> Check:
 
 
 def by_friction(
-    traction: RealArray, bound: RealArray, slip: RealArray, displacement: RealArray, stated: float, rounding: float
+    traction: RealArray, bound: RealArray, slip: RealArray, elastic: float, stated: float, rounding: float
 ) -> Check:
-    """Σ (B |s| - q·s) over elastic energy and work of the slip: no slip below the bound, and along the traction at it.
+    """Σ (B |s| - q·s) over the ``elastic`` energy per pixel area (Pa m) and the work of the slip: no slip below the bound, and along the traction at it.
 
     ``rounding`` is that of the slip, in m.
     """
@@ -56,8 +59,13 @@ def by_friction(
     largest = float(np.hypot(*traction).max())
     limit = np.minimum(bound, INACTIVE * largest) if largest > 0.0 else np.where(np.isfinite(bound), bound, 0.0)
     missed = float((limit * size).sum() - np.einsum("kij,kij->", traction, slip))
-    scale = 0.5 * abs(float(np.einsum("kij,kij->", traction, displacement))) + float((limit * size).sum())
+    scale = elastic + float((limit * size).sum())
     return Check("friction law", over(max(missed, 0.0), scale), stated + over(float(limit.sum()) * rounding, scale))
+
+
+def _elastic(operator: TangentialOperator, traction: RealArray) -> float:
+    """Elastic energy per pixel area (Pa m) of a ``traction`` (2, nx, ny) alone."""
+    return 0.5 * float(np.einsum("kij,kij->", traction, operator.displacement(traction)))
 
 
 def _moved(result: asp.ContactResult, before: asp.ContactResult | None) -> RealArray:
@@ -91,10 +99,12 @@ def stick_slip(
     checks = [cone(traction, bound)]
     if np.isfinite(slip).all():
         stated = found.duality_gap + max(residual, TOLERANCE)
-        checks.append(by_friction(traction, bound, slip, displacement, stated, rounding))
+        elastic = _elastic(operator, traction)
+        checks.append(by_friction(traction, bound, slip, elastic, stated, rounding))
         heat = float(np.einsum("kij,kij->", traction, slip)) * grid.pixel_area
-        scale = 0.5 * abs(float(np.einsum("kij,kij->", traction, displacement))) * grid.pixel_area + abs(heat)
-        checks.append(Check("heat of slip", over(abs(heat - found.dissipated), scale), stated + ROUNDING))
+        scale = elastic * grid.pixel_area + abs(heat)
+        slipped = rounding * float(np.hypot(*traction).sum()) * grid.pixel_area
+        checks.append(Check("heat of slip", over(abs(heat - found.dissipated), scale), stated + over(slipped, scale)))
     if isinstance(control, asp.TangentialForce):
         force = traction.sum(axis=(1, 2)) * grid.pixel_area
         missed = float(np.hypot(*(force - [control.x, control.y])))
@@ -109,6 +119,17 @@ def lift_error(operator: TangentialOperator, result: asp.ContactResult) -> float
     """Norm (m) of what the lift by shear may still change by."""
     residual = max([check.tolerance for check in result.certificate.couplings], default=0.0)
     return residual * norm(operator.lift(result.require_stick_slip().traction))
+
+
+def sliding(operator: TangentialOperator, result: asp.ContactResult) -> tuple[RealArray, list[Check]]:
+    """Displacement (nx, ny) in m by the shear of a contact in which everything slides, and that it is the one stated."""
+    friction = result.problem.friction
+    assert isinstance(friction, asp.Coulomb)
+    bound = friction.bound(np.asarray(result.pressure, dtype=float))
+    way = np.array([np.cos(friction.direction), np.sin(friction.direction)])
+    lift = operator.lift(way[:, None, None] * bound)
+    stated = np.zeros_like(lift) if result.sliding is None else result.sliding.shear_displacement
+    return lift, [Check("lift by shear", over(norm(lift - stated), norm(lift)), SLIDING)]
 
 
 def rolling(operator: TangentialOperator, found: asp.RollingContact, *, transient: bool) -> list[Check]:
@@ -131,7 +152,7 @@ def rolling(operator: TangentialOperator, found: asp.RollingContact, *, transien
     slip = np.where(pressure > 0.0, rigid * pixel + ahead - displacement, 0.0)
     rounding = ROUNDING * float(np.abs(displacement).max())
     stated = (TRANSIENT if transient else 1.0) * found.steadiness + (1e-4 if operator.coupled else 0.0) + EPS
-    checks = [cone(traction, bound), by_friction(traction, bound, slip, displacement, stated, rounding)]
+    checks = [cone(traction, bound), by_friction(traction, bound, slip, _elastic(operator, traction), stated, rounding)]
     forces = traction.sum(axis=(1, 2)) * grid.pixel_area
     torque = float((x * traction[1] - y * traction[0]).sum()) * grid.pixel_area
     power = float(forces @ [along_x, along_y]) + torque * found.creepage.spin

@@ -39,9 +39,7 @@ def solved(case: Case) -> Solved:
             )
             return Solved((found.normal,), found)
         history = asp.History(case.steps)
-        results = asp.solve(
-            case.problem, history, on_failure="return", time_steps=case.time_steps, engine=engine
-        ).steps
+        results = asp.solve(case.problem, history, on_failure="return", time_steps=case.time_steps, engine=engine).steps
     except asp.ConvergenceError as error:
         return Solved(not_converged=_first(str(error)))
     except asp.InputError as error:
