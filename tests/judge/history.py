@@ -113,7 +113,7 @@ def energy_in_time(results: tuple[asp.ContactResult, ...]) -> list[Check]:
     for result in results:
         creep = result.creep
         assert creep is not None
-        force, approach, time = (creep.column(name) for name in ("force", "approach", "time"))
+        force, approach = creep.column("force"), creep.column("approach")
         moved = np.diff(approach)
         work = float((0.5 * (force[1:] + force[:-1]) * moved).sum())
         works, heat = works + work, heat + creep.dissipated

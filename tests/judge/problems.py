@@ -70,7 +70,7 @@ def _chosen(rng: np.random.Generator, options: tuple[Any, ...]) -> Any:
 
 def _shape(rng: np.random.Generator, largest: int, *, line: float = 0.15) -> tuple[int, int]:
     """Up to ``largest`` points a side, most of them few; one point wide with the probability ``line``."""
-    nx, ny = (int(round(4.0 * (0.25 * largest) ** rng.random())) for _ in range(2))
+    nx, ny = (round(4.0 * (0.25 * largest) ** rng.random()) for _ in range(2))
     return nx, 1 if rng.random() < line else ny
 
 
@@ -424,16 +424,15 @@ def _in_time(seed: int, rng: np.random.Generator) -> Case:
     size = posed.contact_modulus * slope_of(surface)
     shortest = min((lam for _, lam in body.spectrum), default=time)
     by_error = rng.random() < 0.3
-    steps: list[asp.Step] = []
-    before = mean = 0.0
+    mean = size * _log(rng, -6.0, -0.5)
+    steps = [asp.Step(asp.MeanPressure(mean), duration=time * _log(rng, -1.5, 0.7) if by_error else 0.0)]
     for _ in range(rng.integers(1, 4)):
-        if mean == 0.0 or rng.random() < 0.6:
-            mean = size * _log(rng, -4.0, -0.5)
-        duration = 0.0 if rng.random() < 0.15 else (time if by_error else shortest) * _log(rng, -1.5, 0.7)
-        parts = 1 if by_error or duration == 0.0 else 8
-        loads = [before + (mean - before) * (part / parts) for part in range(1, parts + 1)]
-        steps += [asp.Step(asp.MeanPressure(load), duration=duration / parts) for load in loads]
-        before = mean
+        before, parts = mean, 1 if by_error else 8
+        if rng.random() < 0.6:  # else it is held
+            mean *= _log(rng, -0.5, 0.5)
+        duration = 0.0 if rng.random() < 0.1 else (time if by_error else shortest) * _log(rng, -1.5, 0.7)
+        loads = [before + (mean - before) * (part / parts) for part in range(1, parts)]
+        steps += [asp.Step(asp.MeanPressure(load), duration=duration / parts) for load in [*loads, mean]]
     return Case(seed, "in time", posed, tuple(steps), asp.TimeSteps() if by_error else asp.TimeSteps(number=1))
 
 
