@@ -14,6 +14,7 @@ from judge.solved import Solved
 
 import asperity as asp
 from asperity.contact.operators import Operator, prepare_operator
+from asperity.contact.operators.tangential import TangentialOperator
 
 
 def equations(case: Case, found: Solved) -> list[Check]:
@@ -24,34 +25,39 @@ def equations(case: Case, found: Solved) -> list[Check]:
         return _rolled(case, found, operator)
     if case.kind == "in time":
         return _in_time(case, found.results, operator)
+    along = shear.operator_of(problem) if case.kind == "stick-slip" else None
     checks: list[Check] = []
     for step, (before, result) in zip(case.steps, pairwise((None, *found.results)), strict=True):
         assert result is not None
-        checks += _of_step(case, step, before, result, operator)
+        checks += _of_step(step, (before, result), operator, along)
     return checks
 
 
 def _of_step(
-    case: Case, step: asp.Step, before: asp.ContactResult | None, result: asp.ContactResult, operator: Operator
+    step: asp.Step,
+    results: tuple[asp.ContactResult | None, asp.ContactResult],
+    operator: Operator,
+    along: TangentialOperator | None,
 ) -> list[Check]:
-    none = np.zeros(case.problem.grid.shape)
+    """Checks of the result of ``step``, the second of ``results``, beside the one before it; ``along`` is the compliance along the surface."""
+    before, result = results
+    none = np.zeros(result.problem.grid.shape)
     dented = none if before is None else np.asarray(before.permanent_indentation, dtype=float)
     of = Pressed(result, operator, none, before=dented)
-    if case.kind == "adhesive":
+    if result.adhesion is not None:
         attraction = result.require_adhesion().attraction
         return interface.adhesion(replace(of, lift=-operator.apply(attraction)), step.normal)
-    if case.kind == "stick-slip":
-        along = shear.operator_of(case.problem)
+    if along is not None:
         if result.stick_slip is None:
             lift, checks = shear.sliding(along, result)
             return [*_pressed(replace(of, lift=lift, lift_error=shear.SLIDING * norm(lift)), step.normal), *checks]
         lift, error = along.lift(result.require_stick_slip().traction), shear.lift_error(along, result)
         lifted = replace(of, lift=lift, lift_error=error)
         return [*_pressed(lifted, step.normal), *shear.stick_slip(along, result, before, step.tangential)]
-    if case.kind == "plastic flow":
+    if result.plastic_flow is not None:
         imprint = result.require_plastic_flow().displacement
         return [*_pressed(replace(of, imprint=imprint), step.normal), *history.plastic_flow(result, before)]
-    if case.kind == "wet":
+    if result.menisci is not None:
         checks = [
             *normal.bounds(of),
             *normal.complementarity(of),

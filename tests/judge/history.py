@@ -10,7 +10,8 @@ from judge.checks import EPS, ROUNDING, Check, norm, over
 import asperity as asp
 from asperity.contact.operators import Operator
 from asperity.core.arrays import RealArray
-from asperity.solids.plasticity import WEIGHTS, PlasticState
+from asperity.solids.eigenstrain.cells import DepthCells
+from asperity.solids.plasticity import UNIT, WEIGHTS, PlasticState
 
 NODES, GAUSS = np.polynomial.legendre.leggauss(12)
 """Rule for the heat of a step, whose integrand is a product of exponentials and straight lines in time."""
@@ -137,21 +138,43 @@ def plastic_flow(result: asp.ContactResult, before: asp.ContactResult | None) ->
     tolerance = max(tolerance, result.problem.plastic_flow.tolerance)
     if not flow.flowed.points.size:
         return []
-    (law,) = {law for law in flow.laws if law is not None}
-    stress = np.moveaxis(flow.stress(np.asarray(result.pressure, dtype=float), threads=1), 1, -1)
+    pressure = np.asarray(result.pressure, dtype=float)
+    stress = np.moveaxis(flow.stress(pressure, _shear(result, pressure), threads=1), 1, -1)
     after = _state(flow)
     cut = "equal parts" in result.status.message
     start = after if cut else _aligned(None if before is None else before.require_plastic_flow(), flow)
-    deviator = stress - np.multiply.outer(stress[..., :3].sum(axis=-1) / 3.0, np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]))
-    mapped = law.step(deviator / (2.0 * law.shear) + after.plastic_strain, start).state
+    deviator = stress - np.multiply.outer(stress[..., :3].sum(axis=-1) / 3.0, UNIT)
+    mapped = _mapped(flow, deviator, after, start)
     weights = np.diff(flow.flowed.edges)[:, None, None, None] * WEIGHTS
-    change = float(((mapped.plastic_strain - after.plastic_strain) ** 2 * weights).sum()) ** 0.5
+    change = float(((mapped - after.plastic_strain) ** 2 * weights).sum()) ** 0.5
     size = float((after.plastic_strain**2 * weights).sum()) ** 0.5
     traces = norm(after.plastic_strain[..., :3].sum(axis=-1))
     return [
         Check("return mapping", over(change, size), tolerance),
         Check("plastic strain keeps the volume", over(traces, norm(after.plastic_strain)), 1e3 * ROUNDING),
     ]
+
+
+def _shear(result: asp.ContactResult, pressure: RealArray) -> RealArray | None:
+    """Shear traction (2, nx, ny) in Pa where everything slides."""
+    friction = result.problem.friction
+    if not isinstance(friction, asp.Coulomb):
+        return None
+    way = np.array([np.cos(friction.direction), np.sin(friction.direction)])
+    return np.asarray(way[:, None, None] * friction.bound(pressure))
+
+
+def _mapped(flow: asp.PlasticBody, deviator: RealArray, after: PlasticState, start: PlasticState) -> RealArray:
+    """Plastic strain (cells, nx, ny, 6) that the laws return from ``start`` to under the ``deviator`` of the stress with the strain ``after``."""
+    found = after.plastic_strain.copy()
+    regions = DepthCells(flow.body, flow.flowed.edges).regions
+    for cell, region in enumerate(regions):
+        law = flow.laws[region]
+        if law is not None:
+            strain = deviator[cell] / (2.0 * law.shear) + after.plastic_strain[cell]
+            begun = PlasticState(start.plastic_strain[cell], start.back_stress[cell], start.accumulated[cell])
+            found[cell] = law.step(strain, begun).state.plastic_strain
+    return found
 
 
 def _state(flow: asp.PlasticBody) -> PlasticState:

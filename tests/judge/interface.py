@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from judge.checks import ROUNDING, Check, norm, over
-from judge.normal import Pressed, bounds, complementarity, gaps
+from judge.normal import Pressed, bounds, complementarity, gaps, yielding
 from scipy import ndimage
 
 import asperity as asp
@@ -80,7 +80,7 @@ def adhesion(of: Pressed, control: object) -> list[Check]:
     result = of.result
     found, grid = result.require_adhesion(), result.problem.grid
     law, traction = found.law, of.pressure - found.attraction
-    checks = bounds(of)
+    checks = [*bounds(of), *yielding(of)]
     if law.spacing > 0.0:
         checks += _soft_core(of, traction)
     elif isinstance(law, asp.JKRAdhesion):

@@ -281,7 +281,10 @@ def _adhesive(seed: int, rng: np.random.Generator) -> Case:
     boundary = _boundary(rng, shape, body)
     modulus, slope, grid = asp.ContactProblem(surface, body).contact_modulus, slope_of(surface), surface.grid
     law = adhesion_law(rng, modulus, max(grid.pixels), slope)
-    posed = asp.ContactProblem(surface, body, boundary=boundary, adhesion=law)
+    wall: Any = asp.HardWall()
+    if law.spacing == 0.0 and not isinstance(law, asp.JKRAdhesion) and rng.random() < 0.2:
+        wall = asp.Hardness(max(modulus * slope, 2.0 * law.strength) * _log(rng, 0.0, 1.0))
+    posed = asp.ContactProblem(surface, body, boundary=boundary, adhesion=law, law=wall)
     range_ = float(np.ptp(surface.heights))
     touch = float(np.max(surface.heights) - np.mean(surface.heights))
     deepest = 0.5 * touch if isinstance(boundary, asp.Periodic) else range_
@@ -321,9 +324,12 @@ def friction_law(rng: np.random.Generator, mean: float, shape: tuple[int, int]) 
     return _chosen(rng, laws)()
 
 
-def _pair(rng: np.random.Generator, *, coupled: bool) -> tuple[Body, Body]:
-    """Bodies whose shear moves the surfaces up and down, or not."""
-    body = _elastic(rng, most=0.49)
+def _pair(rng: np.random.Generator, pixel: float, *, coupled: bool) -> tuple[Body, Body]:
+    """Bodies whose shear moves the surfaces up and down, or not; some are coated, in layers of more than a third of a ``pixel`` (m)."""
+    body: Body = _elastic(rng, most=0.49)
+    if rng.random() < 0.1:
+        coated = layered_body(rng, 10.0 * pixel, least=-1.0)
+        body = asp.Layered([asp.Layer(each.material, each.thickness) for each in coated.layers[:2]], coated.base)
     if not coupled:
         return body, body
     return body, asp.Rigid() if rng.random() < 0.5 else _counter(rng, body)
@@ -333,7 +339,7 @@ def _stick_slip(seed: int, rng: np.random.Generator) -> Case:
     """A load, then shifts or forces there and back; or everything slides."""
     shape = _shape(rng, 16)
     surface = _surface(rng, shape, heights.GENTLE, (-3.0, -0.3))
-    bodies = _pair(rng, coupled=rng.random() < 0.5)
+    bodies = _pair(rng, max(surface.grid.pixels), coupled=rng.random() < 0.5)
     boundary = _boundary(rng, shape, bodies[0])
     bare = asp.ContactProblem(surface, bodies[0], counter_body=bodies[1], boundary=boundary)
     slope = slope_of(surface)
@@ -371,15 +377,15 @@ def _stick_slip(seed: int, rng: np.random.Generator) -> Case:
 
 def _rolling(seed: int, rng: np.random.Generator) -> Case:
     """Balls and rollers of many pixels, with creepage and spin."""
-    nx = int(rng.integers(6, 25))
+    nx = int(rng.integers(6, 18))
     line = rng.random() < 0.3
-    shape = nx, 1 if line else int(rng.integers(6, 25))
+    shape = nx, 1 if line else int(rng.integers(6, 18))
     pixel = _log(rng, -7.0, -3.0)
     x, y = ((np.arange(n) - 0.5 * (n - 1)) * pixel for n in shape)
     radius = pixel * _log(rng, 2.0, 4.0)
     shape_ = -(x[:, None] ** 2 + (0.0 if line else 1.0) * rng.uniform(0.5, 2.0) * y[None, :] ** 2) / (2.0 * radius)
     surface = asp.Surface(shape_, pixel, pixel)
-    bodies = _pair(rng, coupled=rng.random() < 0.4)
+    bodies = _pair(rng, pixel, coupled=rng.random() < 0.4)
     boundary = asp.FreeLine() if line else asp.Free()
     mu = float(rng.uniform(0.05, 0.6))
     width = pixel * min(shape[0], shape[1] if shape[1] > 1 else nx)
@@ -424,15 +430,18 @@ def _in_time(seed: int, rng: np.random.Generator) -> Case:
     size = posed.contact_modulus * slope_of(surface)
     shortest = min((lam for _, lam in body.spectrum), default=time)
     by_error = rng.random() < 0.3
-    mean = size * _log(rng, -6.0, -0.5)
-    steps = [asp.Step(asp.MeanPressure(mean), duration=time * _log(rng, -1.5, 0.7) if by_error else 0.0)]
+    placed = rng.random() < 0.25
+    touch = float(np.max(surface.heights) - np.mean(surface.heights))
+    mean = touch * _log(rng, -2.0, -1.0) if placed else size * _log(rng, -6.0, -0.5)
+    control: type[asp.Approach | asp.MeanPressure] = asp.Approach if placed else asp.MeanPressure
+    steps = [asp.Step(control(mean), duration=time * _log(rng, -1.5, 0.7) if by_error else 0.0)]
     for _ in range(rng.integers(1, 4)):
         before, parts = mean, 1 if by_error else 8
         if rng.random() < 0.6:  # else it is held
-            mean *= _log(rng, -0.5, 0.5)
+            mean *= _log(rng, 0.0 if placed else -0.5, 0.4)
         duration = 0.0 if rng.random() < 0.1 else (time if by_error else shortest) * _log(rng, -1.5, 0.7)
         loads = [before + (mean - before) * (part / parts) for part in range(1, parts)]
-        steps += [asp.Step(asp.MeanPressure(load), duration=duration / parts) for load in [*loads, mean]]
+        steps += [asp.Step(control(each), duration=duration / parts) for each in [*loads, mean]]
     return Case(seed, "in time", posed, tuple(steps), asp.TimeSteps() if by_error else asp.TimeSteps(number=1))
 
 
@@ -451,9 +460,21 @@ def _plastic_flow(seed: int, rng: np.random.Generator) -> Case:
         hardening = asp.Voce(yield_stress, yield_stress * rng.uniform(0.2, 1.0), float(rng.uniform(5.0, 50.0)))
     kinematic = solid.youngs_modulus * float(rng.uniform(0.01, 0.1)) if rng.random() < 0.3 else 0.0
     law = asp.J2(solid, hardening, kinematic)
-    posed = asp.ContactProblem(surface, solid, boundary=boundary, plastic_flow=asp.PlasticFlow(law, cells=8))
+    body: Body = solid
+    laws: Any = law
+    if rng.random() < 0.3:
+        film = asp.Elastic(solid.youngs_modulus * _log(rng, -0.5, 0.7), 0.3)
+        body = asp.Layered([asp.Layer(film, max(surface.grid.spacing) * _log(rng, -0.5, 0.7))], solid)
+        own = asp.J2(film, asp.LinearHardening(2.0 * yield_stress, 0.1 * film.youngs_modulus))
+        laws = (own if rng.random() < 0.5 else None, law)
+    flow = asp.PlasticFlow(laws, cells=8)
+    friction = asp.Coulomb(float(rng.uniform(0.05, 0.3)), coupled=False) if rng.random() < 0.2 else None
+    posed = asp.ContactProblem(surface, body, boundary=boundary, plastic_flow=flow, friction=friction)
     mean = yield_stress * float(rng.uniform(0.05, 0.8))
     steps: list[asp.Step] = [asp.Step(asp.MeanPressure(mean))]
+    if rng.random() < 0.2:
+        touch = float(np.max(surface.heights) - np.mean(surface.heights))
+        steps = [asp.Step(asp.Approach(0.2 * touch) if rng.random() < 0.5 else asp.MeanGap(0.8 * touch))]
     if rng.random() < 0.5:
         steps.append(asp.Step(asp.Unloaded() if rng.random() < 0.5 else asp.MeanPressure(0.3 * mean)))
     if rng.random() < 0.3:
