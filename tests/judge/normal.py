@@ -152,7 +152,7 @@ def complementarity(of: Pressed) -> list[Check]:
     if hard:
         worked = np.maximum(of.indentation - of.before, 0.0)
         spare = np.asarray(cap - p)
-        rounding += float((np.maximum(spare, 0.0) * of.rounding * (worked > 0.0)).sum())
+        rounding += float((np.maximum(spare, 0.0) * of.rounding * (p > 0.0)).sum())
         rounding += _tolerance(result, "hardness") * float((cap * worked).sum())
         rounding += float(np.finfo(result.pressure.dtype).eps) * float((cap * worked).sum())
     lifted = of.lift_error * norm(p)
