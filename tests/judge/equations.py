@@ -58,16 +58,10 @@ def _of_step(
         imprint = result.require_plastic_flow().displacement
         return [*_pressed(replace(of, imprint=imprint), step.normal), *history.plastic_flow(result, before)]
     if result.menisci is not None:
-        checks = [
-            *normal.bounds(of),
-            *normal.complementarity(of),
-            *normal.gaps(of),
-            *interface.menisci(of, step.normal),
-        ]
-        return [
-            *checks,
-            *([] if isinstance(step.normal, asp.MeanPressure | asp.Force) else normal.load(of, step.normal)),
-        ]
+        checks = [*normal.bounds(of), *normal.complementarity(of), *normal.gaps(of)]
+        if isinstance(step.normal, asp.Approach | asp.MeanGap):
+            checks += normal.load(of, step.normal)
+        return [*checks, *interface.menisci(of, step.normal)]
     return _pressed(of, step.normal)
 
 

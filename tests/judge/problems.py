@@ -151,6 +151,10 @@ def _normal(seed: int, rng: np.random.Generator) -> Case:
     body = _elastic(rng)
     boundary = _boundary(rng, shape, body)
     posed = asp.ContactProblem(surface, body, counter_body=_counter(rng, body), boundary=boundary)
+    if rng.random() < 0.15:
+        other = surface.with_heights(rng.uniform(0.1, 2.0) * np.asarray(surface.heights)[::-1], "counter surface")
+        posed = asp.ContactProblem(surface, asp.Rigid(), other, body, boundary)
+        surface = surface.with_heights(posed.profile(), "composite")
     controls = [_control(rng, surface, posed.contact_modulus, boundary, DECADES) for _ in range(rng.integers(1, 3))]
     return Case(seed, "normal", posed, tuple(map(asp.Step, controls)))
 
@@ -244,7 +248,10 @@ def _wet(seed: int, rng: np.random.Generator) -> Case:
     if rng.random() < 0.2:
         return Case(seed, "wet", posed, (asp.Step(_position(rng, surface, boundary, (-3.0, -0.2))),))
     loads = [suction * _log(rng, -3.0, 4.0) for _ in range(rng.integers(1, 4))]
-    return Case(seed, "wet", posed, tuple(asp.Step(_load(rng, load, surface.grid)) for load in loads))
+    controls = [_load(rng, load, surface.grid) for load in loads]
+    if rng.random() < 0.1:
+        controls.append(asp.Unloaded())
+    return Case(seed, "wet", posed, tuple(map(asp.Step, controls)))
 
 
 def adhesion_law(rng: np.random.Generator, modulus: float, pixel: float, slope: float) -> asp.ContactProblem | Any:
