@@ -225,6 +225,32 @@ def test_a_load_equal_to_the_cap_but_for_rounding_puts_all_points_at_it(boundary
     assert not wrong, wrong
 
 
+@pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
+def test_the_certificate_of_a_light_load_states_the_duality_gap_that_heights_round_away(boundary: asp.Boundary) -> None:
+    """Plateaus so that points share a load whose deflection is 1e-11 of the heights."""
+    heights = 1e-8 * np.minimum(np.random.default_rng(3).standard_normal((14, 6)), 0.5)
+    surface = asp.Surface(heights, 5e-6, periodic=boundary == asp.Periodic())
+    problem = asp.ContactProblem(surface, asp.Elastic(1e9, 0.3), boundary=boundary)
+    found = asp.solve(problem, asp.MeanPressure(1e-8))
+    p = np.asarray(found.pressure, dtype=float)
+    deflection = prepare_operator(problem.compliance, problem.grid, boundary).apply(p)
+    apart = deflection + (heights.max() - heights)
+    gap, energy = float((p * (apart - apart.min())).sum()), 0.5 * float((p * deflection).sum())
+    assert deflection.max() < 1e-9 * heights.max()
+    assert gap > 1e-12 * energy
+    assert found.certificate.duality_gap == pytest.approx(gap / energy, rel=1e-3)
+
+
+def test_a_position_of_a_nearly_flat_surface_far_from_the_zero_of_its_heights_is_reached() -> None:
+    """Its closeness is a thousandth of the rounding that was asked of it."""
+    heights = 1e-9 * (1.0 + 1e-6 * np.random.default_rng(0).standard_normal((8, 8)))
+    touch = float(heights.max() - heights.mean())
+    problem = asp.ContactProblem(asp.Surface(heights, 1e-6, periodic=True), asp.Elastic(1e5, 0.3))
+    for closer in (1e-5 * touch, 3e-5 * touch, 1e-4 * touch):
+        found = asp.solve(problem, asp.MeanGap(touch - closer))
+        assert found.mean_gap == pytest.approx(touch - closer, abs=1e-15 * heights.max())
+
+
 EXTREME = {
     "approach": {"control": lambda: asp.Approach(1e300)},
     "mean gap": {"control": lambda: asp.MeanGap(1e-300)},

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from .solvers.protocol import (
     FixedMean,
     Solution,
     best_level,
+    heights_near_contact,
     least_length,
     level_of,
 )
@@ -82,7 +83,13 @@ class Certificate:
 def certify(
     qp: ContactQP, solution: Solution, totals: Totals, *, solver: str, tolerance: float, wall_time: float
 ) -> Certificate:
-    """Certificate of ``solution``, whose sums are ``totals`` and which took ``wall_time`` s."""
+    """Certificate of ``solution``, whose sums are ``totals`` and which took ``wall_time`` s.
+
+    Of a contact far from the zero of the heights it counts them from near the contact, whose deflection they would round away.
+    """
+    if (near := heights_near_contact(qp)) is not qp.profile:
+        qp = replace(qp, profile=near)
+        totals = qp.survey(solution.state).totals
     state, at, total, elastic = solution.state, level_of(qp, totals), totals.pressure, 0.5 * totals.deflected
     sharpest = totals.lowest
     if not qp.elastic:

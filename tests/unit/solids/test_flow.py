@@ -1,13 +1,18 @@
-"""Which law each region of a body flows by."""
+"""Which law each region of a body flows by, and how far a plastic strain is from the one that the return mapping gives."""
 
+import numpy as np
 import pytest
 from refusals import refused
 
 import asperity as asp
 from asperity.core.errors import InputError
+from asperity.core.grid import Grid
+from asperity.solids.eigenstrain.cells import DepthCells
+from asperity.solids.eigenstrain.flow import Flowed, VolumeFlow
+from asperity.solids.eigenstrain.operator import EigenstrainOperator
 from asperity.solids.elastic import Strength
 from asperity.solids.flow import flow_of, regions_of
-from asperity.solids.plasticity import J2, LinearHardening, Swift
+from asperity.solids.plasticity import J2, LinearHardening, PlasticState, Swift
 
 SOFT, HARD = asp.Elastic(1e9, 0.3, Strength(yield_stress=1e7)), asp.Elastic(2e9, 0.2)
 PLAIN = asp.Elastic(1e9, 0.3)
@@ -39,3 +44,21 @@ def test_given_laws() -> None:
 def test_what_is_refused(given: list, shown: str) -> None:
     with refused(InputError, "plasticity", shown if shown != "1e+07" else "10000000.0"):
         flow_of(BODY, given)
+
+
+def test_plastic_strain_that_the_return_mapping_takes_away_is_not_settled() -> None:
+    """Of a load on the way that was too large: under a smaller one none is left, which is a change by all of it."""
+    grid, solid = Grid((6, 5), (1e-6, 1e-6)), asp.Elastic(200e9, 0.3)
+    cells = DepthCells(solid, np.linspace(0.0, 4e-6, 5))
+    operator = EigenstrainOperator.prepared(grid, cells, free=False, threads=1)
+    law = J2(solid, LinearHardening(1e9))
+    flow = VolumeFlow(operator, [law] * 4, Flowed.virgin())
+    flow.points, flow.before = np.array([7]), PlasticState.virgin((1,))
+    flow.delta = 1e-5 * np.array([[1.0, -0.5, -0.5, 0.0, 0.0, 0.0]])
+    flow.spread()
+    step, residual = flow.returned(operator.loads(np.zeros(grid.shape), None))
+    np.testing.assert_array_equal(step, -flow.delta)
+    assert residual == 1.0
+    flow.delta = np.zeros((1, 6))
+    flow.spread()
+    assert flow.returned(operator.loads(np.zeros(grid.shape), None))[1] == 0.0

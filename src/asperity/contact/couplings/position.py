@@ -70,6 +70,9 @@ _CLOSED = 1e-12
 """Width of the bracket of the logarithm of the load that counts as closed, its rounding for loads between 1e-4 and 1e4 Pa per Pa
 of modulus; 0, 1e-14 and 1e-9 take the same pairs."""
 
+_ROUNDING = 8.0 * float(np.finfo(float).eps)
+"""Rounding of a gap over the largest height of the profile: of nearly flat surfaces far from the zero of their heights it is more than the errors above."""
+
 _ROUNDED = 1e-14
 """Height of the highest point above the mean over the largest height, below which it is rounding and the surface flat."""
 
@@ -142,6 +145,7 @@ class Position(Coupling):
         high = x if miss > noise else note.high
         note = replace(note, low=low, high=high, misses=(*note.misses[-2:], abs(miss)))
         allowed = TARGET_ERROR * note.size + _HEIGHT_ERROR * min(posed.height_scale, _LARGEST_SHARE * note.size)
+        allowed += _ROUNDING * float(np.abs(posed.profile).max())
         if note.last is not None and note.last[1] != closeness:
             note = replace(note, slope=(x - note.last[0]) / (closeness - note.last[1]))
         note = replace(note, last=(x, closeness))

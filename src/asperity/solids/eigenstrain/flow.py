@@ -173,7 +173,7 @@ class VolumeFlow:
         return found
 
     def returned(self, loads: ComplexArray) -> tuple[RealArray, float]:
-        """Step (n, 6) from Δ to what the return mapping gives under the transforms ``loads`` of the tractions, and its relative size.
+        """Step (n, 6) from Δ to what the return mapping gives under the transforms ``loads`` of the tractions, and its size over that of the larger strain.
 
         Call ``spread`` before. Points that flow for the first time join those there are, with Δ = 0.
         """
@@ -189,7 +189,7 @@ class VolumeFlow:
         self.after = PlasticState(strain, back, total)
         step = strain - before.plastic_strain - self.delta
         weights = self.weights[:, None] * WEIGHTS
-        size = float((strain**2 * weights).sum())
+        size = max(float((each**2 * weights).sum()) for each in (strain, strain - step))
         return step, float((step**2 * weights).sum() / size) ** 0.5 if size > 0.0 else 0.0
 
     def _groups(self) -> list[tuple[J2, NDArray[np.int64]]]:
