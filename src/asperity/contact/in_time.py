@@ -13,7 +13,7 @@ from ..core.arrays import RealArray
 from ..core.errors import ConvergenceError, InputError
 from ..core.status import Outcome, Status
 from ..solids.compliance.creep import SharedCreep
-from . import measure
+from .area import touching_fraction
 from .couplings.adhesion import AdhesionCoupling, AdhesiveContact, in_time
 from .couplings.creep import LayeredPast, Past, Remembering, TimeWeights
 from .couplings.driver import Settled
@@ -204,7 +204,7 @@ class InTime:
         memories = {name: memory for name, (memory, _) in ends.items() if memory}
         earlier = moment.state.pressure if moment.state is not None and moment.state.pressure.any() else None
         state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
-        fraction = measure.outline(contact.touching, wraps=problem.boundary.wraps).corrected_area(problem.grid) / area
+        fraction = touching_fraction(problem, contact)
         force = adhesive.external_force if isinstance(adhesive, AdhesiveContact) else contact.force
         top = contact.pressure.max()
         numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)
