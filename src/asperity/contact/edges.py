@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from ..core.arrays import BoolArray, RealArray
 from ..core.grid import Grid
 from .edge_tables import EdgePixels
+from .measure import labelled
 
 Indices = NDArray[np.intp]
 
@@ -72,7 +74,9 @@ class Edges:
     factor
         Error in pixels that the pairs along an edge share.
     two
-        Whether both estimates were there: the next pixel inwards is in contact too, and none is at the limit of the pressure.
+        Whether both estimates were there: the next pixel inwards is in contact too, and this one is not at the limit of the pressure.
+    deep
+        Whether the next pixel inwards is in contact too.
     beyond
         Whether there is no pixel outside.
     weight
@@ -89,8 +93,18 @@ class Edges:
     spread: RealArray
     factor: RealArray
     two: BoolArray
+    deep: BoolArray
     beyond: BoolArray
     weight: RealArray
+    contact: BoolArray
+    wraps: tuple[bool, bool]
+
+    @cached_property
+    def spot_pixels(self) -> NDArray[np.int64]:
+        """Number of pixels in the spot to which each pair belongs, (n,)."""
+        labels, _ = labelled(self.contact, wraps=self.wraps)
+        flat = labels.ravel()
+        return np.bincount(flat)[flat[self.inner]]
 
     @property
     def cosine(self) -> RealArray:
@@ -273,22 +287,25 @@ def edges_of(p: RealArray, gap: RealArray, plastic: BoolArray, setting: Setting)
         places = _Pressed(pairs, cosine, setting).places(p, gap, plastic)
     elif setting.kind is Kind.pinned:
         weight = np.ones(weight.size)
-        places = Places(none + 0.5 + PINNED, none, none + PINNED_ERROR, none > 0.0)
+        places = Places(none + 0.5 + PINNED, none, none + PINNED_ERROR, none > 0.0, none > 0.0)
     else:
-        places = Places(none + 0.5, none + math.sqrt(1.0 / 12.0), none, none > 0.0)
+        places = Places(none + 0.5, none + math.sqrt(1.0 / 12.0), none, none > 0.0, none > 0.0)
     beyond = pairs.beyond
-    ends = (0.5, 0.0, 0.0, False)
+    ends = (0.5, 0.0, 0.0, False, False)
     places = Places(*(np.where(beyond, end, found) for end, found in zip(ends, places, strict=True)))
-    return Edges(grid, pairs.inner, pairs.outer, pairs.axis, pairs.sign, normal, *places, beyond, weight)
+    return Edges(
+        grid, pairs.inner, pairs.outer, pairs.axis, pairs.sign, normal, *places, beyond, weight, p > 0.0, wraps
+    )
 
 
 class Places(NamedTuple):
-    """Distance of the edge, its random error and that of one sign, and whether there were two estimates, (n,) each as in ``Edges``."""
+    """Distance of the edge, its random error and that of one sign, whether there were two estimates, and a second pixel, (n,) each as in ``Edges``."""
 
     distance: RealArray
     spread: RealArray
     factor: RealArray
     two: BoolArray
+    deep: BoolArray
 
 
 class _Pressed(NamedTuple):
@@ -314,11 +331,11 @@ class _Pressed(NamedTuple):
         spread = np.where(deep, 0.5 * (inwards - across), SINGLE)
         factor = np.where(deep, FACTOR, SINGLE_FACTOR)
         if not flat.any():
-            return Places(distance, spread, factor, deep)
+            return Places(distance, spread, factor, deep, deep)
         here = flat[pairs.inner]
         next_one = deep & flat[behind] & ~here
         rigid = np.maximum(last / below - 0.5, LEAST_RIGID)  # pressure at its limit up to an edge within the pixel
         distance = np.where(here, 0.5, np.where(next_one, single, distance))
         spread = np.where(here, CAPPED, np.where(next_one, 0.5 * (single - rigid), spread))
         factor = np.where(here, CAPPED_FACTOR, factor)
-        return Places(distance, spread, factor, deep & ~here)
+        return Places(distance, spread, factor, deep & ~here, deep)
