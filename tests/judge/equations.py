@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+from asperity.contact.operators.tangential import TangentialOperator
 from judge import history, interface, normal, shear
 from judge.checks import Check, norm
 from judge.normal import Pressed
@@ -14,7 +15,6 @@ from judge.solved import Solved
 
 import asperity as asp
 from asperity.contact.operators import Operator, prepare_operator
-from asperity.contact.operators.tangential import TangentialOperator
 
 
 def equations(case: Case, found: Solved) -> list[Check]:

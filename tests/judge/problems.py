@@ -15,8 +15,8 @@ from judge import heights
 
 import asperity as asp
 from asperity.contact.problem import Control
-from asperity.contact.rolling import Rolling
 from asperity.core.arrays import RealArray
+from asperity.physics.rolling.rolling import Rolling
 from asperity.solids.layers import Body
 
 KINDS = (

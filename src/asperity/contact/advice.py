@@ -39,7 +39,7 @@ NEARLY_FULL = 0.95
 """Area fraction above which the open area is a few per cent and of the order of the pixel correction."""
 
 LARGEST_AREA_CORRECTION = 0.15
-"""Share of the pixel area that the perimeter correction takes, at spots of about ten pixels."""
+"""Share of the pixel area that the place of the edges between pixels takes, at spots of about ten pixels."""
 
 FEWEST_CONTACT_PIXELS = 10
 """Number of contact pixels below which their count is inaccurate."""
@@ -211,7 +211,7 @@ def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "contact pixels",
-            f"The perimeter correction takes {100 * correction:.0f} % off the pixel area (more than "
+            f"The real contact area is {100 * correction:.0f} % less than that of the pixels in contact (more than "
             f"{100 * LARGEST_AREA_CORRECTION:.0f} %): contact spots are only a few pixels wide. Refine the grid.",
         )
 

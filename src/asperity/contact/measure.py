@@ -1,10 +1,10 @@
-"""Measures of a contact: connected islands, true area, perimeter, spots, distributions, stiffness."""
+"""Measures of a contact: connected islands, spots in pixels, distributions, stiffness."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
-from ..core.grid import Grid
 from .operators import Operator
 from .solvers.active_set.linear_system import LinearSystem, ScaledOperator, Stopping, conjugate_gradients
 
@@ -115,71 +114,6 @@ def spans(labels: Labels, *, wraps: tuple[bool, bool]) -> BoolArray:
             both = np.intersect1d(labels.take(0, axis), labels.take(-1, axis))
             reaching[both] = True
     return reaching[1:]
-
-
-PERIMETER_FACTOR = (math.pi - 1.0 + math.log(2.0)) / 24.0
-"""Yastrebov, Anciaux & Molinari (2017), eq. 7: pixel area beyond the true area per perimeter and pixel size."""
-
-
-class Outline(NamedTuple):
-    """Number of ``pixels`` in contact, and of the pixel edges between contact and non-contact, normal to x and normal to y."""
-
-    pixels: int
-    edges_x: int
-    edges_y: int
-
-    @property
-    def edges(self) -> int:
-        """Number of all edges."""
-        return self.edges_x + self.edges_y
-
-    def perimeter(self, grid: Grid) -> float:
-        """Total length of the edges in m."""
-        return self.edges_x * grid.spacing[1] + self.edges_y * grid.spacing[0]
-
-    def corrected_area(self, grid: Grid) -> float:
-        """True contact area in m², freed of the pixel bias (Yastrebov, Anciaux & Molinari 2017, eq. 7).
-
-        For rectangular pixels each edge counts with the pixel size across it. Contacts of a few pixels may be
-        over-corrected; the result is never below zero.
-        """
-        return max(0.0, self.pixels - PERIMETER_FACTOR * self.edges) * grid.pixel_area
-
-    def area_error(self, grid: Grid) -> float:
-        """Error in m² of ``corrected_area``, two standard deviations.
-
-        Two errors add up in squares: that of the factor, proportional to the length of the borders, and that of where the borders
-        cut each of their n pixels, 2 (n/12)^½ pixels. The true area, extrapolated from grids up to 1024², lay within it in at least 82 of
-        84 solutions on rough surfaces of 128² to 512² pixels, whose shortest waves have 4 to 128, and that of Hertz in 79 of 84 spheres
-        of 1.5 to 20 pixels. What pixels do not
-        show at all, roughness below their size, is not in it.
-        """
-        factor, cuts = FACTOR_ERROR * PERIMETER_FACTOR * self.edges, 2.0 * math.sqrt(CUT_VARIANCE * self.edges)
-        return math.hypot(factor, cuts) * grid.pixel_area
-
-
-def outline(contact: Any, *, wraps: tuple[bool, bool]) -> Outline:
-    """Pixels and edges of ``contact`` (nx, ny), booleans of NumPy or of a library that takes its operations.
-
-    Across the border of the grid lies, along x and along y, the opposite side (``wraps``) or no contact.
-    """
-    edges = (_edges(contact, axis, wraps=wrap) for axis, wrap in enumerate(wraps))
-    return Outline(int(np.count_nonzero(contact)), *edges)
-
-
-def _edges(contact: Any, axis: int, *, wraps: bool) -> int:
-    along = contact.T if axis else contact
-    first, last = along[0], along[-1]
-    across = np.count_nonzero(first != last) if wraps else np.count_nonzero(first) + np.count_nonzero(last)
-    return int(np.count_nonzero(along[1:] != along[:-1]) + across)
-
-
-FACTOR_ERROR = 0.25
-"""Relative error of the perimeter factor. It is exact where pixels are cut at random; measured were 0.1 less on rough surfaces
-and 0.2 less on spheres, since the pixels of a solution are not cut at random: those with little pressure drop out."""
-
-CUT_VARIANCE = 1.0 / 12.0
-"""Variance, in squared pixels, of the area by which one edge misses the true border of a spot, where that lies anywhere in the pixel."""
 
 
 def contact_spots(contact: BoolArray, *, wraps: tuple[bool, bool]) -> RealArray:

@@ -29,6 +29,7 @@ from .law import HardWall, InterfaceLaw
 
 if TYPE_CHECKING:
     from .couplings.protocol import Coupling
+    from .edges import Kind
     from .operators import Operator
     from .result import ContactResult
     from .state import InterfaceState
@@ -98,6 +99,10 @@ class Physics:
     def followed(self, problem: ContactProblem, step: Step, solved: Solved) -> Solved:
         """How results under the normal control of ``step`` are ``solved``, where the step may have to be divided."""
         return solved
+
+    def edges(self, problem: ContactProblem) -> Kind | None:
+        """What it makes of the edges of contacts of ``problem``; None where they stay elastic."""
+        return None
 
     @classmethod
     def types(cls) -> tuple[type, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, Generic, Literal, TypeVar
 
 import numpy as np
@@ -20,9 +20,11 @@ from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from . import measure
 from .answer import Answer, WithOutcomes, imprint_of, outside
+from .area import RealArea, edges_in, real_area
 from .certificate import Certificate
 from .controls import Control
 from .couplings.protocol import Contact, Deflections, Memory
+from .edges import Edges
 from .known import ResultNames
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem
@@ -32,16 +34,26 @@ PLASTIC_FRACTION = 0.02
 """Share of plastic in real area above which a contact is called plastic (Greenwood & Williamson 1966)."""
 
 
-AREA_ERROR = Quantity("area_fraction_error", "1", "error of the perimeter-corrected area / nominal area (95 %)")
-"""Follows from the fields of a result, and is not read from files."""
+AREA_ERROR = Quantity("area_fraction_error", "1", "error of the real contact area / nominal area (95 %)")
+
+OF_EDGES = (
+    "area_fraction_corrected",
+    AREA_ERROR.name,
+    "contact_area",
+    "mean_real_pressure",
+    "n_spots",
+    "mean_spot_area",
+    "contact_perimeter",
+)
+"""Scalars that follow from the edges in the fields of a result, and are not read from files."""
 
 SCALARS = (
     Quantity("mean_pressure", "Pa", "mean (nominal) pressure"),
     Quantity("force", "N", "force"),
     Quantity("area_fraction", "1", "real contact area / nominal area (pixels)"),
-    Quantity("area_fraction_corrected", "1", "real contact area / nominal area (perimeter-corrected)"),
+    Quantity("area_fraction_corrected", "1", "real contact area / nominal area (edges between pixels)"),
     AREA_ERROR,
-    Quantity("contact_area", "m**2", "real contact area (perimeter-corrected)"),
+    Quantity("contact_area", "m**2", "real contact area (edges between pixels)"),
     Quantity("mean_real_pressure", "Pa", "mean real pressure"),
     Quantity("max_pressure", "Pa", "maximum pressure"),
     Quantity("approach", "m", "approach from first touch"),
@@ -56,7 +68,7 @@ SCALARS = (
     Quantity("normal_stiffness", "Pa/m", "normal stiffness per nominal area", costly=True),
     Quantity("n_spots", "1", "number of contact spots"),
     Quantity("mean_spot_area", "m**2", "mean area of a contact spot"),
-    Quantity("contact_perimeter", "m", "contact perimeter (pixel edges)"),
+    Quantity("contact_perimeter", "m", "contact perimeter"),
 )
 """Every scalar of a result in the order of tables."""
 
@@ -113,9 +125,10 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
     mean_pressure, force
         Load per nominal area (Pa) and load (N) reached.
     area_fraction, area_fraction_corrected, contact_area
-        Real over nominal area by counting pixels; the same without pixel bias (Yastrebov et al. 2017); that area in m².
+        Real over nominal area by counting pixels; the same by the place of the edges between the pixels (``edges``), not less than force over hardness;
+        that area in m². The last two, and what follows from them, are computed when one is first read.
     mean_real_pressure, max_pressure
-        Force over pixel contact area; largest pressure; Pa.
+        Force over ``contact_area``; largest pressure; Pa.
     approach, mean_gap
         Approach from first touch of the virgin surfaces (see ``Approach``); mean of the gap; m.
     elastic_energy
@@ -133,9 +146,9 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
         d(mean pressure)/d(approach), Pa/m, computed when it is first read; NaN where left out (``Keep``); infinite in periodic
         full contact.
     contact_perimeter
-        Perimeter along pixel edges, m.
+        Length of the edges, m.
     spot_areas
-        Areas of the contact spots, largest first, m²; counted when they are first read.
+        Areas of the contact spots, largest first, m²; they add up to ``contact_area``.
     certificate, status
         Error bounds and work; how the solver and the couplings ended.
     couplings
@@ -157,9 +170,6 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
     mean_pressure: float
     force: float
     area_fraction: float
-    area_fraction_corrected: float
-    contact_area: float
-    mean_real_pressure: float
     max_pressure: float
     approach: float
     elastic_energy: float
@@ -169,7 +179,6 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
     indented_area: float
     plastic_volume: float
     max_permanent_indentation: float
-    contact_perimeter: float
     certificate: Certificate
     status: Status
     citation_keys: tuple[str, ...]
@@ -177,7 +186,6 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
     gap: Late[RealArray] = Late()
     mean_gap: Late[float] = Late()
     normal_stiffness: Late[float] = Late()
-    spot_areas: Late[RealArray] = Late()
     couplings: Mapping[str, Any] = field(default_factory=dict)
     memory: Mapping[str, Memory] = field(default_factory=dict)
     earlier: RealArray | None = None
@@ -185,7 +193,7 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
 
     def __getstate__(self) -> dict[str, Any]:
         """What a pickle or a copy is made from: all numbers, for the machine that would compute one cannot go with them."""
-        return {**vars(self), "normal_stiffness": self.normal_stiffness, "spot_areas": self.spot_areas}
+        return {**vars(self), "normal_stiffness": self.normal_stiffness}
 
     @property
     def n_spots(self) -> int:
@@ -207,11 +215,44 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
         """(nx, ny), True where the bodies touch (pressure > 0)."""
         return self.pressure > 0.0
 
+    @cached_property
+    def edges(self) -> Edges:
+        """Where the edges of the contact run between the pixels."""
+        return edges_in(self.problem, self.pressure, self.gap, self.plastic)
+
+    @cached_property
+    def _real_area(self) -> RealArea:
+        return real_area(self.problem, self.pressure, self.plastic, self.edges)
+
+    @property
+    def contact_area(self) -> float:
+        """Real contact area in m²."""
+        return self._real_area.total
+
+    @property
+    def area_fraction_corrected(self) -> float:
+        """``contact_area`` over nominal area."""
+        return self.contact_area / self.problem.grid.area
+
     @property
     def area_fraction_error(self) -> float:
-        """Error of ``area_fraction_corrected`` by the size of the pixels, two standard deviations (see ``measure.Outline.area_error``)."""
-        grid = self.problem.grid
-        return measure.outline(self.contact, wraps=self.problem.boundary.wraps).area_error(grid) / grid.area
+        """Error of ``area_fraction_corrected`` by the size of the pixels (see ``area.RealArea``)."""
+        return self._real_area.error / self.problem.grid.area
+
+    @property
+    def mean_real_pressure(self) -> float:
+        """Force over ``contact_area`` in Pa; zero without contact."""
+        return self.force / self.contact_area if self.contact_area else 0.0
+
+    @property
+    def contact_perimeter(self) -> float:
+        """Length of the edges of the contact in m."""
+        return self._real_area.perimeter
+
+    @property
+    def spot_areas(self) -> RealArray:
+        """Areas of the contact spots in m², largest first."""
+        return self._real_area.spots
 
     @property
     def indented(self) -> BoolArray:
@@ -297,7 +338,7 @@ def assemble(
     elastic displacement (nx, ny) in m that is not by pressure; with one the stiffness is left out, which would follow from both.
     ``attraction`` (nx, ny) in Pa is the part of the traction beside the pressure.
     """
-    p, u, grid, wraps = found.pressure, found.solution.state.deflection, problem.grid, problem.boundary.wraps
+    p, u, grid = found.pressure, found.solution.state.deflection, problem.grid
     offset = -found.level
     displacement = u if lift is None else u + lift
     answers = [outcome for outcome in outcomes.values() if isinstance(outcome, Answer)]
@@ -307,8 +348,7 @@ def assemble(
     capped = np.zeros(p.shape, dtype=bool) if found.qp.elastic else (p > 0.0) & (p >= found.cap)
     yielding = 0 if found.qp.elastic else int(np.count_nonzero(capped))
     computed = found.qp.as_computed(found.solution.state)[0]
-    contact = measure.outline(computed > 0.0, wraps=wraps)  # where it was computed: a GPU takes a hundredth of the time
-    pixels, area = contact.pixels, contact.corrected_area(grid)
+    pixels = int(np.count_nonzero(computed > 0.0))  # where it was computed: a GPU takes a hundredth of the time
     load, work = found.totals.pressure, found.totals.deflected
     if lift is not None:
         work += float(np.multiply(p, lift, dtype=np.float64).sum())
@@ -327,17 +367,12 @@ def assemble(
         mean_pressure=load / grid.n_points,
         force=load * grid.pixel_area,
         area_fraction=pixels / grid.n_points,
-        area_fraction_corrected=area / grid.area,
-        contact_area=area,
-        mean_real_pressure=load / pixels if pixels else 0.0,
         max_pressure=float(computed.max()),
         approach=found.posed.top - offset,
         mean_gap=Later(_mean_gap),
         elastic_energy=springs[0] if springs else 0.5 * work * grid.pixel_area,
         plastic_area_fraction=yielding / pixels if pixels else 0.0,
         normal_stiffness=later,
-        spot_areas=Later(_spot_areas),
-        contact_perimeter=contact.perimeter(grid),
         certificate=certificate,
         status=found.solution.status,
         citation_keys=citations,
@@ -362,11 +397,6 @@ def _unindented(result: ContactResult) -> RealArray:
 
 def _mean_gap(result: ContactResult) -> float:
     return float(result.gap.mean())
-
-
-def _spot_areas(result: ContactResult) -> RealArray:
-    problem = result.problem
-    return measure.contact_spots(result.contact, wraps=problem.boundary.wraps) * problem.grid.pixel_area
 
 
 def _deflections(found: Contact, before: InterfaceState | None) -> Deflections:

@@ -16,7 +16,7 @@ import numpy as np
 from ..contact.certificate import Certificate
 from ..contact.history import HistoryResult
 from ..contact.problem import ContactProblem
-from ..contact.result import AREA_ERROR, ContactResult
+from ..contact.result import OF_EDGES, ContactResult
 from ..contact.state import InterfaceState
 from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
@@ -60,10 +60,8 @@ if TYPE_CHECKING:
     from ..fem.history import IndentationState
     from ..fem.passes import PassState
 
-_FOLLOWING = {AREA_ERROR.name, "n_spots", "mean_spot_area"}
-"""Scalars that follow from fields and spots."""
-
-_STORED = tuple(item for item in ALL_SCALARS if item.name not in _FOLLOWING)
+_STORED = tuple(item for item in ALL_SCALARS if item.name not in OF_EDGES)
+"""Scalars that are read from files."""
 
 Result: TypeAlias = "ContactResult | HistoryResult | RollingContact | StressField | IndentationState | PassState"
 """What result files hold."""
@@ -369,7 +367,6 @@ def contact_from(
         problem=problem,
         control=control,
         plastic=arrays["plastic"].astype(bool),
-        spot_areas=np.asarray(node["spot_areas"]),
         certificate=_certificate(attributes),
         status=status_from(attributes),
         citation_keys=tuple(attributes["citation_keys"].split()),
@@ -478,13 +475,13 @@ def _column(item: Quantity, values: Any, *dims: str) -> Labelled:
 
 def path_from(node: Node, last: ContactResult) -> HistoryResult:
     """The load path of a group; ``last`` is the contact at its end, whose problem all steps share."""
-    ends, results = np.cumsum(node["n_spots"]), list[ContactResult]()
+    count, results = len(node["n_spots"]), list[ContactResult]()
     start = None
     if "start_pressure" in node:
         memory = {name: memory_in(child) for name, child in node.children["start"].children.items()}
         start = InterfaceState(node["start_pressure"], memory, node.get("start_earlier"))
     before = None if start is None or not start.pressure.any() else start.pressure
-    for step in range(len(ends)):
+    for step in range(count):
         at = {item.quantity.name: item.values[step] for item in node.values if item.quantity.dims[:1] == ("step",)}
         couplings, friction = _couplings(last.problem, at, at.get("menisci"), at.get(ADHESION)), last.problem.friction
         if f"{PREFIX}tangential" in at and friction is not None:
@@ -495,14 +492,13 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             last,
             control=rebuild(json.loads(at["control"])),
             plastic=np.asarray(at["plastic"]),
-            spot_areas=np.asarray(node["spot_areas"][ends[step] - at["n_spots"] : ends[step]]),
             certificate=_certificate({name: _plain(value) for name, value in at.items()}),
             status=status_from(at),
             couplings=couplings,
             memory=memories_of(at["memory"])
             | flow
             | following(couplings, at["gap"], float(at["approach"]))
-            | ({CREEP: last.memory[CREEP]} if CREEP in couplings and step == len(ends) - 1 else past_from(node, step)),
+            | ({CREEP: last.memory[CREEP]} if CREEP in couplings and step == count - 1 else past_from(node, step)),
             earlier=before,
             **_values(at, (*FIELDS, *_STORED)),
         )

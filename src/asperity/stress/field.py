@@ -36,7 +36,11 @@ DERIVED = (
 
 @dataclass(frozen=True)
 class Peak:
-    """Extreme ``value`` of a field and where it is, lengths in m; ``region`` and ``side`` as for ``Plane``."""
+    """Extreme ``value`` of a field and where it is, lengths in m; ``region`` and ``side`` as for ``Plane``.
+
+    ``error`` bounds that of the value by the size of the pixels, where it is known: at the surface of a contact (``sharp``). Else it is NaN.
+    ``doubt`` is empty, or says why the value, that of the field, is but a lower bound.
+    """
 
     value: float
     x: float
@@ -44,6 +48,8 @@ class Peak:
     depth: float
     region: Region
     side: str
+    error: float = math.nan
+    doubt: str = ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -77,7 +77,7 @@ class TheoryCurve:
 class NumericalCurve:
     """The boundary-element solution along the loads of a comparison; every field (n,), NaN where it did not converge.
 
-    ``area_fraction`` counts pixels, ``area_fraction_corrected`` is freed of their bias (Yastrebov et al. 2017) and is
+    ``area_fraction`` counts pixels, ``area_fraction_corrected`` is that by the edges between them and is
     what theories are compared with; ``contact_density`` spots per nominal area in 1/m², ``mean_gap`` in m, ``seconds``
     of the whole path, ``solver`` its method.
     """
@@ -234,7 +234,7 @@ def _numerical_variables(comparison: Comparison, numerical: NumericalCurve) -> d
     area = numerical.area_fraction_corrected
     columns = {
         "area_fraction": (numerical.area_fraction, "1", "real area per nominal area, pixels counted"),
-        "area_fraction_corrected": (area, "1", "real area per nominal area, perimeter-corrected"),
+        "area_fraction_corrected": (area, "1", "real area per nominal area, by edges between pixels"),
         "contact_density": (numerical.contact_density, "1/m^2", "contact spots per nominal area"),
         "mean_gap": (numerical.mean_gap, "m", "mean distance of the deformed surfaces"),
         **{name: (getattr(comparison, name)(area), "1", meaning) for name, meaning in _DERIVED.items()},

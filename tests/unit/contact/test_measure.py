@@ -1,4 +1,4 @@
-"""Area, perimeter and spots on patterns one can count by hand."""
+"""Edges, perimeter and spots on patterns one can count by hand."""
 
 import copy
 from dataclasses import replace
@@ -11,34 +11,54 @@ from hypothesis import strategies as st
 
 import asperity as asp
 from asperity.contact import measure
+from asperity.contact.edge_tables import PATCHES, WAVES
+from asperity.contact.edges import Setting, edges_of
 
 
 def pattern(text):
     return np.array([[c == "#" for c in line] for line in text.split()])
 
 
-def test_perimeter_counts_edges_with_their_lengths():
-    contact = pattern("..... .##.. .....")
-    grid = asp.Grid(contact.shape, (2.0, 3.0))
-    for periodic in (True, False):
-        outline = measure.outline(contact, wraps=(periodic, periodic))
-        assert outline == (2, 4, 2)
-        assert outline.perimeter(grid) == 4 * 3.0 + 2 * 2.0
+def edges(contact, spacing=(1.0, 1.0), *, periodic=False, gap=1.0):
+    """Edges of a contact of pressure one on a pattern, with a gap that is wide against what the pressure opens."""
+    wraps, table = (periodic, periodic), WAVES if periodic else PATCHES
+    grid = asp.Grid(contact.shape, spacing)
+    return edges_of(contact * 1.0, ~contact * gap, np.zeros(contact.shape, bool), Setting(grid, wraps, 1.0, table))
+
+
+def test_pairs_are_neighbours_in_and_out_of_contact():
+    found = edges(pattern("..... .##.. ....."), (2.0, 3.0))
+    assert sorted(found.inner.tolist()) == [6, 6, 6, 7, 7, 7]
+    assert sorted(found.outer.tolist()) == [1, 2, 5, 8, 11, 12]
+    assert not found.beyond.any()
 
 
 def test_border_is_an_edge_only_where_free():
     contact = pattern("## ##")
-    assert measure.outline(contact, wraps=(False, False)) == (4, 4, 4)
-    assert measure.outline(contact, wraps=(True, True)) == (4, 0, 0)
+    free, periodic = edges(contact), edges(contact, periodic=True)
+    assert free.beyond.all()
+    assert free.perimeter() == 8.0
+    assert free.excess.sum() == free.area_error() == 0.0
+    assert periodic.inner.size == 0
 
 
-def test_corrected_area_is_the_formula_of_the_paper():
-    """A = pixels - (pi - 1 + ln 2)/24 per edge, in pixel areas (Yastrebov, Anciaux & Molinari 2017)."""
-    contact = pattern(".... .##. .##. ....")
-    factor = (np.pi - 1.0 + np.log(2.0)) / 24.0
-    for spacing in ((1.0, 1.0), (2.0, 0.5)):
-        area = measure.outline(contact, wraps=(False, False)).corrected_area(asp.Grid(contact.shape, spacing))
-        assert area == pytest.approx((4.0 - 8.0 * factor) * spacing[0] * spacing[1], rel=1e-14)
+def test_straight_edges_are_found_where_they_are():
+    """Pressures and gaps of the tables, along the grid and between their rows."""
+    for table in (PATCHES, WAVES):
+        for at in (3, 11.5, 33, 38):
+            low, high = int(np.floor(at)), int(np.ceil(at))
+            distance, last, second, gap = (0.5 * (column[low] + column[high]) for column in table)
+            p, g = np.zeros((9, 7)), np.zeros((9, 7))
+            p[:6], p[4], p[5], g[6:] = 3.0, np.sqrt(second), np.sqrt(last), 1.0
+            g[6] = 4.0 / 3.0 * gap**1.5
+            found = edges_of(
+                p, g, np.zeros((9, 7), bool), Setting(asp.Grid((9, 7), (1.0, 2.0)), (False, True), 1.0, table)
+            )
+            inside = ~found.beyond
+            np.testing.assert_allclose(found.distance[inside], distance, atol=2e-3)
+            np.testing.assert_allclose(found.spread[inside], 0.0, atol=2e-3)
+            np.testing.assert_allclose(found.normal[inside], [[1.0, 0.0]] * 7, atol=1e-12)
+            assert found.perimeter() == pytest.approx(7 * 2.0 + 7 * 2.0)
 
 
 def test_spots_join_across_a_periodic_border():
@@ -54,7 +74,7 @@ def test_diagonal_neighbours_are_two_spots():
 def test_no_contact():
     nothing = np.zeros((4, 4), dtype=bool)
     assert measure.contact_spots(nothing, wraps=(True, True)).size == 0
-    assert measure.outline(nothing, wraps=(True, True)).corrected_area(asp.Grid((4, 4), (1.0, 1.0))) == 0.0
+    assert edges(nothing).inner.size == edges(nothing).perimeter() == 0
 
 
 @settings(max_examples=50)
@@ -162,5 +182,4 @@ def test_area_of_a_rough_surface_lies_within_its_error_on_every_grid(seed, short
 
 
 def test_no_border_no_error():
-    full = np.ones((4, 4), dtype=bool)
-    assert measure.outline(full, wraps=(True, True)).area_error(asp.Grid((4, 4), (1.0, 1.0))) == 0.0
+    assert edges(np.ones((4, 4), dtype=bool), periodic=True).area_error() == 0.0

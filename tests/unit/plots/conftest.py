@@ -21,7 +21,7 @@ def contact(shape: tuple[int, int], *, hardness: float | None = None, dx: float 
 
 def without_contact(result: asp.ContactResult) -> asp.ContactResult:
     none = np.zeros_like(result.pressure)
-    return replace(result, pressure=none, gap=result.gap + 1e-9, max_pressure=0.0, mean_real_pressure=0.0)
+    return replace(result, pressure=none, gap=result.gap + 1e-9, force=0.0, max_pressure=0.0)
 
 
 MAKERS = {

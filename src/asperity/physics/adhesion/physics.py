@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 import numpy as np
 
 from ...contact.controls import Control, Step
+from ...contact.edges import Kind
 from ...contact.law import HardWall
 from ...contact.problem import ContactProblem, Physics, Preparing, Solved
 from ...core.arrays import RealArray
@@ -22,6 +23,7 @@ from .law import (
     LennardJonesAdhesion,
     LinearAdhesion,
     VanDerWaalsAdhesion,
+    cohesive_length,
 )
 
 if TYPE_CHECKING:
@@ -29,6 +31,10 @@ if TYPE_CHECKING:
     from ...contact.operators import Operator
     from ...contact.result import ContactResult
     from ...contact.state import InterfaceState
+
+
+RESOLVED_ZONE = 3.0
+"""Least pixels in the cohesive length from which on the edge under an attraction is an elastic one."""
 
 
 @dataclass(frozen=True)
@@ -85,6 +91,13 @@ class Adhesive(Physics):
             return in_ranges(problem, control, state, solved)
 
         return by_ranges
+
+    def edges(self, problem: ContactProblem) -> Kind | None:
+        """A core has none; without a range that pixels resolve the edge is that of a crack."""
+        if self.law.spacing > 0.0:
+            return Kind.smooth
+        zone = cohesive_length(self.law, problem.contact_modulus) / max(problem.grid.pixels)
+        return None if zone >= RESOLVED_ZONE else Kind.pinned
 
     @classmethod
     def types(cls) -> tuple[type, ...]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...contact import measure
+from ...contact.area import touching_fraction
 from ...contact.controls import Approach, Control, MeanGap, Step, as_step
 from ...contact.couplings.driver import Settled
 from ...contact.couplings.protocol import Contact, Coupling, Memory, Posed, height_scale
@@ -204,7 +204,7 @@ class InTime:
         memories = {name: memory for name, (memory, _) in ends.items() if memory}
         earlier = moment.state.pressure if moment.state is not None and moment.state.pressure.any() else None
         state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
-        fraction = measure.outline(contact.touching, wraps=problem.boundary.wraps).corrected_area(problem.grid) / area
+        fraction = touching_fraction(problem, contact)
         force = adhesive.external_force if isinstance(adhesive, AdhesiveContact) else contact.force
         top = contact.pressure.max()
         numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)

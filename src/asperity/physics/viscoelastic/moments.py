@@ -39,7 +39,7 @@ COLUMNS = (
     Quantity("force", "N", "force"),
     Quantity("approach", "m", "approach from first touch"),
     Quantity("mean_gap", "m", "mean gap"),
-    Quantity("area_fraction", "1", "real contact area / nominal area (perimeter-corrected)"),
+    Quantity("area_fraction", "1", "real contact area / nominal area (edges between pixels)"),
     Quantity("max_pressure", "Pa", "maximum pressure"),
     Quantity("stored_energy", "J", "stored energy"),
     Quantity("dissipated", "J", "heat since the virgin state"),

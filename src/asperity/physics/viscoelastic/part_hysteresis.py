@@ -92,7 +92,7 @@ SCALARS = (
     Quantity("hysteresis_slope_friction", "1", "coefficient of hysteretic friction, by the slope of the surface"),
     Quantity("hysteresis_friction_force", "N", "force of hysteretic friction"),
     Quantity("hysteresis_heat", "W/m^2", "heat of hysteretic friction per nominal area and time"),
-    Quantity("sliding_area_fraction", "1", "real contact area / nominal area while sliding (perimeter-corrected)"),
+    Quantity("sliding_area_fraction", "1", "real contact area / nominal area while sliding"),
     Quantity("sliding_max_pressure", "Pa", "maximum pressure while sliding"),
     Quantity("sliding_mean_gap", "m", "mean gap while sliding"),
     Quantity("sliding_energy_error", "1", "bound on the error of the pressure while sliding, in energy"),

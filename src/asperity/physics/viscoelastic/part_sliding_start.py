@@ -36,7 +36,7 @@ SCALARS = (
     Quantity("start_last_friction", "1", "coefficient of friction by the slope over the last quarter of the distance"),
     Quantity("start_last_heat_friction", "1", "the same by the heat"),
     Quantity("start_largest_friction", "1", "largest coefficient of friction on the way"),
-    Quantity("start_first_area_fraction", "1", "real contact area / nominal area at rest (perimeter-corrected)"),
+    Quantity("start_first_area_fraction", "1", "real contact area / nominal area at rest"),
     Quantity("start_last_area_fraction", "1", "real contact area / nominal area after the distance"),
     Quantity("start_heat", "J", "heat of viscoelastic solids on the way"),
 )

@@ -37,7 +37,7 @@ COLUMNS = (
     Quantity("mean_pressure", "Pa", "mean (nominal) pressure, from outside"),
     Quantity("force", "N", "force between the solids, less the attraction"),
     Quantity("approach", "m", "approach from first touch"),
-    Quantity("area_fraction", "1", "real contact area / nominal area (perimeter-corrected)"),
+    Quantity("area_fraction", "1", "real contact area / nominal area (edges between pixels)"),
     Quantity("max_pressure", "Pa", "maximum pressure"),
     Quantity("friction_force", "N", "force against the motion, by the slope of what moves"),
     Quantity("stored_energy", "J", "stored energy"),

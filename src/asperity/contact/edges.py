@@ -1,0 +1,341 @@
+"""Where the edge of a contact runs between pixels, and what that makes of area, perimeter and spots.
+
+Near its edge the pressure of a contact without adhesion is k √δ and the gap 4k/(3E*) δ^(3/2) at a distance δ inside and outside. What pixels hold there
+depends on the place of the edge between their centres alone (``edge_tables``). It follows from the ratio of the last two pressures, which looks inwards, and
+from that of the first gap to a pressure, which looks across the edge; errors by the curvature of the profile are opposite in the two and nearly cancel in their
+mean. Half of their difference is the error.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.arrays import BoolArray, RealArray
+from ..core.grid import Grid
+from .edge_tables import EdgePixels
+from .measure import labelled
+
+Indices = NDArray[np.intp]
+
+REACH = 2
+"""Pixels to each side of an edge pixel from which the normal of the edge is taken."""
+
+LEAST_COSINE = 0.3
+"""Least cosine of edge normal and grid axis with which a gap is scaled: along an edge it tells nothing of its place."""
+
+FACTOR = 0.04
+"""Error in pixels of the tables for edges that are oblique and curved, of one sign along a whole edge."""
+
+SINGLE, SINGLE_FACTOR = 0.25, 0.2
+"""Errors in pixels of the place, random and of one sign, where a contact is one pixel across."""
+
+CAPPED, CAPPED_FACTOR = 0.06, 0.01
+"""Errors in pixels of the place, random and of one sign, at a pixel whose pressure is at its limit: the edge may lie anywhere in it."""
+
+LEAST_RIGID = -0.3
+"""Least place in pixels of an edge that the pressure reaches at its limit."""
+
+RANDOM = 0.05
+"""Random error in pixels of each place beside the spread of its estimates."""
+
+PINNED, PINNED_ERROR = -0.17, 0.33
+"""Pixels per edge between counted and true area of a contact whose attraction has no range, and their error: the grid holds its edge, and what it
+does depends on the history (spheres of 4 to 24 pixels against the exact JKR)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """Pairs of neighbours of which one is in contact and the other not, (n,) each.
+
+    Attributes
+    ----------
+    grid
+        The grid.
+    inner, outer
+        Number of the pixel in contact and of the one that is not, in the flat order of the grid; ``outer`` is that of ``inner`` where beyond
+        the border of a free boundary there is none.
+    axis
+        0 for neighbours along x, 1 along y.
+    sign
+        Whether ``outer`` comes after ``inner`` (1) or before (-1).
+    normal
+        (n, 2): outward normal of the edge.
+    distance
+        Distance along the axis of the edge beyond the centre of the pixel in contact, in pixels.
+    spread
+        Random error of that in pixels; half the difference of two estimates with its sign where there are two.
+    factor
+        Error in pixels that the pairs along an edge share.
+    two
+        Whether both estimates were there: the next pixel inwards is in contact too, and this one is not at the limit of the pressure.
+    deep
+        Whether the next pixel inwards is in contact too.
+    beyond
+        Whether there is no pixel outside.
+    weight
+        Share of the area between edge and pixel border that a pair counts: pairs along both axes measure the same edge.
+    """
+
+    grid: Grid
+    inner: Indices
+    outer: Indices
+    axis: NDArray[np.int8]
+    sign: NDArray[np.int8]
+    normal: RealArray
+    distance: RealArray
+    spread: RealArray
+    factor: RealArray
+    two: BoolArray
+    deep: BoolArray
+    beyond: BoolArray
+    weight: RealArray
+    contact: BoolArray
+    wraps: tuple[bool, bool]
+
+    @cached_property
+    def spot_pixels(self) -> NDArray[np.int64]:
+        """Number of pixels in the spot to which each pair belongs, (n,)."""
+        labels, _ = labelled(self.contact, wraps=self.wraps)
+        flat = labels.ravel()
+        return np.bincount(flat)[flat[self.inner]]
+
+    @property
+    def cosine(self) -> RealArray:
+        """Cosine of normal and axis, (n,); one beyond the border of the grid."""
+        return _cosine(self.axis, self.normal, self.beyond)
+
+    @property
+    def excess(self) -> RealArray:
+        """Area in pixels beyond the pixels in contact, (n,)."""
+        return self.weight * (self.distance - 0.5)
+
+    def perimeter(self) -> float:
+        """Length of all edges in m."""
+        dx, dy = self.grid.spacing
+        return float((self.cosine * np.where(self.axis == 0, dy, dx)).sum())
+
+    def area_error(self) -> float:
+        """Error in pixels of the area: what all pairs share, and what is random, two standard deviations."""
+        weight, spread = self.weight, np.where(self.two, self.spread, 0.0)
+        shared = abs(float((weight * spread).sum())) + float((weight * self.factor).sum())
+        scatter = np.where(self.beyond, 0.0, weight**2 * (self.spread**2 + RANDOM**2))
+        return float(np.hypot(shared, 2.0 * np.sqrt(scatter.sum())))
+
+
+def _cosine(axis: NDArray[np.int8], normal: RealArray, beyond: BoolArray) -> RealArray:
+    return np.where(beyond, 1.0, np.abs(np.where(axis == 0, normal[:, 0], normal[:, 1])))
+
+
+class Outside(NamedTuple):
+    """Pairs as in ``Edges``, before anything is known of the edge."""
+
+    inner: Indices
+    outer: Indices
+    axis: NDArray[np.int8]
+    sign: NDArray[np.int8]
+    beyond: BoolArray
+
+
+def _pairs(contact: BoolArray, wraps: tuple[bool, bool]) -> Outside:
+    """Neighbours of which one is in ``contact`` (nx, ny)."""
+    numbers = np.arange(contact.size).reshape(contact.shape)
+    found: list[tuple[Any, ...]] = []
+    for axis in (0, 1):
+        touching, number = (np.moveaxis(a, axis, 0) for a in (contact, numbers))
+        for sign in (1, -1):
+            low, high = (slice(None, -1), slice(1, None))[::sign]
+            changes = touching[low] & ~touching[high]
+            pairs = [(number[low][changes], number[high][changes], False)]
+            last, first = (-1, 0)[::sign]
+            if wraps[axis]:
+                ends = touching[last] & ~touching[first]
+                pairs.append((number[last][ends], number[first][ends], False))
+            else:
+                pairs.append((number[last][touching[last]],) * 2 + (True,))
+            found += [(inner, outer, axis, sign, beyond) for inner, outer, beyond in pairs]
+    sizes = [each[0].size for each in found]
+    axes, signs, beyond = (np.repeat([each[k] for each in found], sizes) for k in (2, 3, 4))
+    inner, outer = (np.concatenate([each[k] for each in found]) for k in (0, 1))
+    return Outside(inner, outer, axes.astype(np.int8), signs.astype(np.int8), beyond)
+
+
+def neighbours(
+    at: Indices, steps: tuple[Any, Any], shape: tuple[int, int], wraps: tuple[bool, bool]
+) -> tuple[Indices, BoolArray]:
+    """Numbers (n,) of the pixels some ``steps`` (along x, along y) from those ``at`` (n,), and whether they are on the grid."""
+    inside, places = np.ones(at.size, dtype=bool), []
+    for place, step, size, wrap in zip(np.divmod(at, shape[1]), steps, shape, wraps, strict=True):
+        moved = place + step
+        if wrap:
+            moved %= size
+        else:
+            inside &= (moved >= 0) & (moved < size)
+            np.clip(moved, 0, size - 1, out=moved)
+        places.append(moved)
+    return places[0] * shape[1] + places[1], inside
+
+
+def _normals(at: Indices, p: RealArray, grid: Grid, wraps: tuple[bool, bool]) -> RealArray:
+    """Outward normals (n, 2) at pixels of contact: down the plane through p² of the pixels in contact around, (5, 5).
+
+    Where p² is level, as at the limit of the pressure, away from the middle of the pixels in contact; zero where that tells nothing either.
+    """
+    n, (dx, dy) = at.size, grid.spacing
+    reach = [REACH if size > 1 else 0 for size in grid.shape]
+    unit = min(grid.pixels)
+    flat_p = p.ravel()
+    count, x, y, q, xx, yy, xy, xq, yq = np.zeros((9, n))
+    most = np.zeros(n)
+    for i in range(-reach[0], reach[0] + 1):
+        for j in range(-reach[1], reach[1] + 1):
+            number, inside = neighbours(at, (i, j), grid.shape, wraps)
+            square = np.where(inside, flat_p[number].astype(np.float64), 0.0) ** 2
+            counts = square > 0.0
+            a, b = i * dx / unit, j * dy / unit
+            count += counts
+            x += a * counts
+            y += b * counts
+            xx += a * a * counts
+            yy += b * b * counts
+            xy += a * b * counts
+            q += square
+            xq += a * square
+            yq += b * square
+            np.maximum(most, square, out=most)
+    mean_x, mean_y, mean_q = x / count, y / count, q / count
+    xx, yy, xy = xx - x * mean_x, yy - y * mean_y, xy - x * mean_y
+    xq, yq = xq - x * mean_q, yq - y * mean_q
+    determinant, trace = xx * yy - xy * xy, xx + yy
+    plane = determinant > 1e-9 * trace * trace
+    safe, line = np.where(plane, determinant, 1.0), np.where(trace > 0.0, trace, 1.0)
+    slope_x = np.where(plane, (yy * xq - xy * yq) / safe, xq / line)
+    slope_y = np.where(plane, (xx * yq - xy * xq) / safe, yq / line)
+    steep = np.hypot(slope_x, slope_y)
+    level = steep <= 1e-6 * most
+    along_x, along_y = np.where(level, mean_x, slope_x), np.where(level, mean_y, slope_y)
+    length = np.hypot(along_x, along_y)
+    length = np.where(length > 0.0, length, np.inf)
+    return -np.stack([along_x / length, along_y / length], axis=1)
+
+
+class _Ratios:
+    """Place of an edge in pixels beyond the centre of the last one in contact, by ratios that do not contain its k; from the ``table`` of a discretisation."""
+
+    def __init__(self, table: EdgePixels) -> None:
+        d, last, second, gap = table
+        self._distance = d
+        self._inwards = np.sqrt(last / second)
+        self._across = (gap / np.cbrt(second))[::-1]
+        self._single = last / (last + gap**3)
+
+    def inwards(self, last: RealArray, second: RealArray) -> RealArray:
+        """By the last two pressures."""
+        return np.interp(last / second, self._inwards, self._distance)
+
+    def across(self, gap: RealArray, second: RealArray) -> RealArray:
+        """By the ``gap`` of the first pixel outside, as the square root of its cube in units of pressure, and the second pressure."""
+        return np.interp(np.cbrt((gap / second) ** 2), self._across, self._distance[::-1])
+
+    def single(self, gap: RealArray, last: RealArray) -> RealArray:
+        """By that and the last pressure."""
+        return np.interp(last**2 / (last**2 + gap**2), self._single, self._distance)
+
+
+class Kind(Enum):
+    """What an edge is like."""
+
+    elastic = "pressure k √δ"
+    pinned = "attraction without a range, or one that the grid does not resolve: the pressure is infinite at the edge"
+    smooth = "attraction with a core instead of a wall: the pressure passes through zero"
+
+
+class Setting(NamedTuple):
+    """What the edges of a contact depend on beside its fields.
+
+    ``wraps``: whether the opposite side lies beyond the border, along x and along y; else nothing. ``modulus``: E* in Pa of both bodies at the
+    surface, of viscoelastic ones that of the first instant, for at an edge the stress changes fastest. ``table``: of the discretisation.
+    """
+
+    grid: Grid
+    wraps: tuple[bool, bool]
+    modulus: float
+    table: EdgePixels
+    kind: Kind = Kind.elastic
+
+
+def edges_of(p: RealArray, gap: RealArray, plastic: BoolArray, setting: Setting) -> Edges:
+    """Edges of a contact of the pressure ``p`` (nx, ny) in Pa and the ``gap`` (nx, ny) in m, whose pressure is at its limit where it is ``plastic``.
+
+    The place of all but elastic edges is known by their mean alone.
+    """
+    grid, wraps = setting.grid, setting.wraps
+    pairs = _pairs(p > 0.0, wraps)
+    at, first = np.unique(pairs.inner, return_inverse=True)
+    normal = _normals(at, p, grid, wraps)[first]
+    normal = np.where(np.any(normal != 0.0, axis=1)[:, None], normal, np.sqrt(0.5))
+    cosine = _cosine(pairs.axis, normal, pairs.beyond)
+    weight = cosine**2
+    none = np.zeros(weight.size)
+    if setting.kind is Kind.elastic:
+        places = _Pressed(pairs, cosine, setting).places(p, gap, plastic)
+    elif setting.kind is Kind.pinned:
+        weight = np.ones(weight.size)
+        places = Places(none + 0.5 + PINNED, none, none + PINNED_ERROR, none > 0.0, none > 0.0)
+    else:
+        places = Places(none + 0.5, none + math.sqrt(1.0 / 12.0), none, none > 0.0, none > 0.0)
+    beyond = pairs.beyond
+    ends = (0.5, 0.0, 0.0, False, False)
+    places = Places(*(np.where(beyond, end, found) for end, found in zip(ends, places, strict=True)))
+    return Edges(
+        grid, pairs.inner, pairs.outer, pairs.axis, pairs.sign, normal, *places, beyond, weight, p > 0.0, wraps
+    )
+
+
+class Places(NamedTuple):
+    """Distance of the edge, its random error and that of one sign, whether there were two estimates, and a second pixel, (n,) each as in ``Edges``."""
+
+    distance: RealArray
+    spread: RealArray
+    factor: RealArray
+    two: BoolArray
+    deep: BoolArray
+
+
+class _Pressed(NamedTuple):
+    """``Outside`` pairs at the edges of a pressed contact, with the ``cosine`` of their normals."""
+
+    pairs: Outside
+    cosine: RealArray
+    setting: Setting
+
+    def places(self, p: RealArray, gap: RealArray, plastic: BoolArray) -> Places:
+        """Where the edges are."""
+        pairs, flat, (grid, wraps, modulus, table, _) = self.pairs, plastic.ravel(), self.setting
+        steps = -pairs.sign * (pairs.axis == 0), -pairs.sign * (pairs.axis == 1)
+        behind, inside = neighbours(pairs.inner, steps, grid.shape, wraps)
+        last, second = (p.ravel()[number].astype(np.float64) for number in (pairs.inner, behind))
+        deep = inside & (second > 0.0)
+        pixel = np.asarray(grid.spacing)[pairs.axis]
+        opening = 0.75 * modulus * gap.ravel()[pairs.outer] / (np.maximum(self.cosine, LEAST_COSINE) * pixel)
+        ratios = _Ratios(table)
+        single, below = ratios.single(opening, last), np.where(deep, second, last)
+        inwards, across = ratios.inwards(last, below), ratios.across(opening, below)
+        distance = np.where(deep, 0.5 * (inwards + across), single)
+        spread = np.where(deep, 0.5 * (inwards - across), SINGLE)
+        factor = np.where(deep, FACTOR, SINGLE_FACTOR)
+        if not flat.any():
+            return Places(distance, spread, factor, deep, deep)
+        here = flat[pairs.inner]
+        next_one = deep & flat[behind] & ~here
+        rigid = np.maximum(last / below - 0.5, LEAST_RIGID)  # pressure at its limit up to an edge within the pixel
+        distance = np.where(here, 0.5, np.where(next_one, single, distance))
+        spread = np.where(here, CAPPED, np.where(next_one, 0.5 * (single - rigid), spread))
+        factor = np.where(here, CAPPED_FACTOR, factor)
+        return Places(distance, spread, factor, deep & ~here, deep)
