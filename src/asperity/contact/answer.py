@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from ..core.errors import InputError
 from ..core.registry import OUTCOMES, PHYSICS
@@ -68,6 +68,18 @@ class Answer:
     def heat(self) -> float:
         """Heat (J) of the bodies in this step."""
         return 0.0
+
+    def slipped(self) -> float:
+        """Energy (J) that slip takes in this step."""
+        return 0.0
+
+    def has_jumped(self) -> bool:
+        """Whether the contact jumped in this step, whose loss nothing else tells."""
+        return False
+
+    def summed(self, earlier: Sequence[Self]) -> Self:
+        """The answer of a whole step, of which this is that of its last part, and ``earlier`` those of the parts before."""
+        return self
 
     def flows(self) -> float:
         """Plastic work (J) of this step beside that at the surface."""

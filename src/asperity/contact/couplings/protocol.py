@@ -301,6 +301,10 @@ class Ahead(NamedTuple):
     exchange: Exchange | None = None
 
 
+Ended: TypeAlias = "tuple[Memory, object]"
+"""Memory for the next step, and what a coupling found."""
+
+
 class Coupling(Protocol):
     """A physics that joins the normal contact: frozen settings, prepared once for a problem.
 
@@ -356,8 +360,16 @@ class Coupling(Protocol):
         """What still changes and by how much: the beginning of a sentence that ends in "after 40 rounds"."""
         return f"The share of {self.name} still changes by {exchange.residual:.1e}"
 
+    def apart(self, exchange: Exchange, contact: Contact) -> Exchange:
+        """Exchange of surfaces that lie apart at the position prescribed."""
+        return exchange
+
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, object]:
         """Memory for the next step, and what it found (None if that is all in the contact)."""
+
+    def end_in_time(self, exchange: Exchange, contact: Contact, ended: Ended, stored: float, heat: float) -> Ended:
+        """The same of a step of time of bodies that hold the energy ``stored`` (J) after its ``heat`` (J), which ``ended`` so by itself."""
+        return ended
 
 
 @runtime_checkable

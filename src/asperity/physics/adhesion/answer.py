@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -150,6 +152,20 @@ class AdhesiveContact(Answer, Shown):
     def stores(self, *, relaxing: bool) -> float:
         """The energy of the interface."""
         return self.interface_energy
+
+    def has_jumped(self) -> bool:
+        """Whether it jumped."""
+        return self.jumped
+
+    def summed(self, earlier: Sequence[Self]) -> Self:
+        """With the losses and jumps of all parts."""
+        parts = [*earlier, self]
+        return replace(
+            self,
+            dissipated=sum(part.dissipated for part in parts),
+            dissipated_error=sum(part.dissipated_error for part in parts),
+            jumped=any(part.jumped for part in parts),
+        )
 
     def ended(self) -> Status:
         """How the adhesive solver ended."""

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...contact import measure
 from ...contact.controls import Control, FixedGrips, MeanGap
-from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from ...contact.couplings.protocol import Contact, Coupling, Ended, Exchange, Memory, Posed, Share
 from ...contact.law import HardWall
 from ...contact.operators import Operator
 from ...contact.operators.creep import SummedOperator
@@ -343,6 +343,24 @@ class AdhesionCoupling(Coupling):
         opened = np.where(touching, 0.0, np.maximum(contact.gap, np.finfo(float).tiny))
         return opened + self._core(exchange.note.solution.state)
 
+    def end_in_time(self, exchange: Exchange, contact: Contact, ended: Ended, stored: float, heat: float) -> Ended:
+        """Memory and outcome of a step of time. What is lost is neither stored nor heat of the bodies: a jump, or the error of the trapezium."""
+        found, before = ended[1], exchange.note.before
+        assert isinstance(found, AdhesiveContact)
+        approach = exchange.note.posed.top + contact.level
+        energy = stored + heat + found.interface_energy
+        lost, error, jumped = _lost(before, found.external_force, approach, energy, contact.gap)
+        found = replace(
+            found,
+            elastic_energy=stored,
+            dissipated=lost,
+            dissipated_error=error,
+            jumped=jumped,
+            jumps=before.jumps + int(jumped),
+            total_dissipated=before.total + lost,
+        )
+        return found.memory(contact.gap, approach), found
+
 
 def _same_load(mean: float | None, known: float | None) -> bool:
     """Whether two mean pressures (Pa) are the same but for rounding; other couplings, such as menisci, add to the load."""
@@ -401,28 +419,3 @@ def _creeps(before: _Before, gap: RealArray) -> bool:
     earlier, later = before.gap == 0.0, gap == 0.0
     most = max(np.count_nonzero(earlier), np.count_nonzero(later))
     return bool(np.count_nonzero(earlier != later) <= _JUMPED_SHARE * most)
-
-
-def in_time(
-    exchange: Exchange, contact: Contact, found: AdhesiveContact, stored: float, heat: float
-) -> tuple[Memory, AdhesiveContact]:
-    """Memory and outcome of a step of time of viscoelastic bodies, which hold the energy ``stored`` (J) after its ``heat`` (J).
-
-    What is lost is neither stored nor heat of the bodies: a jump, or the error of the trapezium.
-    """
-    before: _Before = exchange.note.before
-    approach = exchange.note.posed.top + contact.level
-    lost, error, jumped = _lost(
-        before, found.external_force, approach, stored + heat + found.interface_energy, contact.gap
-    )
-    jumps = before.jumps + int(jumped)
-    found = replace(
-        found,
-        elastic_energy=stored,
-        dissipated=lost,
-        dissipated_error=error,
-        jumped=jumped,
-        jumps=jumps,
-        total_dissipated=before.total + lost,
-    )
-    return found.memory(contact.gap, approach), found

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -98,6 +98,22 @@ class StickSlip(Answer):
     def stores(self, *, relaxing: bool) -> float:
         """The tangential energy, which is part of that of the springs of ``relaxing`` bodies."""
         return 0.0 if relaxing else self.tangential_energy
+
+    def slipped(self) -> float:
+        """What slip dissipates."""
+        return self.dissipated
+
+    def summed(self, earlier: Sequence[Self]) -> Self:
+        """With slip, heat and work of the solver of all parts."""
+        parts = [*earlier, self]
+        return replace(
+            self,
+            slip_increment=np.sum([part.slip_increment for part in parts], axis=0),
+            dissipation_density=np.sum([part.dissipation_density for part in parts], axis=0),
+            dissipated=sum(part.dissipated for part in parts),
+            iterations=sum(part.iterations for part in parts),
+            fft_pairs=sum(part.fft_pairs for part in parts),
+        )
 
     def ended(self) -> Status:
         """How it ended."""

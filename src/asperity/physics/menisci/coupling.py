@@ -261,6 +261,10 @@ class MeniscusCoupling(Coupling):
         """The change of the force."""
         return f"The meniscus force still changes by {exchange.residual:.1e} of the external force"
 
+    def apart(self, exchange: Exchange, contact: Contact) -> Exchange:
+        """Liquid stands in the open gap, too."""
+        return self.reply(exchange, contact)
+
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, Menisci]:
         """Force to go on from, and the menisci."""
         note, external = exchange.note, contact.posed.external_force

@@ -7,11 +7,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from ...contact.answer import Answer
 from ...core.arrays import RealArray
 from ...core.status import Outcome, Status
 from ...core.units import percent
-from ..adhesion.answer import AdhesiveContact
-from ..friction.answer import StickSlip
 from .coupling import Past
 from .moments import Creeping, Moment
 
@@ -83,15 +82,13 @@ def force_work(records: RealArray) -> tuple[float, float]:
 
 
 def stored_in(moment: Moment) -> float:
-    """Energy (J) in the solids and in their adhesion."""
-    adhesive = moment.ends["adhesion"][1] if "adhesion" in moment.ends else None
-    return moment.stored + (adhesive.interface_energy if isinstance(adhesive, AdhesiveContact) else 0.0)
+    """Energy (J) in the solids and in what acts between them."""
+    return moment.stored + sum(answer.stores(relaxing=True) for answer in moment.answers)
 
 
 def taken_by(before: Moment, moment: Moment) -> float:
     """Heat, plastic work, work of the displacement by shear and of slip less the tangential work in the step of time from ``before`` (J)."""
-    stuck = moment.ends["stick_slip"][1] if "stick_slip" in moment.ends else None
-    slip = stuck.dissipated if isinstance(stuck, StickSlip) else 0.0
+    slip = sum(answer.slipped() for answer in moment.answers)
     along, step = moment.shear_works
     plastic = moment.plastic_work - before.plastic_work
     return moment.past.dissipated - before.past.dissipated + plastic + moment.lift_work + slip + step - along
@@ -103,19 +100,24 @@ def step_error(before: Moment, moment: Moment) -> float:
     A step that is many times as long as a retardation may end at the right displacement and yet miss how it came there, and with it the heat.
     What adhesive surfaces lose as they jump is not missed.
     """
-    pulled = moment.ends["adhesion"][1] if "adhesion" in moment.ends else None
     stored = stored_in(before), stored_in(moment)
     scale = max(map(abs, stored))
-    if not scale > 0.0 or np.isnan(stored[0]) or not _begun(before, pulled) or getattr(pulled, "jumped", False):
+    jumped = any(answer.has_jumped() for answer in moment.answers)
+    if not scale > 0.0 or np.isnan(stored[0]) or jumped or not _begun(before, moment):
         return 0.0
     (f0, d0), (f1, d1) = before.record[2:4], moment.record[2:4]
     missed = 0.5 * (f0 + f1) * (d1 - d0) - (stored[1] - stored[0]) - taken_by(before, moment)
     return max(0.0, float(abs(missed) - 0.5 * abs((f1 - f0) * (d1 - d0))) / scale)
 
 
-def _begun(before: Moment, pulled: object) -> bool:
-    """Whether the energies of surfaces that are ``pulled`` by adhesion, if any, are known ``before`` a step."""
-    return pulled is None or (before.state is not None and "adhesion" in before.state.memory)
+def _begun(before: Moment, moment: Moment) -> bool:
+    """Whether the energies of what attracts the surfaces in the ``moment``, if anything, are known ``before`` a step."""
+    attracting = {
+        name
+        for name, (_, found) in moment.ends.items()
+        if isinstance(found, Answer) and found.traction_beside() is not None
+    }
+    return not attracting or (before.state is not None and attracting <= before.state.memory.keys())
 
 
 def accounted(begin: Moment, moments: list[Moment], found: Creeping) -> tuple[Creeping, Account]:
@@ -126,10 +128,9 @@ def accounted(begin: Moment, moments: list[Moment], found: Creeping) -> tuple[Cr
     known approach.
     """
     last, before = moments[-1], Account.of(begin.past)
-    pulled = [moment.ends["adhesion"][1] for moment in moments if "adhesion" in moment.ends]
-    jumped = any(isinstance(each, AdhesiveContact) and each.jumped for each in pulled)
+    jumped = any(answer.has_jumped() for moment in moments for answer in moment.answers)
     stored = stored_in(last)
-    if before is None or not _begun(begin, pulled[0] if pulled else None):
+    if before is None or not _begun(begin, moments[0]):
         return _with(found, account := Account.begun(stored)), account
     taken = stored - before.stored + sum(taken_by(*pair) for pair in pairwise([begin, *moments]))
     error = force_work(found.records)[1]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...contact.answer import Answer, outside
 from ...contact.area import touching_fraction
 from ...contact.controls import Approach, Control, MeanGap, Step, as_step
 from ...contact.couplings.driver import Settled
@@ -22,13 +23,10 @@ from ...core.arrays import RealArray
 from ...core.errors import ConvergenceError
 from ...core.status import Outcome, Status
 from ...solids.compliance.creep import SharedCreep, contact_creep
-from ..adhesion.answer import AdhesiveContact
-from ..adhesion.coupling import in_time
 from ..friction.answer import StickSlip
 from ..friction.operator import NO_COUPLING
 from ..friction.sliding import GrossSliding, SlidingCoupling
 from ..friction.stick_slip import StickSlipCoupling
-from ..menisci.coupling import Menisci, MeniscusCoupling
 from .coupling import CreepCoupling, LayeredPast, Past, TimeWeights, remembering
 from .energy import Account, accounted, balanced, force_work, step_error
 from .layered_shear import LayeredShear
@@ -159,8 +157,8 @@ class InTime:
         fraction = np.count_nonzero(past.pressure > 0.0) / profile.size
         largest = float(past.pressure.max())
         mean, held, gap = past.place
-        adhesion = {} if state is None else state.memory.get("adhesion", {})
-        approach = float(adhesion.get("approach", held))  # that of the bodies, not of the machine that holds them
+        memories = {} if state is None else state.memory
+        approach = float(next((known["approach"] for known in memories.values() if "approach" in known), held))
         account = Account.of(past)
         stored = np.nan if account is None else account.stored
         record = np.array([past.time, mean, force, approach, gap, fraction, largest, stored, past.dissipated, 0.0])
@@ -181,22 +179,23 @@ class InTime:
         )
         contact = settled.contact
         ends = {c.name: c.end(settled.exchanges[c.name], contact) for c in couplings if c.name in settled.exchanges}
-        menisci = ends["menisci"][1] if "menisci" in ends else None
-        held_by = menisci.meniscus_force if isinstance(menisci, Menisci) else 0.0
-        area = problem.grid.area
-        external = max(menisci.external_force, 0.0) if isinstance(menisci, Menisci) else contact.force
+        answers = [found for _, found in ends.values() if isinstance(found, Answer)]
+        area, beside = problem.grid.area, [answer for answer in answers if answer.traction_beside() is not None]
+        external = outside(answers, contact.force)
+        external = external if beside else max(external, 0.0)
         approach, gap = contact.posed.top + contact.level, float(contact.gap.mean())
         traction, deflection = contact.traction, contact.solution.state.deflection
-        adhesive = ends["adhesion"][1] if "adhesion" in ends else None
-        if isinstance(adhesive, AdhesiveContact):
-            deflection = deflection - operator.apply(adhesive.attraction)
-            external = adhesive.external_force - held_by
-        held = adhesive.grips if isinstance(adhesive, AdhesiveContact) else approach
+        for attraction in (answer.traction_beside() for answer in beside):
+            assert attraction is not None
+            deflection = deflection - operator.apply(attraction)
+        held = next((at for at in (answer.held_at() for answer in answers) if at is not None), approach)
         place = (external / area, held, gap)
         past, stored = self.remembering.after(moment.past, weights, traction, deflection, place)
-        if isinstance(adhesive, AdhesiveContact):
-            heat = past.dissipated - moment.past.dissipated
-            ends["adhesion"] = in_time(settled.exchanges["adhesion"], contact, adhesive, stored, heat)
+        heat = past.dissipated - moment.past.dissipated
+        for coupling in couplings:
+            name = coupling.name
+            if name in ends:
+                ends[name] = coupling.end_in_time(settled.exchanges[name], contact, ends[name], stored, heat)
         lift_work = self._lift_work(moment, contact.pressure, ends, length)
         past = self._slid(moment, past, contact.pressure, weights)
         past, sheared, works = self._sheared(moment, past, traction, weights, ends, couplings)
@@ -205,7 +204,7 @@ class InTime:
         earlier = moment.state.pressure if moment.state is not None and moment.state.pressure.any() else None
         state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
         fraction = touching_fraction(problem, contact)
-        force = adhesive.external_force if isinstance(adhesive, AdhesiveContact) else contact.force
+        force = contact.force if not beside else outside(beside, contact.force)
         top = contact.pressure.max()
         numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)
         return Moment(settled, past, state, np.array(numbers), retarded, stored, length, ends, works, lift_work)
@@ -287,8 +286,7 @@ class InTime:
         contact = Contact(posed, qp, Solution(SolverState(none, none, 0.0), status, (0.0,)))
         memories = {} if state is None else state.memory
         exchanges = {c.name: c.begin(posed, memories.get(c.name, {})) for c in couplings}
-        for liquid in (each for each in couplings if isinstance(each, MeniscusCoupling)):  # stands in the open gap too
-            exchanges[liquid.name] = liquid.reply(exchanges[liquid.name], contact)
+        exchanges = {c.name: c.apart(exchanges[c.name], contact) for c in couplings}
         return Settled(contact, exchanges, (), 1, prepared.solver.tolerance, status)
 
     def error(self, first: Moment, second: Moment, third: Moment) -> float:
@@ -330,36 +328,11 @@ def _traction_before(state: InterfaceState | None, shape: tuple[int, ...]) -> Re
 def _summed(moments: list[Moment]) -> dict[str, tuple[Memory, object]]:
     """What the couplings remember and found in the last of the ``moments``; slip, heat and jumps of all of them."""
     ends = dict(moments[-1].ends)
-    if "adhesion" in ends:
-        pulled = [
-            found for found in (moment.ends["adhesion"][1] for moment in moments) if isinstance(found, AdhesiveContact)
-        ]
-        adhesive = replace(
-            pulled[-1],
-            dissipated=sum(one.dissipated for one in pulled),
-            dissipated_error=sum(one.dissipated_error for one in pulled),
-            jumped=any(one.jumped for one in pulled),
-        )
-        ends["adhesion"] = ends["adhesion"][0], adhesive
-    if "stick_slip" not in ends or len(moments) < 2:
-        return ends
-    each = [_stuck(moment) for moment in moments]
-    memory = ends["stick_slip"][0]
-    found = replace(
-        each[-1],
-        slip_increment=np.sum([one.slip_increment for one in each], axis=0),
-        dissipation_density=np.sum([one.dissipation_density for one in each], axis=0),
-        dissipated=sum(one.dissipated for one in each),
-        iterations=sum(one.iterations for one in each),
-        fft_pairs=sum(one.fft_pairs for one in each),
-    )
-    return {**ends, "stick_slip": (memory, found)}
-
-
-def _stuck(moment: Moment) -> StickSlip:
-    found = moment.ends["stick_slip"][1]
-    assert isinstance(found, StickSlip)
-    return found
+    for name, (memory, found) in ends.items():
+        if isinstance(found, Answer) and len(moments) > 1:
+            earlier = [one for one in (moment.ends[name][1] for moment in moments[:-1]) if isinstance(one, Answer)]
+            ends[name] = memory, found.summed(earlier)
+    return ends
 
 
 def _works(moment: Moment, found: StickSlip, coupling: StickSlipCoupling, pixel: float) -> tuple[float, float]:

@@ -165,6 +165,11 @@ class Moment:
     lift_work: float = 0.0
 
     @property
+    def answers(self) -> tuple[Answer, ...]:
+        """What the couplings found."""
+        return tuple(found for _, found in self.ends.values() if isinstance(found, Answer))
+
+    @property
     def plastic_work(self) -> float:
         """J since the virgin surface."""
         return 0.0 if self.state is None else self.state.plastic_work
