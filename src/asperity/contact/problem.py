@@ -15,7 +15,7 @@ from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Shown
-from ..core.registry import PHYSICS, home
+from ..core.registry import PHYSICS, REFUSED, home
 from ..core.values import LEAST
 from ..solids.compliance.halfspace import Compliance, contact_compliance
 from ..solids.elastic import Elastic, Rigid
@@ -275,6 +275,12 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
                 require.magnitude(extent, "range of the heights (m)")  # a smaller one is rounding of a flat surface
         if isinstance(self.counter_surface, Surface):
             composite(self.surface, self.counter_surface)
+        for (one, other), why in REFUSED.items():
+            if getattr(self, one) is not None and getattr(self, other) is not None:
+                name = one.replace("_", " ")
+                raise InputError(
+                    f"{other} of a contact with {name} must be None, but is {getattr(self, other)!r}: {why}."
+                )
         for physics in self.physics:
             physics.check(self)
         cap = self.law.pressure_cap()

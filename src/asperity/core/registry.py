@@ -71,6 +71,14 @@ PAIRS: Mapping[frozenset[str], str] = MappingProxyType(
 )
 """How couplings settle that must balance a force together, by their names."""
 
+REFUSED: Mapping[tuple[str, str], str] = MappingProxyType(
+    {
+        ("plastic_flow", "adhesion"): "the plastic strain would not feel what the attraction does below the surface. "
+        "Solve it without adhesion, or with a Hardness instead of the flow",
+    }
+)
+"""Why physics do not go together, by the keywords of both; ``PAIRS`` says how others settle."""
+
 IN_TIME = "physics.viscoelastic.in_time:InTime"
 """What takes over the steps of a prepared problem whose bodies relax."""
 

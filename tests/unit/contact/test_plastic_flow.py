@@ -219,6 +219,29 @@ def test_stick_and_slip_is_refused() -> None:
         asp.solve(problem(friction=asp.Coulomb(0.3)), asp.Step(asp.MeanPressure(1e8), asp.Shift(1e-9)))
 
 
+def test_menisci_are_an_additional_load(tmp_path: Path) -> None:
+    """Under load and menisci the body flows as under the sum of both, step by step; the force between the solids is that sum."""
+    film = asp.LiquidFilm.of(asp.liquid("water"), 1.5e-9)
+    loads = [0.05e9, 0.2e9, 0.1e9]
+    wet = asp.solve(problem(film=film), asp.History(map(asp.MeanPressure, loads)))
+    assert wet.converged
+    found = wet.last.require_plastic_flow()
+    assert found.flowed.points.size
+    for step, load in zip(wet, loads, strict=True):
+        menisci = step.require_menisci()
+        assert menisci.meniscus_force > 1e-2 * step.external_force
+        assert step.external_force == pytest.approx(load * step.problem.grid.area, rel=1e-9)
+        assert step.force == pytest.approx(step.external_force + menisci.meniscus_force, rel=1e-3)
+    dry = asp.solve(problem(), asp.History([asp.Force(step.force) for step in wet])).last
+    scale = np.abs(dry.require_plastic_flow().displacement).max()
+    # two solves, each settled to the tolerance of the flow in each of its steps
+    assert np.abs(found.displacement - dry.require_plastic_flow().displacement).max() <= 6 * FLOW.tolerance * scale
+    asp.save(wet, tmp_path / "wet.nc")
+    again = asp.load(tmp_path / "wet.nc").last
+    np.testing.assert_array_equal(again.require_plastic_flow().displacement, found.displacement)
+    assert again.external_force == wet.last.external_force
+
+
 def test_laws_follow_from_the_strength_of_the_materials() -> None:
     """What ``plastic_parts`` makes of a body fits it; a part without a known strength stays elastic, as does a rigid base."""
     base = asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=0.8e9))

@@ -51,8 +51,6 @@ class Flowing(Physics):
                 "law",
                 "A hardness is a model of the same flow.",
             ),
-            (problem.film, "film", "Solve the dry contact."),
-            (problem.adhesion, "adhesion", "Solve it without adhesion."),
             (friction, "friction", "Use Coulomb(coefficient), under which all points slide."),
             (
                 problem.boundary if isinstance(problem.boundary, FreeLine) else None,
