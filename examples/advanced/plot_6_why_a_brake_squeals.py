@@ -13,8 +13,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity as asp
-from asperity import dynamics as dyn
-from asperity.plots.dynamics import plot_frame, plot_stability
+from asperity.physics import dynamics as dyn
+from asperity.physics.dynamics.figures import plot_frame, plot_stability
 
 # %%
 # The stiffness of the interface comes from the contact of the rough surface: a power law is fitted to pressure against approach.

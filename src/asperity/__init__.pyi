@@ -1,4 +1,4 @@
-from . import dynamics, fem, theories
+from . import fem, theories
 from .contact import solvers
 from .contact.advice import advise, review
 from .contact.boundary import Free, FreeLine, Periodic
@@ -35,6 +35,7 @@ from .io.export import export_csv, export_stress_vtk, export_vtk
 from .io.results import load, open_tree, save
 from .io.stress_files import save_stress
 from .io.surface_files import save_endless, save_gaussian, save_surface
+from .physics import dynamics
 from .physics.adhesion.answer import AdhesiveContact
 from .physics.adhesion.bound import EnergyBound, energy_bound
 from .physics.adhesion.branch import AdhesiveBranch, adhesive_branch, adhesive_jumps

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 LIMITS: dict[str, dict[str, str]] = {
     "function lines": {
-        "assemble": "one line for each field of the result",
         "sweep": "what a kernel calls is compiled once more in each of its callers: in nine functions it took four times as long",
         "rise": "what a kernel calls is compiled once more in each of its callers",
         "fall": "what a kernel calls is compiled once more in each of its callers",

@@ -12,7 +12,7 @@ LAYERS = {
     5: ("parts",),
     4: ("plots", "io"),
     3: ("physics",),
-    2: ("contact", "stress", "dynamics", "fem"),
+    2: ("contact", "stress", "fem"),
     1: ("surfaces", "solids", "theories"),
     0: ("core",),
 }

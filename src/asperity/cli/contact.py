@@ -15,7 +15,7 @@ from ..core.errors import InputError
 from ..core.settings import COMMAND_LINE
 from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
-from ..parts.dynamics import Dynamics
+from ..physics.dynamics.part import Dynamics
 from ..run.build import build, large_grid, stated_points
 from ..run.document import ProblemDocument, checked, files_of, loads, read_table, relocated, save_document
 from ..run.execute import Outcome, execute

@@ -9,8 +9,11 @@ from importlib import metadata
 
 from ..core.errors import InputError
 from ..physics.adhesion.part import Adhesion
+from ..physics.dynamics.part import Dynamics
 from ..physics.friction.part import Friction
 from ..physics.friction.part_stick_slip import StickSlip
+from ..physics.indentation.part import Indentation
+from ..physics.indentation.part_passes import Passes
 from ..physics.menisci.part import Menisci, WetTheory
 from ..physics.plastic_flow.part import PlasticFlow
 from ..physics.rolling.part import Rolling
@@ -18,10 +21,7 @@ from ..physics.viscoelastic.part import Viscoelasticity
 from ..physics.viscoelastic.part_hysteresis import Hysteresis
 from ..physics.viscoelastic.part_sliding_start import SlidingStart
 from .contact import Contact, LoadPath, Plasticity, PlasticLoad
-from .dynamics import Dynamics
-from .indentation import Indentation
 from .part import Part
-from .passes import Passes
 from .stress import Stress, Yielding
 
 GROUP = "asperity.parts"

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import InputError
-from ..parts.indentation import PREFIX as INDENTED
 from ..parts.part import Found
-from ..parts.passes import PREFIX as PASSED
+from ..physics.indentation.part import PREFIX as INDENTED
+from ..physics.indentation.part_passes import PREFIX as PASSED
 from ..physics.plastic_flow.figures import Cut, save_cuts, step_label
 from ..physics.plastic_flow.part import PREFIX as FLOW
 from ..physics.plastic_flow.part_values import picture_of

@@ -113,7 +113,7 @@ class PlasticFlow(Part):
 
     def altered(self, ask: Flows, problem: ContactProblem) -> ContactProblem:
         """``problem`` with the laws of its bodies, by which the flow joins the solve."""
-        from ...parts.flowing import flow_law
+        from .work import flow_law
 
         return problem.with_physics(plastic_flow=flow_law(ask.settings, problem))
 
@@ -135,7 +135,7 @@ class PlasticFlow(Part):
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Zones, residual stress, imprint and tensions."""
-        from ...parts.flowing import flow_found
+        from .work import flow_found
 
         return flow_found(solved)
 

@@ -9,11 +9,11 @@ from typing import Annotated, ClassVar, Literal, TypeAlias
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.parameters import Declared
-from ..core.values import NonNegative, Number, Positive
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.parameters import Declared
+from ...core.values import NonNegative, Number, Positive
 from .motion import Guard, Motion, Phase, integrated, sample_times
 from .normal_motion import TOLERANCE, Mass, started
 

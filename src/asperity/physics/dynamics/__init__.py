@@ -5,7 +5,7 @@ The stub beside this file lists the names and their modules, for type checkers t
 
 from __future__ import annotations
 
-from ..core.late import late_package
+from ...core.late import late_package
 
 __getattr__, __dir__, _HOME = late_package(__name__, __file__)
 __all__ = sorted(_HOME)

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from pydantic import model_validator
 
-from ..core.errors import InputError
-from ..core.quantity import Quantity
-from ..core.settings import Settings, setting
-from ..core.units import show
-from ..core.values import Choice, Count, Fraction, Length, NonNegative, Number, Positive, Size, Whole
-from .part import Found, Part, Rows, Solved, Words
+from ...core.errors import InputError
+from ...core.quantity import Quantity
+from ...core.settings import Settings, setting
+from ...core.units import show
+from ...core.values import Choice, Count, Fraction, Length, NonNegative, Number, Positive, Size, Whole
+from ...parts.part import Found, Part, Rows, Solved, Words
 
 if TYPE_CHECKING:
-    from ..contact.problem import ContactProblem
-    from ..plots.picture import Figure
+    from ...contact.problem import ContactProblem
+    from ...plots.picture import Figure
 
 MODELS = ("block", "mass", "belt")
 """What moves: a block that may tilt, a mass that vibrates normally, a block on a belt that only slides."""
@@ -185,8 +185,8 @@ class Dynamics(Part):
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Law, stability, what the run comes to, the curve of the interface, and the run in time."""
-        from ..dynamics.block_motion import BLOCK_SCALARS
-        from ..dynamics.motion import QUANTITIES
+        from .block_motion import BLOCK_SCALARS
+        from .motion import QUANTITIES
 
         labels = {item.name: item for item in QUANTITIES}
         time = Quantity("motion_time", "s", "time of the motion", ("motion_time",))
@@ -214,7 +214,7 @@ class Dynamics(Part):
 
     def compute(self, ask: Moving, solved: Solved) -> Found:
         """Law of the interface, stability, and the motion."""
-        from .motion import Made, fitted_law
+        from .part_motion import Made, fitted_law
 
         with solved.stage("law of the interface"):
             fit = fitted_law(ask, solved)
@@ -225,13 +225,13 @@ class Dynamics(Part):
 
     def citations(self, ask: Moving, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of law and models."""
-        from ..dynamics.block import SlidingBlock
+        from .block import SlidingBlock
 
         return SlidingBlock.citation_keys
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Law, forces and penetration in time, phase portraits, curve of friction."""
-        from ..plots.dynamics import figures_of
+        from .figures import figures_of
 
         return figures_of(found.values)
 
@@ -277,7 +277,7 @@ def _headline(values: Mapping[str, Any]) -> Rows:
 
 
 def _rows(values: Mapping[str, Any]) -> Rows:
-    from ..io.words import value_text
+    from ...io.words import value_text
 
     return [
         (item.label, value_text(item, values[item.name]))

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import ConvergenceError
-from ..core.quantity import Quantity
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import ConvergenceError
+from ...core.quantity import Quantity
 from . import block_kernel as kernel
 from .block import SlidingBlock
 from .motion import Event, Guard, Motion, Phase, integrated, sample_times

@@ -9,18 +9,26 @@ from typing import Any
 
 import numpy as np
 
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.status import Advice, NoProgress, Progress
-from ..core.units import percent, show
-from ..fem.bricks import track_lines
-from ..fem.elements import GAUSS
-from ..fem.mesh import Resolution
-from ..fem.pass_fields import interface_tractions
-from ..fem.pass_histories import hertz_steps, sliding_steps
-from ..fem.passes import PassState, Track, cylinder_track, sphere_track
-from ..physics.plastic_flow.part_quantities import Detail
-from ..physics.plastic_flow.part_values import (
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.status import Advice, NoProgress, Progress
+from ...core.units import percent, show
+from ...fem.bricks import track_lines
+from ...fem.elements import GAUSS
+from ...fem.mesh import Resolution
+from ...fem.pass_fields import interface_tractions
+from ...fem.pass_histories import hertz_steps, sliding_steps
+from ...fem.passes import PassState, Track, cylinder_track, sphere_track
+from ...parts.part import Found
+from ...solids.elastic import Elastic
+from ...solids.layers import Body, Layered
+from ...solids.plasticity import J2, WEIGHTS, von_mises
+from ...solids.strength import flow_stress
+from ...theories.single.hertz import HertzLine, HertzPoint
+from ...theories.subsurface.point_shakedown import sphere_shakedown
+from ...theories.subsurface.shakedown import cylinder_shakedown
+from ..plastic_flow.part_quantities import Detail
+from ..plastic_flow.part_values import (
     PlasticValues,
     inferred_strengths,
     interfaces_of,
@@ -28,16 +36,8 @@ from ..physics.plastic_flow.part_values import (
     meshed_laws,
     zone_table,
 )
-from ..plots.passes import PassPicture
-from ..solids.elastic import Elastic
-from ..solids.layers import Body, Layered
-from ..solids.plasticity import J2, WEIGHTS, von_mises
-from ..solids.strength import flow_stress
-from ..theories.single.hertz import HertzLine, HertzPoint
-from ..theories.subsurface.point_shakedown import sphere_shakedown
-from ..theories.subsurface.shakedown import cylinder_shakedown
-from .part import Found
-from .passes import EACH, KEYS, PREFIX, SCALARS, PassesSettings, verdict
+from .figures import PassPicture
+from .part_passes import EACH, KEYS, PREFIX, SCALARS, PassesSettings, verdict
 
 REACH = 2.0
 """How far the cut reaches beyond the track, and half as far as it reaches into the body, in contact radii."""

@@ -9,11 +9,11 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.parameters import Declared
-from ..core.values import NonNegative, Number, Positive
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.parameters import Declared
+from ...core.values import NonNegative, Number, Positive
 
 Exponent = Annotated[float, Number(least=0.5, most=10.0, fix="Metal joints have 2 to 3.3.")]
 

@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import model_validator
 
-from ..core.errors import InputError
-from ..core.quantity import Quantity
-from ..core.settings import Settings, setting
-from ..core.units import percent, show
-from ..core.values import Choice, Force, Length, NonNegative, Number, Pressure, Whole
-from ..physics.plastic_flow.part_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
-from .part import Found, Part, Rows, Solved, Stored, Table, Words
+from ...core.errors import InputError
+from ...core.quantity import Quantity
+from ...core.settings import Settings, setting
+from ...core.units import percent, show
+from ...core.values import Choice, Force, Length, NonNegative, Number, Pressure, Whole
+from ...parts.part import Found, Part, Rows, Solved, Stored, Table, Words
+from ..plastic_flow.part_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
 
 if TYPE_CHECKING:
-    from ..contact.problem import ContactProblem
-    from ..plots.picture import Figure
-    from .passing import Course
+    from ...contact.problem import ContactProblem
+    from ...plots.picture import Figure
+    from .work_passes import Course
 
 Shape = Annotated[str, Choice({name: name for name in ("cylinder", "sphere")})]
 Motion = Annotated[str, Choice({name: name for name in ("one way", "to and fro", "in place")})]
@@ -194,8 +194,8 @@ class Passes(Part):
 
     def check(self, ask: Passing, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
-        from ..physics.plastic_flow.part_values import require_flow
-        from .passing import require_course
+        from ..plastic_flow.part_values import require_flow
+        from .work_passes import require_course
 
         body = _body(ask, problem)
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
@@ -203,7 +203,7 @@ class Passes(Part):
 
     def compute(self, ask: Passing, solved: Solved) -> Found:
         """All passes, and what they leave."""
-        from .passing import found_of, passed
+        from .work_passes import found_of, passed
 
         body, course = _body(ask, solved.problem), _course(ask, solved.problem)
         with solved.stage("passes") as progress:
@@ -216,11 +216,11 @@ class Passes(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Zones, residual stress, stress under load, groove; residual stress against depth; what each pass adds."""
-        from ..physics.plastic_flow.figures import plots_of
-        from ..physics.plastic_flow.part_values import picture_of
-        from ..plots.passes import pass_plots
-        from ..plots.picture import figures_by
-        from .passing import pass_picture
+        from ...plots.picture import figures_by
+        from ..plastic_flow.figures import plots_of
+        from ..plastic_flow.part_values import picture_of
+        from .figures import pass_plots
+        from .work_passes import pass_picture
 
         shown = picture_of(PREFIX, found.values, found.detail.facts)
         passes = pass_picture(found)
@@ -244,15 +244,15 @@ KEYS = ("SimoTaylor1985", "Johnson1962", "Hearle1985")
 
 def _body(ask: Passing, problem: ContactProblem) -> Any:
     """The body that is passed over; InputError if it is rigid."""
-    from ..physics.plastic_flow.part_values import meshed_body
+    from ..plastic_flow.part_values import meshed_body
 
     return meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
 
 
 def _course(ask: Passing, problem: ContactProblem) -> Course:
     """What passes, with the radius of the summits where none is given; InputError if there are none."""
-    from ..physics.plastic_flow.part_values import summit_radius
-    from .passing import course_of
+    from ..plastic_flow.part_values import summit_radius
+    from .work_passes import course_of
 
     table = ask.settings
     radius = table.radius

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.engine.kernels import compiled
+from ...core.engine.kernels import compiled
 
 MASS, INERTIA, ARM, SPRING_HEIGHT, STIFFNESS, DAMPING, LOAD, SPEED, SMOOTHING = range(9)
 NORMAL, NORMAL_POWER, VISCOUS, VISCOUS_POWER, FRICTION, FRICTION_POWER = range(9, 15)

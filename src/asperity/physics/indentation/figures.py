@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.arrays import RealArray
-from .picture import BLACK, BLUE, GREEN, VERMILLION, Plot, legend_above, scale
+from ...core.arrays import RealArray
+from ...plots.picture import BLACK, BLUE, GREEN, VERMILLION, Plot, legend_above, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,10 +10,10 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import ConvergenceError, InputError
-from ..core.quantity import Quantity
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import ConvergenceError, InputError
+from ...core.quantity import Quantity
 
 QUANTITIES = (
     Quantity("displacement", "m", "displacement along the sliding direction"),

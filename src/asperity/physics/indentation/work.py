@@ -8,16 +8,21 @@ from typing import Any
 
 import numpy as np
 
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.status import Advice, NoProgress, Progress
-from ..fem.history import IndentationStep, SolidFields
-from ..fem.indent import Indentation, Load
-from ..fem.indenters import Cone, Paraboloid
-from ..fem.mesh import Resolution
-from ..physics.plastic_flow.figures import step_label
-from ..physics.plastic_flow.part_quantities import Detail
-from ..physics.plastic_flow.part_values import (
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.status import Advice, NoProgress, Progress
+from ...fem.history import IndentationStep, SolidFields
+from ...fem.indent import Indentation, Load
+from ...fem.indenters import Cone, Paraboloid
+from ...fem.mesh import Resolution
+from ...parts.part import Found
+from ...solids.elastic import Elastic, Rigid
+from ...solids.layers import Body, Layered, materials_of
+from ...solids.strength import flow_stress
+from ...theories.hardness.unloading import analyse_indentation
+from ..plastic_flow.figures import step_label
+from ..plastic_flow.part_quantities import Detail
+from ..plastic_flow.part_values import (
     PlasticValues,
     inferred_strengths,
     interfaces_of,
@@ -25,12 +30,7 @@ from ..physics.plastic_flow.part_values import (
     meshed_laws,
     zone_table,
 )
-from ..solids.elastic import Elastic, Rigid
-from ..solids.layers import Body, Layered, materials_of
-from ..solids.strength import flow_stress
-from ..theories.hardness.unloading import analyse_indentation
-from .indentation import FEW, KEYS, PREFIX, SCALARS, SMALL_STRAIN
-from .part import Found
+from .part import FEW, KEYS, PREFIX, SCALARS, SMALL_STRAIN
 
 LEFT = 4.0
 """How far the cut reaches across and into the body, in radii of the indenter at the surface."""

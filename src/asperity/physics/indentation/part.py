@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import model_validator
 
-from ..core.errors import InputError
-from ..core.quantity import Quantity
-from ..core.settings import Settings, setting
-from ..core.units import percent, show
-from ..core.values import Choice, Length, NonNegative, Number, Whole
-from ..physics.plastic_flow.part_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
-from .part import Found, Part, Rows, Solved, Stored, Words
+from ...core.errors import InputError
+from ...core.quantity import Quantity
+from ...core.settings import Settings, setting
+from ...core.units import percent, show
+from ...core.values import Choice, Length, NonNegative, Number, Whole
+from ...parts.part import Found, Part, Rows, Solved, Stored, Words
+from ..plastic_flow.part_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
 
 if TYPE_CHECKING:
-    from ..contact.problem import ContactProblem
-    from ..plots.picture import Figure
-    from .indenting import Indenter
+    from ...contact.problem import ContactProblem
+    from ...plots.picture import Figure
+    from .work import Indenter
 
 Shape = Annotated[str, Choice({name: name for name in ("sphere", "cone")})]
 HalfAngle = Annotated[float, Number("angle", above=0.0, below=0.5 * math.pi)]
@@ -125,7 +125,7 @@ class Indentation(Part):
 
     def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, before the contact is solved."""
-        from ..physics.plastic_flow.part_values import require_flow
+        from ..plastic_flow.part_values import require_flow
 
         require_flow(_body(ask, problem), unknown_is_elastic=ask.unknown_is_elastic)
         _indenter(ask, problem)
@@ -133,7 +133,7 @@ class Indentation(Part):
 
     def compute(self, ask: IndentationSettings, solved: Solved) -> Found:
         """Way in and out, hardness and zones."""
-        from .indenting import Course, found_of, indented
+        from .work import Course, found_of, indented
 
         body, indenter = _body(ask, solved.problem), _indenter(ask, solved.problem)
         pair = (_of_indenter(ask, solved.problem), float(ask.friction))
@@ -148,9 +148,9 @@ class Indentation(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Zones, residual stress, stress under load, curve, imprint, hardness."""
-        from ..physics.plastic_flow.figures import plots_of
-        from ..physics.plastic_flow.part_values import picture_of
-        from ..plots.picture import figures_by
+        from ...plots.picture import figures_by
+        from ..plastic_flow.figures import plots_of
+        from ..plastic_flow.part_values import picture_of
 
         shown = picture_of(PREFIX, found.values, found.detail.facts)
         return figures_by(plots_of(shown, "indentation"), shown)
@@ -173,7 +173,7 @@ KEYS = ("SimoTaylor1985", "Oliver1992")
 
 def _body(ask: IndentationSettings, problem: ContactProblem) -> Any:
     """The body that is indented; InputError if it is rigid."""
-    from ..physics.plastic_flow.part_values import meshed_body
+    from ..plastic_flow.part_values import meshed_body
 
     return meshed_body(problem, ask.inside, "indentation", "--indent-in")
 
@@ -186,8 +186,8 @@ def _of_indenter(ask: IndentationSettings, problem: ContactProblem) -> Any:
     InputError
         If it is to be elastic and the other body is rigid.
     """
-    from ..solids.elastic import Rigid
-    from ..solids.layers import materials_of
+    from ...solids.elastic import Rigid
+    from ...solids.layers import materials_of
 
     if not ask.elastic_indenter:
         return Rigid()
@@ -209,8 +209,8 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
     InputError
         If the surface has no summits, or the strains are not small.
     """
-    from ..physics.plastic_flow.part_values import summit_radius
-    from .indenting import Indenter, require_depth
+    from ..plastic_flow.part_values import summit_radius
+    from .work import Indenter, require_depth
 
     if ask.indenter == "cone":
         return Indenter(half_angle=float(ask.half_angle or BERKOVICH_ANGLE))

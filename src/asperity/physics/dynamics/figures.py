@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..core.errors import InputError
-from ..core.units import show
-from ..dynamics.block_motion import BlockRun
-from ..dynamics.sweeps import Branches, StabilityMap
-from .animation import save_frames
-from .picture import (
+from ...core.errors import InputError
+from ...core.units import show
+from ...plots.animation import save_frames
+from ...plots.picture import (
     BLACK,
     BLUE,
     GREEN,
@@ -28,6 +26,8 @@ from .picture import (
     scale,
     style,
 )
+from .block_motion import BlockRun
+from .sweeps import Branches, StabilityMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

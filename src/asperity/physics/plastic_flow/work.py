@@ -7,26 +7,26 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.controls import Approach
-from ..contact.history import HistoryResult
-from ..contact.problem import ContactProblem
-from ..contact.result import ContactResult
-from ..contact.solve import Keep, solve
-from ..core.arrays import RealArray
-from ..core.errors import AsperityError
-from ..core.status import Advice
-from ..core.units import percent, show
-from ..physics.friction.law import Coulomb
-from ..physics.plastic_flow.answer import PlasticBody
-from ..physics.plastic_flow.law import PlasticFlow as Law
-from ..physics.plastic_flow.law import plastic_body
-from ..physics.plastic_flow.part import IMPRINT, PREFIX, SCALARS, PlasticFlowSettings
-from ..physics.plastic_flow.part_values import PlasticValues, inferred_strengths, interfaces_of, layer_names
-from ..solids.elastic import Elastic
-from ..solids.layers import Body, Layered
-from ..solids.plasticity import J2, von_mises
-from ..solids.strength import plastic_parts
-from .part import Found, Solved
+from ...contact.controls import Approach
+from ...contact.history import HistoryResult
+from ...contact.problem import ContactProblem
+from ...contact.result import ContactResult
+from ...contact.solve import Keep, solve
+from ...core.arrays import RealArray
+from ...core.errors import AsperityError
+from ...core.status import Advice
+from ...core.units import percent, show
+from ...parts.part import Found, Solved
+from ...solids.elastic import Elastic
+from ...solids.layers import Body, Layered
+from ...solids.plasticity import J2, von_mises
+from ...solids.strength import plastic_parts
+from ..friction.law import Coulomb
+from .answer import PlasticBody
+from .law import PlasticFlow as Law
+from .law import plastic_body
+from .part import IMPRINT, PREFIX, SCALARS, PlasticFlowSettings
+from .part_values import PlasticValues, inferred_strengths, interfaces_of, layer_names
 
 
 def flow_found(solved: Solved) -> Found:

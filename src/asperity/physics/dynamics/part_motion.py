@@ -9,20 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.controls import MeanPressure
-from ..contact.solve import steps
-from ..core.errors import ConvergenceError, InputError
-from ..core.status import Advice
-from ..core.units import percent, show
-from ..dynamics.belt import BeltOscillator, RateState, StaticKinetic
-from ..dynamics.block import SlidingBlock
-from ..dynamics.block_motion import BlockRun, move_block
-from ..dynamics.interface import ComplianceFit, NormalCompliance, fit_compliance
-from ..dynamics.motion import Motion
-from ..dynamics.normal_motion import NormalOscillator
-from ..dynamics.sweeps import SLIDES_FROM, stability_map, sweep_block
-from .dynamics import TRACES, Moving
-from .part import Solved
+from ...contact.controls import MeanPressure
+from ...contact.solve import steps
+from ...core.errors import ConvergenceError, InputError
+from ...core.status import Advice
+from ...core.units import percent, show
+from ...parts.part import Solved
+from .belt import BeltOscillator, RateState, StaticKinetic
+from .block import SlidingBlock
+from .block_motion import BlockRun, move_block
+from .interface import ComplianceFit, NormalCompliance, fit_compliance
+from .motion import Motion
+from .normal_motion import NormalOscillator
+from .part import TRACES, Moving
+from .sweeps import SLIDES_FROM, stability_map, sweep_block
 
 MOST_PERIODS = 20_000
 """Periods of the normal vibration that loading the spring may take in a run that starts from rest: some ten seconds of work."""

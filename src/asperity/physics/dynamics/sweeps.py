@@ -9,8 +9,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..core.arrays import RealArray
-from ..core.errors import ConvergenceError, InputError, NoSolutionError
+from ...core.arrays import RealArray
+from ...core.errors import ConvergenceError, InputError, NoSolutionError
 from .block import SlidingBlock
 from .block_motion import BLOCK_SCALARS, TOLERANCE, move_block
 

@@ -9,12 +9,12 @@ from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import NoSolutionError
-from ..core.parameters import Declared
-from ..core.quadrature import rule
-from ..core.values import NonNegative, Number
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import NoSolutionError
+from ...core.parameters import Declared
+from ...core.quadrature import rule
+from ...core.values import NonNegative, Number
 from .belt import BeltSpeed, SpringStiffness
 from .interface import NormalCompliance
 from .normal_motion import Mass

@@ -1,0 +1,1 @@
+"""Indentation and repeated passes, by finite elements."""
