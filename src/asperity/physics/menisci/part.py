@@ -17,6 +17,7 @@ from ...core.units import percent, show
 from ...core.values import Angle, Humidity, Length, NonEmpty, Pressure, SurfaceTension, Viscosity
 from ...parts.part import Found, Part, Rows, Solved, Table, Words
 from ..friction.part import friction_law, sticks
+from .quantities import WET_SCALARS
 
 if TYPE_CHECKING:
     from ...contact.controls import Control
@@ -100,8 +101,6 @@ class Menisci(Part):
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Scalars of a wet contact."""
-        from .quantities import WET_SCALARS
-
         return WET_SCALARS
 
     def asked(self, document: Any, folder: Path) -> Wetted:
@@ -115,8 +114,6 @@ class Menisci(Part):
 
     def compute(self, ask: Wetted, solved: Solved) -> Found:
         """Scalars of the menisci."""
-        from .quantities import WET_SCALARS
-
         menisci = solved.result.require_menisci()
         values = {q.name: getattr(menisci, q.name) for q in WET_SCALARS}
         return Found(values, menisci, (), menisci.citation_keys)
@@ -284,7 +281,6 @@ def film_rows(result: SolvedMenisci, control: Control) -> Rows:
 def wet_rows(result: SolvedMenisci) -> Rows:
     """Every scalar of the menisci, and the regime; without friction where none was given."""
     from ...io.words import value_text
-    from .quantities import WET_SCALARS
 
     regime = result.wetting.regime
     rows = [("regime", f"{regime}: {REGIMES[regime]}")]
