@@ -6,9 +6,7 @@ from .contact.controls import Approach, FixedGrips, Force, MeanGap, MeanPressure
 from .contact.couplings.driver import CouplingCheck, Rounds
 from .contact.history import EnergyBalance, History, HistoryResult, ramps, shear_cycles
 from .contact.law import Hardness, HardWall
-from .contact.layered_hardness import LayeredHardness
 from .contact.operators import prepare_operator
-from .contact.plastic_load import PlasticLoad, plastic_load
 from .contact.problem import ContactProblem, Flat
 from .contact.result import ContactResult
 from .contact.roughness import roughness_of
@@ -54,6 +52,8 @@ from .physics.friction.answer import StickSlip
 from .physics.friction.law import Coulomb, FullStick, TrescaFriction
 from .physics.friction.linearised import TangentialStiffness, contraction_factor, tangential_stiffness
 from .physics.friction.sliding import GrossSliding
+from .physics.hardness.layered import LayeredHardness
+from .physics.hardness.plastic_load import PlasticLoad, plastic_load
 from .physics.menisci.coupling import Menisci
 from .physics.menisci.film import LiquidFilm
 from .physics.menisci.summits import WetTheory, wet_theory

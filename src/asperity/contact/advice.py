@@ -16,7 +16,6 @@ from ..surfaces.surface import Surface
 from .certificate import LARGEST_DUALITY_GAP
 from .controls import Control, Force, MeanPressure, mean_pressure
 from .law import LimitByDepth
-from .layered_hardness import LayeredHardness
 from .problem import ContactProblem
 from .result import ContactResult
 
@@ -288,7 +287,7 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
         body = getattr(result.problem, name_of)
         if any(answer.imprint(name_of) is not None for answer in result.answers):
             continue  # its flow is solved
-        if isinstance(law, LayeredHardness) and law.body == body:
+        if getattr(law, "body", None) == body:
             continue  # pressed through its top layer it bears more or less than that layer's hardness
         solid = surface_material(body)
         hardness = math.nan if solid is None else solid.strength.hardness

@@ -16,7 +16,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.engine import CpuEngine, Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
-from ..core.registry import IN_TIME, PAIRS, home
+from ..core.registry import BY_DEPTH, IN_TIME, PAIRS, home
 from ..core.status import Outcome, Progress, Status
 from ..solids.layers import relaxes
 from .answer import Answer
@@ -35,9 +35,8 @@ from .controls import (
     mean_pressure,
 )
 from .couplings.driver import Rounds, Settled
-from .couplings.hardness import TOLERANCE as HARDNESS_TOLERANCE
-from .couplings.hardness import ConstantHardness, DepthHardness
 from .couplings.held import settle_position
+from .couplings.pressure_limit import ConstantHardness
 from .couplings.protocol import Coupling, Memory, Posed, height_scale
 from .history import History, HistoryResult
 from .law import HardWall, LimitByDepth
@@ -463,7 +462,7 @@ def couplings_of(
     law, tolerances = problem.law, rounds.tolerances
     first: Coupling = ConstantHardness(law)
     if isinstance(law, LimitByDepth) and np.ndim(law.cap_at(np.zeros(problem.grid.shape))):
-        first = DepthHardness.prepared(law, operator, tolerances.get("hardness", HARDNESS_TOLERANCE))
+        first = home(BY_DEPTH)(law, operator, tolerances.get("hardness"))
     how = Preparing(tolerances, sticks, getattr(operator.engine, "threads", None))
     return (first, *(found for item in problem.physics for found in item.couplings(problem, operator, how)))
 

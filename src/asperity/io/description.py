@@ -18,7 +18,6 @@ from ..contact.boundary import Boundary
 from ..contact.controls import Control
 from ..contact.couplings.driver import CouplingCheck
 from ..contact.law import Hardness, HardWall
-from ..contact.layered_hardness import LayeredHardness
 from ..contact.problem import Flat
 from ..contact.result import ContactResult
 from ..contact.tangential import Tangential
@@ -26,6 +25,7 @@ from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
 from ..core.registry import PHYSICS, home
 from ..core.spectral import fft_library
+from ..physics.hardness.layered import LayeredHardness
 from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
 from ..solids.viscoelastic import TemperatureShift, Viscoelastic

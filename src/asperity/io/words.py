@@ -13,13 +13,13 @@ import numpy as np
 from ..contact.advice import doubts
 from ..contact.answer import Answer
 from ..contact.history import HistoryResult
-from ..contact.layered_hardness import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
 from ..core.quantity import Quantity
 from ..core.text import printable
 from ..core.units import percent, show
+from ..physics.hardness.layered import LayeredHardness
 from ..solids.elastic import Elastic, Strength
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..solids.viscoelastic import Viscoelastic

@@ -13,9 +13,9 @@ from .part import Found, Part, Rows, Solved, Table, Words
 
 if TYPE_CHECKING:
     from ..contact.history import HistoryResult
-    from ..contact.plastic_load import PlasticLoad as SolvedPlasticLoad
     from ..contact.problem import ContactProblem
     from ..contact.result import ContactResult
+    from ..physics.hardness.plastic_load import PlasticLoad as SolvedPlasticLoad
     from ..plots.picture import Figure
 
 STIFFNESS = "normal_stiffness"
@@ -232,13 +232,13 @@ class PlasticLoad(Part):
 
     def check(self, ask: Any, problem: ContactProblem) -> None:
         """Refuse a law without a limit of the pressure."""
-        from ..contact.plastic_load import mean_cap
+        from ..physics.hardness.plastic_load import mean_cap
 
         mean_cap(problem)
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """The two loads between which it lies, as detail."""
-        from ..contact.plastic_load import plastic_load
+        from ..physics.hardness.plastic_load import plastic_load
 
         with solved.stage("searching the plastic load") as progress:
             found = plastic_load(solved.problem, fraction=ask.share, solver=solved.solver, progress=progress)

@@ -15,7 +15,6 @@ from ..contact.boundary import Boundary, Free, FreeLine, Periodic
 from ..contact.controls import Approach, Control, Force, MeanGap, MeanPressure, Step, as_step
 from ..contact.history import Ramped, ramps
 from ..contact.law import Hardness, HardWall, InterfaceLaw
-from ..contact.layered_hardness import LayeredHardness
 from ..contact.problem import ContactProblem, Flat
 from ..contact.solve import default_solver, sticks
 from ..contact.solvers.by_name import solver_by_name
@@ -65,6 +64,7 @@ from ..io.schemas.relaxation import (
 from ..io.schemas.surfaces import AMPLITUDES, FileSurface, GeneratedSurface, SurfaceTable, prepared
 from ..parts.part import Part
 from ..parts.registry import parts
+from ..physics.hardness.layered import LayeredHardness
 from ..solids.elastic import Elastic, Hardening, Rigid, Strength
 from ..solids.layers import (
     Body,

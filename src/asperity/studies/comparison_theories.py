@@ -10,13 +10,13 @@ import numpy as np
 
 from ..contact.boundary import Periodic
 from ..contact.law import HardWall
-from ..contact.layered_hardness import LayeredHardness
 from ..contact.problem import ContactProblem
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import AsperityError, InputError
 from ..core.parameters import parameters
 from ..core.units import show
+from ..physics.hardness.layered import LayeredHardness
 from ..solids.layers import Layered, weaker_strength
 from ..theories.protocol import Limit, Prediction, SurfaceTheory, Theory
 from ..theories.statistics.roughness import Roughness

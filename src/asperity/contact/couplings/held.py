@@ -20,7 +20,6 @@ from ...core.status import Outcome, Progress, Status
 from ..controls import Approach, MeanGap
 from ..solvers.protocol import Solver
 from .driver import Rounds, Settled, settle
-from .hardness import ConstantHardness, DepthHardness
 from .position import TARGET_ERROR
 from .protocol import Contact, Coupling, Memory, Posed
 
@@ -86,10 +85,8 @@ def _can_be_held(posed: Posed, couplings: Sequence[Coupling]) -> bool:
     """Whether a position is prescribed, a hardness bounds the pressure, and nothing else reacts to the contact."""
     if not isinstance(posed.control, Approach | MeanGap) or any(coupling.positions for coupling in couplings):
         return False
-    hardness = [coupling for coupling in couplings if isinstance(coupling, ConstantHardness | DepthHardness)]
-    if len(hardness) != 1 or any(coupling.feedback for coupling in couplings if coupling is not hardness[0]):
-        return False
-    return isinstance(hardness[0], DepthHardness) or bool(np.all(np.isfinite(hardness[0].law.pressure_cap())))
+    bounding = [coupling for coupling in couplings if coupling.bounds]
+    return len(bounding) == 1 and not any(coupling.feedback for coupling in couplings if coupling is not bounding[0])
 
 
 def _fully_yielded(posed: Posed, couplings: Sequence[Coupling]) -> RealArray | None:
@@ -97,7 +94,7 @@ def _fully_yielded(posed: Posed, couplings: Sequence[Coupling]) -> RealArray | N
     control = posed.control
     if not isinstance(control, Approach) or control.value < posed.top - float(posed.dented.mean()):
         return None
-    caps = [coupling.law.pressure_cap() for coupling in couplings if isinstance(coupling, ConstantHardness)]
+    caps = [coupling.cap for coupling in couplings if coupling.cap is not None]
     if len(caps) != 1:
         return None
     pressure = np.array(np.broadcast_to(caps[0], posed.dented.shape), dtype=np.float64)

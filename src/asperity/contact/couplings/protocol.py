@@ -330,6 +330,16 @@ class Coupling(Protocol):
         """Whether its share holds the bodies at the position prescribed."""
         return False
 
+    @property
+    def bounds(self) -> bool:
+        """Whether it bounds the pressure at every point."""
+        return False
+
+    @property
+    def cap(self) -> RealArray | float | None:
+        """Limit (Pa) that it sets to the pressure whatever the contact; None if it depends on the contact, or there is none."""
+        return None
+
     def at(self, operator: Operator) -> Coupling:
         """The same with another ``operator`` of the bodies, that of a step of time."""
         return self

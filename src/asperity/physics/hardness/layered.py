@@ -8,13 +8,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..solids.elastic import Elastic
-from ..solids.layers import Layered
-from ..theories.hardness.effective_hardness import EffectiveHardness, StackHardness
-from .law import Hardness
+from ...contact.law import Hardness
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...solids.elastic import Elastic
+from ...solids.layers import Layered
+from ...theories.hardness.effective_hardness import EffectiveHardness, StackHardness
 
 
 @dataclass(frozen=True)

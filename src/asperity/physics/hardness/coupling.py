@@ -29,14 +29,15 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from ...contact.couplings.pressure_limit import added_indentation, indentation_before, indented
+from ...contact.couplings.protocol import Ahead, Contact, Coupling, Exchange, Memory, Posed, Share
+from ...contact.law import LimitByDepth
+from ...contact.operators.convolution import Operator
+from ...contact.solvers.active_set.solver import ActiveSet
+from ...contact.solvers.active_set.yielding import FallingLimit, follow
+from ...contact.solvers.protocol import ContactQP, Solver
 from ...core.arrays import RealArray
 from ...core.status import Progress
-from ..law import InterfaceLaw, LimitByDepth, work_density
-from ..operators.convolution import Operator
-from ..solvers.active_set.solver import ActiveSet
-from ..solvers.active_set.yielding import FallingLimit, follow
-from ..solvers.protocol import ContactQP, Solver
-from .protocol import Ahead, Contact, Coupling, Exchange, Memory, Posed, Share
 
 TOLERANCE = 1e-5
 """Relative difference of the limit used and the limit at the indentation reached; the law itself is good to per cents."""
@@ -79,28 +80,6 @@ _FALL = 0.6
 _MORE_DEPTHS = tuple(10.0**power for power in range(-12, 7))
 
 
-def added_indentation(contact: Contact) -> RealArray:
-    """Permanent indentation (nx, ny) in m that ``contact`` adds: the overlap of the bodies where the pressure is at its limit."""
-    if contact.qp.elastic:
-        return np.zeros_like(contact.qp.profile)
-    p = contact.pressure
-    return np.where((p > 0.0) & (p >= contact.cap), np.maximum(contact.overlap, 0.0), 0.0)
-
-
-def _before(posed: Posed, memory: Memory) -> RealArray:
-    return memory["indentation"] if "indentation" in memory else np.zeros_like(posed.profile)
-
-
-def _after(law: InterfaceLaw, memory: Memory, contact: Contact) -> Memory:
-    """Indentation (m), left out where there is none, and plastic work (J) since the virgin surface, after ``contact``; ``memory`` is what they were before."""
-    if contact.qp.elastic:
-        return {"work": np.zeros(()), **memory}
-    before = _before(contact.posed, memory)
-    after = before + added_indentation(contact)
-    work = float(work_density(law, before, after).sum()) * contact.posed.operator.grid.pixel_area
-    return {"indentation": after, "work": np.asarray(float(memory.get("work", 0.0)) + work)}
-
-
 @dataclass(frozen=True)
 class _Note:
     """Indentation before the step (nx, ny) in m, its memory, the last unknown (nx, ny) in Pa whose limits bore the load, and whether
@@ -113,29 +92,6 @@ class _Note:
     bearing: RealArray | None = None
     weak: bool = False
     last: tuple[RealArray, RealArray] | None = None
-
-
-@dataclass(frozen=True)
-class ConstantHardness(Coupling):
-    """Limit of the pressure that does not change with depth, or none at all: passive."""
-
-    law: InterfaceLaw
-    name: ClassVar[str] = "hardness"
-    feedback: ClassVar[bool] = False
-    remedy: ClassVar[str] = ""
-
-    def begin(self, posed: Posed, memory: Memory) -> Exchange:
-        """The indentation so far, (nx, ny) in m; of no points where there is none."""
-        before = memory.get("indentation", np.zeros(0))
-        return Exchange(before, before, note=memory)
-
-    def share(self, exchange: Exchange) -> Share:
-        """The limit, and the indentation before the step, if there is one, as a lift."""
-        return Share(lift=exchange.x if exchange.x.any() else 0.0, cap=self.law.pressure_cap())
-
-    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
-        """Indentation and work."""
-        return _after(self.law, exchange.note, contact), None
 
 
 @dataclass(frozen=True)
@@ -155,6 +111,7 @@ class DepthHardness(Coupling):
     falls: bool = field(default=False, repr=False)
     name: ClassVar[str] = "hardness"
     feedback: ClassVar[bool] = True
+    bounds: ClassVar[bool] = True
     remedy: ClassVar[str] = (
         "Take smaller steps of load or a finer grid; a layer that is a billion times thinner than the roughness can be left out."
     )
@@ -180,7 +137,7 @@ class DepthHardness(Coupling):
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """The limit at the indentation so far."""
-        before = _before(posed, memory)
+        before = indentation_before(posed, memory)
         x = self._place(before)
         note = _Note(before, memory)
         return Exchange(x, x, np.inf, self.tolerance, exact=not self._gentle, lowest=x, note=note)
@@ -322,4 +279,9 @@ class DepthHardness(Coupling):
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
         """Indentation and work."""
-        return _after(self.law, exchange.note.memory, contact), None
+        return indented(self.law, exchange.note.memory, contact), None
+
+
+def by_depth(law: LimitByDepth, operator: Operator, tolerance: float | None) -> DepthHardness:
+    """Coupling of ``law`` on the grid of ``operator``, by default with the usual tolerance."""
+    return DepthHardness.prepared(law, operator, TOLERANCE if tolerance is None else tolerance)

@@ -8,15 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..core import require
-from ..core.errors import InputError, NoSolutionError
-from ..core.status import Progress
-from .controls import MeanPressure
-from .operators import Operator, prepare_operator
-from .problem import ContactProblem
-from .result import PLASTIC_FRACTION, ContactResult
-from .solve import Keep, solve
-from .solvers.protocol import Solver
+from ...contact.controls import MeanPressure
+from ...contact.operators import Operator, prepare_operator
+from ...contact.problem import ContactProblem
+from ...contact.result import PLASTIC_FRACTION, ContactResult
+from ...contact.solve import Keep, solve
+from ...contact.solvers.protocol import Solver
+from ...core import require
+from ...core.errors import InputError, NoSolutionError
+from ...core.status import Progress
 
 _START, _DOWN, _UP = 16.0, 8.0, 2.0
 _LARGEST = 1.0 - 1e-6
