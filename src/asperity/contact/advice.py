@@ -14,7 +14,7 @@ from ..solids.layers import Layered, RigidBase, materials_of, surface_material
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
 from ..theories.wet.meniscus import wetting_factor
-from .certificate import LARGEST_DUALITY_GAP
+from .certificate import LARGEST_DUALITY_GAP, LARGEST_IMBALANCE
 from .couplings.menisci import Menisci
 from .couplings.plastic_flow import NAME as PLASTIC_FLOW
 from .couplings.plastic_flow import SMALL_STRAIN, PlasticBody, PlasticFlowCoupling
@@ -93,7 +93,8 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
 
 def review(result: ContactResult) -> tuple[Advice, ...]:
     """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, plastic flow, energies in time, menisci."""
-    wet = () if result.menisci is None else (*_meniscus_pixels(result.menisci), *_molecules(result.menisci))
+    liquid = result.menisci
+    wet = () if liquid is None else (*_meniscus_pixels(liquid), *_molecules(liquid), *_in_jump(liquid, result))
     return (
         *doubts(result),
         *_contact_pixels(result),
@@ -482,6 +483,20 @@ def _meniscus_pixels(found: Menisci) -> Iterator[Advice]:
             "meniscus pixels",
             f"Menisci are counted in pixels, but have a radius of {radius:.2g} pixels (less than {FEWEST_MENISCUS_PIXELS:g}): the force "
             "may be off by several per cent. Refine the grid, or generate the surface with more points.",
+        )
+
+
+def _in_jump(found: Menisci, result: ContactResult) -> Iterator[Advice]:
+    pixels = found.wetting.partly
+    count, area = int(np.count_nonzero(pixels)), result.problem.grid.pixel_area
+    jump = found.suction * count * area
+    if count and jump > LARGEST_IMBALANCE * result.force:
+        held = show(found.suction * float(found.wetting.filled[pixels].sum()) * area, "N")
+        yield Advice(
+            "note",
+            "jump of the meniscus force",
+            f"The forces balance where the meniscus force jumps: {count} pixel{'' if count == 1 else 's'} that touch or come to the height of the menisci "
+            f"there hold{'s' if count == 1 else ''} liquid in part, which pulls with {held} of {show(jump, 'N')}. Refine the grid for smaller jumps.",
         )
 
 

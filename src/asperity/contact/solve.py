@@ -20,7 +20,7 @@ from ..core.status import Outcome, Progress, Status
 from ..solids.compliance.creep import contact_creep
 from ..solids.layers import relaxes
 from .adhesive_steps import divides, in_ranges
-from .certificate import LARGEST_DUALITY_GAP, Certificate, certify
+from .certificate import LARGEST_DUALITY_GAP, LARGEST_IMBALANCE, Certificate, certify, imbalance
 from .couplings.adhesion import TOLERANCE as ADHESION_TOLERANCE
 from .couplings.adhesion import AdhesionCoupling
 from .couplings.balance import settle_forces
@@ -415,6 +415,10 @@ def finished(
     if attraction is not None:
         lift = (0.0 if lift is None else lift) - contact.posed.operator.apply(attraction)
     certificate = _certified(settled, solver, seconds)
+    pulled = found["menisci"].meniscus_force if "menisci" in found else 0.0
+    pulled += found["adhesion"].attractive_force if "adhesion" in found else 0.0
+    if "menisci" in found or "adhesion" in found:
+        certificate = replace(certificate, load_imbalance=imbalance(contact, pulled))
     if "stick_slip" in found:
         certificate = replace(certificate, complementarity=found["stick_slip"].complementarity)
     status = doubted(settled.status, certificate)
@@ -517,6 +521,9 @@ _GAPS = 1e3
 
 def doubted(status: Status, certificate: Certificate) -> Status:
     """``status``, or why a contact that the solver holds for converged is not."""
+    if status.converged and certificate.load_imbalance > LARGEST_IMBALANCE:
+        message = f"Not converged: the forces miss their balance by {certificate.load_imbalance:.1e} of their sum."
+        return Status(Outcome.STAGNATED, message, "Prescribe the position, with Approach(...) or MeanGap(...).")
     if not status.converged or certificate.duality_gap <= max(LARGEST_DUALITY_GAP, _GAPS * certificate.tolerance):
         return status
     message = f"Not converged: the energy is off by up to {certificate.duality_gap:.1e} of itself (duality gap)."
