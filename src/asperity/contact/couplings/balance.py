@@ -5,8 +5,8 @@ the forces do not add up. At a given approach both are found without feedback. T
 approach from where the surfaces are until the force wanted is between two approaches, and closes in on it, always from the contact nearer to
 the start.
 
-Where pixels of liquid come or go the force jumps, and what is wanted may lie in the jump: then part of them is there. Contact and attraction
-hardly change across it, so that the force of the liquid is what the balance leaves to it.
+Where pixels of liquid come or go the force jumps, and what is wanted may lie in the jump: then they are under liquid in part (``meniscus_bracket``). Contact
+and attraction hardly change across it, so that the force of the liquid is what the balance leaves to it.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def settle_forces(
 ) -> Settled:
     """``settle`` for couplings that hold adhesion and menisci, where a force is balanced; the arguments are the same.
 
-    Rounds are tried first. Where their forces do not add up to 1e-4 of the external force, or of the menisci's if that is larger, the approach is searched for.
+    Rounds are tried first. Where their forces do not add up to 1e-4 of the external force, or of the menisci's or a hundredth of that of the contact if one is larger, the approach is searched for.
 
     Raises
     ------

@@ -1,7 +1,8 @@
 """Menisci of a liquid film as a coupling: they press the surfaces together, which makes more menisci, until both balance.
 
 The force counts pixels, so it jumps, and rounds take it as it is: from a virgin interface it rises to the smallest
-balance (Tian & Bhushan 1996; Peng 2001, sec. 3.2.4). The force is remembered from one step to the next: menisci that have
+balance (Tian & Bhushan 1996; Peng 2001, sec. 3.2.4). Where contact takes the place of liquid it falls, and the balance is enclosed between two forces;
+if it lies in the fall itself, pixels are under liquid in part (``meniscus_bracket``). The force is remembered from one step to the next: menisci that have
 formed hold the bodies until they find no balance any more, so that on unloading the force falls from above to the
 largest balance instead. Both ends do not depend on the number of steps. Without external load (``Unloaded``) the menisci
 alone hold the bodies; at a prescribed position the force is passive.
