@@ -46,7 +46,7 @@ class Count:
             found = self.solve(replace(problem, film=None), asp.MeanPressure(load + pull / area))
             stands = wetting(found.gap, found.contact, film, wraps=(True, True))
             latest = pixel * np.count_nonzero(stands.menisci)
-            if abs(latest - pull) <= 1e-4 * load * area + 2.0 * pixel:
+            if abs(latest - pull) <= 1e-4 * (load * area + pull):
                 break
             pull = latest
         return found

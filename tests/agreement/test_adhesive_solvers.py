@@ -189,6 +189,9 @@ def test_attraction_menisci_and_force_add_up(dry, thickness, load):
     assert held.menisci.meniscus_force == pytest.approx(counted, rel=1e-9)
     # part of the pixels that come or go there: eight by symmetry on the sphere
     assert abs(counted - loaded.menisci.meniscus_force) <= 8.0 * film.suction * problem.grid.pixel_area
+    filled = film.suction * problem.grid.pixel_area * float(loaded.menisci.wetting.filled.sum())
+    assert loaded.menisci.meniscus_force == pytest.approx(filled, rel=1e-12)
+    assert loaded.certificate.load_imbalance <= 1e-4
 
 
 def test_a_machine_feels_the_menisci():

@@ -6,7 +6,6 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from asperity.contact.operators.tangential import TangentialOperator
 from judge import history, interface, normal, shear
 from judge.checks import Check, norm
 from judge.normal import Pressed
@@ -15,6 +14,7 @@ from judge.solved import Solved
 
 import asperity as asp
 from asperity.contact.operators import Operator, prepare_operator
+from asperity.physics.friction.operator import TangentialOperator
 
 
 def equations(case: Case, found: Solved) -> list[Check]:

@@ -10,8 +10,8 @@ from judge.normal import Pressed, bounds, complementarity, gaps, yielding
 from scipy import ndimage
 
 import asperity as asp
+from asperity.contact.controls import mean_pressure
 from asperity.contact.operators import Operator
-from asperity.contact.problem import mean_pressure
 from asperity.core.arrays import BoolArray, RealArray
 
 WET_BALANCE = 1e-4

@@ -15,8 +15,8 @@ import numpy as np
 from judge.checks import EPS, ROUNDING, Check, norm, over
 
 import asperity as asp
+from asperity.contact.controls import mean_pressure
 from asperity.contact.operators import Operator
-from asperity.contact.problem import mean_pressure
 from asperity.core.arrays import RealArray
 
 UNRESOLVED, OF_DEFLECTION, MOST_DEFLECTIONS = 1e-5, 1e-4, 30.0

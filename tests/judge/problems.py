@@ -14,7 +14,7 @@ import numpy as np
 from judge import heights
 
 import asperity as asp
-from asperity.contact.problem import Control
+from asperity.contact.controls import Control
 from asperity.core.arrays import RealArray
 from asperity.physics.rolling.rolling import Rolling
 from asperity.solids.layers import Body

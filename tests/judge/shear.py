@@ -7,12 +7,12 @@ traction at it.
 from __future__ import annotations
 
 import numpy as np
-from asperity.contact.operators.tangential import TangentialOperator
 from judge.checks import EPS, ROUNDING, Check, norm, over
 
 import asperity as asp
 from asperity.contact.tangential import about_centre
 from asperity.core.arrays import RealArray
+from asperity.physics.friction.operator import TangentialOperator
 from asperity.physics.rolling.rolling import DIRECTIONS
 
 TOLERANCE = 1e-5

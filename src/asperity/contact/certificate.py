@@ -9,7 +9,9 @@ import numpy as np
 
 from ..core.engine import Totals
 from ..core.status import peak_memory
+from .controls import FixedGrips
 from .couplings.driver import CouplingCheck
+from .couplings.protocol import Contact
 from .solvers.pressure_error import pressure_error
 from .solvers.protocol import (
     ROUNDING,
@@ -24,6 +26,9 @@ from .solvers.protocol import (
 
 LARGEST_DUALITY_GAP = 1e-3
 """Bound on the relative error of the energy above which a result is doubtful; a converged one has 1e-6."""
+
+LARGEST_IMBALANCE = 1e-3
+"""Imbalance of the forces above which a result is doubtful; a converged one has 1e-4 at most."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +47,8 @@ class Certificate:
     penetration
         Largest overlap of the bodies outside the plastic points, over the rms height.
     load_imbalance
-        Relative difference of the load reached and the load prescribed; 0 where the position is prescribed.
+        Force of the contact less the external one prescribed and what menisci and adhesion pull, over the sum of these; 0 where the position
+        is prescribed.
     tolerance
         Tolerance the solver was given for its relative error.
     iterations, fft_pairs
@@ -116,3 +122,15 @@ def certify(
         solver=solver,
         pressure_error=pressure_error(qp, state.pressure, max(bound, rounding)),
     )
+
+
+def imbalance(contact: Contact, pulled: float) -> float:
+    """``load_imbalance`` of a ``contact`` whose menisci and adhesion pull with this force (N)."""
+    posed, control = contact.posed, contact.posed.control
+    wanted = posed.external_force
+    if isinstance(control, FixedGrips) and math.isfinite(control.stiffness):
+        wanted = control.stiffness * (control.value - posed.top - contact.level)
+    if wanted is None:
+        return 0.0
+    whole = abs(wanted) + pulled
+    return abs(contact.force - pulled - wanted) / whole if whole > 0.0 else 0.0

@@ -20,7 +20,7 @@ from ..core.registry import BY_DEPTH, IN_TIME, PAIRS, home
 from ..core.status import Outcome, Progress, Status
 from ..solids.layers import relaxes
 from .answer import Answer
-from .certificate import LARGEST_DUALITY_GAP, Certificate, certify
+from .certificate import LARGEST_DUALITY_GAP, LARGEST_IMBALANCE, Certificate, certify, imbalance
 from .controls import (
     Approach,
     Control,
@@ -398,6 +398,9 @@ def finished(
     if attraction is not None:
         lift = (0.0 if lift is None else lift) - contact.posed.operator.apply(attraction)
     certificate = _certified(settled, solver, seconds)
+    if any(answer.pulls() for answer in answers):
+        pulled = sum(answer.pulls() for answer in answers)
+        certificate = replace(certificate, load_imbalance=imbalance(contact, pulled))
     for answer in answers:
         certificate = answer.certified(certificate)
     status = doubted(settled.status, certificate)
@@ -473,6 +476,9 @@ _GAPS = 1e3
 
 def doubted(status: Status, certificate: Certificate) -> Status:
     """``status``, or why a contact that the solver holds for converged is not."""
+    if status.converged and certificate.load_imbalance > LARGEST_IMBALANCE:
+        message = f"Not converged: the forces miss their balance by {certificate.load_imbalance:.1e} of their sum."
+        return Status(Outcome.STAGNATED, message, "Prescribe the position, with Approach(...) or MeanGap(...).")
     if not status.converged or certificate.duality_gap <= max(LARGEST_DUALITY_GAP, _GAPS * certificate.tolerance):
         return status
     message = f"Not converged: the energy is off by up to {certificate.duality_gap:.1e} of itself (duality gap)."

@@ -28,7 +28,6 @@ from ..physics.friction.law import Coulomb
 from ..physics.friction.sliding import GrossSliding
 from ..physics.menisci.coupling import Menisci
 from ..physics.menisci.film import LiquidFilm, wetting
-from ..physics.menisci.quantities import WET_FIELDS, WET_SCALARS
 from ..physics.rolling.rolling import RollingContact
 from ..stress.field import StressField
 from ..surfaces.surface import Origin, Surface
@@ -46,6 +45,7 @@ from .creep_files import CREEP, creep_columns, creep_from, creep_group, creep_in
 from .description import describe, provenance, rebuild, software, surface_provenance
 from .flow_files import FLOW, flow_columns, flow_found, flow_from
 from .memory_files import memories_of, memory_in, memory_node
+from .menisci_files import NUMBERS, menisci_columns, menisci_from, menisci_group
 from .old_files import grouped
 from .rolling_files import ROLLING, rolling_in, rolling_node
 from .shear_files import PREFIX, shear_columns, shear_from, shear_in, shear_node
@@ -72,8 +72,6 @@ PARTS = ("body", "counter_body", "boundary", "law", "control")
 _CHECKS = ("couplings", "rounds", "complementarity", "pressure_error")
 """Entries of the certificate that older files lack, written as JSON texts."""
 
-_MENISCI = ("external_force", "meniscus_force", "dry_friction", "viscous_force", "feedback")
-"""Numbers of the menisci that do not follow from contact and film."""
 
 LIFT = Quantity("shear_displacement", "m", "normal displacement by shear")
 """Field of a sliding contact."""
@@ -381,10 +379,8 @@ def contact_from(
 
 def film_node(result: ContactResult, menisci: Menisci) -> Node:
     """Group of the liquid film of a contact: where menisci stand, and scalars."""
-    fields_ = (Labelled(item, getattr(menisci.wetting, item.name)) for item in WET_FIELDS)
-    scalars = (Labelled(item, getattr(menisci, item.name)) for item in WET_SCALARS)
-    texts = {"menisci": _numbers_text(menisci), "regime": menisci.wetting.regime}
-    return Node((*grid_lines(result), *fields_, *scalars), texts)
+    values, texts = menisci_group(menisci)
+    return Node((*grid_lines(result), *values), texts)
 
 
 def _with_film(node: Node, contact: ContactResult) -> ContactResult:
@@ -392,7 +388,7 @@ def _with_film(node: Node, contact: ContactResult) -> ContactResult:
     film = rebuild(json.loads((attributes := node.attributes)["film"]))
     if not isinstance(film, LiquidFilm):
         raise ValueError("film")
-    stored: dict[str, Any] = {name: float(attributes[f"stored_{name}"]) for name in _MENISCI}
+    stored: dict[str, Any] = {name: float(attributes[f"stored_{name}"]) for name in NUMBERS}
     friction = Coulomb(stored["dry_friction"], coupled=False)
     stands = wetting(contact.gap, contact.contact, film, wraps=contact.problem.boundary.wraps)
     return replace(
@@ -443,11 +439,7 @@ def _coupling_columns(steps: Sequence[ContactResult]) -> Iterator[Labelled]:
     if steps[0].sliding is not None:
         lifts = [step.sliding.shear_displacement for step in steps if step.sliding is not None]
         yield _column(LIFT, np.stack(lifts), "x", "y")
-    if steps[0].menisci is not None:
-        found = [step.menisci for step in steps if step.menisci is not None]
-        for item in WET_SCALARS:
-            yield _column(replace(item, name=f"film_{item.name}"), [getattr(menisci, item.name) for menisci in found])
-        yield _column(Quantity("menisci", "", "numbers of the menisci, as JSON"), list(map(_numbers_text, found)))
+    yield from menisci_columns([step.menisci for step in steps if step.menisci is not None])
     yield from adhesion_columns([step.adhesion for step in steps if step.adhesion is not None])
     yield from shear_columns([step.stick_slip for step in steps if step.stick_slip is not None])
     yield from creep_columns(steps)
@@ -522,18 +514,12 @@ def _couplings(
     law = problem.adhesion
     found: dict[str, Any] = {} if law is None or text is None else {ADHESION: adhesion_from(arrays, law, str(text))}
     if problem.film is not None and numbers is not None:
-        contact = arrays["pressure"] > 0.0
-        stands = wetting(arrays["gap"], contact, problem.film, wraps=problem.boundary.wraps)
-        stored = {name: rebuild(value) for name, value in json.loads(numbers).items()}
-        found["menisci"] = Menisci(problem.film, stands, **stored)
+        wraps = problem.boundary.wraps
+        found["menisci"] = menisci_from(str(numbers), problem.film, arrays["gap"], arrays["pressure"], wraps)
     friction = problem.friction
     if isinstance(friction, Coulomb) and LIFT.name in arrays:
         found["sliding"] = GrossSliding(friction.coefficient, friction.direction, arrays[LIFT.name])
     return found
-
-
-def _numbers_text(menisci: Menisci) -> str:
-    return json.dumps({name: describe(getattr(menisci, name)) for name in _MENISCI})
 
 
 def grid_lines(result: ContactResult) -> tuple[Labelled, Labelled]:

@@ -65,8 +65,8 @@ CERTIFICATE = (
     Quantity(
         "load_imbalance",
         "1",
-        "relative error of the load",
-        description="How far the load reached is from the load asked for; zero where a position was asked for.",
+        "imbalance of the forces",
+        description="How far load, menisci and adhesion are from the force of the contact, over their sum; zero where a position was asked for.",
     ),
     Quantity(
         "tolerance",

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from contact_cases import wetted
@@ -36,6 +38,55 @@ def test_a_wet_contact_is_read_back_whole(wet: asp.ContactResult, tmp_path: Path
     data = asp.open_tree(tmp_path / "wet.nc")["film"].to_dataset()
     assert data["menisci"].dims == ("x", "y")
     assert data["meniscus_force"].attrs["units"] == "N"
+
+
+def corners_wet_in_part() -> tuple[asp.ContactProblem, asp.MeanPressure]:
+    """A plateau whose last pixels touch and hold liquid in part."""
+    heights = np.zeros((8, 8))
+    heights[:5, :5] = 1e-7
+    film = asp.LiquidFilm(surface_tension=0.07, thickness=0.9e-7)
+    return asp.ContactProblem(
+        asp.Surface(heights, 1e-6, periodic=True), asp.Elastic(1e4, 0.3), film=film
+    ), asp.MeanPressure(100.0)
+
+
+def test_pixels_wet_in_part_are_read_back(tmp_path: Path) -> None:
+    problem, load = corners_wet_in_part()
+    results = {
+        "one": asp.solve(problem, load),
+        "path": asp.solve(problem, asp.History([load, asp.MeanPressure(120.0)])),
+    }
+    for name, result in results.items():
+        asp.save(result, tmp_path / f"{name}.nc")
+        found = asp.load(tmp_path / f"{name}.nc")
+        steps = zip(getattr(found, "steps", [found]), getattr(result, "steps", [result]), strict=True)
+        for back, was in steps:
+            assert was.menisci.wetting.partly.any()
+            np.testing.assert_array_equal(back.menisci.wetting.filled, was.menisci.wetting.filled)
+            assert back.menisci.wetting.regime == was.menisci.wetting.regime
+            assert back.menisci.meniscus_area_fraction == was.menisci.meniscus_area_fraction
+            assert asp.review(back) == asp.review(was)
+
+
+@pytest.mark.parametrize(
+    ("changed", "named"),
+    [
+        ({"partly_pixels": [64]}, "partly_pixels"),
+        ({"partly_pixels": [-1]}, "partly_pixels"),
+        ({"partly_pixels": [1.5]}, "partly_pixels"),
+        ({"partly_filled": [1.5]}, "partly_filled"),
+        ({"partly_filled": [0.5, 0.5]}, "partly_filled"),
+        ({"partly_filled": [float("nan")]}, "partly_filled"),
+    ],
+)
+def test_shares_that_no_pixel_can_have_are_refused(changed: dict[str, list[float]], named: str, tmp_path: Path) -> None:
+    asp.save(asp.solve(*corners_wet_in_part()), tmp_path / "bad.nc")
+    with h5py.File(tmp_path / "bad.nc", "r+") as file:
+        attributes = file["film"].attrs
+        stored = json.loads(attributes["menisci"]) | {"partly_pixels": [63], "partly_filled": [0.5]} | changed
+        attributes["menisci"] = json.dumps(stored)
+    with refused(asp.FileFormatError, "result file", named):
+        asp.load(tmp_path / "bad.nc")
 
 
 def test_a_dry_result_has_no_menisci(tmp_path: Path) -> None:

@@ -111,8 +111,8 @@ class Rounds:
     patience
         Rounds without progress after which it counts as stagnated.
     tolerances
-        Residuals by name of a coupling at which it is settled, in place of its own: ``menisci`` change of their force over
-        the external force (1e-4; two pixels more or less never matter), ``sliding`` relative change of the displacement
+        Residuals by name of a coupling at which it is settled, in place of its own: ``menisci`` force by which
+        contact, load and menisci miss their balance over that of the contact (1e-4), ``sliding`` relative change of the displacement
         by shear (1e-6), ``hardness`` relative change of the hardness (1e-5).
 
     Raises

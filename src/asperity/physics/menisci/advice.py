@@ -7,7 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...contact.certificate import LARGEST_IMBALANCE
 from ...core.status import Advice
+from ...core.units import show
 from ...theories.wet.meniscus import wetting_factor
 from .film import LiquidFilm, Wetting
 
@@ -21,10 +23,26 @@ MOLECULE = 0.28e-9
 """Diameter of a molecule of water in m; other liquids have larger ones."""
 
 
-def findings(film: LiquidFilm, wetting: Wetting) -> Iterator[Advice]:
-    """What should be known of menisci of ``film`` that stand as ``wetting`` says."""
+def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> Iterator[Advice]:
+    """What should be known of menisci of ``film`` that stand as ``wetting`` says and ``pull`` (N), where a ``force`` (N) presses the bodies together."""
     yield from _meniscus_pixels(wetting)
     yield from _molecules(film)
+    yield from _in_jump(wetting, pull, force)
+
+
+def _in_jump(wetting: Wetting, pull: float, force: float) -> Iterator[Advice]:
+    pixels = wetting.partly
+    count, whole = int(np.count_nonzero(pixels)), float(wetting.filled.sum())
+    if not count or not whole:
+        return
+    jump, held = pull * count / whole, pull * float(wetting.filled[pixels].sum()) / whole
+    if jump > LARGEST_IMBALANCE * force:
+        yield Advice(
+            "note",
+            "jump of the meniscus force",
+            f"The forces balance where the meniscus force jumps: {count} pixel{'' if count == 1 else 's'} that touch or come to the height of the menisci "
+            f"there hold{'s' if count == 1 else ''} liquid in part, which pulls with {show(held, 'N')} of {show(jump, 'N')}. Refine the grid for smaller jumps.",
+        )
 
 
 def _meniscus_pixels(wetting: Wetting) -> Iterator[Advice]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 import numpy as np
@@ -135,7 +136,9 @@ class Wetting:
     kept
         Islands of ``cut`` that hold at least one wetted pixel: the others touch no liquid.
     menisci
-        ``kept`` without contact, the area that the suction acts on.
+        ``kept`` without contact: where liquid bridges the gap.
+    filled
+        Share of each pixel that the suction acts on: 1 in ``menisci`` and 0 elsewhere, but for the pixels at the jump in which forces balance (see ``between``).
     labels
         Number of the island of each pixel of ``kept``, zero elsewhere.
     n_islands, n_menisci
@@ -149,6 +152,7 @@ class Wetting:
     cut: BoolArray
     kept: BoolArray
     menisci: BoolArray
+    filled: RealArray
     labels: Labels
     n_islands: int
     n_menisci: int
@@ -158,6 +162,24 @@ class Wetting:
     def share(self, name: str) -> float:
         """Share of the nominal area of the field ``name``."""
         return float(np.mean(getattr(self, name)))
+
+    @property
+    def partly(self) -> BoolArray:
+        """(nx, ny), True where a pixel is under liquid in part: at the jump of the meniscus force in which forces balance."""
+        return np.not_equal(self.filled, self.menisci)
+
+    @property
+    def full(self) -> bool:
+        """Whether liquid or contact fills nearly all of the interface."""
+        return float(self.kept.mean()) >= FLOODED
+
+    def filled_at(self, pixels: Sequence[int] | Labels, shares: Sequence[float] | RealArray) -> Wetting:
+        """The same with these ``shares``, 0 to 1, of the ``pixels`` under liquid, which are counted along the rows of the map."""
+        filled = np.array(self.filled)
+        filled.flat[np.asarray(pixels, dtype=np.intp)] = shares
+        dry = self.regime == "dry" and bool(filled.any())
+        regime = ("flooded" if self.full else "toe-dipping") if dry else self.regime
+        return replace(self, filled=filled, regime=regime)
 
 
 def wetting(
@@ -193,4 +215,14 @@ def wetting(
         regime = "dry"
     elif kept.mean() >= FLOODED:
         regime = "flooded"
-    return Wetting(wetted, cut, kept, menisci, numbers, count, int(holds.sum()), regime)
+    return Wetting(wetted, cut, kept, menisci, menisci.astype(float), numbers, count, int(holds.sum()), regime)
+
+
+def between(here: Wetting, there: Wetting, share: float) -> Wetting:
+    """``here`` with this ``share``, 0 to 1, of the way to ``there``: pixels under liquid in one of them alone hold it in part.
+
+    The forces of a contact may balance between the two, where pixels at the edge of contact or at the height of the menisci change sides.
+    """
+    pixels = np.flatnonzero(here.menisci != there.menisci)
+    wet = here.menisci.flat[pixels]
+    return here.filled_at(pixels, np.where(wet, 1.0 - share, share))

@@ -5,8 +5,8 @@ the forces do not add up. At a given approach both are found without feedback. T
 approach from where the surfaces are until the force wanted is between two approaches, and closes in on it, always from the contact nearer to
 the start.
 
-Where pixels of liquid come or go the force jumps, and what is wanted may lie in the jump: then part of them is there. Contact and attraction
-hardly change across it, so that the force of the liquid is what the balance leaves to it.
+Where pixels of liquid come or go the force jumps, and what is wanted may lie in the jump: then they are under liquid in part (``menisci.bracket``). Contact
+and attraction hardly change across it, so that the force of the liquid is what the balance leaves to it.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -25,10 +26,15 @@ from ...contact.solvers.protocol import Solver
 from ...core.errors import NoSolutionError
 from ...core.status import Outcome, Progress, Status
 from ..adhesion.coupling import AdhesionCoupling
+from ..menisci.bracket import SMALL, End, astray
 from ..menisci.coupling import MeniscusCoupling
+from ..menisci.film import between
 
 _EXACT = 1e-4
 """Error of the force over the reference at which it is balanced."""
+
+_OF_CONTACT = 1e-2
+"""Share of the force of the contact that the reference is at least: attraction and pressure may be far larger than what is left of them."""
 
 _FIRST = 1e-2
 """First step of the approach over the range of the attraction and the thickness of the film, whichever is less."""
@@ -78,7 +84,7 @@ def settle_forces(
 ) -> Settled:
     """``settle`` for couplings that hold adhesion and menisci, where a force is balanced; the arguments are the same.
 
-    Rounds are tried first. Where their forces do not add up to 1e-4 of the external force, or of the menisci's if that is larger, the approach is searched for.
+    Rounds are tried first. Where their forces do not add up to 1e-4 of the external force, or of the menisci's or a hundredth of that of the contact if one is larger, the approach is searched for.
 
     Raises
     ------
@@ -116,7 +122,7 @@ class _Search:
         """The balance, or the jump that takes its place, from the rounds ``first`` or from before the step."""
         near, far = self._bracket(self._start(first))
         narrow = _NARROW * self._first_step
-        while abs(far.solids - near.solids) > self.exact(near) and abs(far.approach - near.approach) > narrow:
+        while self._apart_still(near, far) and abs(far.approach - near.approach) > narrow:
             middle = self._between(near, far)
             if not middle.converged or abs(middle.force) <= self.exact(middle):
                 near = far = middle
@@ -138,8 +144,23 @@ class _Search:
         """Error (N) of the force at which it is balanced."""
         return _EXACT * self._reference(held)
 
+    def _apart_still(self, near: _Held, far: _Held) -> bool:
+        """Whether the contact itself, or more than pixels at the edge of the liquid, changes between the two."""
+        return abs(far.solids - near.solids) > self.exact(near) or self._astray(near, far) > 0
+
+    def _astray(self, near: _Held, far: _Held) -> int:
+        """Number of pixels that fill or dry at once, where their force counts."""
+        count = astray(self._end(near), self._end(far), self.film.meniscus_height)
+        return count if count * self.pixel > SMALL * self._reference(near) else 0
+
+    def _end(self, held: _Held) -> End:
+        contact: Contact = held.settled.contact
+        found = held.settled.exchanges["menisci"].note.found
+        return End(held.solids, held.liquid, found, contact.gap, contact.pressure)
+
     def _reference(self, held: _Held) -> float:
-        return max(abs(self._wanted(held.approach)), held.liquid, self.pixel)
+        known = max(abs(self._wanted(held.approach)), held.liquid, _OF_CONTACT * held.settled.contact.force)
+        return known or self.pixel
 
     def _wanted(self, approach: float) -> float:
         """External force (N) wanted at this ``approach`` (m)."""
@@ -207,15 +228,19 @@ class _Search:
 
     def _ended(self, near: _Held, far: _Held, first: Settled | None) -> Settled:
         """The contact between these two under the control, with how well its forces add up."""
-        best = min((near, far), key=lambda held: abs(held.force))
+        best, across = sorted((near, far), key=lambda held: abs(held.force))
         settled, allowed = best.settled, self.exact(best)
-        within = abs(far.solids - near.solids) <= allowed  # the jump is one of the liquid
-        missed = abs(far.solids - near.solids) if within else abs(best.force)
         exchanges = dict(settled.exchanges)
         adhesion, menisci = exchanges["adhesion"], exchanges["menisci"]
-        liquid = best.solids if within and abs(best.force) > allowed else best.liquid
+        stands = menisci.note.found
+        if abs(best.force) > allowed and not self._apart_still(near, far):  # the jump is one of the liquid
+            share = (best.solids - best.liquid) / (across.liquid - best.liquid)
+            stands = between(stands, across.settled.exchanges["menisci"].note.found, min(max(share, 0.0), 1.0))
+        liquid = self.film.suction * stands.share("filled") * self.posed.operator.grid.area
+        missed = abs(best.solids - liquid)
         exchanges["adhesion"] = replace(adhesion, note=replace(adhesion.note, posed=self.posed))
-        exchanges["menisci"] = replace(menisci, x=np.asarray(liquid), note=self._note(menisci, liquid, first))
+        note = replace(self._note(menisci, first), found=stands, force=liquid)
+        exchanges["menisci"] = replace(menisci, x=np.asarray(liquid), note=note)
         reference = self._reference(best)
         check = CouplingCheck("menisci", missed / reference, 0.0, allowed / reference)
         status = (
@@ -230,10 +255,10 @@ class _Search:
             status=status,
         )
 
-    def _note(self, menisci: Exchange, liquid: float, first: Settled | None) -> object:
-        """Where the ``liquid`` stands and its force (N), with that of the first round, which tells the feedback."""
+    def _note(self, menisci: Exchange, first: Settled | None) -> Any:
+        """Note of the ``menisci`` with the force of the first round, which tells the feedback, and the external one (N)."""
         known = replace(menisci.note, was_dry=False) if first is None else first.exchanges["menisci"].note
-        return replace(known, found=menisci.note.found, force=liquid, external=self.posed.external_force or 0.0)
+        return replace(known, external=self.posed.external_force or 0.0)
 
     def _status(self, best: _Held, jump: float, missed: float) -> Status:
         where = f"at the approach {best.approach:.6g} m, found by {self.count} contacts"
