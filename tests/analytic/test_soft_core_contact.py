@@ -192,3 +192,25 @@ def test_deep_contact_and_states_that_go_on(tmp_path):
     assert loaded.adhesion.law == law
     on = asp.solve(problem, asp.FixedGrips(99.0 * SPACING), state=loaded.state)
     assert on.external_force < deep.external_force
+
+
+@pytest.mark.parametrize("pressure", [1e-6, 1e-3])
+def test_rough_surfaces_that_are_pressed_together_have_an_equilibrium(pressure):
+    """However light the load: on the way to it the energy may curve down with the distance, which is no sign that the surfaces part."""
+    missed = []
+    for seed in range(12):
+        heights = np.random.default_rng(seed).standard_normal((6, 6))
+        for pixels in (2.0, 3.0, 6.0):
+            law = asp.LennardJonesAdhesion(9.0 * math.sqrt(3.0) / 16.0 / pixels, 1.0)
+            problem = asp.ContactProblem(
+                asp.Surface(heights, 3.0), asp.Elastic(1.0, 0.0), boundary=asp.Free(), adhesion=law
+            )
+            found = asp.solve(problem, asp.MeanPressure(pressure))
+            adhesion = found.require_adhesion()
+            traction = found.pressure - adhesion.attraction
+            operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
+            gap = operator.apply(traction) + heights.max() - heights - found.approach + law.spacing
+            size = np.maximum(law.strength, np.abs(traction))
+            missed.append(float((np.abs(traction + law.attraction(gap)) / size).max()))
+            assert traction.mean() == pytest.approx(pressure, rel=1e-6, abs=1e-9 * law.strength)
+    assert max(missed) < 1e-5

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from datetime import datetime, time
 from pathlib import Path
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -21,6 +22,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=10000, help="number of problems")
     parser.add_argument("--first", type=int, default=0, help="seed of the first one")
     parser.add_argument("--processes", type=int, default=1, help="processes that solve at a time")
+    parser.add_argument("--until", type=time.fromisoformat, help="time of day such as 22:30 after which none is begun")
     parser.add_argument("--keep", action="store_true", help="leave the page as it is, and print the tables")
     asked = parser.parse_args()
     verdicts: list[Verdict] = []
@@ -29,7 +31,9 @@ def main() -> None:
         if each.outcome != "right":
             sys.stdout.write(f"{each.seed} {each.kind} {each.outcome}: {each.cause}\n")
             sys.stdout.flush()
-    text = f"{asked.count} problems of the seeds {asked.first} to {asked.first + asked.count - 1}:\n\n{table(verdicts)}"
+        if asked.until is not None and datetime.now().time() >= asked.until:
+            break
+    text = f"Problems of the seeds {verdicts[0].seed} to {verdicts[-1].seed}:\n\n{table(verdicts)}"
     if asked.keep:
         sys.stdout.write(text)
         return

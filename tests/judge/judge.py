@@ -53,12 +53,15 @@ def judged(seed: int) -> Verdict:
 
 
 def all_judged(seeds: Sequence[int], processes: int = 1) -> Iterator[Verdict]:
-    """Verdicts on all ``seeds``, in order."""
+    """Verdicts on all ``seeds``, in order; those that are asked for."""
     if processes == 1:
         yield from map(judged, seeds)
         return
-    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+    pool = ProcessPoolExecutor(processes, mp_context=get_context("spawn"))
+    try:
         yield from pool.map(judged, seeds, chunksize=20)
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)
 
 
 def failures(verdicts: Sequence[Verdict]) -> list[str]:

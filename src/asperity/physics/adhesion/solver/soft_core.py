@@ -171,15 +171,19 @@ class SoftCoreNewton:
         if down or not isinstance(problem.constraint, FixedMean):
             return x, u, 0.0, down
         tangent, moved, unstable = conjugate(applied, slope, -slope, tolerance)
-        stiffness = -float(tangent.sum())
-        if unstable or not stiffness > 0.0:
+        stiffness, wanted = -float(tangent.sum()), problem.constraint.mean_pressure * point.t.size
+        soft = unstable or not stiffness > 0.0
+        if soft and wanted > 0.0:  # what presses has an equilibrium, downhill
+            rate = float((moved * -right).sum()) + float(problem.law.attraction(point.gap).sum()) + wanted
+            towards = -1.0 if rate > 0.0 else 1.0
+            return towards * tangent, towards * moved, towards, True
+        if soft:
             force = problem.constraint.mean_pressure * problem.operator.grid.area
             raise NoSolutionError(
                 f"force must be one that the adhesion bears, but {force:.6g} N is not: the surfaces part. "
                 "Prescribe the position, with FixedGrips(...), to follow them.",
                 subject="force",
             )
-        wanted = problem.constraint.mean_pressure * point.t.size
         by = (float((point.t + x).sum()) - wanted) / stiffness
         return x + by * tangent, u + by * moved, by, False
 
