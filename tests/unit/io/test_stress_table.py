@@ -23,7 +23,21 @@ def test_table_of_maxima(tmp_path: Path) -> None:
     export_csv(found, tmp_path / "s.csv")
     with (tmp_path / "s.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    assert list(rows[0]) == ["part", "name", "top", "bottom", "quantity", "value", "unit", "x", "y", "depth", "side"]
+    assert list(rows[0]) == [
+        "part",
+        "name",
+        "top",
+        "bottom",
+        "quantity",
+        "value",
+        "unit",
+        "x",
+        "y",
+        "depth",
+        "side",
+        "error",
+        "doubt",
+    ]
     (dx, dy), peak = contact.problem.grid.spacing, found.maxima[0].von_mises
     assert (float(rows[0]["x"]), float(rows[0]["y"])) == (peak.x + 0.5 * dx, peak.y + 0.5 * dy), "as in reports"
     values = {(row["name"], row["quantity"]): row for row in rows}
