@@ -142,6 +142,11 @@ def test_every_place_quotes_the_same_maxima(tmp_path: Path) -> None:
     assert field.largest("tension", plane=1).value == field.max_principal[1].max()
     assert field.largest_sqrt_J2.value == pytest.approx(field.largest_von_mises.value / math.sqrt(3.0), rel=1e-14)
     assert field.largest_shear.value >= field.max_shear.max()
+    assert field.largest_principal_tensile.value == pytest.approx(
+        peak.value, rel=1e-12
+    )  # the edge is free of other tractions
+    assert found.whole["principal_tensile"].value == pytest.approx(peak.value, rel=1e-12)
+    assert found.whole["shear_xz"].value == pytest.approx(np.abs(field.shear_xz).max(), rel=1e-12)
     first, inside = asp.fracture_indicators(field, tensile=p0)
     assert first.peak == inside.peak == peak
     assert first.ratio == peak.value / p0

@@ -110,6 +110,8 @@ def _stress_table(survey: StressSurvey) -> Iterator[tuple[Any, ...]]:
         )
         yield (*region, "max_principal", *at(part.tension))
         yield (*region, "max_shear", *at(part.shear))
+    for name, peak in survey.whole.items():
+        yield ("body", "", "", "", f"max_{name}", *at(peak))
     for item in survey.interfaces:
         pair = ("interface", f"{item.above}/{item.below}", item.shear.depth, item.shear.depth)
         yield (*pair, "max_shear", *at(item.shear))

@@ -18,6 +18,7 @@ from ..core.settings import Settings, setting
 from ..core.units import percent, show
 from ..core.values import Choice, Length, NonNegativeLength, Number, Pressure
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
+from .peaks import factor_text, peak_text, verdict
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from ..stress.field import Peak, StressField
     from ..stress.regions import Region
     from ..stress.survey import Place, StressRequest, StressSurvey, SurveyedSection
-    from ..stress.yielding import RegionYield
     from .film import FrictionSettings
 
 
@@ -145,8 +145,6 @@ _LARGEST = {
 }
 """Largest stresses that each layer has, and what they are called."""
 
-_PLACES = ("x", "y", "depth")
-
 
 class Stress(Part):
     """Largest stresses of layers and interfaces."""
@@ -158,7 +156,11 @@ class Stress(Part):
     quantities = (
         *(Quantity(name, "Pa", text) for name, text in _LARGEST.items()),
         *(Quantity(f"{name}_error", "Pa", f"error of the {text}") for name, text in _LARGEST.items()),
-        *(Quantity(f"{name}_{at}", "m", f"{at} of the {text}") for name, text in _LARGEST.items() for at in _PLACES),
+        *(
+            Quantity(f"{name}_{at}", "m", f"{at} of the {text}")
+            for name, text in _LARGEST.items()
+            for at in ("x", "y", "depth")
+        ),
         Quantity("max_interface_shear", "Pa", "largest shear on an interface"),
         Quantity("max_interface_peel", "Pa", "largest peel of an interface"),
         Quantity("layer", "", "layer, from the surface down", dims=("layer",)),
@@ -396,15 +398,10 @@ def maxima_table(survey: StressSurvey) -> Table:
         ]
         label = region_text(regions)
         cells += [(label, name, peak_text(peak, factor), *_place_text(survey, peak)) for name, factor, peak in rows]
+    names = {"principal_tensile": "σ_t in the plane", "shear_xz": "|σxz|", "shear_yz": "|σyz|"}
+    whole = survey.whole.items()
+    cells += [("whole body", names[name], peak_text(peak), *_place_text(survey, peak)) for name, peak in whole]
     return Table(("Layer", "Largest stress", "Value", "x", "y", "Depth"), tuple(cells))
-
-
-def peak_text(peak: Peak, factor: float = 1.0) -> str:
-    """Value of a ``peak`` times ``factor`` with its error where that is known; as a lower bound where it is not to be trusted."""
-    value = show(factor * peak.value, "Pa")
-    if peak.doubt:
-        return f"> {value}"
-    return value if math.isnan(peak.error) else f"{value} ± {show(factor * peak.error, 'Pa', 2)}"
 
 
 def interface_table(survey: StressSurvey) -> Table:
@@ -434,20 +431,12 @@ def yield_table(survey: StressSurvey) -> Table:
                 region_text(regions),
                 peak_text(worst.peak),
                 strength if known else "not known",
-                _factor_text(worst) if known else "not known",
+                factor_text(worst) if known else "not known",
                 _depth_text(worst.peak),
             )
         )
     largest = f"Largest {survey.yielding.criterion.name} stress"
     return Table(("Layer", largest, "Yield stress", "Load factor", "Depth"), tuple(cells))
-
-
-def _factor_text(part: RegionYield) -> str:
-    """Load factor of a region, with its error or as an upper bound."""
-    text = f"{part.load_factor:.3g}"
-    if part.peak.doubt:
-        return f"< {text}"
-    return text if math.isnan(part.load_factor_error) else f"{text} ± {part.load_factor_error:.2g}"
 
 
 def strength_table(survey: StressSurvey) -> Table:
@@ -462,18 +451,10 @@ def strength_table(survey: StressSurvey) -> Table:
     for name, strength, peaks in wanted:
         if not math.isnan(strength) and peaks:
             worst = max(peaks, key=_value)
-            text = f"{max(worst.value, 0.0) / strength:.3g}: {_verdict(worst, strength)}"
+            text = f"{max(worst.value, 0.0) / strength:.3g}: {verdict(worst, strength)}"
             value = peak_text(worst) if worst.value > 0.0 else show(0.0, "Pa")
             cells.append((name, value, show(strength, "Pa"), text, _depth_text(worst)))
     return Table(("Largest", "Value", "Strength", "Value / strength", "Depth"), tuple(cells))
-
-
-def _verdict(peak: Peak, strength: float) -> str:
-    """Whether a ``strength`` holds, with the error of the largest stress."""
-    error = 0.0 if math.isnan(peak.error) else peak.error
-    if peak.value - error >= strength or (peak.doubt and peak.value >= strength):
-        return "fails"
-    return "not certain" if peak.doubt or peak.value + error >= strength else "holds"
 
 
 def has_flowed(survey: StressSurvey) -> bool:

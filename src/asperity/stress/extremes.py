@@ -167,6 +167,13 @@ class Extremes:
         highest = max((self._peak("von_mises", r.index) for r in self._yielding), key=lambda peak: peak.value)
         return found | {"von_mises": highest}
 
+    def whole(self) -> dict[str, Peak]:
+        """The largest σ_t in planes parallel to the surface, |σxz| and |σyz| of the whole body, by the name of the stress; σ_t with the edges of the contact."""
+        found = {name: self._peak(quantity, _ALL) for name, quantity in _DRAWN.items()}
+        if self.surface is not None:
+            found["principal_tensile"] = self.surface.joined("in_plane", found["principal_tensile"])
+        return found
+
     def regions(self) -> tuple[RegionMaxima, ...]:
         """The largest stresses of each region."""
         return tuple(RegionMaxima(r, *(self._largest(name, r.index) for name in _OF_REGIONS)) for r in self._yielding)

@@ -56,11 +56,13 @@ class Peak:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceMaxima:
-    """Largest stresses at the surface of a contact, edges between its pixels included (``sharp``): σ1, von Mises, and shear (σ1 - σ3)/2."""
+    """Largest stresses at the surface of a contact, edges between its pixels included (``sharp``): σ1, von Mises, shear (σ1 - σ3)/2, and the larger
+    principal stress in the plane."""
 
     tension: Peak
     von_mises: Peak
     shear: Peak
+    in_plane: Peak
 
     def joined(self, name: str, peak: Peak) -> Peak:
         """The larger of that ``name`` here and ``peak``, the largest at the points of planes, which at the surface it replaces."""
@@ -129,9 +131,10 @@ class StressField(Stored):
         return self.at_edges() if whole and self.at_edges is not None else None
 
     def largest(self, name: str, plane: int | None = None) -> Peak:
-        """Largest ``tension`` (σ1), ``von_mises`` or ``shear`` ((σ1 - σ3)/2) with its place, of all planes or one; at the surface with its error."""
-        require.one_of(name, ("tension", "von_mises", "shear"), "largest stress")
-        values = {"tension": "max_principal", "shear": "max_shear"}.get(name, name)
+        """Largest ``tension`` (σ1), ``von_mises``, ``shear`` ((σ1 - σ3)/2) or ``in_plane`` principal stress with its place, of all planes or one; at the surface
+        with its error."""
+        require.one_of(name, ("tension", "von_mises", "shear", "in_plane"), "largest stress")
+        values = {"tension": "max_principal", "shear": "max_shear", "in_plane": "principal_tensile"}.get(name, name)
         peak = self.peak(getattr(self, values), plane)
         at_surface = plane is None or self.planes[plane].side == "surface"
         edges = self.surface_maxima if at_surface else None
@@ -151,6 +154,11 @@ class StressField(Stored):
     def largest_shear(self) -> Peak:
         """The same of (σ1 - σ3)/2."""
         return self.largest("shear")
+
+    @property
+    def largest_principal_tensile(self) -> Peak:
+        """The same of the larger principal stress within planes parallel to the surface, σ_t of Peng (2001, eq. 3.34)."""
+        return self.largest("in_plane")
 
     @property
     def largest_sqrt_J2(self) -> Peak:

@@ -130,7 +130,7 @@ class _Surface:
     def maxima(self) -> SurfaceMaxima:
         """The largest stresses."""
         edge = _Edge.of(self)
-        return SurfaceMaxima(*(self._peak(edge, name) for name in ("tension", "von_mises", "shear")))
+        return SurfaceMaxima(*(self._peak(edge, name) for name in _INVARIANTS))
 
     def _peak(self, edge: _Edge, name: str) -> Peak:
         inside = self._inside(name)
@@ -212,6 +212,8 @@ class _Points(NamedTuple):
 
     def bound(self, name: str) -> RealArray:
         """What a stress is at most, (n,)."""
+        if name == "in_plane":
+            return self.at(name, slice(None))
         if name == "tension":
             return self.mean + 2.0 / math.sqrt(3.0) * self.root
         return math.sqrt(3.0) * self.root if name == "von_mises" else self.root
@@ -234,7 +236,9 @@ _INVARIANTS: dict[str, Any] = {
     "tension": lambda s: np.asarray(invariants.principal_stresses(s)[0]),
     "von_mises": invariants.von_mises,
     "shear": invariants.max_shear,
+    "in_plane": invariants.principal_tensile,
 }
+"""Stresses of which the largest are sought, in the order of ``SurfaceMaxima``."""
 
 
 class _Edge(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 
@@ -306,7 +306,8 @@ class StressSurvey:
     """What was asked for, and found.
 
     ``depths`` are those of all planes, on which the maxima and the onset of yield rest. Sections and profiles end where
-    the contact is no longer felt, or as asked; the interfaces below that are planes, too.
+    the contact is no longer felt, or as asked; the interfaces below that are planes, too. ``whole`` holds the largest principal stress in planes parallel to the
+    surface and the largest |σxz| and |σyz| of the whole body, by the name of the stress.
     """
 
     request: StressRequest
@@ -317,6 +318,7 @@ class StressSurvey:
     maxima: tuple[RegionMaxima, ...]
     interfaces: tuple[InterfaceMaxima, ...]
     yielding: YieldReport
+    whole: Mapping[str, Peak]
     citation_keys: tuple[str, ...]
     threads: int | None = None
 
@@ -379,6 +381,7 @@ def survey(
         extremes.regions(),
         extremes.interfaces(),
         extremes.yielding(),
+        extremes.whole(),
         citation_keys(job, request),
         threads,
     )
