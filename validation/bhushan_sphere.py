@@ -65,7 +65,8 @@ class Seen:
     """Stresses over p₀ under one contact: on the axis at ``DEPTHS`` (of the layer at the interface), and largest ones.
 
     ``xx``, ``zz``, ``xz`` (depths,) on the axis; ``root`` largest √J2 and ``root_by_depth`` that of every plane;
-    ``shear`` largest shear τₓz on the interface; ``tension`` largest σₓ on the surface, at ``place`` over the contact radius; ``peak`` largest pressure.
+    ``shear`` largest shear τₓz on the interface; ``tension`` largest σ₁ on the surface, at the distance ``place`` over the contact radius, behind negative;
+    ``peak`` largest pressure.
     """
 
     xx: np.ndarray
@@ -76,7 +77,6 @@ class Seen:
     shear: float
     tension: float
     place: float
-    principal: float
     peak: float
 
 
@@ -103,18 +103,20 @@ def seen(result: asp.ContactResult, friction: float) -> Seen:
     on_axis = {
         name: getattr(field, name)[layer, middle, middle] / HERTZ for name in ("normal_xx", "normal_zz", "shear_xz")
     }
-    surface = field.normal_xx[0]
-    place = np.unravel_index(int(surface.argmax()), surface.shape)
+    surface = field.surface_maxima
+    assert surface is not None
+    x, y = (line[middle] for line in (field.x, field.y))
+    away = math.copysign(math.hypot(surface.tension.x - x, surface.tension.y - y), surface.tension.x - x)
     radius = math.sqrt(result.contact_area / math.pi)
     by_depth = field.sqrt_J2[layer].max(axis=(1, 2)) / HERTZ
+    by_depth[0] = surface.von_mises.value / math.sqrt(3.0) / HERTZ
     return Seen(
         *on_axis.values(),
         root=float(by_depth.max()),
         root_by_depth=by_depth,
         shear=float(np.abs(field.shear_xz[layer[DEPTHS.index(1.0)]]).max()) / HERTZ,
-        tension=float(surface.max()) / HERTZ,
-        place=float(field.x[place[0]] - result.problem.grid.coordinates()[0][middle, 0]) / radius,
-        principal=float(field.max_principal[0].max()) / HERTZ,
+        tension=surface.tension.value / HERTZ,
+        place=away / radius,
         peak=result.max_pressure / HERTZ,
     )
 
@@ -198,8 +200,8 @@ def _layers(smooth: dict[tuple[float, float], Seen]) -> Table:
         "µ",
         "pₘₐₓ",
         "max √J₂",
-        "max σₓ on the surface",
-        "at x/a",
+        "max σ₁ on the surface",
+        "at r/a",
         "σₓ at z = h",
         "σ_z at z = h",
         "max τₓz at z = h",
@@ -225,10 +227,10 @@ def _rough(smooth: Seen, rough: list[Seen]) -> Table:
         (f"{depth:g}", f"{smooth.root_by_depth[i]:.3f}", f"{np.mean([one.root_by_depth[i] for one in rough]):.3f}")
         for i, depth in enumerate(DEPTHS)
     ]
-    peak, tension = (np.mean([getattr(one, name) for one in rough]) for name in ("peak", "principal"))
+    peak, tension = (np.mean([getattr(one, name) for one in rough]) for name in ("peak", "tension"))
     about = (
         f"Rough sphere on the homogeneous body, µ = 0.25 (figs 21 to 24): pₘₐₓ/p₀ {peak:.2f} (smooth {smooth.peak:.2f}), largest σ₁/p₀ on the surface "
-        f"{tension:.2f} (smooth {smooth.principal:.2f}); largest √J₂/p₀ on planes:"
+        f"{tension:.2f} (smooth {smooth.tension:.2f}); largest √J₂/p₀ on planes:"
     )
     return Table(about, ("z/a₀", "smooth", "rough"), tuple(rows))
 
@@ -285,7 +287,7 @@ def _claims(
         ),
         Claim(
             "rough sphere: smallest largest tension over that of the smooth sphere",
-            min(one.principal for one in rough) / plain.principal,
+            min(one.tension for one in rough) / plain.tension,
             1.0,
         ),
         Claim(

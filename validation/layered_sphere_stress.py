@@ -34,8 +34,8 @@ ABOUT = (
 
 WORDS = """* All nine agree within 5 %, eight within 2.5 %. The stiff layer raises the largest √J2, friction raises it and brings it to the surface, as
   printed.
-* At μ = 0.5 the largest value lies at the edge of the contact on the surface, where the tension of a sliding contact has a cusp that every grid rounds
-  off: on finer grids ours rises by one or two per cent."""
+* At μ = 0.5 the largest value lies at the edge of the contact on the surface, between the pixels, whose own values, 0.530 and 0.785 for E₁/E₂ = 1 and 2, are low by
+  4 and 5 %. On the edge it is 0.551 (closed form 0.5523) and 0.826: the printed 0.80 of the stiff layer is 3 % low, as values at the points of a grid are."""
 
 
 def compare(pixels: int = 129) -> Page:
@@ -79,10 +79,8 @@ def _contact(ratio: float, pixels: int) -> tuple[asp.ContactResult, float]:
 
 
 def _largest(result: asp.ContactResult, friction: float) -> tuple[float, float]:
-    """Largest √J2 in Pa in the plane y = 0 and its depth in m."""
-    y = float(result.problem.grid.coordinates()[1][0, result.problem.grid.shape[1] // 2])
-    field = asp.stress(result, np.array(DEPTHS) * THICKNESS, on=asp.Section(y=y), friction=friction)
-    peak = field.peak(field.sqrt_J2)
+    """Largest √J2 in Pa, which lies in the plane y = 0, and its depth in m."""
+    peak = asp.stress(result, np.array(DEPTHS) * THICKNESS, friction=friction).largest_sqrt_J2
     return peak.value, peak.depth
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,14 +11,16 @@ from reference_data import Row, every_row, reference
 from sharp_cases import E_STAR, SIDE, UNIT, rough_heights, rough_rows
 
 import asperity as asp
-from asperity.stress.compute import tractions_on
-from asperity.stress.sharp import SurfaceMaxima, surface_maxima
+from asperity.core.units import show
+from asperity.parts.stress import maxima_table, remarks, yield_table
+from asperity.stress.field import SurfaceMaxima
+from asperity.stress.survey import StressRequest, survey
 
 RADIUS = 2000.0
 
 
 def maxima(result: asp.ContactResult, mu: float, direction: float = 0.0, of: str = "body") -> SurfaceMaxima:
-    found = surface_maxima(result, tractions_on(result, mu, direction, of), of)  # type: ignore[arg-type]
+    found = asp.stress(result, [0.0], friction=mu, direction=direction, of=of).surface_maxima  # type: ignore[arg-type]
     assert found is not None
     return found
 
@@ -122,3 +125,58 @@ def test_small_spots_are_refused() -> None:
     assert found.doubt
     assert math.isnan(found.error)
     assert found.value < 1.118731 * 2.0 * 1e9 * 1.5 / (math.pi * RADIUS)
+
+
+def test_every_place_quotes_the_same_maxima(tmp_path: Path) -> None:
+    """Field, indicators, onset of yield, survey and its table: one value with one error, above what the points hold."""
+    body = asp.Elastic(1e9 * 0.91, 0.3, asp.Strength(yield_stress=1e6))
+    result = asp.solve(paraboloid(5.0, np.array([0.2, 0.3]), body), asp.Force(4.0 / 3.0 * 1e9 * 125.0 / RADIUS))
+    p0 = 2.0 * 1e9 * 5.0 / (math.pi * RADIUS)
+    found = survey(StressRequest(friction=0.5), result)
+    field = asp.stress(result, found.depths, friction=0.5)
+    peak = field.largest_tension
+    assert abs(peak.value - 0.9776364 * p0) < peak.error < 0.08 * p0
+    assert field.max_principal.max() < 0.75 * p0
+    assert field.largest("tension", plane=0) == peak
+    assert field.only(0).largest_tension == peak
+    assert field.largest("tension", plane=1).value == field.max_principal[1].max()
+    assert field.largest_sqrt_J2.value == pytest.approx(field.largest_von_mises.value / math.sqrt(3.0), rel=1e-14)
+    assert field.largest_shear.value >= field.max_shear.max()
+    assert field.largest_principal_tensile.value == pytest.approx(
+        peak.value, rel=1e-12
+    )  # the edge is free of other tractions
+    assert found.whole["principal_tensile"].value == pytest.approx(peak.value, rel=1e-12)
+    assert found.whole["shear_xz"].value == pytest.approx(np.abs(field.shear_xz).max(), rel=1e-12)
+    first, inside = asp.fracture_indicators(field, tensile=p0)
+    assert first.peak == inside.peak == peak
+    assert first.ratio == peak.value / p0
+    planes = asp.stress_planes(result, found.depths, friction=0.5)
+    for criterion, name, factor in (
+        (asp.VonMises(), "von_mises", 1.0),
+        (asp.Tresca(), "shear", 2.0),
+        (asp.MaxPrincipal(1e6), "tension", 1.0),
+    ):
+        largest = field.largest(name)
+        for report in (
+            asp.first_yield(field, criterion),
+            survey(StressRequest(friction=0.5, criterion=criterion), result).yielding,
+        ):
+            (part,) = report.regions
+            assert part.peak.value == pytest.approx(factor * largest.value, rel=1e-12)
+            assert part.load_factor_error / part.load_factor == pytest.approx(largest.error / largest.value, rel=1e-12)
+    assert asp.first_yield(planes).load_factor == asp.first_yield(field).load_factor
+    (part,) = found.maxima
+    assert (part.tension.value, part.tension.error) == pytest.approx((peak.value, peak.error), rel=1e-12)
+    asp.export_csv(found, tmp_path / "s.csv")
+    row = next(line for line in (tmp_path / "s.csv").read_text().splitlines() if "max_principal" in line).split(",")
+    assert float(row[-2]) == pytest.approx(peak.error, rel=1e-12)
+    assert maxima_table(found).cells[2][2] == f"{show(peak.value, 'Pa')} ± {show(peak.error, 'Pa', 2)}"
+
+
+def test_doubt_is_shown_everywhere() -> None:
+    body = asp.Elastic(1e9, 0.0, asp.Strength(yield_stress=1e6))
+    result = asp.solve(paraboloid(1.5, np.zeros(2), body), asp.Force(4.0 / 3.0 * 1e9 * 1.5**3 / RADIUS))
+    found = survey(StressRequest(friction=0.5), result)
+    assert maxima_table(found).cells[2][2].startswith("> ")
+    assert any("3 pixels" in text for text in remarks(found))
+    assert yield_table(found).cells[0][3].startswith("< ")

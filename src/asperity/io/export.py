@@ -8,6 +8,7 @@ import shutil
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import IO, Any
 from xml.sax.saxutils import quoteattr
@@ -92,29 +93,35 @@ def _shear(result: ContactResult) -> list[tuple[Quantity, float]]:
 
 def _stress_table(survey: StressSurvey) -> Iterator[tuple[Any, ...]]:
     """Maxima, interface tractions and load factors, one row each; x and y in the middle of a pixel, as in figures."""
-    yield ("part", "name", "top", "bottom", "quantity", "value", "unit", "x", "y", "depth", "side")
-    grid = survey.result.problem.grid
+    yield ("part", "name", "top", "bottom", "quantity", "value", "unit", "x", "y", "depth", "side", "error", "doubt")
+    grid, root = survey.result.problem.grid, math.sqrt(1.0 / 3.0)
 
     def at(peak: Peak) -> tuple[Any, ...]:
         x, y = (place + 0.5 * step for place, step in zip((peak.x, peak.y), grid.spacing, strict=True))
-        return peak.value, "Pa", x, y, peak.depth, peak.side
+        return peak.value, "Pa", x, y, peak.depth, peak.side, peak.error, peak.doubt
 
     for part in survey.maxima:
         region = ("layer", part.region.name, part.region.top, part.region.bottom)
         yield (*region, "max_von_mises", *at(part.von_mises))
-        yield (*region, "max_sqrt_J2", part.von_mises.value / math.sqrt(3.0), *at(part.von_mises)[1:])
+        yield (
+            *region,
+            "max_sqrt_J2",
+            *at(replace(part.von_mises, value=root * part.von_mises.value, error=root * part.von_mises.error)),
+        )
         yield (*region, "max_principal", *at(part.tension))
         yield (*region, "max_shear", *at(part.shear))
+    for name, peak in survey.whole.items():
+        yield ("body", "", "", "", f"max_{name}", *at(peak))
     for item in survey.interfaces:
         pair = ("interface", f"{item.above}/{item.below}", item.shear.depth, item.shear.depth)
         yield (*pair, "max_shear", *at(item.shear))
         yield (*pair, "max_peel", *at(item.peel))
     for state in survey.yielding.regions:
         region = ("layer", state.region.name, state.region.top, state.region.bottom)
-        place = at(state.peak)[2:]
-        yield (*region, "yield_stress", state.limit.value, "Pa", "", "", "", "")
+        place = (*at(state.peak)[2:6], state.load_factor_error, state.peak.doubt)
+        yield (*region, "yield_stress", state.limit.value, "Pa", "", "", "", "", "", "")
         yield (*region, "load_factor_to_yield", state.load_factor, "1", *place)
-        yield (*region, "yielded_volume", state.yielded_volume, "m**3", "", "", "", "")
+        yield (*region, "yielded_volume", state.yielded_volume, "m**3", "", "", "", "", "", "")
 
 
 def export_vtk(result: ContactResult, path: str | Path, *, overwrite: bool = False) -> None:

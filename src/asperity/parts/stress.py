@@ -18,6 +18,7 @@ from ..core.settings import Settings, setting
 from ..core.units import percent, show
 from ..core.values import Choice, Length, NonNegativeLength, Number, Pressure
 from .part import Found, Part, Rows, Solved, Stored, Table, Words
+from .peaks import factor_text, peak_text, verdict
 
 if TYPE_CHECKING:
     from ..contact.problem import ContactProblem
@@ -154,6 +155,12 @@ class Stress(Part):
     settings = StressSettings
     quantities = (
         *(Quantity(name, "Pa", text) for name, text in _LARGEST.items()),
+        *(Quantity(f"{name}_error", "Pa", f"error of the {text}") for name, text in _LARGEST.items()),
+        *(
+            Quantity(f"{name}_{at}", "m", f"{at} of the {text}")
+            for name, text in _LARGEST.items()
+            for at in ("x", "y", "depth")
+        ),
         Quantity("max_interface_shear", "Pa", "largest shear on an interface"),
         Quantity("max_interface_peel", "Pa", "largest peel of an interface"),
         Quantity("layer", "", "layer, from the surface down", dims=("layer",)),
@@ -193,9 +200,7 @@ class Stress(Part):
         with solved.stage("stresses") as progress:
             found = survey(ask, solved.result, lines=solved.lines, threads=solved.threads, progress=progress)
         values = {
-            "max_von_mises": _largest(found, "maxima", "von_mises"),
-            "max_tension": _largest(found, "maxima", "tension"),
-            "max_shear": _largest(found, "maxima", "shear"),
+            **_in_all(found),
             "max_interface_shear": _largest(found, "interfaces", "shear"),
             "max_interface_peel": _largest(found, "interfaces", "peel"),
             **_by_layer(found),
@@ -284,6 +289,17 @@ def _by_layer(survey: StressSurvey) -> dict[str, Any]:
         made["interface_max_shear"] = np.array([item.shear.value for item in interfaces])
         made["interface_max_peel"] = np.array([item.peel.value for item in interfaces])
     return made
+
+
+def _in_all(survey: StressSurvey) -> dict[str, float]:
+    """Largest stresses of all layers with their errors and places, x and y in the middle of a pixel, as in figures."""
+    found: dict[str, float] = {}
+    for name, attribute in zip(_LARGEST, ("von_mises", "tension", "shear"), strict=True):
+        peak: Peak = max((getattr(part, attribute) for part in survey.maxima), key=_value)
+        x, y = (at + 0.5 * step for at, step in zip((peak.x, peak.y), survey.result.problem.grid.spacing, strict=True))
+        found |= {name: peak.value, f"{name}_error": peak.error}
+        found |= {f"{name}_x": x, f"{name}_y": y, f"{name}_depth": peak.depth}
+    return found
 
 
 def _largest(survey: StressSurvey, parts: str, peak: str) -> float:
@@ -375,13 +391,16 @@ def maxima_table(survey: StressSurvey) -> Table:
             max((getattr(part, name) for part in parts), key=_value) for name in ("von_mises", "tension", "shear")
         )
         rows = [
-            ("von Mises", von_mises.value, von_mises),
-            ("√J2", von_mises.value / math.sqrt(3.0), von_mises),
-            ("tension σ1", tension.value, tension),
-            ("shear (σ1 − σ3)/2", shear.value, shear),
+            ("von Mises", 1.0, von_mises),
+            ("√J2", math.sqrt(1.0 / 3.0), von_mises),
+            ("tension σ1", 1.0, tension),
+            ("shear (σ1 − σ3)/2", 1.0, shear),
         ]
         label = region_text(regions)
-        cells += [(label, name, show(value, "Pa"), *_place_text(survey, peak)) for name, value, peak in rows]
+        cells += [(label, name, peak_text(peak, factor), *_place_text(survey, peak)) for name, factor, peak in rows]
+    names = {"principal_tensile": "σ_t in the plane", "shear_xz": "|σxz|", "shear_yz": "|σyz|"}
+    whole = survey.whole.items()
+    cells += [("whole body", names[name], peak_text(peak), *_place_text(survey, peak)) for name, peak in whole]
     return Table(("Layer", "Largest stress", "Value", "x", "y", "Depth"), tuple(cells))
 
 
@@ -410,14 +429,14 @@ def yield_table(survey: StressSurvey) -> Table:
         cells.append(
             (
                 region_text(regions),
-                show(worst.peak.value, "Pa"),
+                peak_text(worst.peak),
                 strength if known else "not known",
-                f"{worst.load_factor:.3g}" if known else "not known",
+                factor_text(worst) if known else "not known",
                 _depth_text(worst.peak),
             )
         )
-    name = survey.yielding.criterion.name
-    return Table(("Layer", f"Largest {name} stress", "Yield stress", "Load factor", "Depth"), tuple(cells))
+    largest = f"Largest {survey.yielding.criterion.name} stress"
+    return Table(("Layer", largest, "Yield stress", "Load factor", "Depth"), tuple(cells))
 
 
 def strength_table(survey: StressSurvey) -> Table:
@@ -432,9 +451,9 @@ def strength_table(survey: StressSurvey) -> Table:
     for name, strength, peaks in wanted:
         if not math.isnan(strength) and peaks:
             worst = max(peaks, key=_value)
-            ratio = max(worst.value, 0.0) / strength
-            text = f"{ratio:.3g}: {'fails' if ratio >= 1.0 else 'holds'}"
-            cells.append((name, show(max(worst.value, 0.0), "Pa"), show(strength, "Pa"), text, _depth_text(worst)))
+            text = f"{max(worst.value, 0.0) / strength:.3g}: {verdict(worst, strength)}"
+            value = peak_text(worst) if worst.value > 0.0 else show(0.0, "Pa")
+            cells.append((name, value, show(strength, "Pa"), text, _depth_text(worst)))
     return Table(("Largest", "Value", "Strength", "Value / strength", "Depth"), tuple(cells))
 
 
@@ -482,9 +501,11 @@ def remarks(survey: StressSurvey) -> list[str]:
         if _prescribed(survey)
         else "The load factor multiplies the stresses of this contact. A rough contact grows with its load, so that its "
         "stresses rise more slowly than the load.",
-        "Largest values are those on the planes that were computed; at the surface they are resolved no better than the "
-        "pixels are.",
+        "Largest values are those on the planes that were computed; at the surface those of a contact are taken at its edges, between the pixels, with their error.",
     ]
+    peaks = [peak for part in survey.maxima for peak in (part.von_mises, part.tension, part.shear)]
+    doubts = dict.fromkeys(peak.doubt for peak in peaks if peak.doubt)
+    found += [f"A largest stress at the surface is but a lower bound (>): {doubt}." for doubt in doubts]
     if has_flowed(survey):
         found[0] = (
             "The stresses are those by the tractions and by the plastic strain. In layers that may flow they are means over the depth cells, which keep to the "

@@ -86,16 +86,13 @@ QUANTITIES = {quantity.name: quantity for quantity in DERIVED}
 def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2", *, log: bool = False) -> Axes:
     """Draw contours of one ``quantity`` of a vertical section on ``ax``, depth downwards, interfaces as lines.
 
-    With ``log`` the steps are equal factors over two decades below the maximum, for magnitudes such as √J2.
+    With ``log`` the steps are equal factors over two decades below the maximum; of signed stresses the same on both sides of zero, white between.
 
     Regions are drawn apart, so a stress that jumps at an interface jumps in the picture. The cross marks the largest
     magnitude, of principal stresses the largest tension. Signed stresses are white about zero. Depth is to the scale of the section unless that were less than a sixth of its length.
-    Raises InputError if the field is no section, has a region with one plane only, or the quantity is unknown or,
-    with ``log``, signed.
+    Raises InputError if the field is no section, has a region with one plane only, or the quantity is unknown.
     """
     kind = _known(quantity)
-    if log and kind.name not in MAGNITUDES:
-        raise InputError(f"stress to draw on a logarithmic scale must be a magnitude, but {quantity} has either sign.")
     if len(field.dims) != 2 or len(field.planes) < 2:
         raise InputError("field of a stress section must have the axes plane and x or y; compute it on a Section(...).")
     axis, other = (field.dims[1], "y" if field.dims[1] == "x" else "x")
@@ -244,8 +241,11 @@ def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
 
     high = float(values.max()) if kind.name in TENSIONS else 0.0
     high = high if high > 0.0 else float(np.abs(values).max()) or 1.0
-    if log:
+    if log and kind.name in MAGNITUDES:
         return high * np.logspace(-DECADES, 0.0, 2 * LEVELS + 1)
+    if log:
+        half = high * np.logspace(-DECADES, 0.0, LEVELS + 1)
+        return np.concatenate([-half[::-1], half])
     steps = np.array(
         MaxNLocator(LEVELS, symmetric=kind.name not in MAGNITUDES).tick_values(
             -high if kind.name not in MAGNITUDES else 0.0, high
@@ -393,8 +393,10 @@ def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[
             tension = " Red is tension, blue compression, the darkest blue beyond the scale."
             caption += tension if kind.name in TENSIONS else " Red and blue are the two directions."
         near = close_up(field, quantity, wraps=wraps)
-        log = near is not None and kind.name in MAGNITUDES
-        scale = " Steps are equal factors." if log else ""
+        log = near is not None
+        scale = (
+            " Steps are equal factors" + ("." if kind.name in MAGNITUDES else ", on both sides of zero.") if log else ""
+        )
         draw = partial(plot_stress_section, field, quantity=quantity, log=log)
         shows = partial(_cut, field, quantity)
         yield Figure(name, title, f"Vertical plane, {caption}{scale}", partial(_drawn, draw), "cut", shows)

@@ -17,9 +17,9 @@ from ..core.tensor import StressTensor
 from . import criteria as invariants
 from .boundaries import Reader, Rows
 from .criteria import Criterion
-from .field import Peak
+from .field import Peak, SurfaceMaxima
 from .regions import Plane, Region
-from .yielding import Gathered, YieldReport
+from .yielding import Gathered, YieldReport, equivalent_at
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,9 +103,13 @@ class _Top:
 
 
 class Extremes:
-    """Extremes of the planes on ``grid`` that have been read, and what is beyond the limit of ``criterion``."""
+    """Extremes of the planes on ``grid`` that have been read, and what is beyond the limit of ``criterion``.
+
+    ``surface``, set when the plane at the surface has been read, are its largest stresses with the edges of the contact; None where these are not known.
+    """
 
     def __init__(self, grid: Grid, criterion: Criterion) -> None:
+        self.surface: SurfaceMaxima | None = None
         self.criterion = criterion
         self._grid = grid
         self._tops: dict[_Key, _Top] = {}
@@ -163,9 +167,21 @@ class Extremes:
         highest = max((self._peak("von_mises", r.index) for r in self._yielding), key=lambda peak: peak.value)
         return found | {"von_mises": highest}
 
+    def whole(self) -> dict[str, Peak]:
+        """The largest σ_t in planes parallel to the surface, |σxz| and |σyz| of the whole body, by the name of the stress; σ_t with the edges of the contact."""
+        found = {name: self._peak(quantity, _ALL) for name, quantity in _DRAWN.items()}
+        if self.surface is not None:
+            found["principal_tensile"] = self.surface.joined("in_plane", found["principal_tensile"])
+        return found
+
     def regions(self) -> tuple[RegionMaxima, ...]:
         """The largest stresses of each region."""
-        return tuple(RegionMaxima(r, *(self._peak(name, r.index) for name in _OF_REGIONS)) for r in self._yielding)
+        return tuple(RegionMaxima(r, *(self._largest(name, r.index) for name in _OF_REGIONS)) for r in self._yielding)
+
+    def _largest(self, quantity: str, region: int) -> Peak:
+        """The largest of a region, that at the surface with the edges of the contact."""
+        peak = self._peak(quantity, region)
+        return peak if self.surface is None or region > 0 else self.surface.joined(quantity, peak)
 
     def interfaces(self) -> tuple[InterfaceMaxima, ...]:
         """The largest tractions on each interface."""
@@ -182,6 +198,8 @@ class Extremes:
         reports = []
         for region, gathered in self._yielding.items():
             peak = self._tops[measure, region.index].largest(self.criterion.equivalent, self._grid)
+            if self.surface is not None and region.index == 0:
+                peak = equivalent_at(self.surface, self.criterion, peak)
             reports.append(gathered.report(region, peak))
         return YieldReport(self.criterion, tuple(reports))
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.late import Stored
@@ -53,6 +55,22 @@ class Peak:
 
 
 @dataclass(frozen=True, eq=False)
+class SurfaceMaxima:
+    """Largest stresses at the surface of a contact, edges between its pixels included (``sharp``): σ1, von Mises, shear (σ1 - σ3)/2, and the larger
+    principal stress in the plane."""
+
+    tension: Peak
+    von_mises: Peak
+    shear: Peak
+    in_plane: Peak
+
+    def joined(self, name: str, peak: Peak) -> Peak:
+        """The larger of that ``name`` here and ``peak``, the largest at the points of planes, which at the surface it replaces."""
+        own: Peak = getattr(self, name)
+        return own if peak.side == "surface" or own.value > peak.value else peak
+
+
+@dataclass(frozen=True, eq=False)
 class InterfaceStress:
     """Tractions an interface must carry, arrays over its points.
 
@@ -88,6 +106,8 @@ class StressField(Stored):
         Keys of the papers the numbers rest on.
     single_row
         Whether the grid has one point along y, as in plane strain.
+    at_edges
+        Finds the largest stresses at the surface with the edges of the contact; None where there is no contact, and in fields from files.
     """
 
     planes: tuple[Plane, ...]
@@ -99,6 +119,52 @@ class StressField(Stored):
     spacing: tuple[float, float]
     citation_keys: tuple[str, ...] = ()
     single_row: bool = False
+    at_edges: Callable[[], SurfaceMaxima | None] | None = None
+
+    @property
+    def surface_maxima(self) -> SurfaceMaxima | None:
+        """Largest stresses at the surface, with the edges of the contact that lie between the points; None where these are not known.
+
+        They are found when first asked for. The field must hold the whole plane at the surface.
+        """
+        whole = self.dims == ("plane", "x", "y") and any(plane.side == "surface" for plane in self.planes)
+        return self.at_edges() if whole and self.at_edges is not None else None
+
+    def largest(self, name: str, plane: int | None = None) -> Peak:
+        """Largest ``tension`` (σ1), ``von_mises``, ``shear`` ((σ1 - σ3)/2) or ``in_plane`` principal stress with its place, of all planes or one; at the surface
+        with its error."""
+        require.one_of(name, ("tension", "von_mises", "shear", "in_plane"), "largest stress")
+        values = {"tension": "max_principal", "shear": "max_shear", "in_plane": "principal_tensile"}.get(name, name)
+        peak = self.peak(getattr(self, values), plane)
+        at_surface = plane is None or self.planes[plane].side == "surface"
+        edges = self.surface_maxima if at_surface else None
+        return peak if edges is None else edges.joined(name, peak)
+
+    @property
+    def largest_tension(self) -> Peak:
+        """Largest principal stress, with the edges of the contact where the field holds its surface: value, ``error``, place."""
+        return self.largest("tension")
+
+    @property
+    def largest_von_mises(self) -> Peak:
+        """The same of the von Mises stress."""
+        return self.largest("von_mises")
+
+    @property
+    def largest_shear(self) -> Peak:
+        """The same of (σ1 - σ3)/2."""
+        return self.largest("shear")
+
+    @property
+    def largest_principal_tensile(self) -> Peak:
+        """The same of the larger principal stress within planes parallel to the surface, σ_t of Peng (2001, eq. 3.34)."""
+        return self.largest("in_plane")
+
+    @property
+    def largest_sqrt_J2(self) -> Peak:
+        """The same of √J2."""
+        peak, factor = self.largest("von_mises"), math.sqrt(1.0 / 3.0)
+        return replace(peak, value=factor * peak.value, error=factor * peak.error)
 
     @property
     def depth(self) -> RealArray:

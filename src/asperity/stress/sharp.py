@@ -11,6 +11,7 @@ The bars are those with which 402 contacts of 3 to 40 pixels, spheres and rough 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -24,8 +25,7 @@ from ..core.spectral import PaddedTransform, RealTransform, fast_length, wrapped
 from ..core.tensor import StressTensor
 from ..solids.compliance.halfspace import HalfSpace
 from . import criteria as invariants
-from .compute import StressPlanes, residual_of
-from .field import Peak
+from .field import Peak, SurfaceMaxima
 from .regions import Plane
 from .tractions import ShearTraction, Sliding, Tractions
 
@@ -58,26 +58,25 @@ _SIXTH = (45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0)
 _FOURTH = (8.0 / 12.0, -1.0 / 12.0)
 
 
-@dataclass(frozen=True, eq=False)
-class SurfaceMaxima:
-    """Largest stresses at the surface of a contact: σ1, von Mises, and shear (σ1 - σ3)/2."""
+class AtEdges:
+    """Largest stresses at the surface of a ``body`` of a contact ``result`` under ``loads``, its tractions on that body; found at the first call.
 
-    tension: Peak
-    von_mises: Peak
-    shear: Peak
-
-
-def surface_maxima(result: Any, loads: Tractions, of: str, *, threads: int | None = None) -> SurfaceMaxima | None:
-    """Largest stresses at the surface of the body ``of`` a contact ``result`` under ``loads``, its tractions on that body.
-
-    None where nothing is known of the edges: no contact, prescribed tractions, residual stress, or attraction that holds them.
+    ``planes`` makes the planes of stress of a body under tractions, as ``compute.StressPlanes``.
     """
-    edges = getattr(result, "edges", None)
-    if edges is None or not result.pressure.any() or residual_of(result, of, threads) is not None:  # type: ignore[arg-type]
-        return None
-    if getattr(result, "adhesion", None) is not None and not edges.two.any():
-        return None
-    return _Surface.of(result, loads, of, threads).maxima()
+
+    def __init__(self, result: Any, loads: Tractions, body: object, planes: Callable[..., Any]) -> None:
+        self.result, self.loads, self.body, self.planes = result, loads, body, planes
+
+    def __call__(self) -> SurfaceMaxima | None:
+        """None where nothing is known of the edges: no contact, or attraction that holds them."""
+        return self._found
+
+    @cached_property
+    def _found(self) -> SurfaceMaxima | None:
+        adhesive = getattr(self.result, "adhesion", None) is not None
+        if not self.result.pressure.any() or (adhesive and not self.result.edges.two.any()):
+            return None
+        return _Surface.of(self).maxima()
 
 
 class _Fields(NamedTuple):
@@ -100,11 +99,11 @@ class _Surface:
     ratio: tuple[RealArray, RealArray]
 
     @classmethod
-    def of(cls, result: Any, loads: Tractions, of: str, threads: int | None) -> _Surface:
+    def of(cls, asked: AtEdges) -> _Surface:
         """With the stresses computed and the errors of the slopes taken out of them in contact."""
-        body, grid, p = getattr(result.problem, of), loads.grid, loads.pressure
+        result, loads, grid, p = asked.result, asked.loads, asked.loads.grid, asked.loads.pressure
         bare = Tractions(grid, p, Sliding(0.0), loads.boundary, loads.datum)
-        normal = StressPlanes(bare, body, [0.0], threads=threads)
+        normal = asked.planes(bare, asked.body, [0.0])
         by_pressure = _in_plane(normal.whole().tensor)
         by_shear, wrong = np.zeros_like(by_pressure), np.zeros((2, *grid.shape))
         touching = p > 0.0
@@ -114,10 +113,10 @@ class _Surface:
         if loads.sheared:
             alone = ShearTraction(np.asarray(loads.shear_x), np.asarray(loads.shear_y))
             sheared = Tractions(grid, np.zeros(grid.shape), alone, loads.boundary, loads.datum)
-            by_shear = _in_plane(StressPlanes(sheared, body, [0.0], threads=threads).whole().tensor)
+            by_shear = _in_plane(asked.planes(sheared, asked.body, [0.0]).whole().tensor)
             ratio_x, ratio_y = (np.divide(q, p, out=np.zeros(grid.shape), where=touching) for q in (alone.x, alone.y))
             ratio = ratio_x, ratio_y
-            wrong = np.where(touching, _slope_errors(result, threads), 0.0)
+            wrong = np.where(touching, _slope_errors(result), 0.0)
             nu, at = plane.region.material.poisson_ratio, np.flatnonzero(touching)
             wrong_there, ratio_there = wrong.reshape(2, -1)[:, at], (ratio_x.ravel()[at], ratio_y.ravel()[at])
             by_shear.reshape(3, -1)[:, at] += _by_slopes(wrong_there, ratio_there, nu, modulus)
@@ -131,7 +130,7 @@ class _Surface:
     def maxima(self) -> SurfaceMaxima:
         """The largest stresses."""
         edge = _Edge.of(self)
-        return SurfaceMaxima(*(self._peak(edge, name) for name in ("tension", "von_mises", "shear")))
+        return SurfaceMaxima(*(self._peak(edge, name) for name in _INVARIANTS))
 
     def _peak(self, edge: _Edge, name: str) -> Peak:
         inside = self._inside(name)
@@ -213,6 +212,8 @@ class _Points(NamedTuple):
 
     def bound(self, name: str) -> RealArray:
         """What a stress is at most, (n,)."""
+        if name == "in_plane":
+            return self.at(name, slice(None))
         if name == "tension":
             return self.mean + 2.0 / math.sqrt(3.0) * self.root
         return math.sqrt(3.0) * self.root if name == "von_mises" else self.root
@@ -235,7 +236,9 @@ _INVARIANTS: dict[str, Any] = {
     "tension": lambda s: np.asarray(invariants.principal_stresses(s)[0]),
     "von_mises": invariants.von_mises,
     "shear": invariants.max_shear,
+    "in_plane": invariants.principal_tensile,
 }
+"""Stresses of which the largest are sought, in the order of ``SurfaceMaxima``."""
 
 
 class _Edge(NamedTuple):
@@ -347,16 +350,16 @@ def _slopes(heights: RealArray, at: Any, grid: Grid, wraps: tuple[bool, bool], f
     return np.stack(found)
 
 
-def _slope_errors(result: Any, threads: int | None) -> RealArray:
+def _slope_errors(result: Any) -> RealArray:
     """Slope of the undeformed surface less that of the displacement as pixels give it, (2, nx, ny); right in contact, where the gap is zero."""
     problem = result.problem
     grid: Grid = problem.grid
     if problem.boundary.name == "periodic":
-        transform = RealTransform(grid.shape, threads or 1)
+        transform = RealTransform(grid.shape)
         spectrum = transform.forward(np.asarray(result.gap, dtype=np.float64))
         return -np.stack([transform.backward(1j * q * spectrum) for q in grid.wavevector(odd=True)])
     heights = problem.profile() - result.permanent_indentation
-    patches = _Patches(grid, np.asarray(result.pressure, dtype=np.float64), threads or 1)
+    patches = _Patches(grid, np.asarray(result.pressure, dtype=np.float64))
     if not isinstance(problem.compliance, HalfSpace) or getattr(result, "creep", None) is not None:
         smooth = HalfSpace(problem.contact_modulus)  # the rest of the displacement has no steep slope at edges
         own = smooth.influence(grid) if problem.boundary.name == "free" else smooth.line_influence(grid, grid.size[0])
@@ -371,12 +374,12 @@ def _slope_errors(result: Any, threads: int | None) -> RealArray:
 class _Patches:
     """Convolutions with constant pressures on pixels."""
 
-    def __init__(self, grid: Grid, p: RealArray, threads: int) -> None:
+    def __init__(self, grid: Grid, p: RealArray) -> None:
         nx, ny = (1 if n == 1 else fast_length(2 * n - 1) for n in grid.shape)
         self._padded = nx, ny
         self._transform, self._whole = (
-            PaddedTransform(grid.shape, self._padded, threads),
-            RealTransform(self._padded, threads),
+            PaddedTransform(grid.shape, self._padded),
+            RealTransform(self._padded),
         )
         self._loads = self._transform.forward(p, np.empty(self._transform.spectrum_shape, np.complex128))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 
@@ -18,10 +18,10 @@ from ..core.status import NoProgress, Progress
 from ..core.tensor import STRESSES, StressTensor
 from ..solids.elastic import Rigid
 from .boundaries import Reader, Rows, require_held
-from .compute import Loaded, StressPlanes, papers, residual_of, tractions_on
+from .compute import Loaded, StressPlanes, at_edges, papers, residual_of, tractions_on
 from .criteria import Criterion, VonMises
 from .extremes import Extremes, InterfaceMaxima, RegionMaxima
-from .field import Peak, StressField
+from .field import Peak, StressField, SurfaceMaxima
 from .regions import (
     DepthProfile,
     Plane,
@@ -306,7 +306,8 @@ class StressSurvey:
     """What was asked for, and found.
 
     ``depths`` are those of all planes, on which the maxima and the onset of yield rest. Sections and profiles end where
-    the contact is no longer felt, or as asked; the interfaces below that are planes, too.
+    the contact is no longer felt, or as asked; the interfaces below that are planes, too. ``whole`` holds the largest principal stress in planes parallel to the
+    surface and the largest |σxz| and |σyz| of the whole body, by the name of the stress.
     """
 
     request: StressRequest
@@ -317,6 +318,7 @@ class StressSurvey:
     maxima: tuple[RegionMaxima, ...]
     interfaces: tuple[InterfaceMaxima, ...]
     yielding: YieldReport
+    whole: Mapping[str, Peak]
     citation_keys: tuple[str, ...]
     threads: int | None = None
 
@@ -354,7 +356,8 @@ def survey(
     depths = survey_depths(request, result)
     shown = line_depths(request, result) if lines and wants_lines(request) else np.zeros(0)
     job = _job(request, result, depths, threads)
-    flowed = residual_of(result, request.of, threads) is not None
+    residual = residual_of(result, request.of, threads)
+    flowed, edges = residual is not None, _edges(request, result, residual, threads)
     at_depths = _job(request, result, depths, threads, over_cells=False).read if flowed else None
     again = planes(getattr(result.problem, request.of), shown) if shown.size else ()
     tracked = _Tracked(progress, len(job.planes) + len(again))
@@ -363,6 +366,8 @@ def survey(
     for plane in tracked.each(job.planes):
         extremes.take(plane, passed.cutting(list(named)) if plane in again else job.read, at_depths)
         named = wanted_lines(request, result, extremes.drawn) if again else {}
+    if edges is not None and any(plane.side == "surface" for plane in job.planes):
+        extremes.surface = edges()
     parts = [passed.along(list(named), plane) for plane in tracked.each(again)]
     drawn = [
         (names, joined(list(fields))) for names, fields in zip(named.values(), zip(*parts, strict=True), strict=True)
@@ -376,6 +381,7 @@ def survey(
         extremes.regions(),
         extremes.interfaces(),
         extremes.yielding(),
+        extremes.whole(),
         citation_keys(job, request),
         threads,
     )
@@ -435,12 +441,30 @@ def _job(
     if isinstance(result, LoadedBody):
         return StressPlanes(result.tractions, result.body, values, **options)
     residual = residual_of(result, request.of, threads)
+    return StressPlanes(
+        _loads(request, result, residual),
+        getattr(result.problem, request.of),
+        values,
+        residual=residual,
+        over_cells=over_cells,
+        **options,
+    )
+
+
+def _edges(
+    request: StressRequest, result: Contact, residual: Any, threads: int | None
+) -> Callable[[], SurfaceMaxima | None] | None:
+    """What finds the largest stresses at the edges of the contact."""
+    if isinstance(result, LoadedBody):
+        return None
+    return at_edges(result, _loads(request, result, residual), request.of, residual, threads)
+
+
+def _loads(request: StressRequest, result: Contact, residual: Any) -> Tractions:
+    """Tractions on the body in which stresses are asked."""
     found = residual is not None or getattr(result, "stick_slip", None) is not None  # with shear of its own
     friction = None if request.sheared and found else request.friction
-    loads = tractions_on(result, friction, request.direction, request.of)
-    return StressPlanes(
-        loads, getattr(result.problem, request.of), values, residual=residual, over_cells=over_cells, **options
-    )
+    return tractions_on(result, friction, request.direction, request.of)
 
 
 _Item = TypeVar("_Item")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError, NoSolutionError
 from ..core.late import Shown
 from .criteria import Criterion, Limit, VonMises
-from .field import Peak, StressField
+from .field import Peak, StressField, SurfaceMaxima
 from .regions import Region
 
 
@@ -42,6 +42,11 @@ class RegionYield:
     peak: Peak
     load_factor: float
     yielded_volume: float
+
+    @property
+    def load_factor_error(self) -> float:
+        """Error of the load factor by that of the peak; NaN where that is not known. With ``peak.doubt`` the load factor is an upper bound."""
+        return self.load_factor * self.peak.error / self.peak.value if self.peak.value > 0.0 else math.nan
 
     @property
     def place(self) -> str:
@@ -86,6 +91,16 @@ class YieldReport(Shown):
         return self.load_factor <= 1.0
 
 
+def equivalent_at(surface: SurfaceMaxima, criterion: Criterion, peak: Peak) -> Peak:
+    """The larger equivalent stress of ``criterion`` at the surface and of ``peak``, the largest at points, which there it replaces."""
+    measure = getattr(criterion, "measure", "")
+    if not hasattr(surface, measure):
+        return peak
+    factor = 2.0 if measure == "shear" else 1.0
+    found = surface.joined(measure, replace(peak, value=peak.value / factor))
+    return replace(found, value=factor * found.value, error=factor * found.error)
+
+
 def first_yield(fields: StressField | Iterable[StressField], criterion: Criterion = VonMises()) -> YieldReport:
     """Where and at what multiple of the stresses a body begins to yield.
 
@@ -102,6 +117,8 @@ def first_yield(fields: StressField | Iterable[StressField], criterion: Criterio
             part = parts.setdefault(plane.region, Gathered(criterion.limit(plane.region.material)))
             part.note(plane.depth, float(np.count_nonzero(equivalent[number] > part.limit.value)) * field.cell)
             peak = field.peak(equivalent, plane=number)
+            if plane.side == "surface" and (surface := field.surface_maxima) is not None:
+                peak = equivalent_at(surface, criterion, peak)
             if plane.region not in peaks or peak.value > peaks[plane.region].value:
                 peaks[plane.region] = peak
     if not parts:
@@ -195,7 +212,10 @@ def load_at_yield(
 
 @dataclass(frozen=True)
 class Indicator:
-    """A largest stress with its place, and the ``ratio`` to the strength given for it (NaN where none was)."""
+    """A largest stress with its place and error, and the ``ratio`` to the strength given for it (NaN where none was).
+
+    Where ``peak.doubt`` says that the stress is but a lower bound, so is the ratio.
+    """
 
     name: str
     peak: Peak
@@ -215,14 +235,13 @@ def fracture_indicators(
     the ratios; a ratio of one or more means failure. Only planes of the field count: it needs depth 0 for the surface
     and the depths of the interfaces.
     """
-    tension = field.max_principal
     found: list[Indicator] = []
     surface = [number for number, plane in enumerate(field.planes) if plane.side == "surface"]
     if surface:
-        found.append(_indicator("tension at the surface", field, tension, surface, tensile))
+        found.append(_tension("tension at the surface", field, surface, tensile))
     for region in field.regions:
         inside = [number for number, plane in enumerate(field.planes) if plane.region == region]
-        found.append(_indicator(f"tension in {region.name}", field, tension, inside, tensile))
+        found.append(_tension(f"tension in {region.name}", field, inside, tensile))
     shear, peel = np.hypot(field.shear_xz, field.shear_yz), field.normal_zz
     for number, plane in enumerate(field.planes):
         if plane.side == "above":
@@ -233,6 +252,12 @@ def fracture_indicators(
             found.append(_indicator(f"shear of the interface {pair}", field, shear, [number], interface_shear))
             found.append(_indicator(f"peel of the interface {pair}", field, peel, [number], interface_peel))
     return tuple(found)
+
+
+def _tension(name: str, field: StressField, planes: list[int], strength: float) -> Indicator:
+    """Largest tension on some ``planes``, at the surface with the edges of the contact."""
+    peak = max((field.largest("tension", plane=number) for number in planes), key=lambda p: p.value)
+    return Indicator(name, peak, peak.value / strength)
 
 
 def _indicator(name: str, field: StressField, values: RealArray, planes: list[int], strength: float) -> Indicator:

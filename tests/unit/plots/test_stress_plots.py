@@ -124,6 +124,20 @@ def test_a_line_has_no_place_along_y(ax):
     assert plots.plot_section(result, ax).get_xlabel() == "x (µm)"
 
 
+def test_logarithmic_steps_of_signed_stresses(contact, ax):
+    """Equal factors on both sides of zero, which is white; small stresses of either sign are told apart."""
+    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"), friction=0.5)
+    plots.plot_stress_section(field, ax, "shear_xz", log=True)
+    filled = ax.collections[0]
+    half = filled.levels[filled.levels > 0.0]
+    np.testing.assert_allclose(filled.levels, np.concatenate([-half[::-1], half]), rtol=1e-12)
+    np.testing.assert_allclose(half[1:] / half[:-1], 100.0 ** (1.0 / (half.size - 1)), rtol=1e-12)
+    below, white, above = filled.to_rgba([-0.1 * half[-1], 0.0, 0.1 * half[-1]])
+    assert white[:3].min() > 0.9
+    assert below[2] > below[0]
+    assert above[0] > above[2]
+
+
 def test_logarithmic_steps(contact, ax):
     field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
     plots.plot_stress_section(field, ax, "sqrt_J2", log=True)
@@ -208,8 +222,6 @@ def test_refusals(contact, ax):
     whole, profile = asp.stress(contact, [0.0]), asp.stress(contact, DEPTHS, on=asp.DepthProfile())
     with refused(asp.InputError, "stress to draw"):
         plots.plot_stress_section(section, ax, "colour")
-    with refused(asp.InputError, "stress to draw on a logarithmic scale"):
-        plots.plot_stress_section(section, ax, "shear_xz", log=True)
     with refused(asp.InputError, "field of a stress section"):
         plots.plot_stress_section(whole, ax)
     with refused(asp.InputError, "field of a stress section"):
