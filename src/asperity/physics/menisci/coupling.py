@@ -52,7 +52,7 @@ _NARROWEST = 1e-7
 
 _GROWTH = 2.0
 """Largest ratio of the loads of two rounds, so that a balance is not stepped over where contact takes the place of liquid in between. Without a
-limit 800 random contacts take 12 % less rounds and five more are refused, of which some have a balance on the way."""
+limit 800 random contacts take a tenth less rounds, and one more is refused, which has a balance on the way."""
 
 _CLOSE = 1e-2
 """Distance over the force of the contact from the largest force that a hardness is known to bear to one that it does not, at which no balance is expected
