@@ -220,10 +220,14 @@ def test_stick_and_slip_is_refused() -> None:
 
 
 def test_menisci_are_an_additional_load(tmp_path: Path) -> None:
-    """Under load and menisci the body flows as under the sum of both, step by step; the force between the solids is that sum."""
+    """Under load and menisci the body flows as under the sum of both, step by step; the force between the solids is that sum.
+
+    The depth of the cells is prescribed, since it would follow from the first load that yields, which is another one while menisci grow.
+    """
+    flow = replace(FLOW, depth=150e-9)
     film = asp.LiquidFilm.of(asp.liquid("water"), 1.5e-9)
     loads = [0.05e9, 0.2e9, 0.1e9]
-    wet = asp.solve(problem(film=film), asp.History(map(asp.MeanPressure, loads)))
+    wet = asp.solve(problem(plastic_flow=flow, film=film), asp.History(map(asp.MeanPressure, loads)))
     assert wet.converged
     found = wet.last.require_plastic_flow()
     assert found.flowed.points.size
@@ -232,10 +236,10 @@ def test_menisci_are_an_additional_load(tmp_path: Path) -> None:
         assert menisci.meniscus_force > 1e-2 * step.external_force
         assert step.external_force == pytest.approx(load * step.problem.grid.area, rel=1e-9)
         assert step.force == pytest.approx(step.external_force + menisci.meniscus_force, rel=1e-3)
-    dry = asp.solve(problem(), asp.History([asp.Force(step.force) for step in wet])).last
+    dry = asp.solve(problem(plastic_flow=flow), asp.History([asp.Force(step.force) for step in wet])).last
     scale = np.abs(dry.require_plastic_flow().displacement).max()
-    # two solves, each settled to the tolerance of the flow in each of its steps
-    assert np.abs(found.displacement - dry.require_plastic_flow().displacement).max() <= 6 * FLOW.tolerance * scale
+    # both are settled to the tolerance of the flow in each of two steps that flow
+    assert np.abs(found.displacement - dry.require_plastic_flow().displacement).max() <= 4 * flow.tolerance * scale
     asp.save(wet, tmp_path / "wet.nc")
     again = asp.load(tmp_path / "wet.nc").last
     np.testing.assert_array_equal(again.require_plastic_flow().displacement, found.displacement)
