@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from judge.problems import Case
@@ -51,9 +52,9 @@ def solved(case: Case) -> Solved:
 
 
 def _first(text: str) -> str:
-    """Message without its numbers, up to the first sign after a word."""
-    words = text.split(".")[0].split(":")[0]
-    return "".join(letter for letter in words if not letter.isdigit())
+    """Beginning of a message without its numbers."""
+    words = re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?( %)?", "", text.split(":")[0])
+    return " ".join(words.split(". ")[0].rstrip(".").split())
 
 
 def _cause(result: asp.ContactResult) -> str:
