@@ -147,3 +147,36 @@ def test_adhesive_edges(name: str) -> None:
     error = found.area_fraction_error / found.area_fraction_corrected
     assert found.contact_area == pytest.approx(exact, rel=error)
     assert error < (0.1 if name == "jkr" else 0.02)
+
+
+@pytest.mark.parametrize("radius", [1.5, 3.0, 5.0, 8.0])
+def test_peak_pressure_of_spheres(radius: float) -> None:
+    """p0 of Hertz within the error, and where the sphere touches; from 3 pixels on within 2 % (pixels: 6 % low)."""
+    rng, p0 = np.random.default_rng(21), 2.0 * 1e9 * radius / (2000.0 * math.pi)
+    for at in rng.random((8, 2)) - 0.5:
+        result = sphere(radius, at)
+        peak = result.peak_pressure
+        if peak.doubt:
+            assert radius < 2.0
+            continue
+        assert abs(peak.value - p0) < peak.error
+        if radius >= 3.0:
+            assert peak.value == pytest.approx(p0, rel=0.02)
+            middle = 0.5 * (result.problem.grid.shape[0] - 1)
+            assert (peak.x - middle, peak.y - middle) == pytest.approx(tuple(at), abs=0.1)
+
+
+@every_row(rough_rows("elastic"), lambda row: f"case {row['case']:.0f} on {row['N']:.0f}²")
+def test_peak_pressure_of_rough_surfaces(row: Row) -> None:
+    """Within the error on the finer grid; on both that and the value are those of the reference where it is not refused."""
+    peak = asp.solve(rough(row), asp.MeanPressure(float(row["load"]) * UNIT)).peak_pressure
+    if not peak.doubt:
+        assert peak.value / UNIT == pytest.approx(float(row["pmax"]), rel=1e-2)
+    if row["N"] == 128.0 and not peak.doubt:
+        assert abs(peak.value / UNIT - float(row["ref_pmax"])) < peak.error / UNIT
+
+
+def test_peak_pressure_at_the_hardness_is_the_hardness() -> None:
+    result = sphere(5.0, np.array([0.2, 0.1]), hardness=1e6)
+    assert result.plastic.any()
+    assert result.peak_pressure[:2] == (1e6, 0.0)

@@ -27,6 +27,7 @@ from .couplings.protocol import Contact, Deflections, Memory
 from .edges import Edges
 from .known import ResultNames
 from .operators import Operator, prepare_operator
+from .peak_pressure import PeakPressure, peak_pressure
 from .problem import ContactProblem
 from .state import InterfaceState
 
@@ -243,6 +244,11 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
     def mean_real_pressure(self) -> float:
         """Force over ``contact_area`` in Pa; zero without contact."""
         return self.force / self.contact_area if self.contact_area else 0.0
+
+    @property
+    def peak_pressure(self) -> PeakPressure:
+        """Largest pressure between the pixels with its error and place; ``max_pressure`` is that of the largest pixel."""
+        return peak_pressure(self.pressure, self.plastic, self.problem.grid, self.problem.boundary.wraps)
 
     @property
     def contact_perimeter(self) -> float:
