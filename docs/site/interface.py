@@ -11,6 +11,11 @@ SUBJECTS = {
     "surfaces": ("Surfaces", "Read, prepare, pair and characterise height maps.", ("surfaces",)),
     "solids": ("Bodies", "Elastic, layered and graded bodies; materials and liquids.", ("solids",)),
     "contact": ("Contact", "State a problem, prescribe a load, solve, and read the result.", ("contact",)),
+    "physics": (
+        "Physics of the interface",
+        "Adhesion, menisci, friction, hardness, plastic flow, rolling, bodies that relax.",
+        ("physics",),
+    ),
     "stress": ("Stress", "Stresses below the surface, and where a body yields first.", ("stress",)),
     "studies": (
         "Documents, studies, comparison",

@@ -10,8 +10,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity as asp
-from asperity.physics.adhesion.stickiness import stickiness
 from asperity.physics.adhesion.figures import plot_adhesion, plot_adhesion_loop
+from asperity.physics.adhesion.stickiness import stickiness
 
 # %%
 # A work of adhesion of 50 mJ/m² and a range chosen so that the grid resolves the attracting zone; what the pull-off of

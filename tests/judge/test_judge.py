@@ -155,3 +155,13 @@ def test_all_controls_boundaries_and_laws_come_up() -> None:
         if isinstance(step.normal, asp.MeanPressure)
     ]
     assert np.log10(max(loads) / min(loads)) > 14.0
+
+
+@pytest.mark.parametrize("seed", [3484, 4573, 5553])
+def test_steps_that_seem_to_make_energy_state_that_as_error(seed: int) -> None:
+    """Of an edge without range, or beside a hardness, the trapezium may miss more than half of ΔF Δδ: what it finds made is its error."""
+    case = problem(seed)
+    for step in asp.solve(case.problem, asp.History(case.steps)):
+        found = step.require_adhesion()
+        scale = abs(found.elastic_energy) + abs(found.interface_energy)
+        assert found.dissipated + found.dissipated_error >= -1e-12 * scale

@@ -403,7 +403,8 @@ def _require_open(operator: Operator, profile: RealArray, offset: float) -> None
 def _lost(before: _Before, force: float, approach: float, energy: float, gap: RealArray) -> tuple[float, float, bool]:
     """Energy (J) lost since the step before by the trapezoidal rule, its error, and whether in a jump: more than the rule misses on a smooth branch.
 
-    A smooth branch loses nothing to second order, and its gap changes about as much as the approach.
+    A smooth branch loses nothing to second order, and its gap changes about as much as the approach. Where the rule finds energy made, which no step
+    does, that is its error.
     """
     if math.isnan(before.energy):
         return 0.0, 0.0, False
@@ -411,7 +412,7 @@ def _lost(before: _Before, force: float, approach: float, energy: float, gap: Re
     lost = 0.5 * (force + before.force) * step - (energy - before.energy)
     farthest = float(np.abs(gap - before.gap).max())
     spread = abs((force - before.force) * step)
-    return lost, 0.5 * spread, lost > _JUMP * spread and farthest > _FAR * abs(step)
+    return lost, max(0.5 * spread, -lost), lost > _JUMP * spread and farthest > _FAR * abs(step)
 
 
 def _creeps(before: _Before, gap: RealArray) -> bool:
