@@ -21,7 +21,7 @@ OFFSET = (0.37, 0.11)
 ABOUT = (
     "Yastrebov (2016, after Johnson, Greenwood & Higginson 1985): the wave Δ(2 − cos 2πx/λ − cos 2πy/λ) on a flat. The lectures print the areas of light load, π (3p̄/8πp*)^⅔, and "
     "of nearly full contact, 1 − (3/2π)(1 − p̄/p*), and show numerical results between them as points of a figure. Theirs: the two printed formulas where they hold. Ours: "
-    "`asperity.solve` on one period, areas corrected for the perimeter, and the curve of the catalogue (`CrossedWaves.area_fraction`), which was tabulated from "
+    "`asperity.solve` on one period, areas by the place of the edges between pixels, and the curve of the catalogue (`CrossedWaves.area_fraction`), which was tabulated from "
     "seven grids of 160² to 256² points with a stated error of {error:g}. No parameter is chosen."
 )
 
