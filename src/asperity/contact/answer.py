@@ -81,6 +81,10 @@ class Answer:
         """The answer of a whole step, of which this is that of its last part, and ``earlier`` those of the parts before."""
         return self
 
+    def friction_under_load(self) -> float | None:
+        """Static friction force over external force with what it pulls; None where it knows none."""
+        return None
+
     def flows(self) -> float:
         """Plastic work (J) of this step beside that at the surface."""
         return 0.0

@@ -15,7 +15,7 @@ from ..contact.boundary import Boundary, Free, FreeLine, Periodic
 from ..contact.controls import Approach, Control, Force, MeanGap, MeanPressure, Step, as_step
 from ..contact.history import Ramped, ramps
 from ..contact.law import Hardness, HardWall, InterfaceLaw
-from ..contact.problem import ContactProblem, Flat
+from ..contact.problem import ContactProblem, Flat, Physics
 from ..contact.solve import default_solver, sticks
 from ..contact.solvers.by_name import solver_by_name
 from ..contact.solvers.protocol import Solver
@@ -169,9 +169,12 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
     asks = {part.name: ask for part in concerned if (ask := part.asked(document, folder)) is not None}
     asked = [part for part in known if part.name in asks]
     joined: dict[str, Any] = {}
+    own: list[Physics] = []
     for part in asked:
-        joined |= part.coupling(asks[part.name])
-    problem = replace(problem, **joined)
+        given = dict(part.coupling(asks[part.name]))
+        own += given.pop("physics", ())
+        joined |= given
+    problem = replace(problem, physics=tuple(own), **joined)
     for part in asked:
         part.check(asks[part.name], problem)
     for part in asked:

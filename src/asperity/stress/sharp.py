@@ -73,8 +73,9 @@ class AtEdges:
 
     @cached_property
     def _found(self) -> SurfaceMaxima | None:
-        adhesive = getattr(self.result, "adhesion", None) is not None
-        if not self.result.pressure.any() or (adhesive and not self.result.edges.two.any()):
+        answers = getattr(self.result, "answers", ())
+        attracted = any(answer.traction_beside() is not None for answer in answers)
+        if not self.result.pressure.any() or (attracted and not self.result.edges.two.any()):
             return None
         return _Surface.of(self).maxima()
 

@@ -77,7 +77,7 @@ def energy_bound(result: ContactResult, *, rounds: int = 8, operator: Operator |
         If there is no adhesion, or a hardness, film or friction beside it, or its law has a core: the energy is then another.
     """
     problem, law = result.problem, result.require_adhesion().law
-    if not isinstance(problem.law, HardWall) or problem.film is not None or problem.friction is not None:
+    if not isinstance(problem.law, HardWall) or len(problem.physics) > 1:
         raise InputError(
             "problem of a bound of the energy must have adhesion alone, but has a hardness, a film of liquid or friction beside it. Leave them out."
         )

@@ -193,7 +193,7 @@ def _numbers(posed: AdhesiveProblem, point: BranchPoint, approach: float) -> tup
 def _require_smooth(result: ContactResult) -> None:
     """Refuse what a branch cannot be followed with."""
     problem, law = result.problem, result.require_adhesion().law
-    if not isinstance(problem.law, HardWall) or problem.film is not None or problem.friction is not None:
+    if not isinstance(problem.law, HardWall) or len(problem.physics) > 1:
         raise InputError(
             "problem of a branch must have adhesion alone, but has a hardness, a film of liquid or friction beside it. Leave them out, or "
             "follow a history of FixedGrips(...)."

@@ -101,8 +101,8 @@ class AdhesionLoop:
         Elastic energy and that of the interface (J) after each step.
     lost, error
         Energy (J) that each step lost of the solids, without the liquid, and the bound of its error.
-    menisci
-        Force (N) of the menisci after each step, zero without a film.
+    pulled
+        Force (N) with which what else pulls, menisci, holds the surfaces together after each step.
     grips
         Approach (m) of the machine that holds the bodies after each step.
     jumped
@@ -118,7 +118,7 @@ class AdhesionLoop:
     energy: RealArray
     lost: RealArray
     error: RealArray
-    menisci: RealArray
+    pulled: RealArray
     grips: RealArray
     jumped: RealArray
     margin: RealArray
@@ -142,7 +142,7 @@ class AdhesionLoop:
     @cached_property
     def work(self) -> RealArray:
         """∫F dδ (J) up to each step: what the solids store and lose, less what the menisci do, that by the trapezoidal rule."""
-        liquid = 0.5 * (self.menisci[1:] + self.menisci[:-1]) * np.diff(self.approach)
+        liquid = 0.5 * (self.pulled[1:] + self.pulled[:-1]) * np.diff(self.approach)
         done = np.diff(self.energy) + self.lost[1:] - liquid
         return np.concatenate([[0.0], np.cumsum(done)])
 
@@ -160,7 +160,7 @@ class AdhesionLoop:
     @property
     def hysteresis_error(self) -> float:
         """Bound (J) of the error of the energy lost: of each step, and of the menisci half of the change of their force over it."""
-        liquid = 0.5 * np.abs(np.diff(self.menisci) * np.diff(self.approach))
+        liquid = 0.5 * np.abs(np.diff(self.pulled) * np.diff(self.approach))
         return float(self.error[1:].sum() + liquid.sum())
 
     @property
@@ -219,9 +219,14 @@ def adhesion_loop(steps: Sequence[ContactResult]) -> AdhesionLoop:
         energy=np.array([item.elastic_energy + item.interface_energy for item in found]),
         lost=np.array([item.dissipated for item in found]),
         error=np.array([item.dissipated_error for item in found]),
-        menisci=np.array([0.0 if step.menisci is None else step.menisci.meniscus_force for step in steps]),
+        pulled=np.array([_pulled(step) for step in steps]),
         grips=np.array([item.grips for item in found]),
         jumped=np.array([item.jumped for item in found]),
         margin=np.array([item.margin for item in found]),
         area=steps[0].problem.grid.area,
     )
+
+
+def _pulled(result: ContactResult) -> float:
+    """Force (N) of what pulls beside the attraction."""
+    return float(sum(answer.pulls() for answer in result.answers if answer.traction_beside() is None))

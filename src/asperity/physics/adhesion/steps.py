@@ -63,7 +63,9 @@ def divides(problem: ContactProblem, state: InterfaceState | None) -> bool:
         return False
     if cohesive_length(problem.adhesion, problem.contact_modulus) < max(problem.grid.pixels):
         return False
-    alone = problem.film is None and problem.plastic_flow is None and "stick_slip" not in state.memory
+    alone = (
+        all(item.keyword in ("adhesion", "friction") for item in problem.physics) and "stick_slip" not in state.memory
+    )
     return alone and bool(state.memory.get("adhesion"))
 
 

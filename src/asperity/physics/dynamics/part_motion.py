@@ -98,10 +98,8 @@ class Made:
     @cached_property
     def friction(self) -> float:
         """Coefficient of friction under the load: that of the table, or the static one with the menisci of a film."""
-        menisci = self.solved.result.menisci
-        if menisci is not None and menisci.friction_force > 0.0:
-            return float(menisci.static_friction)
-        return self.ask.friction
+        known = (answer.friction_under_load() for answer in self.solved.result.answers)
+        return next((found for found in known if found is not None), self.ask.friction)
 
     @property
     def area(self) -> float:

@@ -103,6 +103,10 @@ class Menisci(Answer, Shown):
         """Menisci of few pixels or molecules."""
         return findings(self.film, self.wetting, self.meniscus_force, self.external_force + self.meniscus_force)
 
+    def friction_under_load(self) -> float | None:
+        """That of solids and liquid, where there is friction."""
+        return self.static_friction if self.friction_force > 0.0 else None
+
     def pulls(self) -> float:
         """Force of the menisci."""
         return self.meniscus_force

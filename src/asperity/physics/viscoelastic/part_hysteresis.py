@@ -302,7 +302,7 @@ def hysteresis_words(found: Found, problem: ContactProblem) -> Words:
     shown = (
         ("force of hysteretic friction", force) if pulls else ("coefficient of hysteretic friction", f"{friction:.3g}")
     )
-    attracted = problem.adhesion is not None or problem.film is not None
+    attracted = problem.attracts
     return Words(sentence, [shown], rows, tables, (REMARK, OF_PULLING if attracted else OF_PRESSED))
 
 

@@ -266,7 +266,7 @@ class SteadySliding:
         InputError if the problem is no periodic map, a body is layered, something pulls, or it stands still.
         """
         problem = self.normal.problem
-        if problem.adhesion is not None or problem.film is not None:
+        if problem.attracts:
             raise InputError(
                 "adhesion and film beside Persson's theory must be None, for it is one of pressed surfaces, but one is given."
             )

@@ -1,0 +1,158 @@
+"""A physics of one's own takes a file of its own and no change of any other: a layer of glue, as an example."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
+
+import numpy as np
+import pytest
+from refusals import refused
+
+import asperity as asp
+from asperity.contact.answer import Answer
+from asperity.contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from asperity.contact.operators import Operator
+from asperity.contact.problem import ContactProblem, Physics, Preparing
+from asperity.core.arrays import BoolArray, RealArray
+from asperity.core.errors import InputError
+from asperity.core.quantity import Quantity
+
+
+@dataclass(frozen=True, eq=False)
+class Glued(Answer):
+    """What the glue does: its tension (nx, ny) in Pa, where it is whole, its force in N and its energy in J."""
+
+    tension: RealArray
+    whole: BoolArray
+    glue_force: float
+    glue_energy: float
+    quantities: ClassVar[tuple[Quantity, ...]] = (Quantity("glue_force", "N", "force of the glue"),)
+
+    def traction_beside(self) -> RealArray:
+        return self.tension
+
+    def pulls(self) -> float:
+        return self.glue_force
+
+    def stores(self, *, relaxing: bool) -> float:
+        return self.glue_energy
+
+
+@dataclass(frozen=True)
+class GlueCoupling(Coupling):
+    """Springs between points that are nearer than they tear; what is torn does not heal."""
+
+    glue: Glue
+    operator: Operator
+    tolerance: float
+    name: ClassVar[str] = "glue"
+    feedback: ClassVar[bool] = True
+    remedy: ClassVar[str] = "Take a softer glue."
+
+    def begin(self, posed: Posed, memory: Memory) -> Exchange:
+        x = memory.get("tension", np.zeros(posed.profile.shape))
+        whole = memory.get("whole", np.ones(posed.profile.shape))
+        return Exchange(x, x, np.inf, self.tolerance, scale=self.glue.stiffness * self.glue.stretch, note=whole)
+
+    def share(self, exchange: Exchange) -> Share:
+        load = float(exchange.x.sum()) * self.operator.grid.pixel_area
+        return Share(load=load, lift=-self.operator.apply(exchange.x), attraction=exchange.x)
+
+    def held(self, exchange: Exchange, contact: Contact) -> BoolArray:
+        return np.asarray((exchange.note > 0.0) & (contact.gap < self.glue.stretch))
+
+    def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
+        target = np.where(self.held(exchange, contact), self.glue.stiffness * contact.gap, 0.0)
+        residual = float(np.abs(target - exchange.x).max()) / (self.glue.stiffness * self.glue.stretch)
+        return replace(exchange, target=target, residual=residual)
+
+    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, Glued]:
+        whole, pixel = self.held(exchange, contact), self.operator.grid.pixel_area
+        energy = 0.5 * self.glue.stiffness * float((np.where(whole, contact.gap, 0.0) ** 2).sum()) * pixel
+        found = Glued(exchange.x, whole, float(exchange.x.sum()) * pixel, energy)
+        return {"tension": exchange.x, "whole": whole.astype(float)}, found
+
+
+@dataclass(frozen=True)
+class Glue(Physics):
+    """Glue of a ``stiffness`` (Pa/m) that tears at ``stretch`` (m)."""
+
+    stiffness: float
+    stretch: float
+    attracts: ClassVar[bool] = True
+
+    def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
+        yield GlueCoupling(self, operator, how.tolerances.get("glue", 1e-7))
+
+
+def wave(n: int = 24) -> asp.Surface:
+    x = 2.0 * np.pi * np.arange(n) / n
+    return asp.Surface(4e-9 * (np.cos(x)[:, None] + np.cos(x)[None, :]), 10e-9, periodic=True)
+
+
+SOLID = asp.Elastic(10e9, 0.3)
+GLUE = Glue(2e15, 3e-9)
+LOADS = [asp.MeanPressure(p) for p in (20e6, 60e6, 100e6)]
+
+
+def problem(*physics: Physics, **given: Any) -> asp.ContactProblem:
+    return asp.ContactProblem(wave(), SOLID, physics=physics, **given)
+
+
+def test_glue_joins_solve_result_and_history() -> None:
+    """Balance of force, law of the springs at the gap found, energies, restart: all by the general hooks."""
+    history = asp.solve(problem(GLUE), asp.History(LOADS))
+    assert history.converged
+    for step in history:
+        found = step.require("glue")
+        assert found is step.couplings["glue"]
+        assert found.glue_force > 0.0
+        assert step.external_force == pytest.approx(step.force - found.glue_force, rel=1e-12)
+        assert step.external_force == pytest.approx(step.control.value * step.problem.grid.area, rel=1e-7)
+        law = np.where(found.whole, GLUE.stiffness * step.gap, 0.0)
+        assert np.abs(found.tension - law).max() <= 1e-6 * GLUE.stiffness * GLUE.stretch
+    again = asp.solve(problem(GLUE), LOADS[2], state=history.steps[1].state)
+    assert again.force == pytest.approx(history.last.force, rel=1e-6)
+
+
+def test_energies_of_glued_contacts_balance() -> None:
+    """The work over the approach is what body and glue store; the trapezium errs by the square of the steps."""
+    errors = []
+    for steps in (4, 8, 16):
+        loads = np.linspace(20e6, 100e6, steps + 1)
+        strong = Glue(GLUE.stiffness, 30e-9)  # none of it tears on the way
+        errors.append(asp.solve(problem(strong), asp.History(map(asp.MeanPressure, loads))).energies.relative_error)
+    assert errors[2] < errors[1] < errors[0]
+    assert errors[2] < 2e-3
+
+
+def test_weak_glue_leaves_the_dry_contact() -> None:
+    weak, dry = (asp.solve(one, LOADS[1]) for one in (problem(Glue(1e3, 3e-9)), problem()))
+    assert np.abs(weak.pressure - dry.pressure).max() <= 1e-6 * dry.pressure.max()
+
+
+def test_it_goes_with_other_physics() -> None:
+    """Two of one's own, and one of the package, in the order of the registry."""
+
+    @dataclass(frozen=True)
+    class SecondGlue(Glue):
+        """Another one."""
+
+    film = asp.LiquidFilm.of(asp.liquid("water"), 1e-9)
+    both = problem(GLUE, SecondGlue(1e14, 2e-9), film=film)
+    assert [type(item).__name__ for item in both.physics] == ["Wet", "Glue", "SecondGlue"]
+    assert both.film is film
+    assert both.with_physics(film=None).physics == (GLUE, SecondGlue(1e14, 2e-9))
+    with refused(InputError, "physics of a ContactProblem"):
+        problem(GLUE, GLUE)
+    with refused(InputError, "physics of a ContactProblem"):
+        problem("glue")  # type: ignore[arg-type]
+    with refused(InputError, "couplings of the result", "glue"):
+        asp.solve(problem(), LOADS[0]).require("glue")
+
+
+def test_it_does_not_roll_unless_it_says_so() -> None:
+    with refused(InputError, "physics of a rolling contact"):
+        asp.roll(problem(GLUE, friction=asp.Coulomb(0.3)), LOADS[0], asp.Creepage(1e-3))
