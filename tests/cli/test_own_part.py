@@ -18,6 +18,7 @@ from study_cases import PROBLEM, InProcess, plan
 
 import asperity as asp
 from asperity.core.quantity import Quantity
+from asperity.core.registry import PARTS, home
 from asperity.core.settings import Settings, setting
 from asperity.core.values import Pressure
 from asperity.parts import registry
@@ -144,7 +145,7 @@ def test_parts_that_cannot_be_used_are_left_out(entry: Any) -> None:
     entry(hot=Hot, other=object(), taken=Taken)
     with pytest.warns(UserWarning, match="other|taken") as told:
         found = registry.parts()
-    assert [part.name for part in found] == [*(part.name for part in registry.BUILT_IN), "hot"]
+    assert [part.name for part in found] == [*(home(place).name for place in PARTS), "hot"]
     assert [name for name in ("other", "taken") for warning in told if repr(name) in str(warning.message)] == [
         "other",
         "taken",

@@ -1,4 +1,4 @@
-"""Which physics of the interface there are: the list of those of this package, in plain text, so that nothing is imported before it is used."""
+"""Which physics and parts there are: the lists of those of this package, in plain text, so that nothing is imported before it is used."""
 
 from __future__ import annotations
 
@@ -66,6 +66,29 @@ PHYSICS: Mapping[str, Known] = MappingProxyType(
 )
 """Every physics of this package by its keyword, in the order in which couplings are prepared."""
 
+PARTS = (
+    "parts.contact:Contact",
+    "physics.friction.part:Friction",
+    "physics.friction.part_stick_slip:StickSlip",
+    "physics.rolling.part:Rolling",
+    "physics.menisci.part:Menisci",
+    "physics.menisci.part:WetTheory",
+    "physics.adhesion.part:Adhesion",
+    "physics.plastic_flow.part:PlasticFlow",
+    "parts.contact:LoadPath",
+    "physics.viscoelastic.part:Viscoelasticity",
+    "physics.viscoelastic.part_hysteresis:Hysteresis",
+    "physics.viscoelastic.part_sliding_start:SlidingStart",
+    "parts.contact:Plasticity",
+    "parts.contact:PlasticLoad",
+    "parts.stress:Stress",
+    "parts.stress:Yielding",
+    "physics.dynamics.part:Dynamics",
+    "physics.indentation.part:Indentation",
+    "physics.indentation.part_passes:Passes",
+)
+"""The parts of this package, by which physics and analyses are asked for in documents, in the order in which they are computed and shown."""
+
 PAIRS: Mapping[frozenset[str], str] = MappingProxyType(
     {frozenset({"adhesion", "menisci"}): "physics.pairs.adhesion_menisci:settle_forces"}
 )
@@ -96,3 +119,8 @@ def home(place: str) -> Any:
     """What stands at ``place``, such as ``physics.adhesion.physics:Adhesive``."""
     module, _, name = place.partition(":")
     return getattr(import_module(f"asperity.{module}"), name)
+
+
+def place_of(thing: object) -> str:
+    """Place of the type of ``thing``, as ``home`` takes it."""
+    return f"{type(thing).__module__.partition('.')[2]}:{type(thing).__name__}"

@@ -8,53 +8,17 @@ from collections.abc import Iterable
 from importlib import metadata
 
 from ..core.errors import InputError
-from ..physics.adhesion.part import Adhesion
-from ..physics.dynamics.part import Dynamics
-from ..physics.friction.part import Friction
-from ..physics.friction.part_stick_slip import StickSlip
-from ..physics.indentation.part import Indentation
-from ..physics.indentation.part_passes import Passes
-from ..physics.menisci.part import Menisci, WetTheory
-from ..physics.plastic_flow.part import PlasticFlow
-from ..physics.rolling.part import Rolling
-from ..physics.viscoelastic.part import Viscoelasticity
-from ..physics.viscoelastic.part_hysteresis import Hysteresis
-from ..physics.viscoelastic.part_sliding_start import SlidingStart
-from .contact import Contact, LoadPath, Plasticity, PlasticLoad
+from ..core.registry import PARTS, home
 from .part import Part
-from .stress import Stress, Yielding
 
 GROUP = "asperity.parts"
 """Entry points of packages that add parts; each names a ``Part``, the class or an instance of it."""
-
-BUILT_IN: tuple[Part, ...] = (
-    Contact(),
-    Friction(),
-    StickSlip(),
-    Rolling(),
-    Menisci(),
-    WetTheory(),
-    Adhesion(),
-    PlasticFlow(),
-    LoadPath(),
-    Viscoelasticity(),
-    Hysteresis(),
-    SlidingStart(),
-    Plasticity(),
-    PlasticLoad(),
-    Stress(),
-    Yielding(),
-    Dynamics(),
-    Indentation(),
-    Passes(),
-)
-"""The parts of this package in the order in which they are computed and shown."""
 
 
 @functools.cache
 def parts() -> tuple[Part, ...]:
     """All parts: the built-in ones, then those of other packages by name. One that cannot be used is left out with a warning."""
-    found = list(BUILT_IN)
+    found: list[Part] = [home(place)() for place in PARTS]
     for entry in sorted(metadata.entry_points(group=GROUP), key=lambda item: item.name):
         try:
             found.append(usable(entry.load(), found))
