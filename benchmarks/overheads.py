@@ -18,8 +18,8 @@ from surfaces import BODY, LOADS, self_affine
 
 import asperity as asp
 from asperity.core.spectral import RealTransform
-from asperity.stress.regions import planes
-from asperity.stress.survey import StressRequest, WantedSection, survey, survey_depths
+from asperity.physics.stress.regions import planes
+from asperity.physics.stress.survey import StressRequest, WantedSection, survey, survey_depths
 
 SOLVER = asp.solvers.ActiveSet(tolerance=1e-6)
 BASE = asp.Elastic(1.0, 0.3)

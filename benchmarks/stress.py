@@ -15,11 +15,11 @@ import numpy as np
 import asperity as asp
 from asperity.core.spectral import RealTransform, fft_library
 from asperity.core.tensor import STRESSES, StressTensor
-from asperity.stress.boundaries import FreePlanes, PeriodicPlanes
-from asperity.stress.criteria import VonMises
-from asperity.stress.extremes import Extremes
-from asperity.stress.regions import planes
-from asperity.stress.tractions import Tractions
+from asperity.physics.stress.boundaries import FreePlanes, PeriodicPlanes
+from asperity.physics.stress.criteria import VonMises
+from asperity.physics.stress.extremes import Extremes
+from asperity.physics.stress.regions import planes
+from asperity.physics.stress.tractions import Tractions
 
 DX = 10e-9
 SUBSTRATE = asp.Elastic(70e9, 0.33)

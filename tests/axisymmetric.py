@@ -15,12 +15,12 @@ from scipy import optimize, special
 
 import asperity as asp
 from asperity.core.tensor import Displacement, StressTensor
+from asperity.physics.stress.kernels import coefficients
+from asperity.physics.stress.kernels.coefficients import SPECTRA, PlaneCoefficients
+from asperity.physics.stress.kernels.patch import Load
+from asperity.physics.stress.kernels.transfer import transfer
+from asperity.physics.stress.regions import Plane
 from asperity.solids.compliance.layered import interface_compliances
-from asperity.stress.kernels import coefficients
-from asperity.stress.kernels.coefficients import SPECTRA, PlaneCoefficients
-from asperity.stress.kernels.patch import Load
-from asperity.stress.kernels.transfer import transfer
-from asperity.stress.regions import Plane
 
 NODE, WEIGHT = np.polynomial.legendre.leggauss(24)
 

@@ -16,7 +16,7 @@ import numpy as np
 
 import asperity as asp
 from asperity.core.engine import kernels
-from asperity.stress.survey import StressRequest, survey
+from asperity.physics.stress.survey import StressRequest, survey
 
 SHARES = ("mixed", "double", "stress")
 """About a third of the time each."""

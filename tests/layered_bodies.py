@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from reference_data import Row
 
 import asperity as asp
-from asperity.stress.regions import Plane, planes
+from asperity.physics.stress.regions import Plane, planes
 
 
 def body_of(row: Row) -> asp.Layered:

@@ -72,7 +72,8 @@ def _package(name: str, value: object) -> str:
     """The folder of the package that a public name comes from."""
     if name == "Roughness":
         return "surfaces"
-    return getattr(value, "__module__", "asperity.core").split(".")[1]
+    _, package, *rest = getattr(value, "__module__", "asperity.core").split(".")
+    return "stress" if package == "physics" and rest[0] == "stress" else package
 
 
 def _page(title: str, about: str, module: str, names: list[str]) -> str:

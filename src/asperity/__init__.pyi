@@ -62,6 +62,14 @@ from .physics.plastic_flow.law import PlasticFlow
 from .physics.rolling.creep_curve import CreepCurve, creep_curve
 from .physics.rolling.rolling import Creepage, RollingContact, roll
 from .physics.rolling.rough import RoughRolling, roll_rough
+from .physics.stress.compute import stress, stress_planes
+from .physics.stress.criteria import MaxPrincipal, Tresca, VonMises
+from .physics.stress.field import StressField
+from .physics.stress.loads import LineLoad, PatchLoad, PointLoad
+from .physics.stress.regions import DepthProfile, Everywhere, Section, depths_through
+from .physics.stress.shakedown import ShakedownCurve, ShakedownMap, shakedown, shakedown_map
+from .physics.stress.tractions import LoadedBody, ShearTraction, Sliding, Tractions
+from .physics.stress.yielding import LoadAtYield, YieldReport, first_yield, fracture_indicators, load_at_yield
 from .physics.viscoelastic.harmonic import HarmonicResponse, harmonic
 from .physics.viscoelastic.moments import Creeping
 from .physics.viscoelastic.steady_sliding import SteadySliding, slide
@@ -90,14 +98,6 @@ from .solids.library import Liquid, liquid, liquids, material, materials
 from .solids.plasticity import J2, LinearHardening, PlasticState, Swift, Voce
 from .solids.strength import plastic_parts, plastic_solid
 from .solids.viscoelastic import Arrhenius, MasterCurve, Viscoelastic, WilliamsLandelFerry, fitted_solid
-from .stress.compute import stress, stress_planes
-from .stress.criteria import MaxPrincipal, Tresca, VonMises
-from .stress.field import StressField
-from .stress.loads import LineLoad, PatchLoad, PointLoad
-from .stress.regions import DepthProfile, Everywhere, Section, depths_through
-from .stress.shakedown import ShakedownCurve, ShakedownMap, shakedown, shakedown_map
-from .stress.tractions import LoadedBody, ShearTraction, Sliding, Tractions
-from .stress.yielding import LoadAtYield, YieldReport, first_yield, fracture_indicators, load_at_yield
 from .studies.campaign import Campaign, CampaignState, open_study, run_study
 from .studies.compare import compare
 from .studies.comparison import Comparison, export_comparison_csv, save_comparison

@@ -10,8 +10,8 @@ from layered_bodies import body_of, plane_of
 from reference_data import every_row, reference
 
 import asperity as asp
-from asperity.stress.criteria import max_shear, sqrt_J2
-from asperity.stress.regions import planes
+from asperity.physics.stress.criteria import max_shear, sqrt_J2
+from asperity.physics.stress.regions import planes
 
 AXISYMMETRIC = reference("layered_axisym_fields")
 SPHERES, LARGEST = reference("sphere_layered_stress"), reference("sphere_layered_sqrtJ2_max")

@@ -6,8 +6,8 @@ from elastic_fields import constants, expected, found, label
 from reference_data import every_row, reference
 
 from asperity.core.grid import Grid
+from asperity.physics.stress.kernels.patch import Patch, displacement_coefficients, patch_fields, stress_coefficients
 from asperity.solids.compliance.influence import patch_displacement
-from asperity.stress.kernels.patch import Patch, displacement_coefficients, patch_fields, stress_coefficients
 from asperity.theories.subsurface.loads import boussinesq, cerruti
 
 ROWS = reference("homogeneous_patch")

@@ -14,9 +14,9 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.measure import normal_stiffness
 from asperity.contact.solve import steps
+from asperity.physics.stress.survey import StressRequest, survey
 from asperity.physics.viscoelastic.coupling import TimeWeights
 from asperity.solids.compliance.creep import LayeredCreep, SharedCreep, complex_compliance, contact_creep
-from asperity.stress.survey import StressRequest, survey
 
 PRONY = {
     "sls": (1.0, ((9.0, 1.0),)),

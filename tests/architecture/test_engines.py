@@ -26,7 +26,7 @@ def reserved(target: str) -> bool:
     return any(target == name or target.startswith(name + ".") for name in RESERVED)
 
 
-COMPILED = ("asperity.core.", "asperity.stress.kernels.", "asperity.solids.eigenstrain.kernels")
+COMPILED = ("asperity.core.", "asperity.physics.stress.kernels.", "asperity.solids.eigenstrain.kernels")
 """Where such libraries may be named: the kernels of stresses are compiled beside the physics that they compute."""
 
 

@@ -12,7 +12,7 @@ LAYERS = {
     5: ("parts",),
     4: ("plots", "io"),
     3: ("physics",),
-    2: ("contact", "stress", "fem"),
+    2: ("contact", "fem"),
     1: ("surfaces", "solids", "theories"),
     0: ("core",),
 }
@@ -114,7 +114,7 @@ def test_upward_and_sideways_imports_are_found() -> None:
         ("asperity.physics.menisci.coupling", "from .part import Settings"),
         ("asperity.physics.menisci.figures", "from .part_more import Settings"),
         ("asperity.physics.menisci.physics", "from .figures import plot"),
-        ("asperity.stress.layered", "from ..contact.result import Result"),
+        ("asperity.physics.stress.layered", "from ..adhesion.part import Result"),
         ("asperity.solids.library", "from ..surfaces import surface"),
         ("asperity.surfaces.pair", "from ..solids import elastic"),
         ("asperity.theories.single.hertz", "from ...solids import elastic"),

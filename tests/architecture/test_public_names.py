@@ -79,13 +79,14 @@ def test_a_name_brings_its_module_and_what_that_needs() -> None:
 
 
 @pytest.mark.parametrize(
-    "first", ["asperity.stress.survey", "asperity.stress", "asperity.contact.solve", "asperity.report.write"]
+    "first",
+    ["asperity.physics.stress.survey", "asperity.physics.stress", "asperity.contact.solve", "asperity.report.write"],
 )
 def test_stress_is_the_function_whatever_is_imported_first(first: str) -> None:
     code = (
         f"import json, {first}; from asperity import stress; print(json.dumps([stress.__module__, callable(stress)]))"
     )
-    assert printed(code) == ["asperity.stress.compute", True]
+    assert printed(code) == ["asperity.physics.stress.compute", True]
     again = f"import json, asperity; asperity.stress; import {first}; print(json.dumps(callable(asperity.stress)))"
     assert printed(again) is True
 

@@ -61,7 +61,7 @@ def test_stresses_are_computed_only_where_asked_for(
     run: Runner, matrix: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     computed: list[int] = []
-    from asperity.stress import compute
+    from asperity.physics.stress import compute
 
     whole = compute.StressPlanes.read
 

@@ -16,8 +16,8 @@ from typer.testing import CliRunner
 
 import asperity as asp
 from asperity.cli.main import app
-from asperity.parts.stress import Stress
 from asperity.physics.menisci.part import Menisci
+from asperity.physics.stress.part import Stress
 from asperity.run.document import load_document, loads
 from asperity.studies.documents import study_from_table
 from asperity.studies.plan import make_plan

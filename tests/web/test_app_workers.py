@@ -17,7 +17,7 @@ pytest.importorskip("nicegui", reason="the extra web is not installed")
 
 from asperity.core.errors import InputError, OutputError
 from asperity.io.schemas.surfaces import SURFACE_TABLES
-from asperity.parts.stress import StressSettings
+from asperity.physics.stress.part import StressSettings
 from asperity.web.draft import Draft, forms_of
 from asperity.web.forms import asked_of
 from asperity.web.pages_problem import drawn

@@ -19,7 +19,8 @@ from ..io.atomic import require_new_files
 from ..io.export import export_csv, export_vtk
 from ..io.results import contact_of, document_in, load
 from ..io.schemas.problem import SolverTable
-from ..parts.stress import Stress, stress_request
+from ..physics.stress.part import Stress, stress_request
+from ..physics.stress.survey import Planned, StressRequest
 from ..plots.contact import figures_of
 from ..plots.together import save_pictures
 from ..report import write_report
@@ -30,7 +31,6 @@ from ..run.document import TRACTIONS, ProblemDocument, checked_parts, dumps, loa
 from ..run.execute import analysed, run_tractions
 from ..run.stored import load_outcome, save_tractions
 from ..run.tractions import checked_tractions, traction_rows
-from ..stress.survey import Planned, StressRequest
 from .contact import Force, Out, file_options, files_in, output_folder, write_volume
 from .declared import Given, Option, offers, part_names, part_options, with_parts
 from .main import NOT_CONVERGED, OK

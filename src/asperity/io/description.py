@@ -26,10 +26,10 @@ from ..core.errors import FileFormatError, InputError
 from ..core.registry import PHYSICS, home
 from ..core.spectral import fft_library
 from ..physics.hardness.layered import LayeredHardness
+from ..physics.stress.regions import Region
 from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
 from ..solids.viscoelastic import TemperatureShift, Viscoelastic
-from ..stress.regions import Region
 from ..surfaces.surface import Surface
 
 TYPES: tuple[type, ...] = (

@@ -20,8 +20,8 @@ from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
 from ..core.quantity import Labelled, Quantity
 from ..physics.friction.fretting import SHEAR_SCALARS, shear_numbers
-from ..stress.field import Peak, StressField
-from ..stress.survey import StressSurvey
+from ..physics.stress.field import Peak, StressField
+from ..physics.stress.survey import StressSurvey
 from .atomic import atomic_file
 from .results import ENERGIES
 from .stress_files import Fields, components, peeked

@@ -29,7 +29,7 @@ from ..physics.friction.sliding import GrossSliding
 from ..physics.menisci.coupling import Menisci
 from ..physics.menisci.film import LiquidFilm, wetting
 from ..physics.rolling.rolling import RollingContact
-from ..stress.field import StressField
+from ..physics.stress.field import StressField
 from ..surfaces.surface import Origin, Surface
 from .adhesion_files import (
     ADHESION,

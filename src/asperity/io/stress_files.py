@@ -17,9 +17,9 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.quantity import Labelled, Quantity
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
+from ..physics.stress.field import StressField
+from ..physics.stress.regions import Plane, Region
 from ..solids.elastic import Elastic
-from ..stress.field import StressField
-from ..stress.regions import Plane, Region
 from .description import describe, rebuild, software
 from .tree import Node, coordinate, write_tree
 

@@ -27,7 +27,7 @@ from ..surfaces.characterise.heights import peak_to_valley, rms_height
 from ..surfaces.surface import Surface
 
 if TYPE_CHECKING:
-    from ..stress.field import StressField
+    from ..physics.stress.field import StressField
 
 LINE = 100
 """Letters of a value in a ``repr``."""
@@ -427,7 +427,7 @@ def surface_text(surface: Surface) -> str:
 
 def field_rows(field: StressField) -> Rows:
     """Planes and largest stresses of a stress ``field``."""
-    from ..stress.field import DERIVED
+    from ..physics.stress.field import DERIVED
 
     counts = " × ".join(f"{n} along {axis}" for n, axis in zip(field.tensor.xx.shape[1:], field.dims[1:], strict=True))
     first, last = (show(float(field.depth[end]), "m") for end in (0, -1))
@@ -464,7 +464,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
     InputError
         If nothing is known of such a thing.
     """
-    from ..stress.field import StressField
+    from ..physics.stress.field import StressField
     from ..surfaces.characterise.summary import Characterisation
 
     if isinstance(thing, Surface):
@@ -508,7 +508,7 @@ def _doubt_rows(*results: ContactResult) -> Rows:
 
 def text(thing: object) -> str:
     """The ``repr`` of a ``thing``: at most a screen of a surface, problem, result or stress field, one line of anything else."""
-    from ..stress.field import StressField
+    from ..physics.stress.field import StressField
 
     if not isinstance(thing, Surface | ContactProblem | ContactResult | HistoryResult | StressField):
         return printable(f"<{_line(thing)}>")
@@ -518,7 +518,7 @@ def text(thing: object) -> str:
 
 
 def _line(thing: object) -> str:
-    from ..stress.yielding import YieldReport
+    from ..physics.stress.yielding import YieldReport
 
     if isinstance(thing, Elastic):
         return f"{type(thing).__name__} {body_text(thing)}"

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from ..core.units import show
 
 if TYPE_CHECKING:
-    from ..stress.field import Peak
-    from ..stress.yielding import RegionYield
+    from ..physics.stress.field import Peak
+    from ..physics.stress.yielding import RegionYield
 
 
 def peak_text(peak: Peak, factor: float = 1.0) -> str:

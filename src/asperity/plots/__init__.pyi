@@ -1,3 +1,5 @@
+from ..physics.stress.figures import plot_stress_map, plot_stress_profile, plot_stress_section
+from ..physics.stress.figures_shakedown import plot_shakedown_curve, plot_shakedown_map
 from .campaign import (
     plot_convergence,
     plot_curves,
@@ -22,8 +24,6 @@ from .contact import (
 )
 from .maps import plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
 from .picture import Plot, render, style
-from .shakedown import plot_shakedown_curve, plot_shakedown_map
-from .stress import plot_stress_map, plot_stress_profile, plot_stress_section
 from .surface import (
     SURFACE_PLOTS,
     plot_autocorrelation,

@@ -16,7 +16,8 @@ from ..core.grid import Grid
 from ..core.text import printable
 from ..io.words import heading_and_rows
 from ..physics.friction.figures import LOOP_PLOTS, SHEAR_PLOTS
-from ..stress.field import StressField
+from ..physics.stress.field import StressField
+from ..physics.stress.figures import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
 from .comparison import SIZE as COMPARISON_SIZE
@@ -24,7 +25,6 @@ from .comparison import comparison_plots
 from .contact import PATH_PLOTS, PLASTIC_PLOTS, PLOTS, physics_plots
 from .maps import plot_heights
 from .picture import CURVE_SIZE, VIEW_SIZE, Plot, map_size, png, style
-from .stress import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
 from .surface import SURFACE_PLOTS, plot_surface_view
 
 if TYPE_CHECKING:

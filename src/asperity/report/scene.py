@@ -41,10 +41,10 @@ from ..core.arrays import RealArray
 from ..core.grid import Grid
 from ..core.units import show
 from ..physics.friction.fretting import loop_of
+from ..physics.stress.figures import Cut
 from ..plots.contact import row_of_section
 from ..plots.maps import DECADES, Field, Kinds, Look, limits
 from ..plots.picture import AxesCurves, Figure, colour_table, scale
-from ..plots.stress import Cut
 from ..run.execute import Outcome
 
 MOST_POINTS = 1024 * 1024

@@ -23,8 +23,8 @@ from ..core.status import Outcome as Ended
 from ..parts.contact import STIFFNESS
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts, with_own
-from ..parts.stress import Stress, Yielding, stress_request
 from ..physics.friction.part import FrictionSettings
+from ..physics.stress.part import Stress, Yielding, stress_request
 from .build import Case, build
 from .document import TRACTIONS, ProblemDocument, checked, read_table
 

@@ -21,9 +21,9 @@ from ..core.values import NonEmpty, Points, Size
 from ..io.schemas.bodies import BodyTable
 from ..io.schemas.problem import SolverTable
 from ..io.words import Rows, body_text
-from ..parts.stress import StressSettings
-from ..stress.loads import LineLoad, PatchLoad, PointLoad
-from ..stress.tractions import LoadedBody, ShearTraction, Tractions
+from ..physics.stress.loads import LineLoad, PatchLoad, PointLoad
+from ..physics.stress.part import StressSettings
+from ..physics.stress.tractions import LoadedBody, ShearTraction, Tractions
 from ..surfaces.formats import checked_size
 from ..surfaces.text_files import table as numbers_of
 from .build import build_body

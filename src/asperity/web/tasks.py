@@ -25,7 +25,7 @@ from ..io.export import export_vtk
 from ..io.results import document_in
 from ..io.schemas.surfaces import SurfaceTable
 from ..io.words import surface_rows
-from ..parts.stress import Stress, StressSettings, stress_request
+from ..physics.stress.part import Stress, StressSettings, stress_request
 from ..plots.surface import roughness_figures
 from ..plots.together import save_pictures
 from ..report.folder import write_run

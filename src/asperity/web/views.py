@@ -17,8 +17,8 @@ from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
 from ..io.words import certificate_rows, headline_rows, result_rows, summary
+from ..physics.stress.figures import map_figure
 from ..plots.picture import Figure
-from ..plots.stress import map_figure
 from ..report.comparison import comparison_sentence
 from ..report.scene import reduced, scene_of
 from ..run.execute import Outcome

@@ -43,9 +43,9 @@ from asperity import (
 from asperity.contact.solvers import ActiveSet
 from asperity.core import units
 from asperity.io.schemas.surfaces import SURFACE_TABLES, SURFACES
+from asperity.physics.stress.survey import StressRequest, WantedProfile, WantedSection
 from asperity.run.build import build, build_control, build_part, build_surface
 from asperity.run.document import checked, relocated
-from asperity.stress.survey import StressRequest, WantedProfile, WantedSection
 from asperity.surfaces import generate
 
 GRID = {"points": [16, 12], "size": "8 um x 6 um"}

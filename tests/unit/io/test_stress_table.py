@@ -10,7 +10,7 @@ from contact_cases import TIGHT, rough
 
 import asperity as asp
 from asperity.io.export import export_csv
-from asperity.stress.survey import Strengths, StressRequest, survey
+from asperity.physics.stress.survey import Strengths, StressRequest, survey
 
 FILM = asp.Elastic(3.0, 0.25, asp.Strength(yield_stress=0.5), name="film")
 SOFT = asp.Elastic(0.5, 0.4, name="soft")

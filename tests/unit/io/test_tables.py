@@ -13,8 +13,8 @@ from refusals import refused
 
 import asperity as asp
 from asperity.io.tables import cell, table_text, write_table
+from asperity.physics.stress.survey import StressRequest, survey
 from asperity.report.study import _table
-from asperity.stress.survey import StressRequest, survey
 
 
 @pytest.mark.parametrize("text", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "\r=1", "=", "-"])

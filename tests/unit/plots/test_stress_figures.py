@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import asperity as asp
-import asperity.plots.stress as stress_plots
+import asperity.physics.stress.figures as stress_plots
 from asperity.core.units import show
-from asperity.plots.stress import CLOSE_UP, close_up, line_figures, map_figure, plot_stress_section
-from asperity.stress.survey import StressRequest, StressSurvey, WantedProfile, WantedSection, survey
+from asperity.physics.stress.figures import CLOSE_UP, close_up, line_figures, map_figure, plot_stress_section
+from asperity.physics.stress.survey import StressRequest, StressSurvey, WantedProfile, WantedSection, survey
 
 BODY = asp.Layered([asp.Layer(asp.Elastic(3e9, 0.25, name="film"), 1e-6)], asp.Elastic(1e9, 0.3, name="base"))
 

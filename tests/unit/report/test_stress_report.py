@@ -11,7 +11,8 @@ from contact_cases import rough
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.parts.stress import (
+from asperity.physics.stress.figures import line_figures
+from asperity.physics.stress.part import (
     interface_table,
     maxima_table,
     region_text,
@@ -21,10 +22,9 @@ from asperity.parts.stress import (
     yield_sentence,
     yield_table,
 )
-from asperity.plots.stress import line_figures
+from asperity.physics.stress.survey import Strengths, StressRequest, StressSurvey, survey
 from asperity.report import write_report
 from asperity.run.execute import analysed
-from asperity.stress.survey import Strengths, StressRequest, StressSurvey, survey
 
 pytestmark = pytest.mark.usefixtures("unrendered")
 

@@ -10,12 +10,12 @@ from reference_data import every_row, reference
 
 import asperity as asp
 from asperity.core.tensor import AXES, STRESSES, Displacement, ElasticFields, StressTensor
-from asperity.stress.boundaries import FreePlanes
-from asperity.stress.kernels import coefficients
-from asperity.stress.kernels.coefficients import PlaneCoefficients
-from asperity.stress.kernels.patch import Patch, patch_fields
-from asperity.stress.regions import planes
-from asperity.stress.tractions import ShearTraction, Sliding, Tractions
+from asperity.physics.stress.boundaries import FreePlanes
+from asperity.physics.stress.kernels import coefficients
+from asperity.physics.stress.kernels.coefficients import PlaneCoefficients
+from asperity.physics.stress.kernels.patch import Patch, patch_fields
+from asperity.physics.stress.regions import planes
+from asperity.physics.stress.tractions import ShearTraction, Sliding, Tractions
 from asperity.theories.subsurface.loads import boussinesq, cerruti
 
 PATCHES, POINTS = (

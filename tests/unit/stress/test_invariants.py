@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from asperity.core.tensor import StressTensor, second_invariant
-from asperity.stress import criteria as invariants
+from asperity.physics.stress import criteria as invariants
 
 EPS = np.finfo(float).eps
 

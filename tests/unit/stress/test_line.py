@@ -7,11 +7,11 @@ from refusals import refused
 
 import asperity as asp
 from asperity.core.tensor import AXES, STRESSES
-from asperity.stress.compute import StressPlanes
-from asperity.stress.kernels.coefficients import FIELDS, LineCoefficients
-from asperity.stress.kernels.transfer import transfer
-from asperity.stress.regions import planes
-from asperity.stress.tractions import Tractions
+from asperity.physics.stress.compute import StressPlanes
+from asperity.physics.stress.kernels.coefficients import FIELDS, LineCoefficients
+from asperity.physics.stress.kernels.transfer import transfer
+from asperity.physics.stress.regions import planes
+from asperity.physics.stress.tractions import Tractions
 from asperity.theories.single.hertz import HertzLine
 from asperity.theories.subsurface.hertz import hertz_line_normal
 

@@ -10,10 +10,10 @@ from layered_bodies import layered_bodies
 
 import asperity as asp
 from asperity.core.tensor import STRESSES
-from asperity.stress.boundaries import PeriodicPlanes
-from asperity.stress.kernels.transfer import transfer
-from asperity.stress.regions import planes
-from asperity.stress.tractions import ShearTraction, Sliding, Tractions
+from asperity.physics.stress.boundaries import PeriodicPlanes
+from asperity.physics.stress.kernels.transfer import transfer
+from asperity.physics.stress.regions import planes
+from asperity.physics.stress.tractions import ShearTraction, Sliding, Tractions
 
 BODY = asp.Layered(
     [asp.Layer(asp.Elastic(400e9, 0.2), 5e-9), asp.Layer(asp.Elastic(50e9, 0.45), 30e-9)], asp.Elastic(200e9, 0.3)

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asperity.core.tensor import StressTensor
-from asperity.stress import criteria as invariants
-from asperity.stress.kernels.extremes import CLOSE, QUANTITIES, candidates, overview
+from asperity.physics.stress import criteria as invariants
+from asperity.physics.stress.kernels.extremes import CLOSE, QUANTITIES, candidates, overview
 
 EXACT = {
     "von_mises": invariants.von_mises,

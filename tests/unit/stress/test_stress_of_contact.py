@@ -9,9 +9,9 @@ from refusals import refused
 
 import asperity as asp
 from asperity.core.tensor import STRESSES
-from asperity.stress.compute import StressPlanes
-from asperity.stress.regions import planes
-from asperity.stress.tractions import Tractions
+from asperity.physics.stress.compute import StressPlanes
+from asperity.physics.stress.regions import planes
+from asperity.physics.stress.tractions import Tractions
 from asperity.theories.subsurface.hertz import hertz_normal, hertz_shear
 
 DISK = asp.Layered(

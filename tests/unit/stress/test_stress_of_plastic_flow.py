@@ -13,11 +13,11 @@ from refusals import refused
 
 import asperity as asp
 from asperity.core.errors import InputError
-from asperity.parts.stress import Yielding, remarks, yield_words
+from asperity.physics.stress.part import Yielding, remarks, yield_words
+from asperity.physics.stress.survey import StressRequest, WantedProfile, WantedSection, survey
 from asperity.solids.eigenstrain.cells import DepthCells, depth_edges
 from asperity.solids.eigenstrain.slices import slice_at
 from asperity.solids.plasticity import J2, LinearHardening, von_mises
-from asperity.stress.survey import StressRequest, WantedProfile, WantedSection, survey
 
 STEEL = asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=0.8e9))
 FILM = asp.Elastic(400e9, 0.25, asp.Strength(yield_stress=2e9))

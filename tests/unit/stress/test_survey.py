@@ -14,12 +14,12 @@ from refusals import refused
 
 import asperity as asp
 from asperity.core.tensor import STRESSES, StressTensor
-from asperity.stress import boundaries
-from asperity.stress import survey as survey_module
-from asperity.stress.compute import StressPlanes
-from asperity.stress.criteria import Criterion, Limit, MaxPrincipal, Tresca, VonMises, sqrt_J2
-from asperity.stress.regions import DepthProfile, Plane, Section, Where, selection
-from asperity.stress.survey import (
+from asperity.physics.stress import boundaries
+from asperity.physics.stress import survey as survey_module
+from asperity.physics.stress.compute import StressPlanes
+from asperity.physics.stress.criteria import Criterion, Limit, MaxPrincipal, Tresca, VonMises, sqrt_J2
+from asperity.physics.stress.regions import DepthProfile, Plane, Section, Where, selection
+from asperity.physics.stress.survey import (
     RATIO,
     StressRequest,
     WantedProfile,

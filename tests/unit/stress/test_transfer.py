@@ -9,8 +9,8 @@ from layered_bodies import body_of, layered_bodies, plane_of
 from reference_data import every_row, reference
 
 import asperity as asp
-from asperity.stress.kernels.transfer import transfer
-from asperity.stress.regions import planes
+from asperity.physics.stress.kernels.transfer import transfer
+from asperity.physics.stress.regions import planes
 
 ROWS = reference("spectral_transfer")
 

@@ -8,10 +8,10 @@ from reference_data import reference
 from refusals import refused
 
 import asperity as asp
-from asperity.stress.compute import StressPlanes
-from asperity.stress.criteria import MaxPrincipal, Tresca, VonMises
-from asperity.stress.tractions import Tractions
-from asperity.stress.yielding import first_yield, fracture_indicators, load_at_yield
+from asperity.physics.stress.compute import StressPlanes
+from asperity.physics.stress.criteria import MaxPrincipal, Tresca, VonMises
+from asperity.physics.stress.tractions import Tractions
+from asperity.physics.stress.yielding import first_yield, fracture_indicators, load_at_yield
 
 A = 40.0
 

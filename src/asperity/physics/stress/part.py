@@ -12,21 +12,21 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import model_validator
 
-from ..core.errors import InputError
-from ..core.quantity import Quantity
-from ..core.settings import Settings, setting
-from ..core.units import percent, show
-from ..core.values import Choice, Length, NonNegativeLength, Number, Pressure
-from .part import Found, Part, Rows, Solved, Stored, Table, Words
-from .peaks import factor_text, peak_text, verdict
+from ...core.errors import InputError
+from ...core.quantity import Quantity
+from ...core.settings import Settings, setting
+from ...core.units import percent, show
+from ...core.values import Choice, Length, NonNegativeLength, Number, Pressure
+from ...parts.part import Found, Part, Rows, Solved, Stored, Table, Words
+from ...parts.peaks import factor_text, peak_text, verdict
 
 if TYPE_CHECKING:
-    from ..contact.problem import ContactProblem
-    from ..physics.friction.part import FrictionSettings
-    from ..plots.picture import Figure
-    from ..stress.field import Peak, StressField
-    from ..stress.regions import Region
-    from ..stress.survey import Place, StressRequest, StressSurvey, SurveyedSection
+    from ...contact.problem import ContactProblem
+    from ...plots.picture import Figure
+    from ..friction.part import FrictionSettings
+    from .field import Peak, StressField
+    from .regions import Region
+    from .survey import Place, StressRequest, StressSurvey, SurveyedSection
 
 
 PLACES = ("max", "pressure")
@@ -183,7 +183,7 @@ class Stress(Part):
 
     def check(self, ask: StressRequest, problem: ContactProblem) -> None:
         """Refuse what the problem has no stress for, in the words of documents and options."""
-        from ..solids.elastic import Rigid
+        from ...solids.elastic import Rigid
 
         if isinstance(getattr(problem, ask.of), Rigid):
             asked, other = ("counter body", "body") if ask.of == "counter_body" else ("body", "counter_body")
@@ -195,7 +195,7 @@ class Stress(Part):
 
     def compute(self, ask: StressRequest, solved: Solved) -> Found:
         """Largest stresses; the survey with sections and profiles as detail."""
-        from ..stress.survey import survey
+        from .survey import survey
 
         with solved.stage("stresses") as progress:
             found = survey(ask, solved.result, lines=solved.lines, threads=solved.threads, progress=progress)
@@ -209,7 +209,7 @@ class Stress(Part):
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Sections, profiles and whole planes."""
-        from ..plots.stress import line_figures, map_figure
+        from .figures import line_figures, map_figure
 
         survey = found.detail
         planes = enumerate(survey.wanted_planes(), start=1)
@@ -230,7 +230,7 @@ class Stress(Part):
 
     def restored(self, stored: Stored, solved: Solved) -> StoredSurvey:
         """The same fields."""
-        from ..stress.survey import SurveyedSection
+        from .survey import SurveyedSection
 
         drawn = enumerate(stored.facts["drawn"], start=1)
         sections = (SurveyedSection(stored.fields[f"section_{number}"], tuple(names)) for number, names in drawn)
@@ -243,7 +243,7 @@ class Stress(Part):
 
     def citations(self, ask: StressRequest, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the papers that the stresses will rest on."""
-        from ..stress.survey import Planned
+        from .survey import Planned
 
         return Planned(ask, problem).citation_keys
 
@@ -309,8 +309,8 @@ def _largest(survey: StressSurvey, parts: str, peak: str) -> float:
 
 def stress_request(table: StressSettings, friction: FrictionSettings) -> StressRequest:
     """Stresses that ``table`` requests; the section through the maximum where it requests none."""
-    from ..stress.criteria import Tresca, VonMises
-    from ..stress.survey import Strengths, StressRequest, WantedProfile, WantedSection
+    from .criteria import Tresca, VonMises
+    from .survey import Strengths, StressRequest, WantedProfile, WantedSection
 
     given = table.given("sections", "profiles")
     sections = tuple(
@@ -419,7 +419,7 @@ def interface_table(survey: StressSurvey) -> Table:
 
 def yield_table(survey: StressSurvey) -> Table:
     """Strength and load factor to first yield of each region."""
-    from ..solids.elastic import TABOR
+    from ...solids.elastic import TABOR
 
     cells = []
     for regions, parts in _together(survey.yielding.regions):
@@ -526,7 +526,7 @@ def _first_cell(survey: StressSurvey) -> float:
 
 def _prescribed(survey: StressSurvey) -> bool:
     """Whether the tractions were given, and no contact was solved."""
-    from ..stress.tractions import LoadedBody
+    from .tractions import LoadedBody
 
     return isinstance(survey.result, LoadedBody)
 

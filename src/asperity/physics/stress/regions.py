@@ -9,12 +9,12 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.grid import Grid
-from ..solids.elastic import Elastic, Rigid
-from ..solids.layers import Frictionless, Layered
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...solids.elastic import Elastic, Rigid
+from ...solids.layers import Frictionless, Layered
 
 Side: TypeAlias = Literal["surface", "inside", "above", "below"]
 """Position of a plane in its region: on the loaded surface, inside, just above or just below an interface."""

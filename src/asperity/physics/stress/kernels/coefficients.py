@@ -14,10 +14,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ...core.arrays import RealArray
-from ...core.grid import Grid
-from ...core.tensor import AXES, STRESSES, Displacement, ElasticFields, StressTensor
-from ...solids.compliance.influence import (
+from ....core.arrays import RealArray
+from ....core.grid import Grid
+from ....core.tensor import AXES, STRESSES, Displacement, ElasticFields, StressTensor
+from ....solids.compliance.influence import (
     COS_1,
     COS_2,
     ISOTROPIC,
@@ -32,9 +32,9 @@ from ...solids.compliance.influence import (
     point_kernel,
     wavenumber_grid,
 )
-from ...solids.elastic import Elastic
-from ...solids.layers import Layered, RigidBase
-from ...theories.subsurface.loads import (
+from ....solids.elastic import Elastic
+from ....solids.layers import Layered, RigidBase
+from ....theories.subsurface.loads import (
     flamant_normal,
     flamant_out_of_plane,
     flamant_tangential,

@@ -9,11 +9,11 @@ from typing import Annotated, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.grid import Grid
-from ..core.values import Number, Several
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.values import Number, Several
 
 Vector: TypeAlias = tuple[float, float]
 """Two numbers, along x and along y."""

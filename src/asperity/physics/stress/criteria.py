@@ -9,10 +9,10 @@ from typing import ClassVar, Protocol
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.tensor import StressTensor, second_invariant
-from ..solids.elastic import TABOR, Elastic
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.tensor import StressTensor, second_invariant
+from ...solids.elastic import TABOR, Elastic
 
 _BLOCK = 1 << 14  # points whose temporaries stay in the cache
 

@@ -10,12 +10,12 @@ from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
-from ..solids.layers import materials_of
-from ..solids.viscoelastic import Viscoelastic, alike
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.tensor import AXES, STRESSES, Displacement, StressTensor
+from ...solids.layers import materials_of
+from ...solids.viscoelastic import Viscoelastic, alike
 from .boundaries import FreePlanes, PeriodicPlanes, Reader, Rows, require_held
 from .field import StressField, SurfaceMaxima
 from .regions import Everywhere, Plane, Selection, Where, planes, selection, stack

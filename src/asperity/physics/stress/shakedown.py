@@ -10,11 +10,11 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError, NoSolutionError
-from ..theories.subsurface.point_shakedown import point_shakedown
-from ..theories.subsurface.shakedown import line_shakedown
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError, NoSolutionError
+from ...theories.subsurface.point_shakedown import point_shakedown
+from ...theories.subsurface.shakedown import line_shakedown
 from .compute import Loaded, stress
 from .criteria import VonMises
 from .field import StressField

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.late import Stored
-from ..core.quantity import Quantity
-from ..core.tensor import Displacement, StressTensor
-from ..solids.library import full_name
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.late import Stored
+from ...core.quantity import Quantity
+from ...core.tensor import Displacement, StressTensor
+from ...solids.library import full_name
 from . import criteria as invariants
 from .regions import Plane, Region
 

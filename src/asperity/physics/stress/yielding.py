@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError, NoSolutionError
-from ..core.late import Shown
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError, NoSolutionError
+from ...core.late import Shown
 from .criteria import Criterion, Limit, VonMises
 from .field import Peak, StressField, SurfaceMaxima
 from .regions import Region

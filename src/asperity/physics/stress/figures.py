@@ -12,18 +12,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..contact.boundary import Boundary
-from ..core import require
-from ..core.arrays import RealArray
-from ..core.errors import InputError
-from ..core.grid import Grid
-from ..core.quantity import Quantity
-from ..core.units import show
-from ..stress.field import DERIVED, StressField
-from ..stress.regions import Plane
-from ..stress.survey import StressSurvey, SurveyedSection
-from .maps import Depth, Field, Look, enlarge_island, limits, plot_field
-from .picture import (
+from ...contact.boundary import Boundary
+from ...core import require
+from ...core.arrays import RealArray
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.quantity import Quantity
+from ...core.units import show
+from ...plots.maps import Depth, Field, Look, enlarge_island, limits, plot_field
+from ...plots.picture import (
     BAR,
     BAR_ROOM,
     BLACK,
@@ -46,6 +43,9 @@ from .picture import (
     scale,
     size_of,
 )
+from .field import DERIVED, StressField
+from .regions import Plane
+from .survey import StressSurvey, SurveyedSection
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

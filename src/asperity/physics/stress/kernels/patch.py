@@ -9,10 +9,10 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.arrays import RealArray
-from ...core.grid import Grid
-from ...core.tensor import Displacement, ElasticFields, StressTensor
-from ...theories.subsurface.loads import boussinesq, cerruti
+from ....core.arrays import RealArray
+from ....core.grid import Grid
+from ....core.tensor import Displacement, ElasticFields, StressTensor
+from ....theories.subsurface.loads import boussinesq, cerruti
 
 # Potentials of a uniformly loaded quarter plane, from which every field of a rectangular patch is a corner sum.
 #

@@ -8,11 +8,11 @@ from typing import Literal, NamedTuple, Self, TypeAlias
 
 import numpy as np
 
-from ..core import require
-from ..core.arrays import BoolArray, RealArray
-from ..core.errors import InputError
-from ..core.grid import Grid
-from ..solids.elastic import Rigid
+from ...core import require
+from ...core.arrays import BoolArray, RealArray
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...solids.elastic import Rigid
 from .loads import PrescribedLoad
 
 

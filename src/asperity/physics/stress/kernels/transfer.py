@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.arrays import RealArray
-from ...solids.compliance.layered import (
+from ....core.arrays import RealArray
+from ....solids.compliance.layered import (
     LayerMatrices,
     PlaneCompliance,
     PlaneVector,
@@ -23,8 +23,8 @@ from ...solids.compliance.layered import (
     lowered,
     raised,
 )
-from ...solids.elastic import Elastic
-from ...solids.layers import Layer, Layered
+from ....solids.elastic import Elastic
+from ....solids.layers import Layer, Layered
 from ..regions import Plane
 
 

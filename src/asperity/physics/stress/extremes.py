@@ -11,9 +11,9 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arrays import RealArray
-from ..core.grid import Grid
-from ..core.tensor import StressTensor
+from ...core.arrays import RealArray
+from ...core.grid import Grid
+from ...core.tensor import StressTensor
 from . import criteria as invariants
 from .boundaries import Reader, Rows
 from .criteria import Criterion

@@ -19,11 +19,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.arrays import RealArray
-from ..core.grid import Grid
-from ..core.spectral import PaddedTransform, RealTransform, fast_length, wrapped
-from ..core.tensor import StressTensor
-from ..solids.compliance.halfspace import HalfSpace
+from ...core.arrays import RealArray
+from ...core.grid import Grid
+from ...core.spectral import PaddedTransform, RealTransform, fast_length, wrapped
+from ...core.tensor import StressTensor
+from ...solids.compliance.halfspace import HalfSpace
 from . import criteria as invariants
 from .field import Peak, SurfaceMaxima
 from .regions import Plane

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.arrays import RealArray
-from ..stress.shakedown import ShakedownCurve, ShakedownMap
-from .picture import BLUE, VERMILLION, legend_above
+from ...core.arrays import RealArray
+from ...plots.picture import BLUE, VERMILLION, legend_above
+from .shakedown import ShakedownCurve, ShakedownMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,11 +10,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..core.arrays import ComplexArray, RealArray
-from ..core.engine.cpu import LONG_SERIAL_BELOW, Blocks
-from ..core.errors import InputError
-from ..core.interpolation import Panels, panels
-from ..core.spectral import (
+from ...core.arrays import ComplexArray, RealArray
+from ...core.engine.cpu import LONG_SERIAL_BELOW, Blocks
+from ...core.errors import InputError
+from ...core.interpolation import Panels, panels
+from ...core.spectral import (
     PaddedTransform,
     RealTransform,
     SplitTransform,
@@ -24,8 +24,8 @@ from ..core.spectral import (
     thread_count,
     wrapped,
 )
-from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
-from ..solids.layers import RigidBase
+from ...core.tensor import AXES, STRESSES, Displacement, StressTensor
+from ...solids.layers import RigidBase
 from .kernels.coefficients import LineCoefficients, PlaneCoefficients
 from .kernels.patch import Load
 from .kernels.transfer import Transfers

@@ -9,30 +9,20 @@ from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 
-from ..core import units
-from ..core.arrays import BoolArray, RealArray
-from ..core.citations import citation_keys
-from ..core.errors import InputError
-from ..core.grid import Grid
-from ..core.status import NoProgress, Progress
-from ..core.tensor import STRESSES, StressTensor
-from ..solids.elastic import Rigid
+from ...core import units
+from ...core.arrays import BoolArray, RealArray
+from ...core.citations import citation_keys
+from ...core.errors import InputError
+from ...core.grid import Grid
+from ...core.status import NoProgress, Progress
+from ...core.tensor import STRESSES, StressTensor
+from ...solids.elastic import Rigid
 from .boundaries import Reader, Rows, require_held
 from .compute import Loaded, StressPlanes, at_edges, papers, residual_of, tractions_on
 from .criteria import Criterion, VonMises
 from .extremes import Extremes, InterfaceMaxima, RegionMaxima
 from .field import Peak, StressField, SurfaceMaxima
-from .regions import (
-    DepthProfile,
-    Plane,
-    Position,
-    Section,
-    Selection,
-    Where,
-    depths_through,
-    planes,
-    regions,
-)
+from .regions import DepthProfile, Plane, Position, Section, Selection, Where, depths_through, planes, regions
 from .tractions import LoadedBody, Sliding, Tractions
 from .yielding import YieldReport
 
