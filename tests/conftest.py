@@ -100,7 +100,7 @@ def unrendered() -> Iterator[None]:
         yield
 
 
-DRAWING = ("plots.picture", "plots.contact", "plots.stress", "plots.comparison", "plots.notebook")
+DRAWING = ("plots.picture", "plots.contact", "physics.stress.figures", "plots.comparison", "plots.notebook")
 """Modules of asperity that make pictures by the function ``png`` of ``plots.picture``."""
 
 

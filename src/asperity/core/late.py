@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 class LateNames:
     """Names of ``package`` by the module below it that defines them, or that they are modules of.
 
-    Module and names read like ``from .module import names``; an empty module stands for the package itself, whose names
-    are then modules. To be used as ``__getattr__`` of the package, with a stub beside for type checkers.
+    Module and names read like ``from .module import names``, so that ``.module`` is one beside the package; an empty module stands for the
+    package itself, whose names are then modules. To be used as ``__getattr__`` of the package, with a stub beside for type checkers.
     """
 
     def __init__(self, package: str, by_module: Mapping[str, tuple[str, ...]]) -> None:
@@ -36,12 +36,12 @@ class LateNames:
         """
         if name not in self.home:
             raise AttributeError(f"module {self._package!r} has no attribute {name!r}")
-        where = ".".join(filter(None, (self._package, self.home[name])))
-        if where != self._package:
-            module = import_module(where)
+        where = f".{self.home[name]}"
+        if where != ".":
+            module = import_module(where, self._package)
             if hasattr(module, name):
                 return getattr(module, name)
-        return import_module(f"{where}.{name}")
+        return import_module(f"{where}{name}" if where == "." else f"{where}.{name}", self._package)
 
 
 def names_of_stub(stub: Path) -> dict[str, tuple[str, ...]]:

@@ -15,6 +15,7 @@ from refusals import refused
 
 import asperity as asp
 from asperity import plots
+from asperity.physics.stress import figures
 
 BODY = asp.Layered([asp.Layer(asp.Elastic(280e9, 0.25, name="DLC"), 50e-9)], asp.Elastic(70e9, 0.33, name="Al-Mg"))
 
@@ -39,7 +40,7 @@ def section(request, contact) -> asp.StressField:
     return asp.stress(contact, DEPTHS, on=request.param, friction=0.3)
 
 
-@pytest.mark.parametrize("quantity", plots.stress.QUANTITIES)
+@pytest.mark.parametrize("quantity", figures.QUANTITIES)
 def test_every_quantity_of_a_section(section, ax, quantity):
     assert plots.plot_stress_section(section, ax, quantity) is ax
     ax.figure.draw_without_rendering()
@@ -53,11 +54,11 @@ def test_every_quantity_of_a_section(section, ax, quantity):
     assert interface.get_ydata()[0] == pytest.approx(50.0)
     (bar,) = ax.child_axes
     words = bar.get_ylabel().split()  # long labels are broken in lines
-    assert words[:-1] == plots.stress.QUANTITIES[quantity].label.split()
+    assert words[:-1] == figures.QUANTITIES[quantity].label.split()
     assert {text.get_text() for text in ax.texts} == {"DLC", "Al-Mg"}
     low, high = bar.get_ylim()
     values = getattr(section, quantity)
-    if quantity not in plots.stress.MAGNITUDES:
+    if quantity not in figures.MAGNITUDES:
         assert low == pytest.approx(-high)
     else:
         assert low == 0.0
