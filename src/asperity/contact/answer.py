@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from ..core.arrays import RealArray
     from ..core.status import Advice, Status
     from .certificate import Certificate
+    from .couplings.protocol import Memory
+    from .problem import ContactProblem
 
 
 class Answer:
@@ -68,6 +70,15 @@ class Answer:
     def ended(self) -> Status | None:
         """How its own solver ended."""
         return None
+
+    @classmethod
+    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
+        """Its fields that are ``given`` by the ``problem``, by name; files do not hold them."""
+        return {}
+
+    def remembered(self, approach: float) -> Memory:
+        """What of its coupling's memory for the next step follows from it and from the ``approach`` in m; files do not hold that twice."""
+        return {}
 
     def certified(self, certificate: Certificate) -> Certificate:
         """The ``certificate`` of the contact with what it adds."""

@@ -10,24 +10,29 @@ alone hold the bodies; at a prescribed position the force is passive.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ...contact.answer import Answer
 from ...contact.certificate import Certificate
 from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from ...contact.problem import ContactProblem
+from ...contact.result import WET_SCALARS
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
 from ...core.late import Shown
+from ...core.quantity import given, measured, measured_as
 from ...core.status import Advice
 from ..friction.law import Coulomb
 from .advice import findings
 from .film import LiquidFilm, Wetting, wetting
+
+_SCALARS = {item.name: item for item in WET_SCALARS}
 
 COLLAPSED = 0.5
 """Share of the nominal area up to which an interface that ends flooded was open, and so has collapsed."""
@@ -66,13 +71,18 @@ class Menisci(Answer, Shown):
         were there from the start.
     """
 
-    film: LiquidFilm
-    wetting: Wetting
-    external_force: float
-    meniscus_force: float
-    dry_friction: float
-    viscous_force: float
-    feedback: float
+    film: LiquidFilm = given()
+    wetting: Wetting = measured("", "where the liquid stands")
+    external_force: float = measured_as(_SCALARS["external_force"])
+    meniscus_force: float = measured_as(_SCALARS["meniscus_force"])
+    dry_friction: float = measured("1", "true coefficient of friction")
+    viscous_force: float = measured_as(_SCALARS["viscous_force"])
+    feedback: float = measured_as(_SCALARS["feedback"])
+
+    @classmethod
+    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
+        """The film."""
+        return {"film": problem.film}
 
     def findings(self, certificate: Certificate) -> Iterator[Advice]:
         """Menisci of few pixels or molecules."""
