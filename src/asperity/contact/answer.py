@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..core.errors import InputError
 from ..core.registry import OUTCOMES, PHYSICS
 
 if TYPE_CHECKING:
     from ..core.arrays import RealArray
+    from ..core.quantity import Quantity
     from ..core.status import Advice, Status
     from .certificate import Certificate
     from .couplings.protocol import Memory
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
 class Answer:
     """What a coupling has found in a contact: base of frozen dataclasses, whose methods say nothing where it has no part in what is asked."""
+
+    quantities: ClassVar[tuple[Quantity, ...]] = ()
+    """Its numbers in tables, stored fields and others that follow from them."""
 
     def traction_beside(self) -> RealArray | None:
         """Attraction (nx, ny) in Pa beside the pressure."""

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
 from enum import Enum
 from functools import cache
+from inspect import get_annotations
 from types import UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
@@ -134,7 +135,9 @@ def _one(hint: Any, value: Any) -> Any:
 
 
 def _rows_of(rows: Sequence[Any], kind: Any, name: str) -> Iterator[Labelled]:
-    """A tuple of dataclasses of this ``kind`` as columns."""
+    """A tuple of dataclasses of this ``kind`` as columns; nothing of an empty one."""
+    if not rows:
+        return
     for quantity in stored_quantities(kind):
         column = [getattr(row, quantity.name) for row in rows]
         named = replace(quantity, name=f"{name}_{quantity.name}", dims=(name, *quantity.dims))
@@ -150,13 +153,20 @@ def _rows_of(rows: Sequence[Any], kind: Any, name: str) -> Iterator[Labelled]:
 def _rows_made(kind: Any, values: Mapping[str, Any], name: str) -> tuple[Any, ...]:
     hints = _hints(kind)
     names = [item.name for item in stored_quantities(kind)]
+    if not any(f"{name}_{key}" in values for key in names):
+        return ()
     columns = [[_one(hints[key], value) for value in np.asarray(values[f"{name}_{key}"])] for key in names]
     return tuple(kind(**dict(zip(names, row, strict=True))) for row in zip(*columns, strict=True))
 
 
 @cache
 def _hints(kind: Any) -> dict[str, Any]:
-    return get_type_hints(kind)
+    """Types of the fields of ``kind``; other annotations of it may name what only type checkers import."""
+    names, found = {item.name for item in fields(kind)}, dict[str, Any]()
+    for base in reversed(kind.__mro__):
+        own = {name: text for name, text in get_annotations(base).items() if name in names}
+        found |= get_type_hints(type(base.__name__, (), {"__annotations__": own, "__module__": base.__module__}))
+    return found
 
 
 @cache

@@ -22,7 +22,7 @@ from ..physics.friction.fretting import SHEAR_SCALARS, shear_numbers
 from ..stress.field import Peak, StressField
 from ..stress.survey import StressSurvey
 from .atomic import atomic_file
-from .results import ENERGIES
+from .paths import ENERGIES
 from .stress_files import Fields, components, peeked
 from .tables import write_table
 from .words import CERTIFICATE

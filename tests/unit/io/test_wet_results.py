@@ -33,8 +33,10 @@ def test_a_wet_contact_is_read_back_whole(wet: asp.ContactResult, tmp_path: Path
     assert (found.control, found.status, found.certificate) == (wet.control, wet.status, wet.certificate)
     assert found.state.memory["menisci"] == wet.state.memory["menisci"]
     assert found.citation_keys == wet.citation_keys
-    data = asp.open_tree(tmp_path / "wet.nc")["film"].to_dataset()
-    assert data["menisci"].dims == ("x", "y")
+    data = asp.open_tree(tmp_path / "wet.nc")["contact/couplings/menisci"].to_dataset()
+    for item in WET_SCALARS:
+        assert data[item.name] == getattr(wet.menisci, item.name), item.name
+    assert data["wetting_menisci"].dims == ("x", "y")
     assert data["meniscus_force"].attrs["units"] == "N"
 
 

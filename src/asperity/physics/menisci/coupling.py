@@ -26,7 +26,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
 from ...core.late import Shown
-from ...core.quantity import given, measured, measured_as
+from ...core.quantity import Quantity, given, measured, measured_as
 from ...core.status import Advice
 from ..friction.law import Coulomb
 from .advice import findings
@@ -78,6 +78,7 @@ class Menisci(Answer, Shown):
     dry_friction: float = measured("1", "true coefficient of friction")
     viscous_force: float = measured_as(_SCALARS["viscous_force"])
     feedback: float = measured_as(_SCALARS["feedback"])
+    quantities: ClassVar[tuple[Quantity, ...]] = WET_SCALARS
 
     @classmethod
     def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
