@@ -183,9 +183,9 @@ def _row_kind(hint: Any) -> Any:
 # Groups, and steps of a history.
 
 
-def group_of(found: Any, lines: Sequence[Labelled] = ()) -> Node:
-    """Group of a dataclass; ``lines`` are the coordinates of the grid."""
-    return Node((*lines, *values_of(found)), {KIND: kind_name(type(found))})
+def group_of(found: Any) -> Node:
+    """Group of a dataclass."""
+    return Node(tuple(values_of(found)), {KIND: kind_name(type(found))})
 
 
 def values_in(node: Node) -> dict[str, Any]:
@@ -233,11 +233,10 @@ class Steps:
         return found | {name: values[ends[step] : ends[step + 1]] for name, (values, ends) in self._rows.items()}
 
 
-def steps_group(found: Sequence[Any], lines: Sequence[Labelled] = ()) -> Node:
-    """Group of the same kind of dataclass in every step of a history, None where a step has none; ``lines`` are the coordinates of the grid."""
-    kind = next(type(each) for each in found if each is not None)
+def steps_group(found: Sequence[Any], kind: type) -> Node:
+    """Group of the same ``kind`` of dataclass in every step of a history, None where a step has none."""
     rows = [None if each is None else {item.quantity.name: item for item in values_of(each)} for each in found]
     here = Labelled(
         Quantity(HERE, "1", "whether the step has this", ("step",)), np.array([row is not None for row in rows])
     )
-    return Node((*lines, here, *stacked(rows)), {KIND: kind_name(kind)})
+    return Node((here, *stacked(rows)), {KIND: kind_name(kind)})

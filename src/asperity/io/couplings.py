@@ -28,14 +28,13 @@ class Remembering(Protocol):
     memory: Mapping[str, Memory]
 
 
-def answers_group(steps: Sequence[Any]) -> Node:
-    """Group of what the couplings found in every one of the ``steps``, with a group for each by its name."""
-    names = dict.fromkeys(name for step in steps for name, found in step.couplings.items() if isinstance(found, Answer))
+def answers_group(path: Sequence[Any], numbers: range) -> Node:
+    """Group of what the couplings found in the steps of these ``numbers`` of a ``path``, with a group for each by its name."""
+    kinds = {name: type(found) for step in path for name, found in step.couplings.items() if isinstance(found, Answer)}
     groups = {}
-    for name in names:
-        found = [step.couplings.get(name) for step in steps]
-        node = steps_group(found)
-        kind = next(type(each) for each in found if each is not None)
+    for name, kind in kinds.items():
+        found = [path[number].couplings.get(name) for number in numbers]
+        node = steps_group(found, kind)
         following = [item for item in kind.quantities if item.name not in node]
         rows = [
             None if each is None else {item.name: Labelled(item, getattr(each, item.name)) for item in following}
@@ -84,13 +83,13 @@ def answers_in(node: Node, problem: ContactProblem) -> Callable[[int], dict[str,
     return at
 
 
-def memories_group(steps: Sequence[Any]) -> Node:
-    """Group of what the couplings remember after every one of the ``steps`` (results or states), with a group for each by its name."""
-    names = dict.fromkeys(name for step in steps for name in step.memory)
+def memories_group(path: Sequence[Any], numbers: range = range(1)) -> Node:
+    """Group of what the couplings remember after those of these ``numbers`` of a ``path`` of results or states, with a group for each by its name."""
+    names = dict.fromkeys(name for step in path for name in step.memory)
     groups = {}
     for name in names:
         rows: list[dict[str, Labelled] | None] = []
-        for step in steps:
+        for step in (path[number] for number in numbers):
             memory = step.memory.get(name)
             rows.append(None if memory is None else _remembered(memory, _following(step, name)))
         here = np.array([row is not None for row in rows])

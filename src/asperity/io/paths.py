@@ -101,7 +101,7 @@ def _block(path: HistoryResult, numbers: range) -> Node:
             Labelled(replace(q, name=f"path_{q.name}"), getattr(path.energies, q.name)[number]) for q in ENERGIES
         ]
         rows.append({item.quantity.name: item for item in values})
-    children = {"couplings": answers_group(steps), "memory": memories_group(steps)}
+    children = {"couplings": answers_group(path.steps, numbers), "memory": memories_group(path.steps, numbers)}
     return Node(stacked(rows), {}, {name: node for name, node in children.items() if node.children}, packs=True)
 
 

@@ -263,15 +263,16 @@ class _Writer:
     def __init__(self, group: h5netcdf.Group, sink: _Sink, *, grows: bool) -> None:
         self._group, self._sink, self._grows = group, sink, grows
         self._lengths = dict[str, int]()
-        self._digests = dict[str, Any]()
+        self._digests = dict[str, _Digest]()
         self._children = dict[str, _Writer]()
 
     def add(self, node: Node) -> None:
         """Write the first node, or append a further one."""
         node = _packed(node) if node.packs else node
         first, grown = not self._lengths, dict[str, int]()
+        leading = {item.quantity.dims[0] for item in node.values if item.quantity.dims} if self._grows else set()
         for dim, length in node.dims().items():
-            if self._grows and dim not in FIXED:
+            if dim in leading and dim not in FIXED:
                 grown[dim] = self._lengths.get(dim, 0) + length
                 if dim not in self._lengths:
                     self._group.dimensions[dim] = None
@@ -279,17 +280,17 @@ class _Writer:
             elif dim not in self._lengths:
                 self._group.dimensions[dim] = self._lengths[dim] = length
         for item in node.values:
-            name, leading = item.quantity.name, item.quantity.dims[:1]
+            name, along = item.quantity.name, "".join(item.quantity.dims[:1])
             if name not in self._group.variables:
-                _create(item, self._group, grows=bool(leading) and leading[0] in grown)
-            elif not leading or leading[0] not in grown:
+                _create(item, self._group, grows=along in grown)
+            elif along not in grown:
                 continue
-            if leading:
+            if along:
                 values = np.ascontiguousarray(_stored(item.values))
-                start = self._lengths.get(leading[0], 0) if leading[0] in grown else 0
+                start = self._lengths.get(along, 0) if along in grown else 0
                 self._group.variables[name][start : start + len(values)] = values
                 if values.dtype.kind != "O":
-                    self._digests.setdefault(name, hashlib.sha256()).update(_bytes(values))
+                    self._digests.setdefault(name, _Digest(values)).add(values, start)
             self._sink.check()
         self._lengths |= grown
         if first:
@@ -306,9 +307,33 @@ class _Writer:
     def close(self) -> None:
         """Write the digests."""
         for name, digest in self._digests.items():
-            self._group.variables[name].attrs[DIGEST] = digest.hexdigest()
+            variable = self._group.variables[name]
+            variable.attrs[DIGEST] = digest.of(variable.shape[0])
         for child in self._children.values():
             child.close()
+
+
+class _Digest:
+    """Digest of an array that is written in rows; those that are not are zero."""
+
+    def __init__(self, values: np.ndarray[Any, Any]) -> None:
+        self._hash, self._rows = hashlib.sha256(), 0
+        self._size = values.dtype.itemsize * math.prod(values.shape[1:])
+
+    def add(self, values: np.ndarray[Any, Any], start: int) -> None:
+        """Take the rows ``values`` that begin at row ``start``."""
+        self._fill(start)
+        self._hash.update(_bytes(values))
+        self._rows += len(values)
+
+    def of(self, rows: int) -> str:
+        """The digest of so many ``rows``, as text."""
+        self._fill(rows)
+        return self._hash.hexdigest()
+
+    def _fill(self, rows: int) -> None:
+        self._hash.update(bytes((rows - self._rows) * self._size))
+        self._rows = rows
 
 
 def _grows(node: Node) -> bool:

@@ -50,7 +50,7 @@ def test_steps_of_a_history(name: str, paths: dict[str, Any]) -> None:
         if found[-1] is None:
             continue
         found[0] = None
-        node = steps_group(found)
+        node = steps_group(found, type(found[-1]))
         assert node[HERE].tolist() == [False, True, True]
         steps, kind = Steps(node), answer_kind(node.attributes["kind"])
         for number in (1, 2):
@@ -96,7 +96,7 @@ def test_an_answer_of_ones_own(rows: tuple[Row, ...]) -> None:
     assert told(again) == told(odd)
     assert type(again.counts[0]) is int
     other = Odd("given", False, "", (), (), (), np.ones((0, 3), dtype=np.float32), None)
-    steps = Steps(steps_group([other, odd, other]))
+    steps = Steps(steps_group([other, odd, other], Odd))
     assert told(made_of(Odd, steps.at(1), {"law": "given"})) == told(odd)
     assert told(made_of(Odd, steps.at(2), {"law": "given"}))[".array"] == told(other)[".array"]
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from stored_cases import CASES, FILM
 
 import asperity as asp
 from asperity.contact.result import SCALARS
@@ -109,3 +110,33 @@ def test_a_result_of_a_path_is_read_back(path: asp.HistoryResult, tmp_path: Path
         np.testing.assert_array_equal(again.plastic, result.plastic)
         np.testing.assert_array_equal(again.state.permanent_indentation, result.permanent_indentation)
         assert again.state.plastic_work == result.total_plastic_work > 0.0
+
+
+def test_adhesive_paths_say_what_pulls(tmp_path: Path) -> None:
+    """In the table of the steps and in the file: external force, attraction, grips, margin and jumps of every step."""
+    path = CASES["adhesive"]()
+    asp.export_csv(path, tmp_path / "path.csv")
+    asp.save(path, tmp_path / "path.nc")
+    with (tmp_path / "path.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    group = asp.open_tree(tmp_path / "path.nc")["path/couplings/adhesion"]
+    units = {"external_force": "N", "attractive_force": "N", "grips": "m", "margin": "1", "jumps": "1"}
+    for name, unit in units.items():
+        wanted = [getattr(step.adhesion, name) for step in path]
+        assert [float(row[f"{name} ({unit})"]) for row in rows] == wanted
+        assert group[name].values.tolist() == wanted
+        assert group[name].attrs["units"] == unit
+    np.testing.assert_array_equal(group["attraction"], [step.adhesion.attraction for step in path])
+
+
+def test_a_name_that_two_couplings_have_stands_twice_in_the_table(tmp_path: Path) -> None:
+    wet = CASES["wet"]()
+    law = asp.ExponentialAdhesion(0.01, 1e-9)
+    both = asp.ContactProblem(wet.last.problem.surface, asp.Elastic(1e11, 0.3), film=FILM, adhesion=law)
+    path = asp.solve(both, asp.History([asp.MeanPressure(1e8), asp.MeanPressure(5e7)]))
+    asp.export_csv(path, tmp_path / "path.csv")
+    with (tmp_path / "path.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for row, step in zip(rows, path, strict=True):
+        assert float(row["external_force (N)"]) == step.menisci.external_force
+        assert float(row["adhesion_external_force (N)"]) == step.adhesion.external_force

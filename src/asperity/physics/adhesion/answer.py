@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ...contact.couplings.protocol import Memory
 from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...core.late import Shown
-from ...core.quantity import given, measured
+from ...core.quantity import Quantity, given, measured, measured_as
 from ...core.status import Status
 from .jkr import JKRAdhesion
 from .law import Adhesion
@@ -36,6 +36,18 @@ RESOLVED_RADIUS = 20.0
 
 PINNED = 1.0
 """Pixels in the cohesive length below which single pixels snap (1.122 Δx max|σ'| > E*), and the hysteresis is one of the grid."""
+
+
+TABLE = (
+    Quantity("external_force", "N", "external force"),
+    Quantity("attractive_force", "N", "force of the attraction"),
+    Quantity("grips", "m", "approach of the grips"),
+    Quantity("margin", "1", "1 less the largest eigenvalue of the response to the attraction: positive if stable"),
+    Quantity("jumps", "1", "jumps since the first contact"),
+)
+"""Numbers of every step in tables."""
+
+_EXTERNAL, _ATTRACTIVE, _GRIPS, _MARGIN, _JUMPS = TABLE
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -96,20 +108,20 @@ class AdhesiveContact(Answer, Shown):
 
     law: Adhesion = given()
     attraction: RealArray = measured("Pa", "attraction of the surfaces", "x", "y")
-    attractive_force: float = measured("N", "force of the attraction")
-    external_force: float = measured("N", "external force")
-    grips: float = measured("m", "approach of the grips")
+    attractive_force: float = measured_as(_ATTRACTIVE)
+    external_force: float = measured_as(_EXTERNAL)
+    grips: float = measured_as(_GRIPS)
     adhesive_area_fraction: float = measured(
         "1", "area that attracts without touching, within the range / nominal area"
     )
     interface_energy: float = measured("J", "energy of the adhesion")
     elastic_energy: float = measured("J", "elastic energy with adhesion")
-    margin: float = measured("1", "1 less the largest eigenvalue of the response to the attraction: positive if stable")
+    margin: float = measured_as(_MARGIN)
     cohesive_length: float = measured("m", "cohesive length")
     pixel: float = measured("m", "larger spacing of the grid")
     dissipated: float = measured("J", "energy lost in this step")
     jumped: bool = measured("1", "whether the contact jumped in this step")
-    jumps: int = measured("1", "jumps since the first contact")
+    jumps: int = measured_as(_JUMPS)
     total_dissipated: float = measured("J", "energy lost since the first contact")
     residual: float = measured("1", "largest error of the attraction / strength")
     energies: tuple[float, ...] = measured("J", "energy after every step of the solver", "energy")
@@ -120,6 +132,7 @@ class AdhesiveContact(Answer, Shown):
     spot_radius: float = measured("m", "radius of the mean contact spot", default=math.nan)
     dissipated_error: float = measured("J", "bound of the error of the energy lost in this step", default=math.nan)
     zone_radius: float = measured("m", "radius of spots with the zone around them", default=math.nan)
+    quantities: ClassVar[tuple[Quantity, ...]] = TABLE
 
     @property
     def short_range(self) -> bool:
