@@ -94,6 +94,8 @@ CACHES: dict[str, str] = {
     "asperity.core.settings.json_schema": "follows from the table; it takes 0.18 s for a document, and every document that is refused needs it",
     "asperity.run.document.document_model": "follows from the parts, which do not change; building it takes 20 ms, and every case of a study is checked by it",
     "asperity.solids.library.kinds": "the annotations of a class never change; reading them takes 0.2 ms, and each of 44 records needs them, a quarter of the time of `asperity materials`",
+    "asperity.io.codec._columns": "the fields of a type do not change; a file of a history asks for them in every step",
+    "asperity.io.codec._hints": "the types of the fields of a type do not change; looking them up takes 0.1 ms, which a file of a history does in every step",
     "asperity.io.description._version": "installed packages do not change; reading a version takes 0.7 ms, and every case of a study and every file needs four",
     "asperity.parts.registry.parts": "installed packages do not change; looking them up takes 10 ms, and every document needs its parts",
     "asperity.solids.compliance.creep._layered_creep": "follows from the bodies; a fit may take a second, and every solve of a history that is continued needs it",

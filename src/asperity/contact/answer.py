@@ -13,13 +13,15 @@ if TYPE_CHECKING:
     from ..core.quantity import Quantity
     from ..core.status import Advice, Status
     from .certificate import Certificate
+    from .couplings.protocol import Memory
+    from .problem import ContactProblem
 
 
 class Answer:
     """What a coupling has found in a contact: base of frozen dataclasses, whose methods say nothing where it has no part in what is asked."""
 
     quantities: ClassVar[tuple[Quantity, ...]] = ()
-    """Its numbers in the table of a result, in their order."""
+    """Its numbers in the table of a result, stored fields and others that follow from them."""
 
     def line(self) -> str:
         """What it is in one line; empty for the name of its type."""
@@ -89,9 +91,21 @@ class Answer:
         """Plastic work (J) of this step beside that at the surface."""
         return 0.0
 
+    def require_sound(self) -> None:
+        """Refuse fields of a file that cannot be, with a ValueError that names the field."""
+
     def ended(self) -> Status | None:
         """How its own solver ended."""
         return None
+
+    @classmethod
+    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
+        """Its fields that are ``given`` by the ``problem``, by name; files do not hold them."""
+        return {}
+
+    def remembered(self, approach: float) -> Memory:
+        """What of its coupling's memory for the next step follows from it and from the ``approach`` in m; files do not hold that twice."""
+        return {}
 
     def certified(self, certificate: Certificate) -> Certificate:
         """The ``certificate`` of the contact with what it adds."""

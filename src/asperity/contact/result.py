@@ -165,7 +165,6 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
     problem: ContactProblem
     control: Control
     pressure: RealArray
-    displacement: RealArray
     plastic: BoolArray
     offset: float
     mean_pressure: float
@@ -183,6 +182,7 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
     certificate: Certificate
     status: Status
     citation_keys: tuple[str, ...]
+    displacement: Late[RealArray] = Late()
     permanent_indentation: Late[RealArray] = Late()
     gap: Late[RealArray] = Late()
     mean_gap: Late[float] = Late()
@@ -194,7 +194,8 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
 
     def __getstate__(self) -> dict[str, Any]:
         """What a pickle or a copy is made from: all numbers, for the machine that would compute one cannot go with them."""
-        return {**vars(self), "normal_stiffness": self.normal_stiffness}
+        late = ("displacement", "gap", "mean_gap", "normal_stiffness", "permanent_indentation")
+        return vars(self) | {name: getattr(self, name) for name in late}
 
     @property
     def n_spots(self) -> int:
@@ -397,12 +398,14 @@ def _gap(deflection: RealArray, profile: RealArray, result: ContactResult) -> Re
     return np.maximum(gap, 0.0, out=gap)
 
 
-def _unindented(result: ContactResult) -> RealArray:
+def unindented(result: ContactResult) -> RealArray:
+    """Permanent indentation (nx, ny) in m of a surface that was never indented."""
     return np.zeros(result.problem.grid.shape)
 
 
 def _mean_gap(result: ContactResult) -> float:
-    return float(result.gap.mean())
+    gap = vars(result)["gap"]  # one that is not at hand is not kept: a path may hold many
+    return float((gap.compute(result) if isinstance(gap, Later) else gap).mean())
 
 
 def _deflections(found: Contact, before: InterfaceState | None) -> Deflections:
@@ -437,7 +440,7 @@ def _indentation(
     dent = permanent if imprint is None else np.maximum(permanent + imprint, 0.0)
     virgin = imprint is None and not permanent.any()
     return {
-        "permanent_indentation": Later(_unindented) if known is None else known,
+        "permanent_indentation": Later(unindented) if known is None else known,
         "plastic_work": total - (0.0 if state is None else state.plastic_work),
         "total_plastic_work": total,
         "indented_area": 0.0 if virgin else int(np.count_nonzero(permanent)) * pixel,

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass, field, fields
 from typing import Any
+
+WHAT, GIVEN, COLUMNS = "what", "given", "columns"
+"""Keys of the metadata of fields: what a field is, that it was given with the problem, and what the columns of its array are."""
 
 
 @dataclass(frozen=True)
@@ -56,3 +59,39 @@ class Labelled:
 
     quantity: Quantity
     values: Any
+
+
+def measured(
+    unit: str, label: str, *dims: str, default: Any = MISSING, columns: tuple[Quantity, ...] = (), repr: bool = True
+) -> Any:
+    """Field of a dataclass with what it is: SI unit ("1" for plain numbers, "" for text), words, and the names of the axes of an array.
+
+    Files, tables and pictures take them from here. Axes ``x`` and ``y`` are those of the grid; an array that has none of them may have another length in
+    every step of a history. ``columns`` are what the columns of an array with two axes are, where each is something else.
+    """
+    return field(default=default, repr=repr, metadata={WHAT: (unit, label, dims), COLUMNS: columns})
+
+
+def measured_as(quantity: Quantity) -> Any:
+    """Field of a dataclass that is this ``quantity``."""
+    return measured(quantity.unit, quantity.label, *quantity.dims)
+
+
+def given(**options: Any) -> Any:
+    """Field of a dataclass that was given with the problem, so that files take it from there; ``options`` are those of ``dataclasses.field``."""
+    return field(**options, metadata={GIVEN: True})
+
+
+def stored_quantities(kind: type) -> tuple[Quantity, ...]:
+    """What the stored fields of the dataclass ``kind`` are, in their order; one without words is called by its name."""
+    found = []
+    for item in fields(kind):
+        if GIVEN not in item.metadata and item.init:
+            unit, label, dims = item.metadata.get(WHAT, ("1", item.name.replace("_", " "), ()))
+            found.append(Quantity(item.name, unit, label, dims))
+    return tuple(found)
+
+
+def given_names(kind: type) -> tuple[str, ...]:
+    """Names of the fields of the dataclass ``kind`` that were given with the problem."""
+    return tuple(item.name for item in fields(kind) if GIVEN in item.metadata)

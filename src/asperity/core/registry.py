@@ -111,6 +111,16 @@ IN_TIME = "physics.viscoelastic.in_time:InTime"
 OUTCOMES = (*(name for known in PHYSICS.values() for name in known.absent), "creep")
 """Names of what couplings of this package find, that of bodies that relax last."""
 
+ANSWERS = (
+    "physics.menisci.coupling:Menisci",
+    "physics.adhesion.answer:AdhesiveContact",
+    "physics.plastic_flow.answer:PlasticBody",
+    "physics.friction.sliding:GrossSliding",
+    "physics.friction.answer:StickSlip",
+    "physics.viscoelastic.moments:Creeping",
+)
+"""Where the types of what couplings of this package find stand, for files."""
+
 ENERGY_TERMS = ("meniscus_work", "shear_work", "tangential_work", "slip_work", "step_work", "jump_work")
 """Names of what the physics of this package add to the energies of a history."""
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import functools
 import math
 import platform
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from datetime import UTC, datetime
 from importlib import metadata
 from types import MappingProxyType
-from typing import Any, get_args
+from typing import Any, TypeVar, get_args
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ..contact.boundary import Boundary
 from ..contact.controls import Control
 from ..contact.couplings.driver import CouplingCheck
 from ..contact.law import Hardness, HardWall
-from ..contact.problem import Flat
+from ..contact.problem import Flat, Physics
 from ..contact.result import ContactResult
 from ..contact.tangential import Tangential
 from ..core.arrays import RealArray, array_digest
@@ -31,6 +31,8 @@ from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
 from ..solids.viscoelastic import TemperatureShift, Viscoelastic
 from ..surfaces.surface import Surface
+
+Kind = TypeVar("Kind")
 
 TYPES: tuple[type, ...] = (
     *get_args(Body),
@@ -53,9 +55,26 @@ TYPES: tuple[type, ...] = (
 """Types that can be written beside those of the physics: frozen dataclasses of numbers, text, arrays, tuples and one another."""
 
 
-def known_types() -> tuple[type, ...]:
-    """All types that can be written."""
-    return *TYPES, *(kind for known in PHYSICS.values() for kind in home(known.home).types())
+def known_types() -> dict[str, type]:
+    """All types that can be written by name, those of a physics of one's own by qualified name; that must have been imported."""
+    own = (kind for known in PHYSICS.values() for kind in home(known.home).types())
+    found = {kind.__name__: kind for kind in (*TYPES, *own)}
+    for physics in subclasses(Physics):
+        if not physics.__module__.startswith("asperity."):
+            found |= {kind_name(kind): kind for kind in (physics, *physics.types())}
+    return found
+
+
+def kind_name(kind: type) -> str:
+    """Qualified name of a type, by which files know those that are none of this package's."""
+    return f"{kind.__module__}:{kind.__qualname__}"
+
+
+def subclasses(kind: type[Kind]) -> Iterator[type[Kind]]:
+    """All subclasses of ``kind`` that have been defined."""
+    for below in kind.__subclasses__():
+        yield below
+        yield from subclasses(below)
 
 
 ARRAY = "array"
@@ -84,12 +103,14 @@ def describe(value: object, arrays: dict[str, RealArray] | None = None, name: st
     if isinstance(value, np.ndarray) and arrays is not None and name not in arrays:
         arrays[name] = value
         return {ARRAY: name}
-    if is_dataclass(value) and type(value) in known_types():
-        entries = {f.name: getattr(value, f.name) for f in fields(value) if f.init}
-        kind = type(value).__name__
-        return {"type": kind, **{key: describe(item, arrays, f"{kind}_{key}") for key, item in entries.items()}}
+    kinds = known_types()
+    for name_of in (type(value).__name__, kind_name(type(value))):
+        if is_dataclass(value) and kinds.get(name_of) is type(value):
+            entries = {f.name: getattr(value, f.name) for f in fields(value) if f.init}
+            kind = type(value).__name__
+            return {"type": name_of, **{key: describe(item, arrays, f"{kind}_{key}") for key, item in entries.items()}}
     raise InputError(
-        f"every part of a result to be saved must be one of {', '.join(sorted(t.__name__ for t in known_types()))}, numbers "
+        f"every part of a result to be saved must be one of {', '.join(sorted(kinds))}, numbers "
         f"or text, but {name or 'one'} is {type(value).__name__}; export its fields instead."
     )
 
@@ -112,9 +133,8 @@ def rebuild(description: Any, arrays: Mapping[str, RealArray] | None = None) -> 
         if arrays is None or description[ARRAY] not in arrays:
             raise FileFormatError(f"result file must hold the array {description[ARRAY]!r}, but does not.")
         return arrays[description[ARRAY]]
-    kinds = {kind.__name__: kind for kind in known_types()}
-    name = description.get("type")
-    if name not in kinds:
+    kinds, name = known_types(), description.get("type")
+    if not isinstance(name, str) or name not in kinds:
         raise FileFormatError(
             f"type in a result file must be one of {', '.join(sorted(kinds))}, but is {name!r}; update asperity."
         )

@@ -15,6 +15,7 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
+from ..contact.answer import Answer
 from ..contact.history import HistoryResult
 from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
@@ -23,7 +24,7 @@ from ..physics.friction.fretting import SHEAR_SCALARS, shear_numbers
 from ..physics.stress.field import Peak, StressField
 from ..physics.stress.survey import StressSurvey
 from .atomic import atomic_file
-from .results import ENERGIES
+from .paths import ENERGIES
 from .stress_files import Fields, components, peeked
 from .tables import write_table
 from .words import CERTIFICATE
@@ -76,11 +77,24 @@ def _step_table(path: HistoryResult) -> Iterator[tuple[Any, ...]]:
     balance = path.energies
     names = [f"{item.name} ({item.unit})" for item in SCALARS]
     names += [f"{item.name} ({item.unit})" for item, _ in _shear(path.last)]
+    columns = _columns(path)
+    names += [f"{name} ({item.unit})" for _, name, item in columns]
     yield ("step", "converged", *names, *(f"path_{item.name} ({item.unit})" for item in ENERGIES))
     for number, result in enumerate(path.steps):
         energies = [float(getattr(balance, item.name)[number]) for item in ENERGIES]
-        shear = [value for _, value in _shear(result)]
+        shear: list[Any] = [value for _, value in _shear(result)]
+        shear += [getattr(result.couplings.get(coupling), item.name, "") for coupling, _, item in columns]
         yield (number + 1, result.converged, *(getattr(result, item.name) for item in SCALARS), *shear, *energies)
+
+
+def _columns(path: HistoryResult) -> list[tuple[str, str, Quantity]]:
+    """Coupling, name and quantity of each number that what couplings find has in tables; a name that two have is that of the first."""
+    found: dict[str, tuple[str, str, Quantity]] = {}
+    for coupling, answer in path.last.couplings.items():
+        for item in answer.quantities if isinstance(answer, Answer) else ():
+            name = f"{coupling}_{item.name}" if item.name in found else item.name
+            found[name] = coupling, name, item
+    return list(found.values())
 
 
 def _shear(result: ContactResult) -> list[tuple[Quantity, float]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -18,13 +17,9 @@ from ..core.errors import InputError
 from ..core.quantity import Labelled, Quantity
 from ..core.tensor import AXES, STRESSES, Displacement, StressTensor
 from ..physics.stress.field import StressField
-from ..physics.stress.regions import Plane, Region
-from ..solids.elastic import Elastic
+from ..physics.stress.regions import Plane
 from .description import describe, rebuild, software
 from .tree import Node, coordinate, write_tree
-
-SIDES = ("surface", "inside", "above", "below")
-"""Sides of a plane, by the number that files of format 1 hold for them."""
 
 Fields: TypeAlias = StressField | Iterable[StressField]
 """A stress field, or the planes of one as they come from ``stress_planes``."""
@@ -68,18 +63,12 @@ def field_node(fields: Fields) -> Node:
 
 
 def field_from(node: Node) -> StressField:
-    """The stress field of a group, equal to the one it was made of; of format 1 without the materials of its regions."""
+    """The stress field of a group, equal to the one it was made of."""
     attributes, dims = node.attributes, node["xx"].shape
     axes = next(item.quantity.dims for item in node.values if item.quantity.name == "xx")
-    regions: dict[str, Region] = {}
-    if "regions" in attributes:  # format 1
-        names = json.loads(attributes["regions"])
-        sides = [SIDES[number] for number in node["side"]]
-        parts = [Region(int(n), names[str(n)], Elastic(1.0, 0.0), math.nan, math.nan) for n in node["region"]]
-    else:
-        sides = [str(side) for side in node["side"]]
-        regions = {text: rebuild(json.loads(text)) for text in dict.fromkeys(map(str, node["region_description"]))}
-        parts = [regions[str(text)] for text in node["region_description"]]
+    sides = [str(side) for side in node["side"]]
+    regions = {text: rebuild(json.loads(text)) for text in dict.fromkeys(map(str, node["region_description"]))}
+    parts = [regions[str(text)] for text in node["region_description"]]
     planes = tuple(
         Plane(float(depth), region, side)  # type: ignore[arg-type]
         for depth, region, side in zip(node["depth"], parts, sides, strict=True)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 import io
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from mmap import ACCESS_READ, mmap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,8 +25,20 @@ if TYPE_CHECKING:
     import h5netcdf
     import xarray
 
-FORMAT_VERSION = 2
+FORMAT_VERSION = 3
 """Version of the layout of result files; raised whenever an older asperity could misread a newer file."""
+
+DIGEST = "sha256"
+"""Attribute of an array: digest of its values."""
+
+PACKED, SET = "packed", "_set"
+"""Attribute of the bits of a packed array: names of its axes; and ending of the name of the bits."""
+
+FIXED = ("x", "y")
+"""Axes along which nothing follows."""
+
+CHUNK = 2**19
+"""Bytes of the chunks of arrays that grow."""
 
 SPARSE = 0.5
 """Share of values that are not zero below which a variable is packed, which then costs little and saves much."""
@@ -44,14 +58,17 @@ class Node:
     children
         Groups within, by name.
     rows
-        Nodes of the same values that follow this one along the first axis of its arrays, written one after the other, so that
-        they need not be in memory together.
+        Nodes that follow this one along the first axis of its arrays (but those of the grid), written one after the other, so that they need not be in
+        memory together. Groups within follow as well. What only some of them have is zero in the others.
+    packs
+        Whether files hold arrays over grid and steps packed: their values that are not zero, and a bit for each point.
     """
 
     values: tuple[Labelled, ...] = ()
     attributes: Mapping[str, Any] = field(default_factory=dict)
     children: Mapping[str, Node] = field(default_factory=dict)
     rows: Iterable[Node] = ()
+    packs: bool = False
 
     def __getitem__(self, name: str) -> Any:
         """Values by name.
@@ -99,7 +116,9 @@ def write_tree(tree: Node, path: str | Path, *, overwrite: bool = False) -> None
         )
     with atomic_file(path, overwrite=overwrite) as partial, _writable(partial) as (file, sink):
         file.attrs["asperity_format"] = FORMAT_VERSION
-        _write(tree, file, sink)
+        writer = _Writer(file, sink, grows=False)
+        writer.add(tree)
+        writer.close()
 
 
 def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
@@ -128,7 +147,7 @@ def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
                 size, "result file", f"{size:.3g} bytes of {path}", "use a machine with more memory", FileFormatError
             )
             with h5netcdf.File(content, "r", decode_vlen_strings=True) as file:
-                tree = _read(file, without)
+                tree = _read(file, without, path)
     except (MemoryError, FileFormatError):
         raise
     except Exception as error:  # the library raises many types on foreign or damaged bytes
@@ -238,32 +257,143 @@ def _dataset(node: Node) -> xarray.Dataset:
     return xarray.Dataset(variables, coordinates, dict(node.attributes))
 
 
-def _write(node: Node, group: h5netcdf.Group, sink: _Sink) -> None:
-    rows = iter(node.rows)
-    following = next(rows, None)
-    grows = following is not None
-    group.dimensions = {dim: None if grows and dim == "plane" else n for dim, n in node.dims().items()}
+class _Writer:
+    """A group that is being written, with the digest of each array so far; rows follow along the first axis of arrays."""
+
+    def __init__(self, group: h5netcdf.Group, sink: _Sink, *, grows: bool) -> None:
+        self._group, self._sink, self._grows = group, sink, grows
+        self._lengths = dict[str, int]()
+        self._digests = dict[str, _Digest]()
+        self._children = dict[str, _Writer]()
+
+    def add(self, node: Node) -> None:
+        """Write the first node, or append a further one."""
+        node = _packed(node) if node.packs else node
+        first, grown = not self._lengths, dict[str, int]()
+        leading = {item.quantity.dims[0] for item in node.values if item.quantity.dims} if self._grows else set()
+        for dim, length in node.dims().items():
+            if dim in leading and dim not in FIXED:
+                grown[dim] = self._lengths.get(dim, 0) + length
+                if dim not in self._lengths:
+                    self._group.dimensions[dim] = None
+                self._group.resize_dimension(dim, grown[dim])
+            elif dim not in self._lengths:
+                self._group.dimensions[dim] = self._lengths[dim] = length
+        for item in node.values:
+            name, along = item.quantity.name, "".join(item.quantity.dims[:1])
+            if name not in self._group.variables:
+                _create(item, self._group, grows=along in grown)
+            elif along not in grown:
+                continue
+            if along:
+                values = np.ascontiguousarray(_stored(item.values))
+                start = self._lengths.get(along, 0) if along in grown else 0
+                self._group.variables[name][start : start + len(values)] = values
+                if values.dtype.kind != "O":
+                    self._digests.setdefault(name, _Digest(values)).add(values, start)
+            self._sink.check()
+        self._lengths |= grown
+        if first:
+            for name, value in node.attributes.items():
+                self._group.attrs[name] = value
+        for name, child in node.children.items():
+            if name not in self._children:
+                group = self._group.create_group(name)
+                self._children[name] = _Writer(group, self._sink, grows=self._grows or _grows(child))
+            self._children[name].add(child)
+            for row in child.rows:
+                self._children[name].add(row)
+
+    def close(self) -> None:
+        """Write the digests."""
+        for name, digest in self._digests.items():
+            variable = self._group.variables[name]
+            variable.attrs[DIGEST] = digest.of(variable.shape[0])
+        for child in self._children.values():
+            child.close()
+
+
+class _Digest:
+    """Digest of an array that is written in rows; those that are not are zero."""
+
+    def __init__(self, values: np.ndarray[Any, Any]) -> None:
+        self._hash, self._rows = hashlib.sha256(), 0
+        self._size = values.dtype.itemsize * math.prod(values.shape[1:])
+
+    def add(self, values: np.ndarray[Any, Any], start: int) -> None:
+        """Take the rows ``values`` that begin at row ``start``."""
+        self._fill(start)
+        self._hash.update(_bytes(values))
+        self._rows += len(values)
+
+    def of(self, rows: int) -> str:
+        """The digest of so many ``rows``, as text."""
+        self._fill(rows)
+        return self._hash.hexdigest()
+
+    def _fill(self, rows: int) -> None:
+        self._hash.update(bytes((rows - self._rows) * self._size))
+        self._rows = rows
+
+
+def _grows(node: Node) -> bool:
+    """Whether rows may follow ``node``."""
+    return not isinstance(node.rows, tuple) or bool(node.rows)
+
+
+def _bytes(values: np.ndarray[Any, Any]) -> Any:
+    """What the digest of ``values`` is made of, the same on every machine."""
+    return values.astype(values.dtype.newbyteorder("<"), copy=False).reshape(-1).view(np.uint8)
+
+
+def _packed(node: Node) -> Node:
+    """``node`` whose arrays over grid and steps are their values that are not zero, one after the other, and a bit for each point; exact."""
+    values: list[Labelled] = []
     for item in node.values:
-        _create(item, group, grows=grows)
-    count = node.dims().get("plane", 0)
-    if grows:
-        group.resize_dimension("plane", count)
-    for item in node.values:
-        if item.quantity.dims:
-            group.variables[item.quantity.name][...] = _stored(item.values)
-        sink.check()
-    while following is not None:
-        more = following.dims()["plane"]
-        group.resize_dimension("plane", count + more)
-        for item in following.values:
-            if "plane" in item.quantity.dims:
-                group.variables[item.quantity.name][count : count + more] = _stored(item.values)
-        sink.check()
-        count, following = count + more, next(rows, None)
-    for name, value in node.attributes.items():
-        group.attrs[name] = value
-    for name, child in node.children.items():
-        _write(child, group.create_group(name), sink)
+        quantity, array = item.quantity, np.asarray(item.values)
+        if quantity.dims[:1] != ("step",) or array.ndim < 3 or array.dtype.kind not in "fiub":
+            values.append(item)
+            continue
+        flat = np.ascontiguousarray(array).reshape(len(array), -1)
+        there = flat if flat.dtype == bool else flat.view(f"u{flat.dtype.itemsize}") != 0
+        name, label = quantity.name, f"where {quantity.label} is not zero, a bit for each point"
+        shape = " ".join(map(str, array.shape[1:]))
+        facts = {PACKED: " ".join(quantity.dims[1:]), "packed_shape": shape, "packed_type": array.dtype.name}
+        bits = Quantity(name + SET, "1", label, ("step", f"{name}_byte"))
+        values.append(_Packed(bits, np.packbits(there, axis=1), facts))
+        if flat.dtype != bool:
+            values.append(Labelled(replace(quantity, dims=(f"{name}_value",)), flat[there]))
+        else:
+            values[-1] = _Packed(bits, np.packbits(there, axis=1), {**facts, "long_name": quantity.label})
+    return replace(node, values=tuple(values))
+
+
+@dataclass(frozen=True, eq=False)
+class _Packed(Labelled):
+    """Bits of an array that is packed, and the ``facts`` from which it is made again."""
+
+    facts: Mapping[str, str]
+
+
+def _unpacked(found: Mapping[str, Labelled], facts: Mapping[str, Mapping[str, Any]]) -> Iterator[Labelled]:
+    """Values of a group, in which packed arrays are whole again."""
+    packed = {name.removesuffix(SET): each for name, each in facts.items() if PACKED in each}
+    for name, item in found.items():
+        whole = name.removesuffix(SET)
+        if whole not in packed:
+            yield item
+        elif name.endswith(SET):
+            told = packed[whole]
+            bits, kind = item.values, np.dtype(str(told["packed_type"]))
+            shape = tuple(map(int, str(told["packed_shape"]).split()))
+            there = np.unpackbits(bits, axis=1, count=math.prod(shape)).view(bool)
+            if kind.kind == "b":
+                array, quantity = there, replace(item.quantity, name=whole)
+            else:
+                array, quantity = np.zeros(there.shape, kind), found[whole].quantity
+                array[there] = found[whole].values
+            dims = ("step", *str(told[PACKED]).split())
+            yield Labelled(replace(quantity, dims=dims), array.reshape(len(bits), *shape))
 
 
 def _create(item: Labelled, group: h5netcdf.Group, *, grows: bool) -> None:
@@ -273,15 +403,20 @@ def _create(item: Labelled, group: h5netcdf.Group, *, grows: bool) -> None:
     quantity, values = item.quantity, _stored(item.values)
     kind = h5py.string_dtype() if values.dtype.kind == "O" else values.dtype
     options: dict[str, Any] = {}
-    if grows and "plane" in quantity.dims:
-        options["chunks"] = (256,) if values.ndim == 1 else (1, *values.shape[1:])
+    if grows:
+        # rows of a path come in blocks of any length: chunks of half a megabyte
+        inner = values.shape[1:]
+        rows = max(1, min(max(len(values), 256), CHUNK // (values.dtype.itemsize * math.prod(inner) or 1)))
+        options["chunks"] = (rows, *inner)
     elif values.ndim > 1 and values.dtype.kind != "O" and np.count_nonzero(values) < SPARSE * values.size:
         options |= {"compression": "gzip", "compression_opts": 1, "shuffle": True}
         options |= {"chunks": (1, *values.shape[1:])} if values.ndim == 3 else {}
     elif not values.ndim:
-        options["data"] = values[()]
+        options["data"] = values if values.dtype.kind == "O" else values[()]
     variable = group.create_variable(quantity.name, quantity.dims, dtype=kind, **options)
     variable.attrs.update(quantity.attributes)
+    if isinstance(item, _Packed):
+        variable.attrs.update(item.facts)
     if np.asarray(item.values).dtype == bool:
         variable.attrs["dtype"] = "bool"  # as xarray writes it, and reads it back
 
@@ -294,20 +429,29 @@ def _stored(values: Any) -> np.ndarray[Any, Any]:
     return array.astype(object) if array.dtype.kind in "US" else array
 
 
-def _read(group: h5netcdf.Group, without: tuple[str, ...]) -> Node:
-    values = []
+def _read(group: h5netcdf.Group, without: tuple[str, ...], path: str | Path) -> Node:
+    found, facts = dict[str, Labelled](), dict[str, dict[str, Any]]()
     for name, variable in group.variables.items():
         array = variable[...]
         attributes = {key: _plain(value) for key, value in variable.attrs.items()}
+        if (
+            DIGEST in attributes
+            and hashlib.sha256(_bytes(np.ascontiguousarray(array))).hexdigest() != attributes[DIGEST]
+        ):
+            raise FileFormatError(
+                f"result file must hold its values as they were written, but {name!r} in {path} has changed."
+            )
         if attributes.get("dtype") == "bool":
             array = np.asarray(array).astype(bool)
         elif isinstance(array, bytes | str):
             array = np.asarray(array.decode() if isinstance(array, bytes) else array, dtype=object)
         unit, label = str(attributes.get("units", "1")), str(attributes.get("long_name", name))
         quantity = Quantity(name, unit, label, dims=tuple(variable.dimensions))
-        values.append(Labelled(quantity, np.asarray(array) if quantity.dims else _plain(np.asarray(array))))
-    children = {name: _read(child, without) for name, child in group.groups.items() if name not in without}
-    return Node(tuple(values), {key: _plain(value) for key, value in group.attrs.items()}, children)
+        found[name] = Labelled(quantity, np.asarray(array) if quantity.dims else _plain(np.asarray(array)))
+        facts[name] = attributes
+    children = {name: _read(child, without, path) for name, child in group.groups.items() if name not in without}
+    described = {key: _plain(value) for key, value in group.attrs.items()}
+    return Node(tuple(_unpacked(found, facts)), described, children)
 
 
 def _plain(value: Any) -> Any:

@@ -83,7 +83,7 @@ class LoadPath(Part):
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Scalars and energies of every step."""
         from ..contact.result import SCALARS
-        from ..io.results import ENERGIES
+        from ..io.paths import ENERGIES
 
         names = {item.name: item for item in SCALARS} | {f"path_{item.name}": item for item in ENERGIES}
         return tuple(replace(item, name=name, dims=("step",), costly=False) for name, item in names.items())

@@ -12,21 +12,11 @@ from typing import TYPE_CHECKING, Any
 from ..contact.result import ContactResult
 from ..core.quantity import Labelled
 from ..core.status import Advice
+from ..io.contacts import grid_lines, status_attributes, status_from
 from ..io.description import describe, software
-from ..io.results import (
-    contact_of,
-    grid_lines,
-    path_from,
-    result_in,
-    result_tree,
-    root_attributes,
-    status_attributes,
-    status_from,
-    stored_tree,
-    whole,
-)
+from ..io.results import contact_of, path_in, result_in, result_tree, root_attributes, whole
 from ..io.stress_files import field_from, field_node
-from ..io.tree import Node, datatree, write_tree
+from ..io.tree import Node, datatree, read_tree, write_tree
 from ..parts.part import Found, Part, Solved, Stored, Table, Words
 from ..parts.registry import parts, versions
 from .document import TRACTIONS
@@ -106,7 +96,7 @@ def load_outcome(path: str | Path) -> Outcome:
     FileFormatError
         If the file is missing, damaged, not NetCDF-4, or holds no contact.
     """
-    tree = stored_tree(path)
+    tree = read_tree(path)
     answer = result_in(tree, path)
     contact = contact_of(answer)
     with whole(path):
@@ -117,7 +107,7 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
     """Outcome of a ``tree`` that holds the ``contact``."""
     groups = tree.children
     steps = groups.get("path")
-    course = None if steps is None or "control" not in steps else path_from(steps, contact)
+    course = None if steps is None or "control" not in steps else path_in(tree, contact)
     if OF_OUTCOME not in tree.attributes:
         asks = {"contact": True, "plasticity": True} | ({} if course is None else {"path": True})
         there = [part for part in parts() if part.of_result in contact.couplings]

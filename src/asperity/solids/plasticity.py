@@ -13,6 +13,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import ConvergenceError, InputError
 from ..core.parameters import Declared
+from ..core.quantity import measured
 from ..core.values import NonNegative, Positive, Pressure
 from .elastic import Elastic, Hardening
 
@@ -135,9 +136,9 @@ class PlasticState:
         (…) q, the accumulated plastic strain.
     """
 
-    plastic_strain: RealArray
-    back_stress: RealArray
-    accumulated: RealArray
+    plastic_strain: RealArray = measured("1", "plastic strain xx, yy, zz, xy, xz, yz", "point", "tensor")
+    back_stress: RealArray = measured("Pa", "back stress xx, yy, zz, xy, xz, yz", "point", "tensor")
+    accumulated: RealArray = measured("1", "accumulated plastic strain", "point")
 
     @classmethod
     def virgin(cls, shape: tuple[int, ...] = ()) -> PlasticState:

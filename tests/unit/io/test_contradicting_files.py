@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from pathlib import Path
 
 import h5py
@@ -24,6 +25,13 @@ def path() -> asp.HistoryResult:
     return asp.solve(asp.ContactProblem(GROUND, STEEL), asp.History([asp.MeanPressure(p) for p in (1e8, 3e8, 2e8)]))
 
 
+def wet() -> asp.HistoryResult:
+    film = asp.LiquidFilm(surface_tension=0.025, thickness=0.4e-9, meniscus_height=0.8e-9)
+    return asp.solve(
+        asp.ContactProblem(GROUND, STEEL, film=film), asp.History([asp.MeanPressure(p) for p in (3e8, 1e8)])
+    )
+
+
 @pytest.fixture(scope="module")
 def stored(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("stored")
@@ -33,12 +41,38 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     return {name: folder / f"{name}.nc" for name in found}
 
 
-def edited(source: Path, target: Path, group: str, name: str, place: object, value: float) -> Path:
+def edited(
+    source: Path, target: Path, group: str, name: str, place: object, value: float, *, forged: bool = True
+) -> Path:
+    """The file with another value at a place of a variable, and a digest that fits it where it is ``forged``."""
     target.write_bytes(source.read_bytes())
     with h5py.File(target, "r+") as file:
         values = file[group][name]
         values[place] = value
+        if forged and values.ndim:
+            values.attrs["sha256"] = hashlib.sha256(values[...].tobytes()).hexdigest()
     return target
+
+
+@pytest.mark.parametrize("group", ["contact", "path", "path/couplings/menisci", "path/memory/menisci"])
+def test_every_changed_array_is_refused(group: str, tmp_path: Path) -> None:
+    """Whatever it is, and however little has changed."""
+    asp.save(wet(), tmp_path / "whole.nc")
+    with h5py.File(tmp_path / "whole.nc") as file:
+        arrays = [n for n, v in file[group].items() if isinstance(v, h5py.Dataset) and v.ndim and v.dtype.kind in "iuf"]
+        arrays = [name for name in arrays if file[group][name].size and np.isfinite(file[group][name][...]).any()]
+        bare = {name for name in arrays if b"netCDF dimension but not" in file[group][name].attrs.get("NAME", b"")}
+    arrays = [name for name in arrays if name not in bare]
+    assert len(arrays) > 1
+    for name in arrays:
+        with h5py.File(tmp_path / "whole.nc") as file:
+            values = file[group][name]
+            place = tuple(np.argwhere(np.isfinite(values[...]))[0])
+            value = values[place] + 1 if values.dtype.kind in "iu" else np.nextafter(values[place], np.inf)
+        bad = edited(tmp_path / "whole.nc", tmp_path / "bad.nc", group, name, place, value, forged=False)
+        for read in (asp.load, asp.open_tree):
+            with refused(asp.FileFormatError, "result file", repr(name), str(bad)):
+                read(bad)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e12, -1e9])
@@ -67,9 +101,20 @@ def test_scalars_that_contradict_their_fields(name: str, value: float, stored: d
 
 @pytest.mark.parametrize("step", [0, 1, 2])
 def test_every_step_of_a_path(step: int, stored: dict[str, Path], tmp_path: Path) -> None:
-    bad = edited(stored["path"], tmp_path / "bad.nc", "path", "pressure", (step, 1, 1), 1e12)
+    before = sum(int(each.contact.sum()) for each in path().steps[:step])
+    bad = edited(stored["path"], tmp_path / "bad.nc", "path", "pressure", before, 1e12)
     with refused(asp.FileFormatError, "result file", "force"):
         asp.load(bad)
+
+
+def test_a_mean_gap_that_is_not_that_of_the_pressures(stored: dict[str, Path], tmp_path: Path) -> None:
+    """It is found when the gap is first read."""
+    with h5py.File(stored["path"]) as file:
+        now = float(file["path"]["mean_gap"][1])
+    bad = asp.load(edited(stored["path"], tmp_path / "bad.nc", "path", "mean_gap", 1, 1.0001 * now))
+    assert bad.steps[0].gap.mean() == pytest.approx(bad.steps[0].mean_gap, rel=1e-12)
+    with refused(asp.FileFormatError, "mean gap of a step in a result file"):
+        _ = bad.steps[1].gap
 
 
 def test_what_is_whole_loads(stored: dict[str, Path]) -> None:

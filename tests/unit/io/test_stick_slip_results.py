@@ -10,8 +10,8 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.io.shear_files import SHEAR_FIELDS, VECTORS
-from asperity.physics.friction.fretting import NUMBERS
+from asperity.core.quantity import stored_quantities
+from asperity.physics.friction.answer import StickSlip
 from asperity.run.stored import load_outcome
 
 COATED = asp.Layered([asp.Layer(asp.Elastic(2.0, 0.3), 2.0)], asp.Elastic(0.5, 0.2))
@@ -60,12 +60,12 @@ def test_a_step(name: str, tmp_path: Path) -> None:
     same(again, result)
     law = again.problem.friction
     np.testing.assert_array_equal(law.bound(result.pressure), LAWS[name].bound(result.pressure))  # type: ignore[attr-defined]
-    group = asp.open_tree(tmp_path / "r.nc")["stick_slip"]
-    for item in (*NUMBERS, *SHEAR_FIELDS):
+    group = asp.open_tree(tmp_path / "r.nc")["contact/couplings/stick_slip"]
+    measured = [item for item in stored_quantities(StickSlip) if item.unit]
+    assert {"traction", "shift_x", "dissipation_density"} <= {item.name for item in measured}
+    for item in measured:
         assert group[item.name].attrs == item.attributes
-    for item in VECTORS:
-        assert group[f"{item.name}_y"].attrs["units"] == item.unit
-        assert group[f"{item.name}_y"].dims == ("x", "y")
+        assert group[item.name].dims == item.dims
 
 
 @pytest.mark.slow
@@ -80,8 +80,8 @@ def test_a_history_and_the_same_bits_after_a_break(tmp_path: Path) -> None:
     outcome = load_outcome(tmp_path / "whole.nc")
     assert outcome.values["total_dissipated"] == whole.last.stick_slip.total_dissipated
     assert "stick_slip" in {part.name for part, _ in outcome.sections}
-    column = asp.open_tree(tmp_path / "whole.nc")["path/stick_slip_traction_x"]
-    assert column.dims == ("step", "x", "y")
+    column = asp.open_tree(tmp_path / "whole.nc")["path/couplings/stick_slip/traction"]
+    assert column.dims == ("step", "component", "x", "y")
     assert column.attrs["units"] == "Pa"
     asp.save(asp.solve(case, asp.History(STEPS[:2])), tmp_path / "half.nc")
     half = asp.load(tmp_path / "half.nc")

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from ...contact.answer import Answer
 from ...contact.couplings.protocol import Memory
+from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...core.late import Shown
+from ...core.quantity import Quantity, given, measured, measured_as
 from ...core.status import Status
 from ...core.units import show
 from .jkr import JKRAdhesion
@@ -35,6 +37,18 @@ RESOLVED_RADIUS = 20.0
 
 PINNED = 1.0
 """Pixels in the cohesive length below which single pixels snap (1.122 Δx max|σ'| > E*), and the hysteresis is one of the grid."""
+
+
+TABLE = (
+    Quantity("external_force", "N", "external force"),
+    Quantity("attractive_force", "N", "force of the attraction"),
+    Quantity("grips", "m", "approach of the grips"),
+    Quantity("margin", "1", "1 less the largest eigenvalue of the response to the attraction: positive if stable"),
+    Quantity("jumps", "1", "jumps since the first contact"),
+)
+"""Numbers of every step in tables."""
+
+_EXTERNAL, _ATTRACTIVE, _GRIPS, _MARGIN, _JUMPS = TABLE
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -93,30 +107,33 @@ class AdhesiveContact(Answer, Shown):
         The same as ``spot_radius`` of spots with the zone that attracts around them, each weighted by its area.
     """
 
-    law: Adhesion
-    attraction: RealArray
-    attractive_force: float
-    external_force: float
-    grips: float
-    adhesive_area_fraction: float
-    interface_energy: float
-    elastic_energy: float
-    margin: float
-    cohesive_length: float
-    pixel: float
-    dissipated: float
-    jumped: bool
-    jumps: int
-    total_dissipated: float
-    residual: float
-    energies: tuple[float, ...]
-    steps: int
-    newton_steps: int
-    fft_pairs: float
-    status: Status
-    spot_radius: float = math.nan
-    dissipated_error: float = math.nan
-    zone_radius: float = math.nan
+    law: Adhesion = given()
+    attraction: RealArray = measured("Pa", "attraction of the surfaces", "x", "y")
+    attractive_force: float = measured_as(_ATTRACTIVE)
+    external_force: float = measured_as(_EXTERNAL)
+    grips: float = measured_as(_GRIPS)
+    adhesive_area_fraction: float = measured(
+        "1", "area that attracts without touching, within the range / nominal area"
+    )
+    interface_energy: float = measured("J", "energy of the adhesion")
+    elastic_energy: float = measured("J", "elastic energy with adhesion")
+    margin: float = measured_as(_MARGIN)
+    cohesive_length: float = measured("m", "cohesive length")
+    pixel: float = measured("m", "larger spacing of the grid")
+    dissipated: float = measured("J", "energy lost in this step")
+    jumped: bool = measured("1", "whether the contact jumped in this step")
+    jumps: int = measured_as(_JUMPS)
+    total_dissipated: float = measured("J", "energy lost since the first contact")
+    residual: float = measured("1", "largest error of the attraction / strength")
+    energies: tuple[float, ...] = measured("J", "energy after every step of the solver", "energy")
+    steps: int = measured("1", "steps of the adhesive solver")
+    newton_steps: int = measured("1", "Newton steps of the adhesive solver")
+    fft_pairs: float = measured("1", "FFT pairs of the adhesive solver")
+    status: Status = measured("", "how it ended")
+    spot_radius: float = measured("m", "radius of the mean contact spot", default=math.nan)
+    dissipated_error: float = measured("J", "bound of the error of the energy lost in this step", default=math.nan)
+    zone_radius: float = measured("m", "radius of spots with the zone around them", default=math.nan)
+    quantities: ClassVar[tuple[Quantity, ...]] = TABLE
 
     @property
     def short_range(self) -> bool:
@@ -171,8 +188,17 @@ class AdhesiveContact(Answer, Shown):
         """How the adhesive solver ended."""
         return self.status
 
+    @classmethod
+    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
+        """The law."""
+        return {"law": problem.adhesion}
+
     def memory(self, gap: RealArray, approach: float) -> Memory:
         """What the next step starts from, with the ``gap`` (nx, ny) in m and the ``approach`` in m of this one."""
+        return {"gap": gap, **self.remembered(approach)}
+
+    def remembered(self, approach: float) -> Memory:
+        """All of that but the gap."""
         numbers = {
             "energy": self.elastic_energy + self.interface_energy,
             "force": self.external_force,
@@ -180,7 +206,7 @@ class AdhesiveContact(Answer, Shown):
             "jumps": self.jumps,
             "dissipated": self.total_dissipated,
         }
-        return {"attraction": self.attraction, "gap": gap} | {key: np.asarray(value) for key, value in numbers.items()}
+        return {"attraction": self.attraction} | {key: np.asarray(value) for key, value in numbers.items()}
 
     @property
     def resolving_length(self) -> float:

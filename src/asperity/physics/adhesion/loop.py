@@ -15,22 +15,23 @@ from ...contact.result import ContactResult
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.quantity import Quantity
+from ...core.quantity import Quantity, stored_quantities
+from .answer import AdhesiveContact
 
 if TYPE_CHECKING:
     from .branch import Jump
 
+_STORED = {item.name: item for item in stored_quantities(AdhesiveContact)}
+
 ADHESION_SCALARS = (
-    Quantity("attractive_force", "N", "force of the attraction"),
-    Quantity("adhesive_area_fraction", "1", "area that attracts without touching, within the range / nominal area"),
-    Quantity("interface_energy", "J", "energy of the adhesion"),
-    Quantity(
-        "stability_margin", "1", "1 less the largest eigenvalue of the response to the attraction: positive if stable"
-    ),
-    Quantity("cohesive_length", "m", "cohesive length"),
+    _STORED["attractive_force"],
+    _STORED["adhesive_area_fraction"],
+    _STORED["interface_energy"],
+    replace(_STORED["margin"], name="stability_margin"),
+    _STORED["cohesive_length"],
     Quantity("pixels_per_cohesive_length", "1", "cohesive length / pixel; without range radius of a spot / pixel"),
     Quantity("needed_pixel", "m", "largest pixel that resolves the attracting zone"),
-    Quantity("jumps", "1", "jumps since the first contact"),
+    _STORED["jumps"],
 )
 """Every scalar of an adhesive contact, in the order of tables."""
 

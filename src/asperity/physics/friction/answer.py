@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
 from ...contact.answer import Answer
 from ...contact.certificate import Certificate
 from ...contact.couplings.protocol import Memory
+from ...contact.problem import ContactProblem
 from ...contact.tangential import Shift, Tangential, TangentialForce
 from ...core.arrays import BoolArray, RealArray
+from ...core.quantity import given, measured
 from ...core.status import Advice, Status
 from ...core.units import show
 from .law import FrictionLaw
@@ -65,31 +67,40 @@ class StickSlip(Answer):
         How it ended.
     """
 
-    law: FrictionLaw
-    tangential: Tangential
-    traction: RealArray
-    slip_increment: RealArray
-    slip: RealArray
-    tangential_displacement: RealArray
-    shear_displacement: RealArray
-    shift_x: float
-    shift_y: float
-    twist: float
-    force_x: float
-    force_y: float
-    torque: float
-    friction_limit: float
-    dissipation_density: RealArray
-    dissipated: float
-    total_dissipated: float
-    tangential_energy: float
-    duality_gap: float
-    complementarity: float
-    iterations: int
-    fft_pairs: float
-    status: Status
+    law: FrictionLaw = given()
+    tangential: Tangential = measured("", "prescribed shift or tangential force, as JSON")
+    traction: RealArray = measured("Pa", "shear traction on the body", "component", "x", "y")
+    slip_increment: RealArray = measured("m", "slip in the step", "component", "x", "y")
+    slip: RealArray = measured("m", "slip since the start", "component", "x", "y")
+    tangential_displacement: RealArray = measured("m", "elastic displacement along the surface", "component", "x", "y")
+    shear_displacement: RealArray = measured("m", "normal displacement by shear", "x", "y")
+    shift_x: float = measured("m", "shift along x")
+    shift_y: float = measured("m", "shift along y")
+    twist: float = measured("rad", "twist")
+    force_x: float = measured("N", "tangential force along x")
+    force_y: float = measured("N", "tangential force along y")
+    torque: float = measured("N*m", "torque of the shear traction about the centre")
+    friction_limit: float = measured("N", "largest tangential force that friction bears")
+    dissipation_density: RealArray = measured("J/m**2", "energy dissipated by slip in the step per area", "x", "y")
+    dissipated: float = measured("J", "energy dissipated by slip in the last step")
+    total_dissipated: float = measured("J", "energy dissipated by slip in all steps")
+    tangential_energy: float = measured("J", "half of shear traction times tangential displacement")
+    duality_gap: float = measured("1", "bound on the relative error of the tangential energy")
+    complementarity: float = measured("1", "residual of gap and slip together")
+    iterations: int = measured("1", "Newton steps of all tangential solves")
+    fft_pairs: float = measured("1", "FFT pairs of all tangential solves")
+    status: Status = measured("", "how it ended")
     citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "DeSaxce1998", "Kalker1990", "Panagiotopoulos1975")
     """Papers of law and method."""
+
+    @classmethod
+    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
+        """The law."""
+        return {"law": problem.friction}
+
+    def remembered(self, approach: float) -> Memory:
+        """All of it."""
+        return self.memory
 
     def lifted(self) -> RealArray:
         """Displacement by shear."""

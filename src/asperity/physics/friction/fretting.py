@@ -11,19 +11,25 @@ import numpy as np
 
 from ...contact.result import ContactResult
 from ...core.arrays import RealArray
-from ...core.quantity import Quantity
+from ...core.quantity import Quantity, stored_quantities
+from .answer import StickSlip
 
-NUMBERS = (
-    Quantity("force_x", "N", "tangential force along x"),
-    Quantity("force_y", "N", "tangential force along y"),
-    Quantity("torque", "N*m", "torque of the shear traction about the centre"),
-    Quantity("shift_x", "m", "shift along x"),
-    Quantity("shift_y", "m", "shift along y"),
-    Quantity("twist", "rad", "twist"),
-    Quantity("friction_limit", "N", "largest tangential force that friction bears"),
-    Quantity("dissipated", "J", "energy dissipated by slip in the last step"),
-    Quantity("total_dissipated", "J", "energy dissipated by slip in all steps"),
-    Quantity("tangential_energy", "J", "half of shear traction times tangential displacement"),
+_STORED = {item.name: item for item in stored_quantities(StickSlip)}
+
+NUMBERS = tuple(
+    _STORED[name]
+    for name in (
+        "force_x",
+        "force_y",
+        "torque",
+        "shift_x",
+        "shift_y",
+        "twist",
+        "friction_limit",
+        "dissipated",
+        "total_dissipated",
+        "tangential_energy",
+    )
 )
 """Numbers that a ``StickSlip`` holds."""
 

@@ -8,8 +8,9 @@ the change by about friction times Dundurs' β; extrapolation over the last roun
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from ...contact.answer import Answer
 from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
+from ...core.quantity import given, measured
 from ...core.spectral import thread_count
 from ...solids.compliance.tensor import BodiesSurface
 from .law import Coulomb
@@ -38,9 +40,15 @@ class GrossSliding(Answer):
         Normal displacement (nx, ny) in m caused by the shear traction alone.
     """
 
-    friction: float | RealArray
-    direction: float
-    shear_displacement: RealArray
+    friction: float | RealArray = given()
+    direction: float = given()
+    shear_displacement: RealArray = measured("m", "normal displacement by shear", "x", "y")
+
+    @classmethod
+    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
+        """Coefficient and direction."""
+        law = problem.friction
+        return {"friction": law.coefficient, "direction": law.direction} if isinstance(law, Coulomb) else {}
 
     def lifted(self) -> RealArray:
         """Displacement by shear."""

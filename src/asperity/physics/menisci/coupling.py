@@ -11,21 +11,22 @@ alone hold the bodies; at a prescribed position the force is passive.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ...contact.answer import Answer
 from ...contact.certificate import Certificate
 from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from ...contact.problem import ContactProblem
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
 from ...core.grid import Grid
 from ...core.late import Shown
-from ...core.quantity import Quantity
+from ...core.quantity import Quantity, given, measured, measured_as
 from ...core.status import Advice
 from ...core.units import show
 from ..friction.law import Coulomb
@@ -33,6 +34,8 @@ from .advice import findings
 from .bracket import SMALL, Bracket, End, astray
 from .film import LiquidFilm, Wetting, wetting
 from .quantities import WET_SCALARS
+
+_SCALARS = {item.name: item for item in WET_SCALARS}
 
 COLLAPSED = 0.5
 """Share of the nominal area up to which an interface that ends flooded was open, and so has collapsed."""
@@ -85,19 +88,30 @@ class Menisci(Answer, Shown):
         were there from the start.
     """
 
-    film: LiquidFilm
-    wetting: Wetting
-    external_force: float
-    meniscus_force: float
-    dry_friction: float
-    viscous_force: float
-    feedback: float
+    film: LiquidFilm = given()
+    wetting: Wetting = measured("", "where the liquid stands")
+    external_force: float = measured_as(_SCALARS["external_force"])
+    meniscus_force: float = measured_as(_SCALARS["meniscus_force"])
+    dry_friction: float = measured("1", "true coefficient of friction")
+    viscous_force: float = measured_as(_SCALARS["viscous_force"])
+    feedback: float = measured_as(_SCALARS["feedback"])
     quantities: ClassVar[tuple[Quantity, ...]] = WET_SCALARS
+
+    @classmethod
+    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
+        """The film."""
+        return {"film": problem.film}
 
     def line(self) -> str:
         """Number and force of the menisci."""
         pull, share = show(self.meniscus_force, "N"), f"{self.relative_meniscus_force:.3g}"
         return f"Menisci: {self.n_menisci}, meniscus force {pull}, {share} of the external force"
+
+    def require_sound(self) -> None:
+        """Shares of points under liquid are between 0 and 1."""
+        filled = self.wetting.filled
+        if not ((filled >= 0.0) & (filled <= 1.0)).all():  # false for NaN as well
+            raise ValueError("wetting_filled: it is not between 0 and 1 everywhere")
 
     def findings(self, certificate: Certificate) -> Iterator[Advice]:
         """Menisci of few pixels or molecules."""

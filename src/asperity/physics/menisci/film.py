@@ -13,6 +13,7 @@ from ...contact.measure import Labels, labelled, spans
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
+from ...core.quantity import measured
 from ...solids.library import Liquid
 from ...theories.wet.meniscus import adsorbed_water_film, kelvin_radius, laplace_pressure, wetting_factor
 
@@ -148,15 +149,15 @@ class Wetting:
         map; ``flooded``: liquid or contact on more than 95 % of the area (Matthewson & Mamin 1988, in terms of islands).
     """
 
-    wetted: BoolArray
-    cut: BoolArray
-    kept: BoolArray
-    menisci: BoolArray
-    filled: RealArray
-    labels: Labels
-    n_islands: int
-    n_menisci: int
-    regime: str
+    wetted: BoolArray = measured("1", "whether the gap is in the film", "x", "y")
+    cut: BoolArray = measured("1", "whether the gap is not larger than the meniscus height", "x", "y")
+    kept: BoolArray = measured("1", "whether a point is in an island that holds liquid", "x", "y")
+    menisci: BoolArray = measured("1", "whether a meniscus bridges the gap", "x", "y")
+    filled: RealArray = measured("1", "share of the point that the suction acts on", "x", "y")
+    labels: Labels = measured("1", "number of the island that holds liquid", "x", "y")
+    n_islands: int = measured("1", "number of islands up to the meniscus height")
+    n_menisci: int = measured("1", "number of menisci")
+    regime: str = measured("", "how the liquid stands")
     citation_keys: ClassVar[tuple[str, ...]] = ("Matthewson1988", "TianBhushan1996")
 
     def share(self, name: str) -> float:

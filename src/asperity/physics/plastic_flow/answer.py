@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, field
-from typing import ClassVar, Literal
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from ...contact.answer import Answer
 from ...contact.boundary import Free
 from ...contact.certificate import Certificate
+from ...contact.couplings.protocol import Memory
 from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
+from ...core.quantity import given, measured
 from ...core.status import Advice
 from ...core.units import percent, show
 from ...solids.eigenstrain.cells import interfaces
@@ -55,14 +57,16 @@ class PlasticZone:
         x, y and depth (m) of the largest plastic strain after that step.
     """
 
-    name: str
-    volume: float
-    top: float
-    bottom: float
-    largest_strain: float
-    place: tuple[float, float, float]
-    first_yield: float
-    first_place: tuple[float, float, float]
+    name: str = measured("", "layer, or base")
+    volume: float = measured("m**3", "volume that has flowed")
+    top: float = measured("m", "least depth that has flowed")
+    bottom: float = measured("m", "largest depth that has flowed")
+    largest_strain: float = measured("1", "largest accumulated plastic strain")
+    place: tuple[float, float, float] = measured("m", "x, y and depth of the largest plastic strain", "coordinate")
+    first_yield: float = measured("Pa", "mean pressure of the step in which the first point flowed")
+    first_place: tuple[float, float, float] = measured(
+        "m", "x, y and depth of the largest plastic strain after that step", "coordinate"
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,16 +95,35 @@ class PlasticBody(Answer):
         Iterates of the plastic strain in this step, each an application of the operators of the volume.
     """
 
-    problem: ContactProblem = field(repr=False)
-    flowed: Flowed = field(repr=False)
-    displacement: RealArray = field(repr=False)
-    work: float
-    step_work: float
-    residual_energy: float
-    zones: tuple[PlasticZone, ...]
-    reaches_end: bool
-    iterations: int = 0
+    problem: ContactProblem = given(repr=False)
+    flowed: Flowed = measured("", "what has flowed", repr=False)
+    displacement: RealArray = measured("m", "displacement of the surface by the plastic strain", "x", "y", repr=False)
+    work: float = measured("J", "plastic work in the volume")
+    step_work: float = measured("J", "plastic work of the step in the volume")
+    residual_energy: float = measured("J", "elastic energy of the residual stress")
+    zones: tuple[PlasticZone, ...] = measured("", "layers and base")
+    reaches_end: bool = measured("1", "whether points in the deepest cell flow")
+    iterations: int = measured("1", "iterates of the plastic strain", default=0)
     citation_keys: ClassVar[tuple[str, ...]] = ("Frerot2019", "Jacq2002")
+
+    @classmethod
+    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
+        """The problem."""
+        return {"problem": problem}
+
+    def remembered(self, approach: float) -> Memory:
+        """All but where the step ended; nothing where nothing has flowed."""
+        if not self.flowed.points.size:
+            return {}
+        first = np.array([(zone.first_yield, *zone.first_place) for zone in self.zones])
+        numbers = {
+            "work": self.work,
+            "step_work": self.step_work,
+            "energy": self.residual_energy,
+            "iterations": float(self.iterations),
+        }
+        named = {key: np.asarray(value) for key, value in numbers.items()}
+        return {**self.flowed.memory, "lift": self.displacement, "first": first, **named}
 
     def imprint(self, part: str = "composite") -> RealArray | None:
         """Displacement by the plastic strain, in the composite surface and in that of the body which flows."""

@@ -17,7 +17,7 @@ from ...contact.time_division import TimeSteps
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.quantity import Quantity
+from ...core.quantity import Quantity, measured
 from ...core.status import Advice
 from ...core.units import percent
 from .coupling import Past
@@ -74,18 +74,18 @@ class Creeping(Answer):
         Since the virgin state, J: works less all that is stored or taken; what of that the length of the steps of time explains; and the largest work.
     """
 
-    records: RealArray
-    retarded_displacement: RealArray
-    stored_energy: float
-    dissipated: float
-    work: float
-    tries: int
-    tangential_work: float = 0.0
-    step_work: float = 0.0
-    shear_work: float = 0.0
-    missed: float = 0.0
-    explained: float = 0.0
-    largest_work: float = 0.0
+    records: RealArray = measured("", "what was recorded", "moment", columns=COLUMNS)
+    retarded_displacement: RealArray = measured("m", "displacement that is not by the pressure then", "x", "y")
+    stored_energy: float = measured("J", "stored energy")
+    dissipated: float = measured("J", "heat of the step")
+    work: float = measured("J", "work of the force in the step")
+    tries: int = measured("1", "solves, rejected steps of time included")
+    tangential_work: float = measured("J", "work of the tangential force in the step", default=0.0)
+    step_work: float = measured("J", "part of it that the length of implicit steps of time takes", default=0.0)
+    shear_work: float = measured("J", "work of the displacement by shear in the step", default=0.0)
+    missed: float = measured("J", "works so far less all that is stored or taken", default=0.0)
+    explained: float = measured("J", "what of that the length of the steps of time explains", default=0.0)
+    largest_work: float = measured("J", "largest work so far", default=0.0)
 
     @property
     def energy_error(self) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arrays import ComplexArray, RealArray
+from ...core.quantity import measured
 from ..plasticity import J2, WEIGHTS, PlasticState
 from .operator import EigenstrainOperator, shared
 
@@ -43,9 +44,9 @@ class Flowed:
         Plastic strain, back stress and accumulated strain of each.
     """
 
-    edges: RealArray
-    points: Points
-    state: PlasticState
+    edges: RealArray = measured("m", "depths between the depth cells", "edge")
+    points: Points = measured("1", "points that have flowed, by number", "point")
+    state: PlasticState = measured("", "plastic state of each")
 
     @classmethod
     def virgin(cls) -> Flowed:
