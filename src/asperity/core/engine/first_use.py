@@ -20,7 +20,7 @@ def passes() -> list[Callable[[], Any]]:
     """Calls, on arrays of a few points, that compile the later half of the passes of a first solve of an elastic contact, in the order of its needs."""
     shape, single = (16, 16), "float32"
     engine = CpuEngine(threads=1)
-    p, mask, index = np.zeros(shape), np.zeros(shape, bool), np.arange(8)
+    p, index = np.zeros(shape), np.arange(8)
     free, field = engine.points(shape, index, single), engine.field(shape, single)
     vector = free.zeros()
     model = SplineModel(
@@ -35,7 +35,6 @@ def passes() -> list[Callable[[], Any]]:
         bend=(0.0, 0.0),
     )
     convolution = engine.convolution(np.ones((16, 9)), shape, single)
-    rows, parent, sizes = (np.zeros(size, np.int64) for size in ((2, 16), mask.size, mask.size))
     return [
         *engine.splines(shape, model, single).late_sweeps(free),
         partial(free.update_direction, vector, 0.0, 0.0, vector.copy(), vector, field),
@@ -50,7 +49,6 @@ def passes() -> list[Callable[[], Any]]:
         partial(free.scatter_add, vector, 1.0, field),
         partial(engine.prolonged, np.zeros((8, 8)), np.zeros((8, 8)), p, 1.0),
         partial(engine.violation, p, p, p, None, 0.0),
-        partial(engine.blocks.kernels.island_sizes, mask, (True, True), rows, parent, sizes),
     ]
 
 
