@@ -23,7 +23,7 @@ from ..core.errors import FileFormatError
 from ..core.quantity import COLUMNS, Labelled, Quantity, stored_quantities
 from ..core.registry import ANSWERS, home
 from .description import describe, kind_name, rebuild, subclasses
-from .tree import Node
+from .tree import Node, Stack
 
 COUNT = "_count"
 """Ending of the name of the lengths of rows."""
@@ -203,7 +203,8 @@ def stacked(rows: Sequence[Mapping[str, Labelled] | None]) -> tuple[Labelled, ..
         example = next(value for value in values if value is not None)
         if not example.ndim or set(quantity.dims) & set(GRID_AXES):
             none = np.asarray("") if example.dtype.kind in "UO" else np.zeros(example.shape, example.dtype)
-            along = np.stack([none if value is None else value for value in values])
+            each = [none if value is None else value for value in values]
+            along: Any = Stack(tuple(each)) if example.ndim else np.stack(each)
             found.append(Labelled(replace(quantity, dims=("step", *quantity.dims)), along))
             continue
         counts = np.array([0 if value is None else len(value) for value in values])

@@ -33,8 +33,11 @@ from .soundness import agrees, sound
 from .tree import Node, coordinate
 from .words import ALL_SCALARS, CERTIFICATE, FIELDS
 
-BLOCK = 64e6
-"""Bytes of fields that are laid together for writing."""
+BLOCK = 128e6
+"""Bytes of fields, packed or not, that are laid together for writing."""
+
+_WHOLE = 5
+"""Fields of a step where those that couplings find and remember are whole, about."""
 
 ROUNDING = Quantity("rounding", "m", "bound of the error of displacement and gap that come back")
 
@@ -74,7 +77,8 @@ def path_node(path: HistoryResult, *, streamed: bool = False) -> Node:
     """Group of a load path with the axis ``step``; where it is ``streamed`` its steps follow in blocks, which are made as they are written."""
     size = len(path.steps)
     if streamed:
-        size = max(1, int(BLOCK // (8.0 * path.last.problem.grid.n_points)))
+        each = 8.0 * path.last.problem.grid.n_points * (_WHOLE if any(map(stored_whole, path)) else 1)
+        size = max(1, int(BLOCK // each))
     blocks = (_block(path, range(len(path))[start : start + size]) for start in range(0, len(path), size))
     first = next(blocks)
     x, y = path.last.problem.grid.coordinates()
@@ -113,7 +117,10 @@ def stored_whole(step: ContactResult) -> bool:
 
 def _fields(step: ContactResult, highest: float, *, whole: bool, dented: bool) -> Iterator[Labelled]:
     yield Labelled(_PRESSURE, step.pressure)
-    yield Labelled(_PLASTIC, step.plastic)
+    elastic = not np.isfinite(
+        step.problem.law.pressure_cap()
+    ).any()  # a map that was never written takes no memory until it is read
+    yield Labelled(_PLASTIC, np.broadcast_to(False, step.plastic.shape) if elastic else step.plastic)
     if whole:
         yield Labelled(_DISPLACEMENT, step.displacement)
         yield Labelled(_GAP, step.gap)

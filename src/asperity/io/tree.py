@@ -97,6 +97,30 @@ class Node:
         }
 
 
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """Arrays of one shape and type, the ``rows`` of an array that is not laid out before it is needed."""
+
+    rows: tuple[np.ndarray[Any, Any], ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the whole."""
+        return len(self.rows), *self.rows[0].shape
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of the numbers."""
+        found: np.dtype[Any] = self.rows[0].dtype
+        return found
+
+    def __getitem__(self, row: int) -> np.ndarray[Any, Any]:
+        return self.rows[row]
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray[Any, Any]:
+        return np.stack(self.rows).astype(dtype or self.dtype, copy=False)
+
+
 def coordinate(axis: str, values: Any) -> Labelled:
     """Positions in m along ``axis`` as a coordinate."""
     return Labelled(Quantity(axis, "m", f"position along {axis}", dims=(axis,)), np.asarray(values))
@@ -247,7 +271,7 @@ def _dataset(node: Node) -> xarray.Dataset:
     variables = {}
     for number, item in enumerate(node.values):
         quantity = item.quantity
-        arrays = [part.values[number].values for part in parts]
+        arrays = [each if np.isscalar(each := part.values[number].values) else np.asarray(each) for part in parts]
         joined = (
             arrays[0] if len(parts) == 1 or not quantity.dims or quantity.dims[0] != "plane" else np.concatenate(arrays)
         )
@@ -350,22 +374,32 @@ def _packed(node: Node) -> Node:
     """``node`` whose arrays over grid and steps are their values that are not zero, one after the other, and a bit for each point; exact."""
     values: list[Labelled] = []
     for item in node.values:
-        quantity, array = item.quantity, np.asarray(item.values)
-        if quantity.dims[:1] != ("step",) or array.ndim < 3 or array.dtype.kind not in "fiub":
+        quantity, stack = item.quantity, item.values
+        if not isinstance(stack, Stack) or stack.dtype.kind not in "fiub":
             values.append(item)
             continue
-        flat = np.ascontiguousarray(array).reshape(len(array), -1)
-        there = flat if flat.dtype == bool else flat.view(f"u{flat.dtype.itemsize}") != 0
-        name, label = quantity.name, f"where {quantity.label} is not zero, a bit for each point"
-        shape = " ".join(map(str, array.shape[1:]))
-        facts = {PACKED: " ".join(quantity.dims[1:]), "packed_shape": shape, "packed_type": array.dtype.name}
-        bits = Quantity(name + SET, "1", label, ("step", f"{name}_byte"))
-        values.append(_Packed(bits, np.packbits(there, axis=1), facts))
-        if flat.dtype != bool:
-            values.append(Labelled(replace(quantity, dims=(f"{name}_value",)), flat[there]))
-        else:
-            values[-1] = _Packed(bits, np.packbits(there, axis=1), {**facts, "long_name": quantity.label})
+        bits, parts = zip(*map(_bits_and_values, stack.rows), strict=True)
+        name, bare = quantity.name, stack.dtype.kind == "b"
+        label = quantity.label if bare else f"where {quantity.label} is not zero, a bit for each point"
+        facts = {
+            PACKED: " ".join(quantity.dims[1:]),
+            "packed_shape": " ".join(map(str, stack.shape[1:])),
+            "packed_type": stack.dtype.name,
+        }
+        where = replace(quantity, name=name + SET, unit="1", label=label, dims=("step", f"{name}_byte"))
+        values.append(_Packed(where, np.stack(bits), facts))
+        if not bare:
+            values.append(Labelled(replace(quantity, dims=(f"{name}_value",)), np.concatenate(parts)))
     return replace(node, values=tuple(values))
+
+
+def _bits_and_values(array: np.ndarray[Any, Any]) -> tuple[Any, Any]:
+    """A bit for each point of ``array`` that is not zero, and its values there; a minus before a zero counts."""
+    flat = np.ascontiguousarray(array).reshape(-1)
+    if flat.dtype == bool:
+        return np.packbits(flat), flat[:0]
+    there = flat.view(f"u{flat.dtype.itemsize}") != 0
+    return np.packbits(there), flat[there]
 
 
 @dataclass(frozen=True, eq=False)
