@@ -32,28 +32,43 @@ def islands(cut: BoolArray, wraps: tuple[bool, bool]) -> RealArray:
     return np.asarray(labels)
 
 
-def meniscus_pixels(gap: RealArray, touching: BoolArray, film: asp.LiquidFilm, wraps: tuple[bool, bool]) -> int:
+MARGINAL = 1e-3
+"""Distance over the height of the menisci from contact or from that height, and pressure over the largest, within which a pixel may be under liquid in part."""
+
+
+def meniscus_pixels(gap: RealArray, touching: BoolArray, film: asp.LiquidFilm, wraps: tuple[bool, bool]) -> BoolArray:
     """Pixels that the suction acts on: without contact, on islands of gaps up to the meniscus height that hold liquid."""
     labels = islands((gap <= film.meniscus_height) | touching, wraps)
     wet = (gap <= film.thickness) | touching
     kept = np.isin(labels, np.unique(labels[wet & (labels > 0)])) & (labels > 0)
-    return int(np.count_nonzero(kept & ~touching))
+    return np.asarray(kept & ~touching)
 
 
 def menisci(of: Pressed, control: object) -> list[Check]:
-    """The force between the solids is the external one and the suction times the area of the menisci that the gap makes."""
+    """The force between the solids is the external one and the suction times the area of the menisci that the gap makes.
+
+    Where that jumps, a pixel which comes to touch, or to the height of the menisci, may be under liquid on the share that is stated.
+    """
     result = of.result
     film, found = result.problem.film, result.require_menisci()
     assert film is not None
     grid, p = result.problem.grid, of.pressure
     touching, wraps = p > 0.0, result.problem.boundary.wraps
     doubt = of.resolved + of.placed + result.certificate.field_error * of.length
-    counts = [meniscus_pixels(np.maximum(of.gap + shift, 0.0), touching, film, wraps) for shift in (-doubt, 0.0, doubt)]
-    pulls = [film.suction * grid.pixel_area * count for count in counts]
+    partly, height = found.wetting.partly, film.meniscus_height
+    filled = float(found.wetting.filled[partly].sum())
+    stand = [meniscus_pixels(np.maximum(of.gap + shift, 0.0), touching, film, wraps) for shift in (-doubt, 0.0, doubt)]
+    pulls = [film.suction * grid.pixel_area * (np.count_nonzero(pixels & ~partly) + filled) for pixels in stand]
+    at_height = np.minimum(np.abs(of.gap - height), np.abs(of.gap)) <= MARGINAL * height + doubt
+    barely = touching & (p <= MARGINAL * p.max())
+    inside = float(np.count_nonzero(partly & ~at_height & ~barely))
     force = float(p.sum()) * grid.pixel_area
     away = [abs(found.meniscus_force - pull) for pull in pulls]
     size = max(force, pulls[1])
-    checks = [Check("force of the menisci", over(min(away), size), WET_BALANCE)]
+    checks = [
+        Check("force of the menisci", over(min(away), size), WET_BALANCE),
+        Check("pixels under liquid in part that are not at an edge", inside, WET_BALANCE),
+    ]
     if isinstance(control, asp.MeanPressure | asp.Force | asp.Unloaded):
         external = 0.0 if isinstance(control, asp.Unloaded) else mean_pressure(control, grid) * grid.area
         missed = min(abs(force - external - pull) for pull in pulls)
