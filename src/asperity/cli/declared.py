@@ -18,7 +18,6 @@ from typer.core import TyperCommand
 from ..core import units
 from ..core.errors import InputError
 from ..core.parameters import REQUIRED, Parameter, parameters
-from ..core.registry import PARTS, place_of
 from ..core.settings import declared as parameter_of
 from ..core.values import Choice, Flag, Several, Values
 from ..parts.registry import parts
@@ -157,7 +156,7 @@ def part_options(*names: str, basic: Iterable[str] = ()) -> tuple[Option, ...]:
     found: list[Option] = []
     for part in parts():
         if part.settings is not None and (not names or part.name in names):
-            own = place_of(part) in PARTS
+            own = type(part).__module__.partition(".")[0] == "asperity"
             prefix = "" if own else f"{part.name.replace('_', '-')}-"
             made = options_of(part.settings, (part.table,), panel=part.title, prefix=prefix)
             found += sorted_out(made, basic) if own and basic else made

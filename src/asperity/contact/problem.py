@@ -275,12 +275,11 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
                 require.magnitude(extent, "range of the heights (m)")  # a smaller one is rounding of a flat surface
         if isinstance(self.counter_surface, Surface):
             composite(self.surface, self.counter_surface)
+        given = {physics.keyword: physics.given for physics in self.physics}
         for (one, other), why in REFUSED.items():
-            if getattr(self, one) is not None and getattr(self, other) is not None:
+            if given.keys() >= {one, other}:
                 name = one.replace("_", " ")
-                raise InputError(
-                    f"{other} of a contact with {name} must be None, but is {getattr(self, other)!r}: {why}."
-                )
+                raise InputError(f"{other} of a contact with {name} must be None, but is {given[other]!r}: {why}.")
         for physics in self.physics:
             physics.check(self)
         cap = self.law.pressure_cap()

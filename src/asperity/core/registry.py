@@ -129,8 +129,3 @@ def home(place: str) -> Any:
     """What stands at ``place``, such as ``physics.adhesion.physics:Adhesive``."""
     module, _, name = place.partition(":")
     return getattr(import_module(f"asperity.{module}"), name)
-
-
-def place_of(thing: object) -> str:
-    """Place of the type of ``thing``, as ``home`` takes it."""
-    return f"{type(thing).__module__.partition('.')[2]}:{type(thing).__name__}"

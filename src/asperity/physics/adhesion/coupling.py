@@ -1,7 +1,7 @@
 """Adhesion as a coupling: the surfaces attract each other where they do not touch, and the attraction bends them together.
 
 Its unknown is the attraction (nx, ny). The normal problem takes it as a fixed pull: a lift -Kσ and the load Σσ. Its own solver
-(``solvers.adhesion``) finds both together, nearest downhill from the attraction of the step before, so that a history follows its
+(``adhesion.solver``) finds both together, nearest downhill from the attraction of the step before, so that a history follows its
 branch until that ends; the normal solve of the next round confirms the contact, and other couplings see it.
 """
 

@@ -18,7 +18,7 @@ class JKRAdhesion:
 
     The edge of a contact is a crack: it recedes where it would release more than w, by Griffith's criterion, and closes where it would
     release less. On a grid a point comes loose at the tension sqrt(2w/s), s the compliance of a point at a step of the edge, which
-    ``solvers.adhesion.front`` finds from the discrete operator (after Pohrt & Popov 2015): the tension grows as the grid is refined, the
+    ``adhesion.solver.front`` finds from the discrete operator (after Pohrt & Popov 2015): the tension grows as the grid is refined, the
     energy does not.
 
     Parameters

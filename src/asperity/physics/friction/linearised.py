@@ -1,7 +1,7 @@
 """Small changes of a contact with stick and slip: its tangential stiffness, and how fast pressure and shear settle in turn.
 
 Both linearise the last step on its sets: sticking points move with the counter body, slipping ones turn on their circles and follow the
-pressure, and the free points of the normal contact keep their gap of zero (``solvers.stick_slip.joint``). Where shear changes the pressure the load
+pressure, and the free points of the normal contact keep their gap of zero (``friction.solver.joint``). Where shear changes the pressure the load
 or the position is held, as it was prescribed; under a hardness the pressure is.
 """
 

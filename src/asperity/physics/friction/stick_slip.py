@@ -1,8 +1,8 @@
 """Stick and slip as a coupling: shear tractions within the bound of a friction law, which lift the surfaces and so change the pressure.
 
-For the pressure of a round the tangential problem is a convex programme (``solvers.stick_slip``); its traction lifts the surfaces of
+For the pressure of a round the tangential problem is a convex programme (``friction.solver``); its traction lifts the surfaces of
 unlike bodies, which changes the pressure (Panagiotopoulos 1975). Both are solved for together by Newton's method
-(``solvers.stick_slip.joint``), and the next round checks the result: a normal solve under its lift, and a tangential one under that
+(``friction.solver.joint``), and the next round checks the result: a normal solve under its lift, and a tangential one under that
 pressure. Where they cannot be, as under a hardness or while a position is searched for, or do not come nearer, the rounds alternate between them: each reduces the change by about
 friction times Dundurs' β, and extrapolation does the rest. Where bodies do not couple, one tangential solve follows the contact.
 
