@@ -428,6 +428,7 @@ def surface_text(surface: Surface) -> str:
 def field_rows(field: StressField) -> Rows:
     """Planes and largest stresses of a stress ``field``."""
     from ..physics.stress.field import DERIVED
+    from ..physics.stress.peaks import peak_text
 
     counts = " × ".join(f"{n} along {axis}" for n, axis in zip(field.tensor.xx.shape[1:], field.dims[1:], strict=True))
     first, last = (show(float(field.depth[end]), "m") for end in (0, -1))
@@ -436,11 +437,10 @@ def field_rows(field: StressField) -> Rows:
         ("points of a plane", counts or "one"),
         ("regions", " / ".join(dict.fromkeys(region.name for region in field.regions))),
     ]
-    for name in ("von_mises", "max_principal"):
+    for name, peak in (("von_mises", field.largest_von_mises), ("max_principal", field.largest_tension)):
         quantity = next(item for item in DERIVED if item.name == name)
-        peak = field.peak(getattr(field, name))
         place = f"in {peak.region.name} at a depth of {show(peak.depth, 'm')}"
-        rows.append((f"largest {quantity.label.removeprefix('largest ')}", f"{show(peak.value, 'Pa')} {place}"))
+        rows.append((f"largest {quantity.label.removeprefix('largest ')}", f"{peak_text(peak)} {place}"))
     return rows
 
 

@@ -18,7 +18,7 @@ from ...core.settings import Settings, setting
 from ...core.units import percent, show
 from ...core.values import Choice, Length, NonNegativeLength, Number, Pressure
 from ...parts.part import Found, Part, Rows, Solved, Stored, Table, Words
-from ...parts.peaks import factor_text, peak_text, verdict
+from .peaks import factor_text, peak_text, verdict
 
 if TYPE_CHECKING:
     from ...contact.problem import ContactProblem

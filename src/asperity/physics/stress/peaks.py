@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from ..core.units import show
+from ...core.units import show
 
 if TYPE_CHECKING:
-    from ..physics.stress.field import Peak
-    from ..physics.stress.yielding import RegionYield
+    from .field import Peak
+    from .yielding import RegionYield
 
 
 def peak_text(peak: Peak, factor: float = 1.0) -> str:
