@@ -20,6 +20,7 @@ from ..core.quantity import Quantity
 from ..core.text import printable
 from ..core.units import percent, show
 from ..physics.hardness.layered import LayeredHardness
+from ..physics.stress.peaks import peak_text
 from ..solids.elastic import Elastic, Strength
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..solids.viscoelastic import Viscoelastic
@@ -428,7 +429,6 @@ def surface_text(surface: Surface) -> str:
 def field_rows(field: StressField) -> Rows:
     """Planes and largest stresses of a stress ``field``."""
     from ..physics.stress.field import DERIVED
-    from ..physics.stress.peaks import peak_text
 
     counts = " × ".join(f"{n} along {axis}" for n, axis in zip(field.tensor.xx.shape[1:], field.dims[1:], strict=True))
     first, last = (show(float(field.depth[end]), "m") for end in (0, -1))
