@@ -29,7 +29,7 @@ COUNT = "_count"
 """Ending of the name of the lengths of rows."""
 
 HERE = "answered"
-"""Variable of a group of a history: whether a step has what the group holds."""
+"""Variable of a group of a history: the place of what it holds among all that a step has, from 1; zero where it has none."""
 
 KIND = "kind"
 """Attribute of a group: the qualified name of its dataclass."""
@@ -220,6 +220,7 @@ class Steps:
 
     def __init__(self, node: Node) -> None:
         self._along, self._rows = dict[str, Any](), dict[str, tuple[Any, Any]]()
+        self._length = node.dims().get("step", 0)
         whole = values_in(node)
         for item in node.values:
             name, values = item.quantity.name, item.values
@@ -229,15 +230,15 @@ class Steps:
                 self._along[name] = values
 
     def at(self, step: int) -> dict[str, Any]:
-        """Values of one ``step`` by name."""
+        """Values of one ``step`` by name; none where no step from it on has what the group holds."""
+        if step >= self._length:
+            return {}
         found = {name: values[step] for name, values in self._along.items()}
         return found | {name: values[ends[step] : ends[step + 1]] for name, (values, ends) in self._rows.items()}
 
 
-def steps_group(found: Sequence[Any], kind: type) -> Node:
-    """Group of the same ``kind`` of dataclass in every step of a history, None where a step has none."""
+def steps_group(found: Sequence[Any], kind: type, places: Sequence[int]) -> Node:
+    """Group of the same ``kind`` of dataclass in every step of a history, None where a step has none; ``places`` are those among all that a step has."""
     rows = [None if each is None else {item.quantity.name: item for item in values_of(each)} for each in found]
-    here = Labelled(
-        Quantity(HERE, "1", "whether the step has this", ("step",)), np.array([row is not None for row in rows])
-    )
+    here = Labelled(Quantity(HERE, "1", "place of this in the step, 0 if it has none", ("step",)), np.array(places))
     return Node((here, *stacked(rows)), {KIND: kind_name(kind)})

@@ -28,20 +28,23 @@ class Remembering(Protocol):
     memory: Mapping[str, Memory]
 
 
-def answers_group(path: Sequence[Any], numbers: range) -> Node:
-    """Group of what the couplings found in the steps of these ``numbers`` of a ``path``, with a group for each by its name."""
-    kinds = {name: type(found) for step in path for name, found in step.couplings.items() if isinstance(found, Answer)}
+def answers_group(steps: Sequence[Any]) -> Node:
+    """Group of what the couplings found in every one of the ``steps``, with a group for each by its name."""
+    kinds = {name: type(found) for step in steps for name, found in step.couplings.items() if isinstance(found, Answer)}
     groups = {}
     for name, kind in kinds.items():
-        found = [path[number].couplings.get(name) for number in numbers]
-        node = steps_group(found, kind)
+        found = [step.couplings.get(name) for step in steps]
+        places = [list(step.couplings).index(name) + 1 if name in step.couplings else 0 for step in steps]
+        node = steps_group(
+            found, kind, [place if each is not None else 0 for place, each in zip(places, found, strict=True)]
+        )
         following = [item for item in kind.quantities if item.name not in node]
         rows = [
             None if each is None else {item.name: Labelled(item, getattr(each, item.name)) for item in following}
             for each in found
         ]
         groups[name] = replace(node, values=(*node.values, *stacked(rows)), packs=True)
-    return Node((), {ORDER: " ".join(groups)}, groups)
+    return Node((), {}, groups)
 
 
 def answer_groups(result: Any) -> Node:
@@ -67,33 +70,29 @@ def answers_of(node: Node, problem: ContactProblem) -> dict[str, Any]:
 
 def answers_in(node: Node, problem: ContactProblem) -> Callable[[int], dict[str, Any]]:
     """What the couplings found in each step by its number, from such a group."""
-    made = {}
-    for name in str(node.attributes.get(ORDER, "")).split():
-        child = node.children[name]
-        made[name] = Steps(child), answer_kind(str(child.attributes[KIND]))
+    made = {name: (Steps(child), answer_kind(str(child.attributes[KIND]))) for name, child in node.children.items()}
 
     def at(step: int) -> dict[str, Any]:
         found = {}
         for name, (rows, kind) in made.items():
             values = rows.at(step)
-            if values[HERE]:
-                found[name] = made_of(kind, values, kind.given_by(problem))
-        return found
+            if values.get(HERE):
+                found[name] = int(values[HERE]), made_of(kind, values, kind.given_by(problem))
+        return {name: answer for name, (_, answer) in sorted(found.items(), key=lambda item: item[1][0])}
 
     return at
 
 
-def memories_group(path: Sequence[Any], numbers: range = range(1)) -> Node:
-    """Group of what the couplings remember after those of these ``numbers`` of a ``path`` of results or states, with a group for each by its name."""
-    names = dict.fromkeys(name for step in path for name in step.memory)
+def memories_group(steps: Sequence[Any]) -> Node:
+    """Group of what the couplings remember after every one of the ``steps`` (results or states), with a group for each by its name."""
     groups = {}
-    for name in names:
+    for name in dict.fromkeys(name for step in steps for name in step.memory):
         rows: list[dict[str, Labelled] | None] = []
-        for step in (path[number] for number in numbers):
+        for step in steps:
             memory = step.memory.get(name)
             rows.append(None if memory is None else _remembered(memory, _following(step, name)))
-        here = np.array([row is not None for row in rows])
-        values = Labelled(Quantity(HERE, "1", "whether the step has this", ("step",)), here)
+        here = np.array([int(row is not None) for row in rows])
+        values = Labelled(Quantity(HERE, "1", "1 where the step has this", ("step",)), here)
         groups[name] = Node((values, *stacked(rows)), packs=True)
     return Node((), {}, groups)
 
@@ -106,7 +105,7 @@ def memories_in(node: Node) -> Callable[[int, Mapping[str, Any], float], dict[st
         found = dict[str, Memory]()
         for name, steps in rows.items():
             values = steps.at(step)
-            if values[HERE]:
+            if values.get(HERE):
                 answer, stored = couplings.get(name), str(values[STORED]).split()
                 known = answer.remembered(approach) if isinstance(answer, Answer) else {}
                 names = str(values[NAMES]).split()

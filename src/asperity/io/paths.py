@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+import weakref
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
@@ -17,13 +18,14 @@ from typing import Any
 import numpy as np
 
 from ..contact.certificate import Certificate
-from ..contact.history import HistoryResult
+from ..contact.history import EnergyBalance, HistoryResult
 from ..contact.operators import Operator, prepare_operator
 from ..contact.problem import ContactProblem
 from ..contact.result import OF_EDGES, ContactResult, Later, unindented
 from ..contact.state import InterfaceState
 from ..core.arrays import RealArray
-from ..core.errors import FileFormatError
+from ..core.errors import FileFormatError, InputError
+from ..core.grid import Grid
 from ..core.quantity import Labelled, Quantity
 from ..core.status import Status
 from .codec import Steps, made_of, stacked, values_of
@@ -66,6 +68,8 @@ _EARLIER_OF = Quantity(
     "1",
     "number of the step whose pressure is that of the load before; negative: see ``asperity.io.paths``",
 )
+_WHOLE_HERE = Quantity("whole", "1", "whether displacement and gap of the step are stored")
+_INDENTED = Quantity("indented", "1", "whether the step has a permanent indentation that is stored")
 _PLASTIC = Quantity("plastic", "1", "whether the pressure is at its limit", ("x", "y"))
 _CONTROL = Quantity("control", "", "prescribed load or position, as JSON")
 _CONVERGED = Quantity("converged", "1", "whether the step reached its tolerance")
@@ -73,36 +77,61 @@ _SPOTS = Quantity("spot_areas", "m**2", "areas of the contact spots, those of on
 _CHECKS = {f"certificate_{item.name}": item for item in CERTIFICATE}
 
 
-def path_node(path: HistoryResult, *, streamed: bool = False) -> Node:
-    """Group of a load path with the axis ``step``; where it is ``streamed`` its steps follow in blocks, which are made as they are written."""
-    size = len(path.steps)
-    if streamed:
-        each = 8.0 * path.last.problem.grid.n_points * (_WHOLE if any(map(stored_whole, path)) else 1)
-        size = max(1, int(BLOCK // each))
-    blocks = (_block(path, range(len(path))[start : start + size]) for start in range(0, len(path), size))
-    first = next(blocks)
-    x, y = path.last.problem.grid.coordinates()
+def path_node(
+    steps: HistoryResult | Iterable[ContactResult], start: InterfaceState | None = None, *, streamed: bool = False
+) -> Node:
+    """Group of a load path with the axis ``step``; where it is ``streamed`` its steps follow in blocks, which are made as they are written.
+
+    Of ``steps`` that are still being solved, from the interface ``start``, no more than a block is held, and the energies are left out: they follow from all.
+
+    Raises
+    ------
+    InputError
+        If there is no step.
+    """
+    balance = None
+    if isinstance(steps, HistoryResult):
+        start, balance = steps.start, steps.energies
+    blocks = _blocks(iter(steps), start, balance, BLOCK if streamed else math.inf)
+    first, grid = next(blocks, (None, None))
+    if first is None or grid is None:
+        raise InputError("load path to save must hold at least one step, but holds none.")
+    x, y = grid.coordinates()
     lines = coordinate("x", x[:, 0]), coordinate("y", y[0])
     children = dict(first.children)
-    if path.start is not None:
-        children["start"] = _start_group(path.start)
-    return replace(first, values=(*lines, *first.values), children=children, rows=blocks if size < len(path) else ())
+    if start is not None:
+        children["start"] = _start_group(start)
+    following = (node for node, _ in blocks) if streamed else ()
+    return replace(first, values=(*lines, *first.values), children=children, rows=following)
 
 
-def _block(path: HistoryResult, numbers: range) -> Node:
-    """Group of some steps of the path."""
-    steps = [path.steps[number] for number in numbers]
-    whole = any(stored_whole(step) for step in path.steps)
-    dented = any(not isinstance(vars(step)["permanent_indentation"], Later) for step in path.steps)
-    highest = float(np.abs(path.last.problem.profile()).max())
-    rows = []
-    for number, step in zip(numbers, steps, strict=True):
-        values = [*_fields(step, highest, whole=whole, dented=dented), *_numbers(step), *_earlier(path, number)]
-        values += [
-            Labelled(replace(q, name=f"path_{q.name}"), getattr(path.energies, q.name)[number]) for q in ENERGIES
-        ]
+def _blocks(
+    steps: Iterator[ContactResult], start: InterfaceState | None, balance: EnergyBalance | None, most: float
+) -> Iterator[tuple[Node, Grid]]:
+    """Groups of ``steps``, and their grid, each of fields of ``most`` bytes, or of one step."""
+    rows, block, size, highest = list[dict[str, Labelled]](), list[ContactResult](), 0.0, math.nan
+    pressures = list[weakref.ref[RealArray]]()
+    for number, step in enumerate(steps):
+        problem = step.problem
+        highest = float(np.abs(problem.profile()).max()) if number == 0 else highest
+        values = [*_fields(step, highest), *_numbers(step), *_earlier(step, pressures, start)]
+        if balance is not None:
+            energies = ((q, getattr(balance, q.name)[number]) for q in ENERGIES)
+            values += [Labelled(replace(q, name=f"path_{q.name}"), value) for q, value in energies]
+        pressures.append(weakref.ref(step.pressure))
         rows.append({item.quantity.name: item for item in values})
-    children = {"couplings": answers_group(path.steps, numbers), "memory": memories_group(path.steps, numbers)}
+        block.append(step)
+        size += 8.0 * problem.grid.n_points * (_WHOLE if stored_whole(step) else 1)
+        if size >= most:
+            yield _block(rows, block), problem.grid
+            rows, block, size = [], [], 0.0
+    if block:
+        yield _block(rows, block), block[-1].problem.grid
+
+
+def _block(rows: Sequence[Mapping[str, Labelled]], steps: Sequence[ContactResult]) -> Node:
+    """Group of some steps of a path."""
+    children = {"couplings": answers_group(steps), "memory": memories_group(steps)}
     return Node(stacked(rows), {}, {name: node for name, node in children.items() if node.children}, packs=True)
 
 
@@ -115,18 +144,19 @@ def stored_whole(step: ContactResult) -> bool:
     )
 
 
-def _fields(step: ContactResult, highest: float, *, whole: bool, dented: bool) -> Iterator[Labelled]:
+def _fields(step: ContactResult, highest: float) -> Iterator[Labelled]:
     yield Labelled(_PRESSURE, step.pressure)
-    elastic = not np.isfinite(
-        step.problem.law.pressure_cap()
-    ).any()  # a map that was never written takes no memory until it is read
+    # a map that was never written takes no memory until it is read
+    elastic = not np.isfinite(step.problem.law.pressure_cap()).any()
     yield Labelled(_PLASTIC, np.broadcast_to(False, step.plastic.shape) if elastic else step.plastic)
+    whole, indented = stored_whole(step), not isinstance(vars(step)["permanent_indentation"], Later)
+    yield Labelled(_WHOLE_HERE, whole)
     if whole:
         yield Labelled(_DISPLACEMENT, step.displacement)
         yield Labelled(_GAP, step.gap)
-    else:
-        yield Labelled(ROUNDING, rounding(step, highest))
-    if dented:
+    yield Labelled(ROUNDING, 0.0 if whole else rounding(step, highest))
+    yield Labelled(_INDENTED, indented)
+    if indented:
         yield Labelled(_INDENTATION, step.permanent_indentation)
 
 
@@ -154,14 +184,16 @@ def _numbers(step: ContactResult) -> Iterator[Labelled]:
     yield Labelled(_SPOTS, step.spot_areas)
 
 
-def _earlier(path: HistoryResult, number: int) -> Iterator[Labelled]:
-    """Of which step the earlier pressure of step ``number`` is, and that pressure if it is of none."""
-    earlier, steps = path.steps[number].earlier, path.steps
+def _earlier(
+    step: ContactResult, pressures: Sequence[weakref.ref[RealArray]], start: InterfaceState | None
+) -> Iterator[Labelled]:
+    """Of which step before, by their ``pressures``, the earlier pressure of ``step`` is, and that pressure if it is of none."""
+    earlier = step.earlier
     of = NEITHER if earlier is None else STORED
-    if earlier is not None and path.start is not None and earlier is path.start.pressure:
+    if earlier is not None and start is not None and earlier is start.pressure:
         of = AT_START
     elif earlier is not None:
-        of = next((at for at in range(number - 1, -1, -1) if steps[at].pressure is earlier), STORED)
+        of = next((at for at in reversed(range(len(pressures))) if pressures[at]() is earlier), STORED)
     yield Labelled(_EARLIER_OF, of)
     if of == STORED:
         yield Labelled(_EARLIER, earlier)
@@ -223,8 +255,8 @@ def _step(
     for item in (_PRESSURE, _PLASTIC, _DISPLACEMENT, _GAP, _INDENTATION):
         if item.name in at and (np.shape(at[item.name]) != shape or np.asarray(at[item.name]).dtype.kind not in "fbiu"):
             raise ValueError(f"{item.name}: it is no field like the heights")
-    whole = _GAP.name in at
-    if not whole and not math.isfinite(float(at[ROUNDING.name])):
+    whole = bool(at[_WHOLE_HERE.name])
+    if not math.isfinite(float(at[ROUNDING.name])):
         raise ValueError("rounding: it is not finite")
     stated = scalars_in(at)
     gap = at[_GAP.name] if whole else Later(partial(back.gap, float(stated["mean_gap"]), float(at[ROUNDING.name])))
@@ -235,7 +267,7 @@ def _step(
         plastic=np.asarray(at[_PLASTIC.name]).astype(bool),
         displacement=at[_DISPLACEMENT.name] if whole else Later(back.displacement),
         gap=gap,
-        permanent_indentation=at.get(_INDENTATION.name, Later(unindented)),
+        permanent_indentation=at[_INDENTATION.name] if at[_INDENTED.name] else Later(unindented),
         certificate=certificate_in(at),
         status=status_in(at),
         citation_keys=last.citation_keys,

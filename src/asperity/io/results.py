@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
+from ..contact.state import InterfaceState
 from ..core.errors import FileFormatError, InputError
 from ..core.text import require_file
 from ..physics.rolling.rolling import RollingContact
@@ -34,14 +35,27 @@ if TYPE_CHECKING:
     from ..fem.history import IndentationState
     from ..fem.passes import PassState
 
+Steps: TypeAlias = Iterator[ContactResult]
+"""Steps of a path that are still being solved, as they come from ``contact.solve.steps``."""
+
 Result: TypeAlias = "ContactResult | HistoryResult | RollingContact | StressField | IndentationState | PassState"
 """What result files hold."""
 
 
-def save(result: Result, path: str | Path, *, document: str | None = None, overwrite: bool = False) -> None:
+def save(
+    result: Result | Steps,
+    path: str | Path,
+    *,
+    document: str | None = None,
+    overwrite: bool = False,
+    start: InterfaceState | None = None,
+) -> None:
     """Write ``result``, and the text of the problem ``document`` it came from, to the NetCDF-4 file ``path``.
 
     The file has one group for each part of the result, units and long names on every variable; ``load`` gives an equal result.
+
+    Of a path that is longer than the memory give the steps as they are solved, ``save(asperity.contact.solve.steps(problem, history), "path.nc")``, and the
+    interface that they ``start`` from: they are written and forgotten. Such a file is that of the ``HistoryResult`` without the energies, which ``load`` computes when they are read.
 
     Raises
     ------
@@ -50,7 +64,26 @@ def save(result: Result, path: str | Path, *, document: str | None = None, overw
     InputError
         If the problem holds a type that files cannot hold.
     """
-    write_tree(result_tree(result, document=document, streamed=True), path, overwrite=overwrite)
+    if isinstance(result, Iterator):
+        tree = _tree_of_steps(result, start, document)
+    else:
+        tree = result_tree(result, document=document, streamed=True)
+    write_tree(tree, path, overwrite=overwrite)
+
+
+def _tree_of_steps(steps: Steps, start: InterfaceState | None, document: str | None) -> Node:
+    """Tree of a path whose steps are solved as they are written; the last of them follows as the contact."""
+    last = list[ContactResult]()
+
+    def passed() -> Steps:
+        for step in steps:
+            last[:] = [step]
+            yield step
+
+    def contact() -> Iterator[Node]:
+        yield Node((), root_attributes(last[0], document), {"contact": contact_node(last[0])})
+
+    return Node((), {}, {"path": path_node(passed(), start, streamed=True)}, contact())
 
 
 def load(path: str | Path) -> Any:

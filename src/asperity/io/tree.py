@@ -142,6 +142,8 @@ def write_tree(tree: Node, path: str | Path, *, overwrite: bool = False) -> None
         file.attrs["asperity_format"] = FORMAT_VERSION
         writer = _Writer(file, sink, grows=False)
         writer.add(tree)
+        for row in tree.rows:
+            writer.add(row)
         writer.close()
 
 
@@ -290,14 +292,17 @@ class _Writer:
         self._digests = dict[str, _Digest]()
         self._children = dict[str, _Writer]()
 
-    def add(self, node: Node) -> None:
-        """Write the first node, or append a further one."""
+    def add(self, node: Node, begin: int = 0) -> None:
+        """Write the first node, or append a further one, whose steps ``begin`` at least at this number."""
         node = _packed(node) if node.packs else node
-        first, grown = not self._lengths, dict[str, int]()
+        grown = dict[str, int]()
+        if self._grows:
+            begin = max(begin, self._lengths.get("step", 0))
+        known = {**self._lengths, **({"step": begin} if begin else {})}
         leading = {item.quantity.dims[0] for item in node.values if item.quantity.dims} if self._grows else set()
         for dim, length in node.dims().items():
             if dim in leading and dim not in FIXED:
-                grown[dim] = self._lengths.get(dim, 0) + length
+                grown[dim] = known.get(dim, 0) + length
                 if dim not in self._lengths:
                     self._group.dimensions[dim] = None
                 self._group.resize_dimension(dim, grown[dim])
@@ -311,20 +316,20 @@ class _Writer:
                 continue
             if along:
                 values = np.ascontiguousarray(_stored(item.values))
-                start = self._lengths.get(along, 0) if along in grown else 0
+                start = known.get(along, 0) if along in grown else 0
                 self._group.variables[name][start : start + len(values)] = values
                 if values.dtype.kind != "O":
                     self._digests.setdefault(name, _Digest(values)).add(values, start)
             self._sink.check()
         self._lengths |= grown
-        if first:
-            for name, value in node.attributes.items():
+        for name, value in node.attributes.items():
+            if name not in self._group.attrs:
                 self._group.attrs[name] = value
         for name, child in node.children.items():
             if name not in self._children:
                 group = self._group.create_group(name)
                 self._children[name] = _Writer(group, self._sink, grows=self._grows or _grows(child))
-            self._children[name].add(child)
+            self._children[name].add(child, begin)
             for row in child.rows:
                 self._children[name].add(row)
 

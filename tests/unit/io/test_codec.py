@@ -50,8 +50,8 @@ def test_steps_of_a_history(name: str, paths: dict[str, Any]) -> None:
         if found[-1] is None:
             continue
         found[0] = None
-        node = steps_group(found, type(found[-1]))
-        assert node[HERE].tolist() == [False, True, True]
+        node = steps_group(found, type(found[-1]), [0, 2, 1])
+        assert node[HERE].tolist() == [0, 2, 1]
         steps, kind = Steps(node), answer_kind(node.attributes["kind"])
         for number in (1, 2):
             again = made_of(kind, steps.at(number), kind.given_by(path.last.problem))
@@ -96,7 +96,7 @@ def test_an_answer_of_ones_own(rows: tuple[Row, ...]) -> None:
     assert told(again) == told(odd)
     assert type(again.counts[0]) is int
     other = Odd("given", False, "", (), (), (), np.ones((0, 3), dtype=np.float32), None)
-    steps = Steps(steps_group([other, odd, other], Odd))
+    steps = Steps(steps_group([other, odd, other], Odd, [1, 1, 1]))
     assert told(made_of(Odd, steps.at(1), {"law": "given"})) == told(odd)
     assert told(made_of(Odd, steps.at(2), {"law": "given"}))[".array"] == told(other)[".array"]
 

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import csv
+import gc
 import json
+import weakref
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from stored_cases import CASES, FILM
+from refusals import refused
+from stored_cases import CASES, FILM, told
 
 import asperity as asp
 from asperity.contact.result import OF_EDGES, SCALARS
+from asperity.contact.solve import steps
 from asperity.core.errors import OutputError
 from asperity.io.description import rebuild
 from asperity.io.words import FIELDS
@@ -91,6 +97,39 @@ def test_displacement_and_gap_come_back_within_the_stated_rounding(precision: st
             for name in BACK:
                 assert getattr(found, name).dtype == getattr(result, name).dtype
                 assert np.abs(getattr(found, name) - getattr(result, name)).max() <= bound, name
+
+
+@pytest.mark.parametrize("block", [1.0, 1e9])
+def test_steps_are_written_while_they_are_solved(
+    path: asp.HistoryResult, block: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The same file as of the whole path but for the energies, and no more than a block of steps is held."""
+    monkeypatch.setattr("asperity.io.paths.BLOCK", block)
+    held, most = list[weakref.ref[asp.ContactResult]](), [0]
+
+    def solved() -> Iterator[asp.ContactResult]:
+        for step in path.steps:
+            made = replace(step, couplings=dict(step.couplings))
+            held.append(weakref.ref(made))
+            gc.collect()
+            most[0] = max(most[0], sum(one() is not None for one in held))
+            yield made
+            del made
+
+    asp.save(solved(), tmp_path / "steps.nc")
+    assert most[0] <= (3 if block == 1.0 else len(path))
+    asp.save(path, tmp_path / "path.nc")
+    assert told(asp.load(tmp_path / "steps.nc")) == told(asp.load(tmp_path / "path.nc"))
+    np.testing.assert_array_equal(asp.load(tmp_path / "steps.nc").energies.residual, path.energies.residual)
+    kept = {name for name in asp.open_tree(tmp_path / "path.nc")["path"].data_vars if not name.startswith("path_")}
+    assert set(asp.open_tree(tmp_path / "steps.nc")["path"].data_vars) == kept
+    begin = path.steps[0].state
+    rest = steps(path.last.problem, [step.control for step in path.steps[1:]], state=begin)
+    asp.save(rest, tmp_path / "rest.nc", start=begin)
+    np.testing.assert_array_equal(asp.load(tmp_path / "rest.nc").start.pressure, begin.pressure)
+    with refused(asp.InputError, "load path to save"):
+        asp.save(iter(()), tmp_path / "none.nc")
+    assert not (tmp_path / "none.nc").exists()
 
 
 def test_the_table_has_a_row_for_each_step(path: asp.HistoryResult, tmp_path: Path) -> None:

@@ -52,12 +52,17 @@ def test_a_path_that_is_written_step_by_step(
     """Also where later steps have what the first one has not, and some have it no more."""
     monkeypatch.setattr("asperity.io.paths.BLOCK", 1.0)
     path = solved[name]
-    found = path.last.couplings if name == "adhesive" else {}  # without it the energies are not known
-    odd = [replace(step, couplings=found, memory={}) for step in path]
-    for steps in (path.steps, (odd[0], *path.steps, odd[2]), (*path.steps, odd[1])):
-        wanted = replace(path, steps=steps)
+    odd = path.steps[0]  # the energies of adhesion, and bodies that relax, are not known without
+    if name not in ("adhesive", "creeping"):
+        plain = asp.solve(replace(path.last.problem, physics=()), asp.Force(0.5 * path.last.force))
+        odd = replace(plain, problem=path.last.problem, citation_keys=path.last.citation_keys)
+    back = ("displacement", "gap")  # of pressures alone, to a rounding: test_path_files
+    for steps in (path.steps, (odd, *path.steps, odd), (*path.steps, odd)):
+        wanted = replace(path, steps=tuple(replace(step, earlier=None) if step is odd else step for step in steps))
         asp.save(wanted, tmp_path / "r.nc", overwrite=True)
-        assert told(asp.load(tmp_path / "r.nc")) == told(wanted)
+        assert without(told(asp.load(tmp_path / "r.nc")), *back) == without(told(wanted), *back)
+    asp.save(path, tmp_path / "whole.nc")
+    assert told(asp.load(tmp_path / "whole.nc")) == told(path)
 
 
 @pytest.mark.parametrize("step", [0, 1])
