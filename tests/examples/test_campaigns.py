@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -111,11 +112,12 @@ def test_area_rises_in_proportion_to_load(tmp_path):
     assert np.all(half <= 0.04 * area)
     assert campaign.state().samples < 200
     modulus = 100e9 / (1.0 - 0.3**2)
-    # κ = A E* h' / p lies between 1.6 (Persson) and 2.51 (Bush, Gibson & Thomas) at small loads, and falls with area
+    # κ = A E* h' / p is √(2π) = 2.51 at small loads (Bush, Gibson & Thomas), and falls with area. At the smallest load grids of 64² and 256² points
+    # give 2.56 and 2.53 on twelve surfaces; the mean of the campaign is known to 4 %
     kappa = area * modulus * 0.02 / load
-    assert 1.6 < kappa[0] < 2.51
+    assert kappa[0] == pytest.approx(math.sqrt(2.0 * math.pi), rel=0.06)
+    assert kappa[-1] > 1.6
     assert np.all(np.diff(kappa) < 0.0)
-    assert area[0] == pytest.approx(2.0 * load[0] / (modulus * 0.02), rel=0.25)
 
 
 @pytest.mark.slow

@@ -253,7 +253,8 @@ def test_sampling_interval():
         expected, deviation = scatter(left.fine, left.spectrum, (2.0 * np.sin(0.5 * qx * step) / step) ** 2)
         assert left.expected[number] == pytest.approx(expected, rel=0.01)  # an integral for the sum over the modes
         assert left.study.mean["m2_x"][number] == pytest.approx(expected, rel=4.0 * deviation)
-    assert max(left.product) < 1.1 * min(left.product)
+    # areas of contacts of a few pixels are known to about 5 %, which the error of each states
+    assert max(left.product) < 1.15 * min(left.product)
 
 
 def test_running_in():

@@ -234,7 +234,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
         else:
             earlier = steps[of].pressure
         steps.append(sound(made(earlier)))
-    return HistoryResult(tuple(steps), start)
+    return HistoryResult((*steps[:-1], last), start)
 
 
 def _start_in(node: Node, approach: float) -> InterfaceState:

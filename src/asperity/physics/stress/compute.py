@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property, partial
 from typing import Any, Literal, Protocol, TypeAlias
@@ -17,9 +17,9 @@ from ...core.tensor import AXES, STRESSES, Displacement, StressTensor
 from ...solids.layers import materials_of
 from ...solids.viscoelastic import Viscoelastic, alike
 from .boundaries import FreePlanes, PeriodicPlanes, Reader, Rows, require_held
-from .field import StressField, SurfaceMaxima
+from .field import StressField
 from .regions import Everywhere, Plane, Selection, Where, planes, selection, stack
-from .sharp import AtEdges
+from .sharp import AtEdges, OfTensor
 from .tractions import LoadedBody, Shear, ShearTraction, Sliding, Tractions
 
 Direction: TypeAlias = float | tuple[float, float]
@@ -326,7 +326,7 @@ def stress(
     loads, body = _planes_of(result, friction, direction, of, displacement=displacement)
     residual = residual_of(result, of, threads)
     job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads, residual=residual)
-    return replace(job.whole(displacement=displacement), at_edges=at_edges(result, loads, of, residual, threads))
+    return _with_edges(job.whole(displacement=displacement), at_edges(result, loads, of, residual, threads))
 
 
 def stress_planes(
@@ -349,12 +349,14 @@ def stress_planes(
     residual = residual_of(result, of, threads)
     job = StressPlanes(loads, body, depths, on=on, dtype=dtype, threads=threads, residual=residual)
     edges = at_edges(result, loads, of, residual, threads)
-    return (replace(field, at_edges=edges) for field in job.each(displacement=displacement))
+    return (_with_edges(field, edges) for field in job.each(displacement=displacement))
 
 
-def at_edges(
-    result: Any, loads: Tractions, of: Of, residual: Residual | None, threads: int | None
-) -> Callable[[], SurfaceMaxima | None] | None:
+def _with_edges(field: StressField, edges: AtEdges | None) -> StressField:
+    return field if edges is None else replace(field, at_edges=OfTensor(edges, field.tensor))
+
+
+def at_edges(result: Any, loads: Tractions, of: Of, residual: Residual | None, threads: int | None) -> AtEdges | None:
     """What finds the largest stresses at the surface of the body ``of`` a contact under ``loads``; None of prescribed tractions and with a ``residual`` stress."""
     if residual is not None or not hasattr(type(result), "edges"):
         return None

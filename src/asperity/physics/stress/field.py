@@ -107,7 +107,8 @@ class StressField(Stored):
     single_row
         Whether the grid has one point along y, as in plane strain.
     at_edges
-        Finds the largest stresses at the surface with the edges of the contact; None where there is no contact, and in fields from files.
+        Finds the largest stresses at the surface with the edges of the contact, of the tensor that was computed and of no other; None where there is
+        no contact, and in fields from files.
     """
 
     planes: tuple[Plane, ...]
@@ -119,7 +120,7 @@ class StressField(Stored):
     spacing: tuple[float, float]
     citation_keys: tuple[str, ...] = ()
     single_row: bool = False
-    at_edges: Callable[[], SurfaceMaxima | None] | None = None
+    at_edges: Callable[[StressTensor], SurfaceMaxima | None] | None = None
 
     @property
     def surface_maxima(self) -> SurfaceMaxima | None:
@@ -128,7 +129,7 @@ class StressField(Stored):
         They are found when first asked for. The field must hold the whole plane at the surface.
         """
         whole = self.dims == ("plane", "x", "y") and any(plane.side == "surface" for plane in self.planes)
-        return self.at_edges() if whole and self.at_edges is not None else None
+        return self.at_edges(self.tensor) if whole and self.at_edges is not None else None
 
     def largest(self, name: str, plane: int | None = None) -> Peak:
         """Largest ``tension`` (σ1), ``von_mises``, ``shear`` ((σ1 - σ3)/2) or ``in_plane`` principal stress with its place, of all planes or one; at the surface
