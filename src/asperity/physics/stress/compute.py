@@ -17,9 +17,9 @@ from ...core.tensor import AXES, STRESSES, Displacement, StressTensor
 from ...solids.layers import materials_of
 from ...solids.viscoelastic import Viscoelastic, alike
 from .boundaries import FreePlanes, PeriodicPlanes, Reader, Rows, require_held
-from .field import StressField
+from .field import OfTensor, StressField
 from .regions import Everywhere, Plane, Selection, Where, planes, selection, stack
-from .sharp import AtEdges, OfTensor
+from .sharp import AtEdges
 from .tractions import LoadedBody, Shear, ShearTraction, Sliding, Tractions
 
 Direction: TypeAlias = float | tuple[float, float]

@@ -71,6 +71,22 @@ class SurfaceMaxima:
 
 
 @dataclass(frozen=True, eq=False)
+class OfTensor:
+    """What the ``edges`` of a contact give beside the ``tensor`` that was computed under the same loads, or planes of it; nothing beside another, such as a sum."""
+
+    edges: Callable[[], SurfaceMaxima | None]
+    tensor: StressTensor
+
+    def __call__(self, tensor: StressTensor) -> SurfaceMaxima | None:
+        """None where it is another tensor."""
+        return self.edges() if tensor is self.tensor else None
+
+    def kept(self, whole: StressTensor, part: StressTensor) -> OfTensor | None:
+        """The same beside ``part``, some planes of the ``whole``."""
+        return OfTensor(self.edges, part) if whole is self.tensor else None
+
+
+@dataclass(frozen=True, eq=False)
 class InterfaceStress:
     """Tractions an interface must carry, arrays over its points.
 
@@ -120,7 +136,7 @@ class StressField(Stored):
     spacing: tuple[float, float]
     citation_keys: tuple[str, ...] = ()
     single_row: bool = False
-    at_edges: Callable[[StressTensor], SurfaceMaxima | None] | None = None
+    at_edges: OfTensor | None = None
 
     @property
     def surface_maxima(self) -> SurfaceMaxima | None:
@@ -279,7 +295,7 @@ class StressField(Stored):
             raise InputError(f"region of a stress field must be one of {names}, but is {region!r}.")
         moved = None if self.displacement is None else self.displacement.map(lambda component: component[keep])
         planes = tuple(self.planes[k] for k in keep)
-        return replace(self, planes=planes, tensor=self.tensor.map(lambda c: c[keep]), displacement=moved)
+        return self._with(planes, self.tensor.map(lambda c: c[keep]), moved)
 
     def _inside(self, region: int | str) -> list[int]:
         """Numbers of the planes of one region."""
@@ -289,7 +305,12 @@ class StressField(Stored):
         """The field of one plane, by its position; its arrays are views."""
         part = slice(plane, plane + 1)
         moved = None if self.displacement is None else self.displacement.map(lambda component: component[part])
-        return replace(self, planes=self.planes[part], tensor=self.tensor.map(lambda c: c[part]), displacement=moved)
+        return self._with(self.planes[part], self.tensor.map(lambda c: c[part]), moved)
+
+    def _with(self, planes: tuple[Plane, ...], tensor: StressTensor, moved: Displacement | None) -> StressField:
+        """The field of some ``planes`` of this one."""
+        edges = None if self.at_edges is None else self.at_edges.kept(self.tensor, tensor)
+        return replace(self, planes=planes, tensor=tensor, displacement=moved, at_edges=edges)
 
     @property
     def cell(self) -> float:

@@ -58,18 +58,6 @@ _SIXTH = (45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0)
 _FOURTH = (8.0 / 12.0, -1.0 / 12.0)
 
 
-@dataclass(frozen=True, eq=False)
-class OfTensor:
-    """What the ``edges`` of a contact give beside the ``tensor`` that was computed under the same loads; nothing beside another."""
-
-    edges: AtEdges
-    tensor: StressTensor
-
-    def __call__(self, tensor: StressTensor) -> SurfaceMaxima | None:
-        """None where it is another tensor, such as a sum of two."""
-        return self.edges() if tensor is self.tensor else None
-
-
 class AtEdges:
     """Largest stresses at the surface of a ``body`` of a contact ``result`` under ``loads``, its tractions on that body; found at the first call.
 
