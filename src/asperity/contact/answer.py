@@ -126,8 +126,13 @@ def outside(answers: Iterable[Answer], force: float) -> float:
 
 def imprint_of(answers: Iterable[Answer]) -> RealArray | None:
     """Sum (nx, ny) in m of the imprints of the ``answers``; None if there is none."""
-    imprints = [each for each in (answer.imprint() for answer in answers) if each is not None]
-    return sum(imprints[1:], imprints[0]) if imprints else None
+    return added(answer.imprint() for answer in answers)
+
+
+def added(fields: Iterable[RealArray | None]) -> RealArray | None:
+    """Sum (nx, ny) of the ``fields`` that are there; None if there is none."""
+    there = [field for field in fields if field is not None]
+    return sum(there[1:], there[0]) if there else None
 
 
 class WithOutcomes:

@@ -19,7 +19,7 @@ from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.registry import BY_DEPTH, IN_TIME, PAIRS, home
 from ..core.status import Outcome, Progress, Status
 from ..solids.layers import relaxes
-from .answer import Answer
+from .answer import Answer, added
 from .certificate import LARGEST_DUALITY_GAP, LARGEST_IMBALANCE, Certificate, certify, imbalance
 from .controls import (
     Approach,
@@ -346,16 +346,14 @@ class Prepared:
         if ends is None:
             ends = {c.name: c.end(settled.exchanges[c.name], settled.contact) for c in self.couplings}
         found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items()}
-        lifts = [
-            lift for lift in (each.lifted() for each in found.values() if isinstance(each, Answer)) if lift is not None
-        ]
+        lift = added(each.lifted() for each in found.values() if isinstance(each, Answer))
         return finished(
             self.problem,
             settled,
             ends,
             self.solver,
             before=state,
-            lift=lifts[0] if lifts else None,
+            lift=lift,
             seconds=seconds,
             stiffness=self.keep.stiffness,
         )
@@ -393,8 +391,7 @@ def finished(
     contact = settled.contact
     found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
     answers = [outcome for outcome in found.values() if isinstance(outcome, Answer)]
-    attractions = [beside for beside in (answer.traction_beside() for answer in answers) if beside is not None]
-    attraction = sum(attractions[1:], attractions[0]) if attractions else None
+    attraction = added(answer.traction_beside() for answer in answers)
     if attraction is not None:
         lift = (0.0 if lift is None else lift) - contact.posed.operator.apply(attraction)
     certificate = _certified(settled, solver, seconds)
@@ -465,7 +462,7 @@ def couplings_of(
     law, tolerances = problem.law, rounds.tolerances
     first: Coupling = ConstantHardness(law)
     if isinstance(law, LimitByDepth) and np.ndim(law.cap_at(np.zeros(problem.grid.shape))):
-        first = home(BY_DEPTH)(law, operator, tolerances.get("hardness"))
+        first = home(BY_DEPTH).prepared(law, operator, tolerances.get("hardness"))
     how = Preparing(tolerances, sticks, getattr(operator.engine, "threads", None))
     return (first, *(found for item in problem.physics for found in item.couplings(problem, operator, how)))
 

@@ -102,8 +102,8 @@ REFUSED: Mapping[tuple[str, str], str] = MappingProxyType(
 )
 """Why physics do not go together, by the keywords of both; ``PAIRS`` says how others settle."""
 
-BY_DEPTH = "physics.hardness.coupling:by_depth"
-"""What prepares the coupling of a limit of the pressure that changes with depth."""
+BY_DEPTH = "physics.hardness.coupling:DepthHardness"
+"""The coupling of a limit of the pressure that changes with depth."""
 
 IN_TIME = "physics.viscoelastic.in_time:InTime"
 """What takes over the steps of a prepared problem whose bodies relax."""

@@ -117,8 +117,9 @@ class DepthHardness(Coupling):
     )
 
     @classmethod
-    def prepared(cls, law: LimitByDepth, operator: Operator, tolerance: float) -> Self:
-        """Coupling on the grid of ``operator``."""
+    def prepared(cls, law: LimitByDepth, operator: Operator, tolerance: float | None = None) -> Self:
+        """Coupling on the grid of ``operator``, by default with the usual tolerance."""
+        tolerance = TOLERANCE if tolerance is None else tolerance
         unit = np.zeros(operator.grid.shape)
         unit[0, 0] = 1.0
         depths = np.array([_MORE_DEPTHS])
@@ -280,8 +281,3 @@ class DepthHardness(Coupling):
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
         """Indentation and work."""
         return indented(self.law, exchange.note.memory, contact), None
-
-
-def by_depth(law: LimitByDepth, operator: Operator, tolerance: float | None) -> DepthHardness:
-    """Coupling of ``law`` on the grid of ``operator``, by default with the usual tolerance."""
-    return DepthHardness.prepared(law, operator, TOLERANCE if tolerance is None else tolerance)
