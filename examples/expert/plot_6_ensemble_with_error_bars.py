@@ -13,11 +13,12 @@ from scipy.stats import t
 import asperity as asp
 
 # %%
-# Sixteen surfaces of one spectrum, five loads each, on one path that starts every load from the pressures of the one before.
+# Sixteen surfaces of one spectrum, sixteen points on the shortest wavelength, five loads each, on one path that starts every load
+# from the pressures of the one before.
 spectrum = asp.generate.SelfAffine(
     amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=1.6e-6, shortest_wavelength=0.4e-6
 )
-body, grid, count = asp.material("silicon"), asp.Grid((128, 128), (50e-9, 50e-9)), 16
+body, grid, count = asp.material("silicon"), asp.Grid((256, 256), (25e-9, 25e-9)), 16
 loads = 0.1 * asp.contact_modulus(body) * np.geomspace(0.003, 0.3, 5)  # mean pressures in units of E* h'
 history = asp.History([asp.MeanPressure(float(load)) for load in loads])
 
