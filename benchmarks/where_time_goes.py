@@ -15,7 +15,7 @@ from typing import Any
 from surfaces import BODY, self_affine
 
 import asperity as asp
-from asperity.core.engine.cpu import Blocks
+from asperity.core.engine.blocks import Blocks
 from asperity.core.spectral import RealTransform, thread_count
 
 

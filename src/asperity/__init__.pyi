@@ -98,7 +98,8 @@ from .solids.library import Liquid, liquid, liquids, material, materials
 from .solids.plasticity import J2, LinearHardening, PlasticState, Swift, Voce
 from .solids.strength import plastic_parts, plastic_solid
 from .solids.viscoelastic import Arrhenius, MasterCurve, Viscoelastic, WilliamsLandelFerry, fitted_solid
-from .studies.campaign import Campaign, CampaignState, open_study, run_study
+from .studies.campaign import Campaign, open_study, run_study
+from .studies.collect import CampaignState
 from .studies.compare import compare
 from .studies.comparison import Comparison, export_comparison_csv, save_comparison
 from .surfaces import generate, roughness

@@ -30,7 +30,7 @@ from asperity.contact.solvers import (
 )
 from asperity.contact.solvers.protocol import energy, relative_error, scaled_error
 from asperity.core.arrays import RealArray
-from asperity.core.engine import cpu, spline_levels
+from asperity.core.engine import blocks, cpu, spline_levels
 from asperity.core.status import Outcome
 from asperity.solids.compliance.halfspace import HalfSpace
 
@@ -326,7 +326,8 @@ def test_equal_inputs_give_equal_bits(boundary: Boundary, cap: float) -> None:
 def test_the_number_of_threads_changes_rounding_only(
     boundary: Boundary, cap: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cpu, "SERIAL_BELOW", 1 << 17)
+    for module in (blocks, cpu):
+        monkeypatch.setattr(module, "SERIAL_BELOW", 1 << 17)
     monkeypatch.setattr(spline_levels, "_SHARED", 1 << 15)
     heights = rough((384, 360), 16).heights  # large enough for threads
     grid, solver = asp.Grid(heights.shape, (1.0, 1.0)), ActiveSet(tolerance=1e-10, precision="double")

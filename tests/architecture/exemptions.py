@@ -86,7 +86,7 @@ LIMITS: dict[str, dict[str, str]] = {
 """Reason by limit and place of the definition in its module (``Class.method``), whatever module that is. A reason is why splitting would read worse; "it is long" is none."""
 
 CACHES: dict[str, str] = {
-    "asperity.core.engine.cpu._compile_beside": "one process for all engines of a process, started at most once",
+    "asperity.core.engine.blocks._compile_beside": "one process for all engines of a process, started at most once",
     "asperity.contact.solvers.active_set.spline_model.octaves": "follows from the grid; 30 µs, and every grid of a solve, of 10 ms at 256², asks four times",
     "asperity.core.parameters._objects": "the annotations of a function never change; reading them takes 50 µs, and every generator that is called needs them",
     "asperity.core.quadrature.rule": "Gauss nodes and weights by their number: 96 take 3 ms, nine tenths of the time of a theory's curve",

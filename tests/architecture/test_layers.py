@@ -33,7 +33,10 @@ NOT_YET = {
 ROOMS = {"part": "parts", "work": "parts", "figures": "plots"}
 """Folder of whose layer a file in the folder of a physics is, by the beginning of its name; all others are of ``physics`` itself."""
 
-NAMED = {"asperity.contact.known": "names of the physics with their types, which only type checkers read"}
+NAMED = {
+    "asperity.contact.known": "names of the physics with their types, which only type checkers read",
+    "asperity.contact.found": "names of what the physics found with their types, which only type checkers read",
+}
 """Modules that may import upwards, each with its reason."""
 
 LAYER_OF = {folder: layer for layer, folders in LAYERS.items() for folder in folders} | dict.fromkeys(DATA_FOLDERS, -1)

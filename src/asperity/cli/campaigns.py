@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import MappingProxyType
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.progress import BarColumn, Progress, TextColumn
@@ -28,12 +28,15 @@ from ..report.study import (
     write_study_files,
 )
 from ..run.document import ProblemDocument, relocated
-from ..studies.campaign import Campaign, CampaignState, open_study, prepare_study
+from ..studies.campaign import Campaign, open_study, prepare_study
 from ..studies.places import problem_table
 from ..studies.run import NoWatch, Watch
 from .interrupt import INTERRUPTED
 from .main import NOT_CONVERGED, OK
 from .show import Nowhere, confirmed, console, error_console, print_files, say, short_names, table, watching
+
+if TYPE_CHECKING:
+    from ..studies.collect import CampaignState
 
 Folder = Annotated[
     Path, typer.Argument(help="Folder of the results, or the study document they lie beside.", metavar="FOLDER")

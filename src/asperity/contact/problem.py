@@ -31,10 +31,12 @@ if TYPE_CHECKING:
     from .couplings.protocol import Coupling
     from .edges import Kind
     from .operators import Operator
-    from .result import ContactResult
     from .state import InterfaceState
 
-Solved: TypeAlias = "Callable[[Control, InterfaceState | None], ContactResult]"
+Result: TypeAlias = Any
+"""A ``ContactResult``, which knows its problem: its type is named by the physics, so that the problem needs not know it."""
+
+Solved: TypeAlias = "Callable[[Control, InterfaceState | None], Result]"
 """Gives the contact under a control, started from a state."""
 
 
@@ -113,15 +115,15 @@ class Physics:
         """Label and text of it for a problem in words."""
         return []
 
-    def work(self, steps: Sequence[ContactResult]) -> RealArray | None:
+    def work(self, steps: Sequence[Result]) -> RealArray | None:
         """Work (J) of the force between the solids up to each of the ``steps`` of a history, where it is known better than by the trapezoidal rule."""
         return None
 
-    def works(self, steps: Sequence[ContactResult]) -> Mapping[str, RealArray]:
+    def works(self, steps: Sequence[Result]) -> Mapping[str, RealArray]:
         """Energies (J) in each of the ``steps`` of a history that it adds to the balance, by their names in ``EnergyBalance``."""
         return {}
 
-    def losses(self, steps: Sequence[ContactResult], left: RealArray) -> Mapping[str, RealArray]:
+    def losses(self, steps: Sequence[Result], left: RealArray) -> Mapping[str, RealArray]:
         """Energies (J) up to each of the ``steps``, by name, that it takes of what nothing else takes, ``left`` (J)."""
         return {}
 

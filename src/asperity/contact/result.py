@@ -25,7 +25,7 @@ from .certificate import Certificate
 from .controls import Control
 from .couplings.protocol import Contact, Deflections, Memory
 from .edges import Edges
-from .known import ResultNames
+from .found import ResultNames
 from .operators import Operator, prepare_operator
 from .peak_pressure import PeakPressure, peak_pressure
 from .problem import ContactProblem

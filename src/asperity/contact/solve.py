@@ -41,7 +41,7 @@ from .couplings.protocol import Coupling, Memory, Posed, height_scale
 from .history import History, HistoryResult
 from .law import HardWall, LimitByDepth
 from .operators import Operator, prepare_operator
-from .problem import ContactProblem, Preparing, Solved, require_borne
+from .problem import ContactProblem, Preparing, require_borne
 from .result import ContactResult, assemble
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
@@ -330,7 +330,7 @@ class Prepared:
             return self.result(self.settled(Step(control, step.tangential), at), at, time.perf_counter() - started)
 
         require_borne(self.problem, step.normal)
-        way: Solved = solved
+        way: Callable[[Control, InterfaceState | None], ContactResult] = solved
         for physics in self.problem.physics:
             way = physics.followed(self.problem, step, way)
         return way(step.normal, state)

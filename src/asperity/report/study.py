@@ -30,8 +30,8 @@ from ..plots.campaign import (
 )
 from ..plots.picture import CURVE_SIZE, Figure, curve_figure
 from ..plots.together import save_pictures
-from ..studies.campaign import Campaign, CampaignState
-from ..studies.collect import Cause
+from ..studies.campaign import Campaign
+from ..studies.collect import CampaignState, Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
 from .page import software_rows, write_page
 

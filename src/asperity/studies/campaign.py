@@ -15,42 +15,13 @@ from ..core.text import printable
 if TYPE_CHECKING:
     import xarray
 
-    from .collect import Cause
+    from .collect import CampaignState, Cause
     from .documents import LoadedStudy
     from .plan import Plan
     from .run import RunSummary, Watch
 
 STUDY, RECORDS = "study.toml", "records.log"
 """Files in the folder of a study."""
-
-
-@dataclass(frozen=True)
-class CampaignState:
-    """How far a study is.
-
-    Attributes
-    ----------
-    done, failed, missing
-        Numbers of cases.
-    samples
-        Number of samples that were enough; None if not so far.
-    causes
-        Failed cases grouped by cause.
-    findings
-        Warnings and notes of the cases, counted by their criterion; each with its first case.
-    """
-
-    done: int
-    failed: int
-    missing: int
-    samples: int | None = None
-    causes: tuple[Cause, ...] = ()
-    findings: tuple[Cause, ...] = ()
-
-    @property
-    def complete(self) -> bool:
-        """Whether nothing is left to be computed."""
-        return self.missing == 0
 
 
 @dataclass(frozen=True, repr=False)

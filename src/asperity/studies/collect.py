@@ -17,7 +17,6 @@ from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
 from .axes import Coordinate
-from .campaign import CampaignState
 from .evaluate import CHECKS
 from .plan import Plan, measures
 from .run import stop_quantity, stopping
@@ -138,6 +137,35 @@ def stopped_at(plan: Plan, path: Path) -> int | None:
     for place in sorted(found):
         stop.take(place // points, place % points, found[place])
     return stop.end
+
+
+@dataclass(frozen=True)
+class CampaignState:
+    """How far a study is.
+
+    Attributes
+    ----------
+    done, failed, missing
+        Numbers of cases.
+    samples
+        Number of samples that were enough; None if not so far.
+    causes
+        Failed cases grouped by cause.
+    findings
+        Warnings and notes of the cases, counted by their criterion; each with its first case.
+    """
+
+    done: int
+    failed: int
+    missing: int
+    samples: int | None = None
+    causes: tuple[Cause, ...] = ()
+    findings: tuple[Cause, ...] = ()
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is left to be computed."""
+        return self.missing == 0
 
 
 def state(plan: Plan, path: Path) -> CampaignState:

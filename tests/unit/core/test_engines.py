@@ -23,7 +23,7 @@ from asperity.contact.controls import Control
 from asperity.contact.law import InterfaceLaw
 from asperity.contact.solvers.active_set.bounds import _PRIOR, _SCATTER_SHARE, entering_levels, free_set
 from asperity.core.arrays import RealArray
-from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel, cpu
+from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel, blocks, cpu
 from asperity.core.engine import gpu as gpu_engine
 
 REFERENCE = asp.CpuEngine(1)
@@ -752,7 +752,8 @@ def test_points_of_a_conductance_of_their_own_yield_by_it(shape: tuple[int, int]
 
 @every_cap
 def test_passes_do_not_depend_on_the_number_of_threads(cap: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cpu, "SERIAL_BELOW", 1 << 17)
+    for module in (blocks, cpu):
+        monkeypatch.setattr(module, "SERIAL_BELOW", 1 << 17)
     case = iterate((700, 701), cap)  # enough for three threads, on the free set too
     one, three = asp.CpuEngine(1), asp.CpuEngine(3)
     first, second = (values_of(e.survey(*case.on(e)).totals) for e in (one, three))
@@ -761,7 +762,7 @@ def test_passes_do_not_depend_on_the_number_of_threads(cap: str, monkeypatch: py
         first, second = (values_of(e.violation(*case.on(e), case.level)) for e in (one, three))
         assert first == second
     first, second = (work_on_free_set(e, case, "float32", centred=True) for e in (one, three))
-    assert first.size > cpu.SERIAL_BELOW
+    assert first.size > blocks.SERIAL_BELOW
     for name in vars(first):
         assert np.array_equal(getattr(first, name), getattr(second, name)), name
 

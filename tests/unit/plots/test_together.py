@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import asperity as asp
-from asperity.core.engine import cpu
+from asperity.core.engine import blocks, cpu
 from asperity.core.engine.cpu import CpuEngine
 from asperity.plots import together
 from asperity.plots.contact import contact_figures
@@ -147,7 +147,8 @@ def test_a_system_that_makes_no_process(monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_passes_of_a_copy_need_no_threads(monkeypatch: pytest.MonkeyPatch) -> None:
     """The threads of an engine are not in the copy of a process; its passes are shared out there no more."""
-    monkeypatch.setattr(cpu, "SERIAL_BELOW", 0)
+    for module in (blocks, cpu):
+        monkeypatch.setattr(module, "SERIAL_BELOW", 0)
     engine = CpuEngine(threads=3)
     coarse = np.random.default_rng(1).standard_normal((16, 16))
 

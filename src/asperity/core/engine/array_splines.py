@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
+from .array_library import Library
 from .protocol import MISSING, Products, SplineModel, cells_of
-
-if TYPE_CHECKING:
-    from .array_api import Library
 
 
 class _Overlap(NamedTuple):

@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from weakref import ref
 
 import numpy as np
 
 from ..arrays import RealArray
+from .blocks import Blocks
 from .kernels import compiled, natural
 from .protocol import Products, SplineModel
 from .row_sums import corrected, overlaps
@@ -36,9 +37,6 @@ from .spline_levels import (
     STRIDE,
     layout,
 )
-
-if TYPE_CHECKING:
-    from .cpu import Blocks
 
 
 @compiled

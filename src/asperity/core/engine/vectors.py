@@ -11,7 +11,8 @@ import numpy as np
 
 from ..arrays import RealArray
 from ..spectral import PaddedTransform, RealTransform
-from .cpu import SERIAL_BELOW, CpuEngine
+from .blocks import SERIAL_BELOW
+from .cpu import CpuEngine
 
 
 @dataclass(frozen=True)

@@ -87,7 +87,8 @@ class Adhesive(Physics):
 
         def by_ranges(control: Control, state: InterfaceState | None) -> ContactResult:
             if state is None or step.tangential is not None or not divides(problem, state):
-                return solved(control, state)
+                found: ContactResult = solved(control, state)
+                return found
             return in_ranges(problem, control, state, solved)
 
         return by_ranges

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,12 +14,11 @@ from ...contact.boundary import Free
 from ...contact.problem import ContactProblem
 from ...core.arrays import ComplexArray, RealArray
 from ...solids.eigenstrain.cells import DepthCells, interfaces
+from ...solids.eigenstrain.flow import Flowed
 from ...solids.eigenstrain.operator import EigenstrainOperator
 from ...solids.eigenstrain.slices import slice_at
+from ...solids.plasticity import J2
 from .law import plastic_body
-
-if TYPE_CHECKING:
-    from .answer import PlasticBody
 
 _TRACTIONS = [2, 4, 5]
 
@@ -38,13 +37,31 @@ def operator_of(problem: ContactProblem, edges: RealArray, threads: int | None =
     return EigenstrainOperator.prepared(problem.grid, cells_of(problem, edges), free=free, threads=threads)
 
 
+class _Flows(Protocol):
+    """What the stress is found from: what a ``PlasticBody`` knows of its plastic strain."""
+
+    @property
+    def problem(self) -> ContactProblem: ...
+    @property
+    def flowed(self) -> Flowed: ...
+    @property
+    def laws(self) -> tuple[J2 | None, ...]: ...
+    @property
+    def plastic_strain(self) -> RealArray: ...
+    @property
+    def citation_keys(self) -> tuple[str, ...]: ...
+    def stress(
+        self, pressure: RealArray | None = None, shear: RealArray | None = None, *, threads: int | None = None
+    ) -> RealArray: ...
+
+
 class ResidualStress:
     """Stress of a plastic ``body`` by its plastic strain alone, at single depths.
 
     Exact for the plastic strain of the cells, which is constant in depth within each of them, to 1e-4 of its change within a cell.
     """
 
-    def __init__(self, body: PlasticBody, threads: int | None = None) -> None:
+    def __init__(self, body: _Flows, threads: int | None = None) -> None:
         self._body, self._threads = body, threads
         self.citation_keys = body.citation_keys
 

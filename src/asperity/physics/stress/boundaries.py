@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ...core.arrays import ComplexArray, RealArray
-from ...core.engine.cpu import LONG_SERIAL_BELOW, Blocks
+from ...core.engine.blocks import LONG_SERIAL_BELOW, Blocks
 from ...core.errors import InputError
 from ...core.interpolation import Panels, panels
 from ...core.spectral import (

@@ -20,7 +20,7 @@ from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, P
 from ...contact.operators.convolution import Operator, spectral_kernel
 from ...core.arrays import ComplexArray, RealArray
 from ...core.engine import CpuEngine
-from ...core.engine.cpu import LONG_SERIAL_BELOW, Blocks
+from ...core.engine.blocks import LONG_SERIAL_BELOW, Blocks
 from ...core.errors import InputError
 from ...core.spectral import PaddedTransform, RealTransform, wrapped
 from ...solids.compliance.creep import AnyCreep, LayeredCreep, SharedCreep
