@@ -58,6 +58,10 @@ REMAINING = {"studies": 2}
 """Late imports by folder that the rule forbids and that are still there. The numbers may only fall."""
 
 
+MOST = 250
+"""Imports in functions of the whole package, those by name counted. The number may only fall."""
+
+
 def outside(target: str) -> str:
     """The heavy library, or part of scipy, that ``target`` belongs to; empty if none."""
     parts = target.split(".")
@@ -123,6 +127,10 @@ def test_imports_stand_at_the_top_unless_they_are_heavy() -> None:
     counts = Counter({folder: len(sentences) for folder, sentences in found.items()})
     too_many = {folder: found[folder] for folder in counts if counts[folder] > REMAINING.get(folder, 0)}
     assert too_many == {}, f"allowed for now: {REMAINING}; found: {dict(counts)}"
+
+
+def test_late_imports_stay_few() -> None:
+    assert len({(module.name, item.line) for module in library() for item in imports(module) if item.late}) <= MOST
 
 
 def test_late_imports_without_a_reason_are_found() -> None:

@@ -148,7 +148,7 @@ def stress(file: Loaded, given: Given, out: Out = None, force: Force = False) ->
         return
     result = contact_of(load(file))
     request, document, threads = _asked(document_in(file), given)
-    Stress().check(request, result.problem)
+    Stress().at_work.check(request, result.problem)
     with output_folder(out, force=force) as folder:
         asks = {"stress": request, "yielding": True}
         outcome = analysed(result, asks, threads=threads, lines=folder is not None, stage=stage)

@@ -80,7 +80,7 @@ PARTS = (
     "physics.viscoelastic.part_hysteresis:Hysteresis",
     "physics.viscoelastic.part_sliding_start:SlidingStart",
     "parts.contact:Plasticity",
-    "parts.contact:PlasticLoad",
+    "physics.hardness.part:PlasticLoad",
     "physics.stress.part:Stress",
     "physics.stress.part:Yielding",
     "physics.dynamics.part:Dynamics",

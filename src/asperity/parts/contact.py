@@ -3,20 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
 
 from ..core.quantity import Quantity
-from ..core.settings import Settings, setting
-from ..core.units import percent, show
-from ..core.values import Fraction
-from .part import Found, Part, Rows, Solved, Table, Words
-
-if TYPE_CHECKING:
-    from ..contact.history import HistoryResult
-    from ..contact.problem import ContactProblem
-    from ..contact.result import ContactResult
-    from ..physics.hardness.plastic_load import PlasticLoad as SolvedPlasticLoad
-    from ..plots.picture import Figure
+from .part import Part
 
 STIFFNESS = "normal_stiffness"
 """The quantity that costs about one more solve."""
@@ -27,6 +16,7 @@ class Contact(Part):
 
     name = "contact"
     title = "Contact"
+    work = "parts.contact_work:ContactWork"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
@@ -47,27 +37,6 @@ class Contact(Part):
 
         return FIELDS
 
-    def compute(self, ask: Any, solved: Solved) -> Found:
-        """Scalars of the result."""
-        from ..contact.advice import DOUBT, advise, doubts, review
-        from ..contact.result import SCALARS
-
-        result, problem = solved.result, solved.problem
-        values = {
-            **{q.name: getattr(result, q.name) for q in SCALARS},
-            "max_displacement": float(result.displacement.max()),
-            "rms_height": float(problem.profile().std()),
-            "contact_modulus": problem.contact_modulus,
-        }
-        steps = (result,) if solved.path is None else solved.path.steps
-        later = [item for item in review(result) if item.criterion != DOUBT]
-        findings = (*doubts(*steps), *advise(problem, solved.control), *later)
-        return Found(values, result, findings, result.citation_keys)
-
-    def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
-        """Keys of the problem's papers."""
-        return problem.citation_keys
-
 
 # A load path: the state of the contact at every step, where the load turns, and where its work goes.
 
@@ -78,6 +47,7 @@ class LoadPath(Part):
     name = "path"
     title = "Load path"
     table = "control.path"
+    work = "parts.contact_work:LoadPathWork"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
@@ -88,107 +58,8 @@ class LoadPath(Part):
         names = {item.name: item for item in SCALARS} | {f"path_{item.name}": item for item in ENERGIES}
         return tuple(replace(item, name=name, dims=("step",), costly=False) for name, item in names.items())
 
-    def compute(self, ask: Any, solved: Solved) -> Found:
-        """Scalars and energies of the steps, if these were kept."""
-        import numpy as np
 
-        if solved.path is None:
-            return Found()
-        balance, values = solved.path.energies, {}
-        for item in self.quantities:
-            if item.name.startswith("path_"):
-                values[item.name] = getattr(balance, item.name.removeprefix("path_"))
-            else:
-                values[item.name] = np.array([getattr(step, item.name) for step in solved.path.steps])
-        return Found(values, solved.path)
-
-    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Loops of load and area, and the energies."""
-        from ..plots.contact import PATH_PLOTS
-        from ..plots.picture import figures_by
-
-        return () if found.detail is None else figures_by(PATH_PLOTS, found.detail)
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """Where the load turns, and where its work goes."""
-        return Words() if found.detail is None else path_words(found.detail)
-
-
-def path_words(path: HistoryResult) -> Words:
-    """Where the load turns, and where its work goes."""
-    tables = (("Where the load turns", turn_table(path)), ("Energies from the start of the path", energy_table(path)))
-    return Words(path_sentence(path), tables=tables, alarming=not path.converged)
-
-
-def turn_table(path: HistoryResult) -> Table:
-    """State of the contact wherever the load of ``path`` turns, and at its end."""
-    cells = []
-    for step in path.turns:
-        result = path.steps[step]
-        cells.append(
-            (
-                f"{step + 1}",
-                show(result.mean_pressure, "Pa"),
-                show(result.approach, "m"),
-                percent(result.area_fraction_corrected),
-                percent(result.plastic_area_fraction),
-                show(result.max_permanent_indentation, "m"),
-                "converged" if result.converged else "NOT CONVERGED",
-            )
-        )
-    headings = (
-        "Step",
-        "Mean pressure",
-        "Approach",
-        "Real area",
-        "Plastic / real area",
-        "Deepest indentation",
-        "Status",
-    )
-    return Table(headings, tuple(cells))
-
-
-def energy_table(path: HistoryResult) -> Table:
-    """Energies along ``path`` wherever its load turns, and at its end."""
-    balance = path.energies
-    rounding = 1e-12 * float(abs(balance.external_work).max())
-    lost = {"Heat of viscoelastic solids": balance.viscous_work, "Lost in jumps": balance.jump_work}
-    lost = {heading: energy for heading, energy in lost.items() if energy.any()}
-    cells = []
-    for step in path.turns:
-        energies = (
-            balance.external_work,
-            balance.elastic_energy,
-            balance.plastic_work,
-            *lost.values(),
-            balance.residual,
-        )
-        values = [float(energy[step]) for energy in energies]
-        cells.append((f"{step + 1}", *(show(value if abs(value) > rounding else 0.0, "J") for value in values)))
-    headings = ("Step", "External work", "Elastic energy", "Plastic work", *lost, "Error of the steps")
-    return Table(headings, tuple(cells))
-
-
-def path_sentence(path: HistoryResult) -> str:
-    """One sentence on the ``path``: its steps, and how well the energies add up."""
-    failed = [number for number, result in enumerate(path.steps, start=1) if not result.converged]
-    balance = path.energies
-    more = {"heat": balance.viscous_work, "what is lost in jumps": balance.jump_work}
-    *most, end = ("elastic energy", "plastic work", *(name for name, energy in more.items() if energy.any()))
-    parts = f"{', '.join(most)} and {end}"
-    in_time = any(result.creep is not None for result in path.steps)
-    rule = "the steps of time; smaller ones reduce it" if in_time else "the trapezoidal rule; more steps reduce it"
-    text = (
-        f"The load ran through {len(path.steps)} steps, each from the interface the last one left. External work and the sum "
-        f"of {parts} differ by at most {percent(balance.relative_error, 2)} of the largest "
-        f"work, by the error of {rule}."
-    )
-    if failed:
-        text += f" Not converged: step{'s' if len(failed) > 1 else ''} {', '.join(map(str, failed))}."
-    return text
-
-
-# Plastic deformation: what has yielded for good, and the load at which a contact becomes plastic.
+# Plastic deformation: what has yielded for good.
 
 
 class Plasticity(Part):
@@ -196,82 +67,4 @@ class Plasticity(Part):
 
     name = "plasticity"
     title = "Plastic deformation"
-
-    def compute(self, ask: Any, solved: Solved) -> Found:
-        """Nothing beside what the contact holds itself."""
-        return Found(detail=solved.result)
-
-    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Plastic zone and residual surface."""
-        from ..plots.contact import PLASTIC_PLOTS
-        from ..plots.picture import figures_by
-
-        return figures_by(PLASTIC_PLOTS, solved.result) if solved.result.indented.any() else ()
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """Areas, volumes and work."""
-        return Words(rows=plastic_rows(solved.result)) if solved.result.indented.any() else Words()
-
-
-class PlasticLoadSettings(Settings):
-    """A search for the load at which the plastic ``share`` of the real area is passed, 0.02 by default (some 15 solves)."""
-
-    share: Fraction = setting(
-        0.02, option="--plastic-share", help="Search the load at which this share of the real area is plastic"
-    )
-
-
-class PlasticLoad(Part):
-    """First load at which more than a share of the real area is at the hardness."""
-
-    name = "plastic_load"
-    title = "Plastic load"
-    table = "plastic_load"
-    settings = PlasticLoadSettings
-    quantities = (Quantity("plastic_load_pressure", "Pa", "mean pressure at which the contact becomes plastic"),)
-
-    def check(self, ask: Any, problem: ContactProblem) -> None:
-        """Refuse a law without a limit of the pressure."""
-        from ..physics.hardness.plastic_load import mean_cap
-
-        mean_cap(problem)
-
-    def compute(self, ask: Any, solved: Solved) -> Found:
-        """The two loads between which it lies, as detail."""
-        from ..physics.hardness.plastic_load import plastic_load
-
-        with solved.stage("searching the plastic load") as progress:
-            found = plastic_load(solved.problem, fraction=ask.share, solver=solved.solver, progress=progress)
-        return Found({"plastic_load_pressure": found.mean_pressure}, found)
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """The load."""
-        return Words(rows=[plastic_load_row(found.detail)])
-
-
-def plastic_rows(result: ContactResult) -> Rows:
-    """What has yielded in ``result``, and the energies."""
-    from ..contact.result import PLASTIC_FRACTION
-
-    share = result.indented_area / result.problem.grid.area
-    limit = percent(PLASTIC_FRACTION)
-    verdict = f"plastic: more than {limit}" if result.is_plastic else f"elastic: at most {limit}"
-    return [
-        ("plastic area under this load / real area", f"{percent(result.plastic_area_fraction)} ({verdict})"),
-        ("area ever plastic", f"{show(result.indented_area, 'm**2')} ({percent(share)} of the nominal area)"),
-        ("volume of the permanent indentation", show(result.plastic_volume, "m**3")),
-        ("deepest permanent indentation", show(result.max_permanent_indentation, "m")),
-        ("plastic work since the virgin surface", show(result.total_plastic_work, "J")),
-        ("elastic energy under this load", show(result.elastic_energy, "J")),
-    ]
-
-
-def plastic_load_row(found: SolvedPlasticLoad) -> tuple[str, str]:
-    """Label and text of the load at which a share of the real area is plastic."""
-    load, force = show(found.mean_pressure, "Pa"), show(found.force, "N")
-    share = percent(found.fraction)
-    pixels = int(found.below.contact.sum())
-    return (
-        f"first load at which {share} of the real area is plastic",
-        f"mean pressure {load}, force {force}, at {percent(found.below.area_fraction)} area ({pixels} pixels)",
-    )
+    work = "parts.contact_work:PlasticityWork"

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
+from ..core.registry import home
 from ..core.status import NoProgress, Progress
 
 if TYPE_CHECKING:
@@ -158,37 +159,8 @@ class Words:
         return bool(self.sentence or self.rows or self.tables or self.remarks)
 
 
-class Part:
-    """Base of all parts, which hold no state.
-
-    A part is asked for by its ``table`` in the document, of which one part declares the ``settings`` and others may share them;
-    without a table it is always asked for. A table with defaults for everything may be ``in_every_document``. Where
-    what an ``essential`` part asks for cannot be computed, the run fails; of others that is a finding. The part is computed after the
-    solve, in the order of the registry, and reads what the parts before it have found.
-    """
-
-    name: ClassVar[str] = ""
-    title: ClassVar[str] = ""
-    table: ClassVar[str] = ""
-    settings: ClassVar[type[Settings] | None] = None
-    in_every_document: ClassVar[bool] = False
-    essential: ClassVar[bool] = False
-    quantities: ClassVar[tuple[Quantity, ...]] = ()
-    whole_path: ClassVar[bool] = False
-    """Whether it needs all steps of a load path."""
-    of_result: ClassVar[str] = ""
-    """Name of the coupling whose answer a result must have for the part to be made from the result alone; empty if that is not enough."""
-
-    def settings_in(self, document: Any) -> Any:
-        """The settings that ``document`` holds in the table of this part; None if it holds none, True without a table."""
-        found = document
-        for key in filter(None, self.table.split(".")):
-            found = getattr(found, key)
-        return found if self.table else True
-
-    def asked(self, document: Any, folder: Path) -> Any:
-        """What a ``document`` with the settings of this part, whose relative paths start at ``folder``, requests of it; None for nothing."""
-        return self.settings_in(document)
+class Work:
+    """What is done for a part that is asked for: check, computation, words and figures. It holds no state."""
 
     def check(self, ask: Any, problem: ContactProblem) -> None:
         """Refuse with an ``InputError`` what ``problem`` does not have, before it is solved."""
@@ -197,17 +169,9 @@ class Part:
         """The steps that are solved, for those that the load and the parts before this one ask for."""
         return controls
 
-    def coupling(self, ask: Any) -> Mapping[str, Any]:
-        """By what this part joins the solve, by name; nothing for an analysis."""
-        return {}
-
     def altered(self, ask: Any, problem: ContactProblem) -> ContactProblem:
         """The problem that is solved, where this part changes its bodies."""
         return problem
-
-    def options(self, ask: Any) -> Mapping[str, Any]:
-        """Keywords of ``solve`` that this part sets."""
-        return {}
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Values of the quantities."""
@@ -236,3 +200,55 @@ class Part:
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the papers that the numbers will rest on."""
         return ()
+
+
+class Part(Work):
+    """Base of all parts, which hold no state.
+
+    A part is asked for by its ``table`` in the document, of which one part declares the ``settings`` and others may share them;
+    without a table it is always asked for. A table with defaults for everything may be ``in_every_document``. Where
+    what an ``essential`` part asks for cannot be computed, the run fails; of others that is a finding. The part is computed after the
+    solve, in the order of the registry, and reads what the parts before it have found.
+
+    All parts are imported with the first document, the help of the command line or the form: they declare, and what is done for them
+    stands at ``work``, which is imported where the part is asked for. A part without ``work`` does it itself.
+    """
+
+    name: ClassVar[str] = ""
+    title: ClassVar[str] = ""
+    table: ClassVar[str] = ""
+    settings: ClassVar[type[Settings] | None] = None
+    in_every_document: ClassVar[bool] = False
+    essential: ClassVar[bool] = False
+    quantities: ClassVar[tuple[Quantity, ...]] = ()
+    work: ClassVar[str] = ""
+    """Module and name of the ``Work`` of a part of this package, such as ``physics.rolling.work:RollingWork``."""
+    whole_path: ClassVar[bool] = False
+    """Whether it needs all steps of a load path."""
+    of_result: ClassVar[str] = ""
+    """Name of the coupling whose answer a result must have for the part to be made from the result alone; empty if that is not enough."""
+
+    @property
+    def at_work(self) -> Work:
+        """What is done for the part."""
+        made: Work = home(self.work)() if self.work else self
+        return made
+
+    def settings_in(self, document: Any) -> Any:
+        """The settings that ``document`` holds in the table of this part; None if it holds none, True without a table."""
+        found = document
+        for key in filter(None, self.table.split(".")):
+            found = getattr(found, key)
+        return found if self.table else True
+
+    def asked(self, document: Any, folder: Path) -> Any:
+        """What a ``document`` with the settings of this part, whose relative paths start at ``folder``, requests of it; None for nothing."""
+        return self.settings_in(document)
+
+    def coupling(self, ask: Any) -> Mapping[str, Any]:
+        """By what this part joins the solve, by name; nothing for an analysis."""
+        return {}
+
+    def options(self, ask: Any) -> Mapping[str, Any]:
+        """Keywords of ``solve`` that this part sets."""
+        return {}

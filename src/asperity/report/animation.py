@@ -15,7 +15,7 @@ from ..physics.indentation.part import PREFIX as INDENTED
 from ..physics.indentation.part_passes import PREFIX as PASSED
 from ..physics.plastic_flow.figures import Cut, save_cuts, step_label
 from ..physics.plastic_flow.part import PREFIX as FLOW
-from ..physics.plastic_flow.part_values import picture_of
+from ..physics.plastic_flow.work_values import picture_of
 from ..run.execute import Outcome
 
 

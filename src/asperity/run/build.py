@@ -135,7 +135,7 @@ class Case:
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers that its numbers will rest on."""
         asked = [part for part in self.parts if part.name in self.asks]
-        planned = {key for part in asked for key in part.citations(self.asks[part.name], self.problem)}
+        planned = {key for part in asked for key in part.at_work.citations(self.asks[part.name], self.problem)}
         return tuple(sorted({*citation_keys(self.solver), *planned}))
 
     def under(self, document: ProblemDocument) -> Case:
@@ -176,9 +176,9 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
         joined |= given
     problem = replace(problem, physics=tuple(own), **joined)
     for part in asked:
-        part.check(asks[part.name], problem)
+        part.at_work.check(asks[part.name], problem)
     for part in asked:
-        problem = part.altered(asks[part.name], problem)
+        problem = part.at_work.altered(asks[part.name], problem)
     control, path = build_course(document, asks, known, surface.size[1])
     solver = build_solver(document.solver, problem, sticks=sticks(problem, [as_step(item) for item in path], None))
     return Case(document, problem, control, path, solver, asks, known)
@@ -224,7 +224,7 @@ def build_course(
     found: tuple[Step | Control, ...] = path or (control,)
     for part in known:
         if part.name in asks:
-            found = part.course(asks[part.name], found)
+            found = part.at_work.course(asks[part.name], found)
     return as_step(found[-1]).normal, () if not path and found == (control,) else found
 
 

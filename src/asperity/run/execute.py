@@ -101,7 +101,7 @@ class Outcome:
         """Every part with words, and these."""
         for part in self.parts:
             if part.name in self.found and (
-                words := self.found[part.name].words or part.words(self.found[part.name], self.solved)
+                words := self.found[part.name].words or part.at_work.words(self.found[part.name], self.solved)
             ):
                 yield part, words
 
@@ -109,7 +109,7 @@ class Outcome:
     def figures(self) -> dict[str, tuple[Figure, ...]]:
         """Figures of each part, by its name."""
         return {
-            part.name: part.figures(self.found[part.name], self.solved)
+            part.name: part.at_work.figures(self.found[part.name], self.solved)
             for part in self.parts
             if part.name in self.found
         }
@@ -246,13 +246,13 @@ def run_tractions(document: TractionsDocument, folder: Path, *, stage: Stage = n
 
     loaded: Any = build_tractions(document, folder)
     request = stress_request(document.stress, FrictionSettings())
-    Stress().check(request, loaded.problem)
+    Stress().at_work.check(request, loaded.problem)
     nothing: Any = None
     solved = Solved(loaded.problem, nothing, loaded, threads=document.solver.threads, lines=lines, stage=stage)
     found: dict[str, Found] = {}
     both: tuple[Part, ...] = (Stress(), Yielding())
     for part in both:
-        found[part.name] = part.compute(request, replace(solved, found=found))
+        found[part.name] = part.at_work.compute(request, replace(solved, found=found))
     return Outcome(None, replace(solved, found=found), found, (), Status(Ended.CONVERGED, "Stresses computed."))
 
 
@@ -278,7 +278,7 @@ def _found(
     for part in known:
         if part.name in asks and _is_wanted(part, solved.wanted):
             try:
-                found[part.name] = part.compute(asks[part.name], replace(solved, found=found))
+                found[part.name] = part.at_work.compute(asks[part.name], replace(solved, found=found))
             except Exception as error:
                 if isinstance(error, MemoryError) or (part.essential and isinstance(error, AsperityError)):
                     raise

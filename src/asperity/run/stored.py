@@ -111,7 +111,7 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
     if OF_OUTCOME not in tree.attributes:
         asks = {"contact": True, "plasticity": True} | ({} if course is None else {"path": True})
         there = [part for part in parts() if part.of_result in contact.couplings]
-        made = {part.name: part.made_from(contact) for part in there}
+        made = {part.name: part.at_work.made_from(contact) for part in there}
         asks |= {name: True for name, found in made.items() if found is None}
         outcome = analysed(contact, asks, course)
         return replace(
@@ -147,8 +147,8 @@ def part_group(part: Part, outcome: Outcome, before: Node = Node()) -> Node:
     there = {item.quantity.name for item in values}
     needed = {dim for item in values for dim in item.quantity.dims}
     values += [line for line in grid_lines(outcome.result) if line.quantity.name in needed - there]
-    stored = part.stored(found)
-    words = asdict(found.words or part.words(found, outcome.solved))
+    stored = part.at_work.stored(found)
+    words = asdict(found.words or part.at_work.words(found, outcome.solved))
     attributes = {"words": json.dumps(words), "facts": json.dumps(dict(stored.facts))}
     attributes |= {"title": part.title, "citation_keys": " ".join(found.citation_keys)}
     fields = {name: field_node(field) for name, field in stored.fields.items()}
@@ -160,8 +160,8 @@ def _found(part: Part, node: Node, solved: Solved, known: Any) -> Found:
     values = {item.quantity.name: item.values for item in node.values}
     fields = {name: field_from(child) for name, child in node.children.items() if "xx" in child}
     stored = Stored(fields, json.loads(node.attributes["facts"]))
-    made = part.made_from(solved.result) if known is None else None
-    detail = known if known is not None else part.restored(stored, solved) if made is None else made.detail
+    made = part.at_work.made_from(solved.result) if known is None else None
+    detail = known if known is not None else part.at_work.restored(stored, solved) if made is None else made.detail
     keys = tuple(str(node.attributes["citation_keys"]).split())
     return Found(values, detail, citation_keys=keys, words=_words(json.loads(node.attributes["words"])))
 

@@ -209,7 +209,7 @@ def views(task: Task) -> dict[str, Any]:
         document = loads(str(document_in(task["result"])))
         settings: Any = getattr(document, "stress", None) or StressSettings()
         request = stress_request(settings, getattr(document, "friction"))  # noqa: B009
-        Stress().check(request, outcome.result.problem)
+        Stress().at_work.check(request, outcome.result.problem)
         more = analysed(outcome.result, {"stress": request, "yielding": True}, outcome.path)
         outcome = replace(more, found={**outcome.found, **more.found}, findings=outcome.findings)
     write_views(outcome, Path(task["views"]))

@@ -12,7 +12,8 @@ from contact_cases import rough
 import asperity as asp
 from asperity.core.units import show
 from asperity.physics.stress.figures import line_figures
-from asperity.physics.stress.part import (
+from asperity.physics.stress.survey import Strengths, StressRequest, StressSurvey, survey
+from asperity.physics.stress.work import (
     interface_table,
     maxima_table,
     region_text,
@@ -22,7 +23,6 @@ from asperity.physics.stress.part import (
     yield_sentence,
     yield_table,
 )
-from asperity.physics.stress.survey import Strengths, StressRequest, StressSurvey, survey
 from asperity.report import write_report
 from asperity.run.execute import analysed
 

@@ -13,8 +13,9 @@ from refusals import refused
 
 import asperity as asp
 from asperity.core.errors import InputError
-from asperity.physics.stress.part import Yielding, remarks, yield_words
+from asperity.physics.stress.part import Yielding
 from asperity.physics.stress.survey import StressRequest, WantedProfile, WantedSection, survey
+from asperity.physics.stress.work import remarks, yield_words
 from asperity.solids.eigenstrain.cells import DepthCells, depth_edges
 from asperity.solids.eigenstrain.slices import slice_at
 from asperity.solids.plasticity import J2, LinearHardening, von_mises
@@ -131,7 +132,7 @@ def test_yield_is_told_by_the_flow() -> None:
     assert remarks(flowed)[0] != remarks(elastic)[0]
     for found, known in ((flowed, False), (elastic, True)):
         stage: Any = SimpleNamespace(found={"stress": SimpleNamespace(detail=found)})
-        assert np.isfinite(Yielding().compute(None, stage).values["yield_load_factor"]) == known
+        assert np.isfinite(Yielding().at_work.compute(None, stage).values["yield_load_factor"]) == known
     assert set(FLOW.citation_keys[:2]) <= set(flowed.citation_keys)
 
 

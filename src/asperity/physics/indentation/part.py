@@ -3,33 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 from pydantic import model_validator
 
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.units import percent, show
 from ...core.values import Choice, Length, NonNegative, Number, Whole
-from ...parts.part import Found, Part, Rows, Solved, Stored, Words
-from ..plastic_flow.part_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
-
-if TYPE_CHECKING:
-    from ...contact.problem import ContactProblem
-    from ...plots.picture import Figure
-    from .work import Indenter
+from ...parts.part import Part
+from ..plastic_flow.part_quantities import quantities_of
 
 Shape = Annotated[str, Choice({name: name for name in ("sphere", "cone")})]
 HalfAngle = Annotated[float, Number("angle", above=0.0, below=0.5 * math.pi)]
 Inside = Annotated[str, Choice({name: name for name in ("body", "counter_body")})]
 
-SMALL_STRAIN = 0.15
-"""Contact over indenter radius up to which small strains hold within a few per cent."""
-
-FEW = 8
-"""Points in contact below which load and area of a mesh err by several per cent."""
 
 PREFIX = "indentation"
 
@@ -78,9 +66,6 @@ class IndentationSettings(Settings):
         return self
 
 
-BERKOVICH_ANGLE = math.radians(70.3)
-"""Half angle of the cone with the area of Berkovich's pyramid."""
-
 SCALARS = (
     Quantity("indent_force", "N", "largest force of the indentation"),
     Quantity("indent_depth", "m", "largest approach of the indentation"),
@@ -117,147 +102,9 @@ class Indentation(Part):
     title = "Indentation"
     table = "indentation"
     settings = IndentationSettings
+    work = "physics.indentation.work:IndentationWork"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
         """Scalars, cut, curve and imprint."""
         return (*SCALARS, *quantities_of(PREFIX))
-
-    def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
-        """Refuse a body that is rigid or whose yield stresses are not known, before the contact is solved."""
-        from ..plastic_flow.part_values import require_flow
-
-        require_flow(_body(ask, problem), unknown_is_elastic=ask.unknown_is_elastic)
-        _indenter(ask, problem)
-        _of_indenter(ask, problem)
-
-    def compute(self, ask: IndentationSettings, solved: Solved) -> Found:
-        """Way in and out, hardness and zones."""
-        from .work import Course, found_of, indented
-
-        body, indenter = _body(ask, solved.problem), _indenter(ask, solved.problem)
-        pair = (_of_indenter(ask, solved.problem), float(ask.friction))
-        course = Course(float(ask.depth or 0.0), ask.steps, ask.unloading_steps, ask.elements, *pair)
-        with solved.stage("indentation") as progress:
-            run = indented(body, indenter, course, unknown_is_elastic=ask.unknown_is_elastic, progress=progress)
-        return found_of(run, body, indenter, course)
-
-    def citations(self, ask: IndentationSettings, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of the method."""
-        return KEYS
-
-    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Zones, residual stress, stress under load, curve, imprint, hardness."""
-        from ...plots.picture import figures_by
-        from ..plastic_flow.figures import plots_of
-        from ..plastic_flow.part_values import picture_of
-
-        shown = picture_of(PREFIX, found.values, found.detail.facts)
-        return figures_by(plots_of(shown, "indentation"), shown)
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """Hardness by both ways, what stays, zones by layer, tensions."""
-        return indentation_words(found)
-
-    def stored(self, found: Found) -> Stored:
-        """Names of layers, the fitted unloading and the table of zones."""
-        return Stored(facts=found.detail.facts)
-
-    def restored(self, stored: Stored, solved: Solved) -> Detail:
-        """The same again, without the run."""
-        return Detail(dict(stored.facts))
-
-
-KEYS = ("SimoTaylor1985", "Oliver1992")
-
-
-def _body(ask: IndentationSettings, problem: ContactProblem) -> Any:
-    """The body that is indented; InputError if it is rigid."""
-    from ..plastic_flow.part_values import meshed_body
-
-    return meshed_body(problem, ask.inside, "indentation", "--indent-in")
-
-
-def _of_indenter(ask: IndentationSettings, problem: ContactProblem) -> Any:
-    """What the indenter is made of: rigid, or as the other body.
-
-    Raises
-    ------
-    InputError
-        If it is to be elastic and the other body is rigid.
-    """
-    from ...solids.elastic import Rigid
-    from ...solids.layers import materials_of
-
-    if not ask.elastic_indenter:
-        return Rigid()
-    other = "counter_body" if ask.inside == "body" else "body"
-    found = getattr(problem, other)
-    if not materials_of(found):
-        raise InputError(
-            f"{other} must be elastic for an elastic indenter, but is rigid. Give its material, or leave indentation.elastic_indenter (--elastic-indenter) out.",
-            subject=other,
-        )
-    return found
-
-
-def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
-    """Shape that is asked for; a sphere as round as the summits are on average where its radius is not given.
-
-    Raises
-    ------
-    InputError
-        If the surface has no summits, or the strains are not small.
-    """
-    from ..plastic_flow.part_values import summit_radius
-    from .work import Indenter, require_depth
-
-    if ask.indenter == "cone":
-        return Indenter(half_angle=float(ask.half_angle or BERKOVICH_ANGLE))
-    if ask.radius is not None:
-        found = Indenter(float(ask.radius))
-    else:
-        found = Indenter(summit_radius(problem, "Give indentation.radius (--indenter-radius 10um)."))
-    require_depth(float(ask.depth or 0.0), found)
-    return found
-
-
-# In words and tables.
-
-REMARK = (
-    "The indenter is of revolution and does not flow, the strains are small, and layers are bonded. Oliver and Pharr's hardness is what an instrument would "
-    "read from the unloading; the other divides the force by the true area. Tensions are means over an element at the place of the maximum."
-)
-"""What the model is."""
-
-
-def indentation_words(found: Found) -> Words:
-    """Sentence, headline, rows and tables."""
-    values, facts = found.values, found.detail.facts
-    rows: Rows = [
-        (
-            "indenter",
-            "cone" if facts["cone"] else f"paraboloid of radius {show(float(values['indent_radius']), 'm', 3)}",
-        ),
-        ("material of the indenter", str(facts.get("of_indenter", "rigid"))),
-        ("friction coefficient of the indentation", f"{float(facts.get('friction', 0.0)):g}"),
-        *number_rows(SCALARS, values),
-    ]
-    tables = (
-        ("Plastic zones", zones_table(facts)),
-        ("Tension and shear that may crack layers", tension_table(values, "indent")),
-    )
-    hard = show(float(values["indent_hardness"]), "Pa", 3)
-    return Words(_sentence(values), [("hardness by indentation", hard)], rows, tables, (REMARK,))
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    force, depth = show(float(values["indent_force"]), "N", 3), show(float(values["indent_depth"]), "m", 3)
-    if not float(values["indent_plastic_strain"]) > 0.0:
-        return f"The indenter takes {force} at a depth of {depth}, and the body stays elastic."
-    read, true = float(values["indent_oliver_pharr_hardness"]), float(values["indent_hardness"])
-    beside = "" if math.isnan(read) else f" (Oliver and Pharr's method reads {show(read, 'Pa', 3)})"
-    return (
-        f"The indenter takes {force} at a depth of {depth}: a hardness of {show(true, 'Pa', 3)}{beside}; the plastic strain reaches "
-        f"{percent(float(values['indent_plastic_strain']))}, and {show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
-    )

@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from pydantic import model_validator
 
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.units import percent, show
 from ...core.values import Choice, Force, Length, NonNegative, Number, Pressure, Whole
-from ...parts.part import Found, Part, Rows, Solved, Stored, Table, Words
-from ..plastic_flow.part_quantities import Detail, number_rows, quantities_of, tension_table, zones_table
-
-if TYPE_CHECKING:
-    from ...contact.problem import ContactProblem
-    from ...plots.picture import Figure
-    from .work_passes import Course
+from ...parts.part import Part
+from ..plastic_flow.part_quantities import quantities_of
 
 Shape = Annotated[str, Choice({name: name for name in ("cylinder", "sphere")})]
 Motion = Annotated[str, Choice({name: name for name in ("one way", "to and fro", "in place")})]
@@ -29,15 +22,6 @@ LineLoad = Annotated[float, Number("N/m", above=0.0)]
 Inside = Annotated[str, Choice({name: name for name in ("body", "counter_body")})]
 
 PREFIX = "passes"
-
-CEASED = 0.01
-"""Growth of the plastic strain in the last pass over that in the first below which flow has ceased."""
-
-STEADY = 0.85
-"""Growth in the last pass over that in the one before from which on flow goes on steadily; the same of the change of the plastic strain."""
-
-ONWARD = 0.1
-"""Change of the plastic strain by a pass over its growth from which on strain adds up from pass to pass; below it cycles are closed."""
 
 
 class PassesSettings(Settings):
@@ -178,6 +162,7 @@ class Passes(Part):
     title = "Repeated passes"
     table = "passes"
     settings = PassesSettings
+    work = "physics.indentation.work_passes:PassesWork"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
@@ -191,157 +176,3 @@ class Passes(Part):
         table: PassesSettings = document.passes
         friction = document.friction
         return Passing(table, float(friction.coefficient or 0.0) if friction.law == "coulomb" else 0.0)
-
-    def check(self, ask: Passing, problem: ContactProblem) -> None:
-        """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
-        from ..plastic_flow.part_values import require_flow
-        from .work_passes import require_course
-
-        body = _body(ask, problem)
-        require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
-        require_course(_course(ask, problem), body)
-
-    def compute(self, ask: Passing, solved: Solved) -> Found:
-        """All passes, and what they leave."""
-        from .work_passes import found_of, passed
-
-        body, course = _body(ask, solved.problem), _course(ask, solved.problem)
-        with solved.stage("passes") as progress:
-            run = passed(body, course, unknown_is_elastic=ask.settings.unknown_is_elastic, progress=progress)
-        return found_of(run, body, course)
-
-    def citations(self, ask: Passing, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of the method."""
-        return KEYS
-
-    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Zones, residual stress, stress under load, groove; residual stress against depth; what each pass adds."""
-        from ...plots.picture import figures_by
-        from ..plastic_flow.figures import plots_of
-        from ..plastic_flow.part_values import picture_of
-        from .figures import pass_plots
-        from .work_passes import pass_picture
-
-        shown = picture_of(PREFIX, found.values, found.detail.facts)
-        passes = pass_picture(found)
-        return (*figures_by(plots_of(shown, "passes"), shown), *figures_by(pass_plots(passes), passes))
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """Whether flow ceases, zones by layer, tensions, and what each pass adds."""
-        return passes_words(found)
-
-    def stored(self, found: Found) -> Stored:
-        """Names of layers, the motion and the table of zones."""
-        return Stored(facts=found.detail.facts)
-
-    def restored(self, stored: Stored, solved: Solved) -> Detail:
-        """The same again, without the run."""
-        return Detail(dict(stored.facts))
-
-
-KEYS = ("SimoTaylor1985", "Johnson1962", "Hearle1985")
-
-
-def _body(ask: Passing, problem: ContactProblem) -> Any:
-    """The body that is passed over; InputError if it is rigid."""
-    from ..plastic_flow.part_values import meshed_body
-
-    return meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
-
-
-def _course(ask: Passing, problem: ContactProblem) -> Course:
-    """What passes, with the radius of the summits where none is given; InputError if there are none."""
-    from ..plastic_flow.part_values import summit_radius
-    from .work_passes import course_of
-
-    table = ask.settings
-    radius = table.radius
-    if radius is None:
-        radius = summit_radius(problem, "Give passes.radius (--pass-radius 10um).")
-    return course_of(table, _body(ask, problem), float(radius), ask.coefficient)
-
-
-# In words and tables.
-
-REMARK = (
-    "The indenter is rigid, the strains are small, layers are bonded, and all that touches slides. A cylinder is in plane strain. Growth, residual stress and groove are "
-    "those in the middle of the track. Flow that goes on in closed cycles wears by fatigue, strain that adds up from pass to pass by ratchetting."
-)
-"""What the model is."""
-
-
-def passes_words(found: Found) -> Words:
-    """Sentence, headline, rows and tables."""
-    values, facts = found.values, found.detail.facts
-    rows: Rows = [
-        ("indenter", str(facts["indenter"])),
-        ("motion", str(facts["motion"])),
-        ("pressure", str(facts["pressure"])),
-        *number_rows(SCALARS, values),
-    ]
-    tables = (
-        ("What each pass adds", _pass_table(values)),
-        ("Plastic zones of the passes", zones_table(facts)),
-        ("Tension and shear that may crack layers in a pass", tension_table(values, "pass")),
-    )
-    return Words(_sentence(values, facts), [("repeated passes", verdict(values))], rows, tables, (REMARK,))
-
-
-def verdict(values: Mapping[str, Any]) -> str:
-    """What becomes of the flow, from the growth of the plastic strain in the first and last passes."""
-    import numpy as np
-
-    growth = np.atleast_1d(values["passes_growth"])
-    if not growth.max() > 0.0:
-        return "elastic"
-    if growth.size < 2:
-        return "one pass"
-    if growth[-1] <= CEASED * growth.max():
-        return "flow ceases: shakedown"
-    onward = np.atleast_1d(values["passes_onward"])
-    if growth.size > 2 and growth[-1] >= STEADY * growth[-2]:
-        if float(values["pass_onward_share"]) < ONWARD:
-            return "flow goes on in closed cycles"
-        if onward[-1] >= STEADY * onward[-2]:
-            return "strain adds up: ratchetting"
-    return "flow is not settled"
-
-
-def _sentence(values: Mapping[str, Any], facts: Mapping[str, Any]) -> str:
-    import numpy as np
-
-    growth = np.atleast_1d(values["passes_growth"])
-    count, found = growth.size, verdict(values)
-    passes = f"{count} pass{'es' * (count > 1)}"
-    pressure = show(float(values["pass_hertz_pressure"]), "Pa", 3)
-    start = f"After {passes} of a {facts['shape']} at Hertz's pressure of {pressure}"
-    if found == "elastic":
-        return f"{start} the middle of the track stays elastic."
-    strain, last = float(values["pass_plastic_strain"]), float(values["pass_strain_growth"])
-    reached = f"the plastic strain reaches {percent(strain)}"
-    if found == "one pass":
-        return f"{start} {reached}."
-    return f"{start} {reached}; the last pass adds {percent(last)} in the middle of the track, {percent(float(values['pass_growth_ratio']))} of the first: {found}."
-
-
-def _pass_table(values: Mapping[str, Any]) -> Table:
-    """One row for each pass, at most the first and the last ten."""
-    import numpy as np
-
-    columns = [np.atleast_1d(values[item.name]) for item in EACH]
-    count = columns[0].size
-    rows = [number for number in range(count) if number < 10 or number >= count - 10]
-    cells = []
-    for number in rows:
-        growth, onward, work, forward, groove = (float(column[number]) for column in columns)
-        texts = (percent(growth), percent(onward), percent(work), show(forward, "m", 3), show(groove, "m", 3))
-        cells.append((str(number + 1), *texts))
-    heads = (
-        "Pass",
-        "Growth of the strain",
-        "Change of the strain",
-        "Plastic work / that of the first",
-        "Forward",
-        "Groove",
-    )
-    return Table(heads, tuple(cells))

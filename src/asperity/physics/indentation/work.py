@@ -3,34 +3,42 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.status import Advice, NoProgress, Progress
+from ...core.units import percent, show
 from ...fem.history import IndentationStep, SolidFields
 from ...fem.indent import Indentation, Load
 from ...fem.indenters import Cone, Paraboloid
 from ...fem.mesh import Resolution
-from ...parts.part import Found
+from ...parts.part import Found, Rows, Solved, Stored, Words, Work
+from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Body, Layered, materials_of
 from ...solids.strength import flow_stress
 from ...theories.hardness.unloading import analyse_indentation
-from ..plastic_flow.figures import step_label
-from ..plastic_flow.part_quantities import Detail
-from ..plastic_flow.part_values import (
+from ..plastic_flow.figures import plots_of, step_label
+from ..plastic_flow.part_quantities import Detail, number_rows, tension_table, zones_table
+from ..plastic_flow.work_values import (
     PlasticValues,
     inferred_strengths,
     interfaces_of,
     layer_names,
+    meshed_body,
     meshed_laws,
+    picture_of,
+    require_flow,
+    summit_radius,
     zone_table,
 )
-from .part import FEW, KEYS, PREFIX, SCALARS, SMALL_STRAIN
+from .part import PREFIX, SCALARS, IndentationSettings
 
 LEFT = 4.0
 """How far the cut reaches across and into the body, in radii of the indenter at the surface."""
@@ -311,3 +319,142 @@ def require_depth(depth: float, indenter: Indenter) -> float:
             subject="depth of indentation (m)",
         )
     return depth
+
+
+SMALL_STRAIN = 0.15
+"""Contact over indenter radius up to which small strains hold within a few per cent."""
+
+
+FEW = 8
+"""Points in contact below which load and area of a mesh err by several per cent."""
+
+
+BERKOVICH_ANGLE = math.radians(70.3)
+"""Half angle of the cone with the area of Berkovich's pyramid."""
+
+
+class IndentationWork(Work):
+    """An indenter in the body, by finite elements: what is done for it."""
+
+    def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
+        """Refuse a body that is rigid or whose yield stresses are not known, before the contact is solved."""
+        require_flow(_body(ask, problem), unknown_is_elastic=ask.unknown_is_elastic)
+        _indenter(ask, problem)
+        _of_indenter(ask, problem)
+
+    def compute(self, ask: IndentationSettings, solved: Solved) -> Found:
+        """Way in and out, hardness and zones."""
+        body, indenter = _body(ask, solved.problem), _indenter(ask, solved.problem)
+        pair = (_of_indenter(ask, solved.problem), float(ask.friction))
+        course = Course(float(ask.depth or 0.0), ask.steps, ask.unloading_steps, ask.elements, *pair)
+        with solved.stage("indentation") as progress:
+            run = indented(body, indenter, course, unknown_is_elastic=ask.unknown_is_elastic, progress=progress)
+        return found_of(run, body, indenter, course)
+
+    def citations(self, ask: IndentationSettings, problem: ContactProblem) -> tuple[str, ...]:
+        """Papers of the method."""
+        return KEYS
+
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Zones, residual stress, stress under load, curve, imprint, hardness."""
+        shown = picture_of(PREFIX, found.values, found.detail.facts)
+        return figures_by(plots_of(shown, "indentation"), shown)
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """Hardness by both ways, what stays, zones by layer, tensions."""
+        return indentation_words(found)
+
+    def stored(self, found: Found) -> Stored:
+        """Names of layers, the fitted unloading and the table of zones."""
+        return Stored(facts=found.detail.facts)
+
+    def restored(self, stored: Stored, solved: Solved) -> Detail:
+        """The same again, without the run."""
+        return Detail(dict(stored.facts))
+
+
+KEYS = ("SimoTaylor1985", "Oliver1992")
+
+
+def _body(ask: IndentationSettings, problem: ContactProblem) -> Any:
+    """The body that is indented; InputError if it is rigid."""
+    return meshed_body(problem, ask.inside, "indentation", "--indent-in")
+
+
+def _of_indenter(ask: IndentationSettings, problem: ContactProblem) -> Any:
+    """What the indenter is made of: rigid, or as the other body.
+
+    Raises
+    ------
+    InputError
+        If it is to be elastic and the other body is rigid.
+    """
+    if not ask.elastic_indenter:
+        return Rigid()
+    other = "counter_body" if ask.inside == "body" else "body"
+    found = getattr(problem, other)
+    if not materials_of(found):
+        raise InputError(
+            f"{other} must be elastic for an elastic indenter, but is rigid. Give its material, or leave indentation.elastic_indenter (--elastic-indenter) out.",
+            subject=other,
+        )
+    return found
+
+
+def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
+    """Shape that is asked for; a sphere as round as the summits are on average where its radius is not given.
+
+    Raises
+    ------
+    InputError
+        If the surface has no summits, or the strains are not small.
+    """
+    if ask.indenter == "cone":
+        return Indenter(half_angle=float(ask.half_angle or BERKOVICH_ANGLE))
+    if ask.radius is not None:
+        found = Indenter(float(ask.radius))
+    else:
+        found = Indenter(summit_radius(problem, "Give indentation.radius (--indenter-radius 10um)."))
+    require_depth(float(ask.depth or 0.0), found)
+    return found
+
+
+# In words and tables.
+
+REMARK = (
+    "The indenter is of revolution and does not flow, the strains are small, and layers are bonded. Oliver and Pharr's hardness is what an instrument would "
+    "read from the unloading; the other divides the force by the true area. Tensions are means over an element at the place of the maximum."
+)
+"""What the model is."""
+
+
+def indentation_words(found: Found) -> Words:
+    """Sentence, headline, rows and tables."""
+    values, facts = found.values, found.detail.facts
+    rows: Rows = [
+        (
+            "indenter",
+            "cone" if facts["cone"] else f"paraboloid of radius {show(float(values['indent_radius']), 'm', 3)}",
+        ),
+        ("material of the indenter", str(facts.get("of_indenter", "rigid"))),
+        ("friction coefficient of the indentation", f"{float(facts.get('friction', 0.0)):g}"),
+        *number_rows(SCALARS, values),
+    ]
+    tables = (
+        ("Plastic zones", zones_table(facts)),
+        ("Tension and shear that may crack layers", tension_table(values, "indent")),
+    )
+    hard = show(float(values["indent_hardness"]), "Pa", 3)
+    return Words(_sentence(values), [("hardness by indentation", hard)], rows, tables, (REMARK,))
+
+
+def _sentence(values: Mapping[str, Any]) -> str:
+    force, depth = show(float(values["indent_force"]), "N", 3), show(float(values["indent_depth"]), "m", 3)
+    if not float(values["indent_plastic_strain"]) > 0.0:
+        return f"The indenter takes {force} at a depth of {depth}, and the body stays elastic."
+    read, true = float(values["indent_oliver_pharr_hardness"]), float(values["indent_hardness"])
+    beside = "" if math.isnan(read) else f" (Oliver and Pharr's method reads {show(read, 'Pa', 3)})"
+    return (
+        f"The indenter takes {force} at a depth of {depth}: a hardness of {show(true, 'Pa', 3)}{beside}; the plastic strain reaches "
+        f"{percent(float(values['indent_plastic_strain']))}, and {show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
+    )

@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.units import percent, show
 from ...core.values import Length, Number, Whole
-from ...parts.part import Found, Part, Solved, Stored, Words
-from .part_quantities import number_rows, quantities_of, tension_table, zones_table
-
-if TYPE_CHECKING:
-    from ...contact.controls import Control, Step
-    from ...contact.problem import ContactProblem
-    from ...plots.picture import Figure
+from ...parts.part import Part
+from .part_quantities import quantities_of
 
 PREFIX = "plastic_flow"
 
@@ -92,6 +85,7 @@ class PlasticFlow(Part):
     table = "plastic_flow"
     settings = PlasticFlowSettings
     whole_path = True
+    work = "physics.plastic_flow.work:PlasticFlowWork"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
@@ -102,98 +96,3 @@ class PlasticFlow(Part):
         """The table [plastic_flow], unless it is switched off."""
         table: PlasticFlowSettings = document.plastic_flow
         return Flows(table) if table.active else None
-
-    def check(self, ask: Flows, problem: ContactProblem) -> None:
-        """Refuse bodies that cannot flow, before the contact is solved."""
-        from .law import plastic_body
-        from .part_values import require_flow
-
-        body, _ = plastic_body(problem.body, problem.counter_body)
-        require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
-
-    def altered(self, ask: Flows, problem: ContactProblem) -> ContactProblem:
-        """``problem`` with the laws of its bodies, by which the flow joins the solve."""
-        from .work import flow_law
-
-        return problem.with_physics(plastic_flow=flow_law(ask.settings, problem))
-
-    def course(self, ask: Flows, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
-        """A single load in steps, and the way back."""
-        from ...contact.controls import Approach, Force, MeanPressure
-        from ...contact.history import ramps
-
-        table = ask.settings
-        (control,) = controls if len(controls) == 1 else (None,)
-        kind = type(control)
-        if not isinstance(control, Approach | Force | MeanPressure):
-            return controls
-        value = float(control.value)
-        if table.steps == 1 and not table.unload:
-            return controls
-        points = [value, 0.0] if table.unload else [value]
-        return tuple(ramps(kind, points, steps=table.steps))  # type: ignore[arg-type]
-
-    def compute(self, ask: Any, solved: Solved) -> Found:
-        """Zones, residual stress, imprint and tensions."""
-        from .work import flow_found
-
-        return flow_found(solved)
-
-    def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of the method."""
-        from .answer import PlasticBody
-
-        return (*PlasticBody.citation_keys, "SimoTaylor1985")
-
-    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Map of the imprint; on the cut through the largest strain zones, residual stress, stress under load; curve."""
-        import numpy as np
-
-        from ...plots.picture import figures_by
-        from .figures import IMPRINT_MAP, ImprintMap, plots_of
-        from .part_values import picture_of
-
-        shown = picture_of(PREFIX, found.values, found.detail)
-        surface = ImprintMap(solved.problem, np.asarray(found.values[IMPRINT.name]))
-        return (*figures_by(plots_of(shown, "flow"), shown), *figures_by((IMPRINT_MAP,), surface))
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """What flows, what stays, zones by layer, tensions."""
-        return flow_words(found)
-
-    def stored(self, found: Found) -> Stored:
-        """Names of layers and table of zones."""
-        return Stored(facts=found.detail)
-
-    def restored(self, stored: Stored, solved: Solved) -> Any:
-        """The same again."""
-        return dict(stored.facts)
-
-
-# In words and tables.
-
-REMARK = (
-    "Plastic strain is found in the volume with small strains, on the flat surface of the undeformed body. The residual stress is that of the plastic strain without load; flow in reverse during the "
-    "unloading is in it only where the unloading was computed (--plastic-unload). Stresses of the table [stress] hold the plastic strain. Tensions are means over depth cells."
-)
-"""What the model is."""
-
-
-def flow_words(found: Found) -> Words:
-    """Sentence, headline, rows and tables."""
-    values, facts = found.values, found.detail
-    tables = (
-        ("Plastic zones", zones_table(facts)),
-        ("Tension and shear that may crack layers", tension_table(values, "flow")),
-    )
-    headline = [("largest plastic strain", percent(float(values["flow_largest_strain"])))]
-    return Words(_sentence(values), headline, number_rows(SCALARS, values), tables, (REMARK,))
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    largest = float(values["flow_largest_strain"])
-    if not largest > 0.0:
-        return "Nothing flows beneath the contact: it is elastic."
-    depth, dent = (show(float(values[name]), "m", 3) for name in ("flow_depth", "flow_imprint_depth"))
-    work = show(float(values["flow_plastic_work"]), "J", 3)
-    return f"The body flows down to {depth} with plastic strains of up to {percent(largest)}; an imprint of {dent} stays, and plastic flow took {work}."

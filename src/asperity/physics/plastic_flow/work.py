@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from ...contact.controls import Approach
-from ...contact.history import HistoryResult
+from ...contact.controls import Approach, Control, Force, MeanPressure, Step
+from ...contact.history import HistoryResult, ramps
 from ...contact.problem import ContactProblem
 from ...contact.result import ContactResult
 from ...contact.solve import Keep, solve
@@ -16,17 +17,20 @@ from ...core.arrays import RealArray
 from ...core.errors import AsperityError
 from ...core.status import Advice
 from ...core.units import percent, show
-from ...parts.part import Found, Solved
+from ...parts.part import Found, Solved, Stored, Words, Work
+from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
 from ...solids.layers import Body, Layered
 from ...solids.plasticity import J2, von_mises
 from ...solids.strength import plastic_parts
 from ..friction.law import Coulomb
 from .answer import PlasticBody
+from .figures import IMPRINT_MAP, ImprintMap, plots_of
 from .law import PlasticFlow as Law
 from .law import plastic_body
-from .part import IMPRINT, PREFIX, SCALARS, PlasticFlowSettings
-from .part_values import PlasticValues, inferred_strengths, interfaces_of, layer_names
+from .part import IMPRINT, PREFIX, SCALARS, Flows, PlasticFlowSettings
+from .part_quantities import number_rows, tension_table, zones_table
+from .work_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, picture_of, require_flow
 
 
 def flow_found(solved: Solved) -> Found:
@@ -223,3 +227,84 @@ def _findings(flow: PlasticBody, body: Body) -> tuple[Advice, ...]:
     if not largest > 0.0:
         made.append(Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic."))
     return tuple(made)
+
+
+class PlasticFlowWork(Work):
+    """Plastic flow of the body below the contact: what is done for it."""
+
+    def check(self, ask: Flows, problem: ContactProblem) -> None:
+        """Refuse bodies that cannot flow, before the contact is solved."""
+        body, _ = plastic_body(problem.body, problem.counter_body)
+        require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
+
+    def altered(self, ask: Flows, problem: ContactProblem) -> ContactProblem:
+        """``problem`` with the laws of its bodies, by which the flow joins the solve."""
+        return problem.with_physics(plastic_flow=flow_law(ask.settings, problem))
+
+    def course(self, ask: Flows, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
+        """A single load in steps, and the way back."""
+        table = ask.settings
+        (control,) = controls if len(controls) == 1 else (None,)
+        kind = type(control)
+        if not isinstance(control, Approach | Force | MeanPressure):
+            return controls
+        value = float(control.value)
+        if table.steps == 1 and not table.unload:
+            return controls
+        points = [value, 0.0] if table.unload else [value]
+        return tuple(ramps(kind, points, steps=table.steps))  # type: ignore[arg-type]
+
+    def compute(self, ask: Any, solved: Solved) -> Found:
+        """Zones, residual stress, imprint and tensions."""
+        return flow_found(solved)
+
+    def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
+        """Papers of the method."""
+        return (*PlasticBody.citation_keys, "SimoTaylor1985")
+
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Map of the imprint; on the cut through the largest strain zones, residual stress, stress under load; curve."""
+        shown = picture_of(PREFIX, found.values, found.detail)
+        surface = ImprintMap(solved.problem, np.asarray(found.values[IMPRINT.name]))
+        return (*figures_by(plots_of(shown, "flow"), shown), *figures_by((IMPRINT_MAP,), surface))
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """What flows, what stays, zones by layer, tensions."""
+        return flow_words(found)
+
+    def stored(self, found: Found) -> Stored:
+        """Names of layers and table of zones."""
+        return Stored(facts=found.detail)
+
+    def restored(self, stored: Stored, solved: Solved) -> Any:
+        """The same again."""
+        return dict(stored.facts)
+
+
+# In words and tables.
+
+REMARK = (
+    "Plastic strain is found in the volume with small strains, on the flat surface of the undeformed body. The residual stress is that of the plastic strain without load; flow in reverse during the "
+    "unloading is in it only where the unloading was computed (--plastic-unload). Stresses of the table [stress] hold the plastic strain. Tensions are means over depth cells."
+)
+"""What the model is."""
+
+
+def flow_words(found: Found) -> Words:
+    """Sentence, headline, rows and tables."""
+    values, facts = found.values, found.detail
+    tables = (
+        ("Plastic zones", zones_table(facts)),
+        ("Tension and shear that may crack layers", tension_table(values, "flow")),
+    )
+    headline = [("largest plastic strain", percent(float(values["flow_largest_strain"])))]
+    return Words(_sentence(values), headline, number_rows(SCALARS, values), tables, (REMARK,))
+
+
+def _sentence(values: Mapping[str, Any]) -> str:
+    largest = float(values["flow_largest_strain"])
+    if not largest > 0.0:
+        return "Nothing flows beneath the contact: it is elastic."
+    depth, dent = (show(float(values[name]), "m", 3) for name in ("flow_depth", "flow_imprint_depth"))
+    work = show(float(values["flow_plastic_work"]), "J", 3)
+    return f"The body flows down to {depth} with plastic strains of up to {percent(largest)}; an imprint of {dent} stays, and plastic flow took {work}."

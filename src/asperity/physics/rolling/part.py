@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,33 +11,17 @@ from pydantic import model_validator
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.status import Advice
-from ...core.units import percent, show
 from ...core.values import Choice, Length, NonEmpty, Number, Whole
-from ...parts.part import Found, Part, Rows, Solved, Stored, Table, Words
+from ...parts.part import Part
 from ..friction.part import friction_law
-from ..friction.part_stick_slip import law_text
 
 if TYPE_CHECKING:
-    from ...contact.controls import Control
-    from ...contact.problem import ContactProblem
-    from ...plots.picture import Figure
-    from ...surfaces.surface import Surface
     from ..friction.law import FrictionLaw
-    from .creep_curve import CreepCurve
-    from .figures import RollingPicture
-    from .rolling import Creepage, RollingContact
-    from .rough import RoughRolling
+    from .rolling import Creepage
 
 CreepageShare = Annotated[float, Number("number")]
 Spin = Annotated[float, Number("rad/m")]
 Way = Annotated[str, Choice({name: name for name in ("x", "-x", "y", "-y")})]
-
-LARGE = 0.1
-"""Creepage from which on the bodies do not roll in the sense of the theory."""
-
-FEW = 16
-"""Pixels along the contact below which the forces of the grid err by several per cent."""
 
 
 class RollingSettings(Settings):
@@ -141,6 +123,7 @@ class Rolling(Part):
     title = "Rolling"
     table = "rolling"
     settings = RollingSettings
+    work = "physics.rolling.work:RollingWork"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
@@ -166,292 +149,3 @@ class Rolling(Part):
             )
         rough = None if table.roughness_file is None else folder / table.roughness_file
         return Rolls(table, friction_law(friction, sheared=True), rough)
-
-    def check(self, ask: Rolls, problem: ContactProblem) -> None:
-        """Refuse what cannot roll."""
-        from .rolling import require_rolling
-
-        require_rolling(problem.with_physics(friction=ask.law), ask.creepage, ask.settings.direction)  # type: ignore[arg-type]
-
-    def compute(self, ask: Rolls, solved: Solved) -> Found:
-        """Forces, fields and curves."""
-        problem = solved.problem.with_physics(friction=ask.law)
-        with solved.stage("rolling") as progress:
-            rough = None if ask.roughness is None else _rolled(problem, solved.control, ask, progress)
-            contact = _smooth(problem, solved.control, ask) if rough is None else rough.last
-            curve = _curve(problem, solved.control, ask) if ask.settings.points and solved.lines else None
-        values = {**_numbers(contact, rough), **_fields(contact), **_curve_values(curve), **_path_values(rough)}
-        facts = _facts(contact, ask, curve, rough)
-        keys = contact.citation_keys if curve is None else curve.citation_keys
-        return Found(values, facts, _findings(contact, ask), keys)
-
-    def citations(self, ask: Rolls, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of law and method."""
-        from .solver import SteadyNewton
-
-        return SteadyNewton.citation_keys
-
-    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Map of stick and slip, section, creep-force curve, forces of a rough wheel."""
-        from ...plots.picture import figures_by
-        from .figures import CURVE_PLOT, PATH_PLOT, ROLLING_PLOTS
-
-        shown = picture_of(found, solved)
-        plots = (*ROLLING_PLOTS, *((CURVE_PLOT,) if shown.curve else ()), *((PATH_PLOT,) if shown.path else ()))
-        return figures_by(plots, shown)
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """What it transmits, what slips, what becomes heat, and the theories beside it."""
-        return rolling_words(found)
-
-    def stored(self, found: Found) -> Stored:
-        """Direction, law and creepages."""
-        return Stored(facts=found.detail)
-
-    def restored(self, stored: Stored, solved: Solved) -> Any:
-        """The same again."""
-        return dict(stored.facts)
-
-
-def _smooth(problem: ContactProblem, control: Control, ask: Rolls) -> RollingContact:
-    from .rolling import roll
-
-    return roll(problem, control, ask.creepage, direction=ask.settings.direction)  # type: ignore[arg-type]
-
-
-def _rolled(problem: ContactProblem, control: Control, ask: Rolls, progress: Any) -> RoughRolling:
-    from .rough import roll_rough
-
-    table = ask.settings
-    options: dict[str, Any] = {"distance": table.distance, "direction": table.direction, "progress": progress}
-    return roll_rough(problem, control, ask.creepage, roughness_of_wheel(ask, problem), **options)
-
-
-def roughness_of_wheel(ask: Rolls, problem: ContactProblem) -> Surface:
-    """The map of the file that is asked for: filled, levelled, cut to the width of the contact and made periodic."""
-    from ...surfaces.prepare.extent import cropped, periodised
-    from ...surfaces.prepare.level import filled, levelled
-    from ...surfaces.read import read
-
-    assert ask.roughness is not None
-    surface = levelled(filled(read(ask.roughness)))
-    across = "x" if ask.settings.direction in ("y", "-y") else "y"
-    width, room = (grid.size["xy".index(across)] for grid in (problem.grid, surface.grid))
-    return periodised(cropped(surface, **{across: (0.0, width)}) if room > width else surface)
-
-
-def _curve(problem: ContactProblem, control: Control, ask: Rolls) -> CreepCurve:
-    """Curve of the smooth wheel from a share of the creepages to all of them."""
-
-    import numpy as np
-
-    from .creep_curve import creep_curve
-
-    table, share = ask.settings, np.arange(1, ask.settings.points + 1) / ask.settings.points
-    options: Any = {
-        "lateral": float(table.lateral) * share,
-        "spin": float(table.spin) * share,
-        "direction": table.direction,
-    }
-    return creep_curve(problem, control, float(table.longitudinal) * share, **options)
-
-
-def _numbers(contact: RollingContact, rough: RoughRolling | None) -> dict[str, float]:
-    """``SCALARS``: means over the distance of a rough wheel."""
-
-    import numpy as np
-
-    from .creep_curve import mean_forces, theories_of, theory_forces
-
-    along, across, torque, slips, heat, deviation = mean_forces(contact, rough)
-    load, limit = contact.normal.force, contact.friction_limit if rough is None else rough.mean("friction_limit")
-    values = {
-        "rolling_longitudinal_force": along,
-        "rolling_lateral_force": across,
-        "rolling_torque": torque,
-        "traction_coefficient": along / load if load > 0.0 else math.nan,
-        "rolling_friction_share": math.hypot(along, across) / limit if 0.0 < limit < math.inf else math.nan,
-        "rolling_slip_area_fraction": slips,
-        "rolling_heat": heat,
-        "rolling_max_slip": float(np.hypot(*contact.slip).max()),
-        "rolling_force_deviation": deviation if rough is not None else math.nan,
-    }
-    motion = contact.creepage
-    at = (np.array(motion.x), np.array(motion.y), np.array(motion.spin))
-    known = theories_of(contact, plain=not (motion.y or motion.spin)) if rough is None else ()
-    for name, force in (("fastsim", "longitudinal"), ("fastsim", "lateral"), ("carter", "longitudinal")):
-        found = theory_forces(name, contact, at) if name in known else None
-        size = math.nan if found is None else float(found.force_x if force == "longitudinal" else found.force_y)
-        values[f"{name}_{force}_force"] = size
-    return values
-
-
-def _fields(contact: RollingContact) -> dict[str, Any]:
-    """``FIELDS``."""
-    bound = contact.law.bound(contact.normal.pressure)
-    pairs = {"rolling_traction": contact.traction, "rolling_slip": contact.slip}
-    fields = {f"{name}_{axis}": part for name, both in pairs.items() for axis, part in zip("xy", both, strict=True)}
-    return {**fields, "rolling_bound": bound}
-
-
-def _curve_values(curve: CreepCurve | None) -> dict[str, Any]:
-    from .creep_curve import CREEPAGES, FORCES
-
-    return {} if curve is None else {f"creep_{item.name}": getattr(curve, item.name) for item in (*CREEPAGES, *FORCES)}
-
-
-def _path_values(rough: RoughRolling | None) -> dict[str, Any]:
-    from .rough import PATH as MOVES
-
-    return {} if rough is None else {f"rolled_{item.name}": getattr(rough, item.name) for item in MOVES}
-
-
-def _facts(contact: RollingContact, ask: Rolls, curve: CreepCurve | None, rough: RoughRolling | None) -> dict[str, Any]:
-    """What words and figures need beside the values, as in JSON."""
-
-    import numpy as np
-
-    beside = {}
-    if curve is not None:
-        for name in (name for name in curve.theories if name != "linear"):
-            found = curve.theory(name)
-            beside[name] = [np.asarray(part).tolist() for part in (found.force_x, found.force_y)]
-    motion = contact.creepage
-    return {
-        "direction": contact.direction,
-        "creepages": [motion.x, motion.y, motion.spin],
-        "law": law_text(ask.law),
-        "steadiness": contact.status.message,
-        "friction_limit": contact.friction_limit if math.isfinite(contact.friction_limit) else None,
-        "running_in": None if rough is None else rough.running_in,
-        "beside": beside,
-    }
-
-
-def _findings(contact: RollingContact, ask: Rolls) -> tuple[Advice, ...]:
-    """Gross sliding, large creepages, and few pixels."""
-
-    import numpy as np
-
-    made = []
-    if contact.slip_area_fraction == 1.0:
-        text = "All points slip: the creepages are beyond those of partial slip, and the tangential force is all that friction bears."
-        made.append(Advice("note", "gross sliding", text))
-    if max(abs(ask.creepage.x), abs(ask.creepage.y)) > LARGE:
-        text = f"A creepage of more than {percent(LARGE)} is not small, as the theory of rolling assumes."
-        made.append(Advice("warning", "large creepage", text))
-    from .rolling import DIRECTIONS
-
-    touched = np.flatnonzero(DIRECTIONS[contact.direction].oriented(contact.normal.pressure).any(axis=1))
-    length = int(touched[-1] - touched[0]) + 1 if touched.size else 0
-    if 0 < length < FEW:
-        text = f"The contact is {length} pixels long. Errors of the forces fall with the pixel, and are several per cent below {FEW}. Take a finer grid."
-        made.append(Advice("note", "pixels of the rolling contact", text))
-    return tuple(made)
-
-
-def picture_of(found: Found, solved: Solved) -> RollingPicture:
-    """What figures are drawn from."""
-    import numpy as np
-
-    from .figures import RollingPicture
-
-    values, facts = found.values, found.detail
-
-    def field(name: str) -> Any:
-        return np.stack([np.asarray(values[f"{name}_{axis}"]) for axis in "xy"])
-
-    curve: dict[str, Any] = {}
-    if "creep_longitudinal" in values:
-        count = len(np.atleast_1d(values["creep_longitudinal"]))
-        curve = {name: values[f"creep_{name}"] for name in ("longitudinal_force", "lateral_force")}
-        curve |= {"share": np.arange(1, count + 1) / count, "friction_limit": facts["friction_limit"] or math.inf}
-        for name, (x, y) in facts["beside"].items():
-            curve |= {f"{name}_longitudinal_force": np.array(x), f"{name}_lateral_force": np.array(y)}
-    path: dict[str, Any] = {}
-    if "rolled_distance" in values:
-        path = {name: values[f"rolled_{name}"] for name in ("distance", "force_x", "force_y")}
-        path["running_in"] = facts["running_in"]
-    bound = np.asarray(values["rolling_bound"])
-    return RollingPicture(
-        solved.problem, facts["direction"], field("rolling_traction"), field("rolling_slip"), bound, curve, path
-    )
-
-
-# In words and tables.
-
-REMARK = (
-    "The contact rolls steadily along the direction; the counter body slides over the body by the creepages times the rolling speed, and drags it along. Forces are those on the body; on the "
-    "other one they are the opposite. Shear tractions that lift unlike surfaces are balanced with the pressure."
-)
-"""What the model is."""
-
-
-def rolling_words(found: Found) -> Words:
-    """Sentence, scalars and curve."""
-    from ...io.words import value_text
-
-    values, facts = found.values, found.detail
-    x, y, spin = facts["creepages"]
-    rows: Rows = [
-        ("friction", facts["law"]),
-        ("creepages, longitudinal and lateral", f"{percent(x)} and {percent(y)}"),
-        ("spin", f"{spin:.4g} rad/m"),
-        ("rolls towards", facts["direction"]),
-    ]
-    for item in SCALARS:
-        value = float(values[item.name])
-        if math.isfinite(value):
-            rows.append((item.label, value_text(item, value)))
-    rows.append(("solution", facts["steadiness"]))
-    tables = (("Creep-force curve", _curve_table(values, facts)),) if "creep_longitudinal" in values else ()
-    headline = [
-        ("longitudinal force / normal force", f"{float(values['traction_coefficient']):.3g}"),
-        ("heat per distance rolled", show(float(values["rolling_heat"]), "J/m", 3)),
-    ]
-    return Words(_sentence(values), headline, rows, tables, (REMARK,))
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    share, slips = float(values["rolling_friction_share"]), float(values["rolling_slip_area_fraction"])
-    if math.isnan(slips):
-        return "The surfaces do not touch: nothing rolls."
-    force = show(
-        math.hypot(float(values["rolling_longitudinal_force"]), float(values["rolling_lateral_force"])), "N", 3
-    )
-    limit = "" if math.isnan(share) else f", {percent(share)} of what friction bears"
-    heat = show(float(values["rolling_heat"]), "J/m", 3)
-    area = "all of the contact sticks" if slips == 0.0 else f"{percent(slips)} of the contact area slips"
-    return (
-        f"The rolling contact transmits {force} along the surface{limit}; {area}, and rolling turns {heat} into heat."
-    )
-
-
-def _curve_table(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Table:
-    """Creepages and forces of every point, FASTSIM or Carter beside them."""
-
-    import numpy as np
-
-    names = {"fastsim": "FASTSIM", "carter": "Carter"}
-    beside = next(iter(facts["beside"].items()), None)
-    cells = []
-    columns = ("longitudinal", "lateral", "spin", "longitudinal_force", "lateral_force", "slip_area_fraction")
-    for number, (x, y, spin, along, across, slips) in enumerate(
-        zip(*(np.atleast_1d(values[f"creep_{name}"]) for name in columns), strict=True)
-    ):
-        row = [
-            percent(float(x)),
-            percent(float(y)),
-            f"{float(spin):.3g} rad/m",
-            show(float(along), "N"),
-            show(float(across), "N"),
-        ]
-        row.append(percent(float(slips)))
-        if beside is not None:
-            row += [show(float(part[number]), "N") for part in beside[1]]
-        cells.append(tuple(row))
-    head = ("Longitudinal", "Lateral", "Spin", "Longitudinal force", "Lateral force", "Slips")
-    extra = (
-        () if beside is None else tuple(f"{name} force by {names[beside[0]]}" for name in ("Longitudinal", "Lateral"))
-    )
-    return Table((*head, *extra), tuple(cells))

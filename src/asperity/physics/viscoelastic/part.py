@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,26 +13,15 @@ from pydantic import model_validator
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.status import Advice
-from ...core.units import percent, show
 from ...core.values import Count, Fraction, Length, Number, Whole
-from ...parts.part import Found, Part, Rows, Solved, Stored, Table, Words
+from ...parts.part import Part
 
 if TYPE_CHECKING:
     from ...contact.controls import Control, Step
-    from ...contact.problem import ContactProblem
-    from ...contact.result import ContactResult
-    from ...plots.picture import Figure
-    from ...solids.layers import Body
-    from .figures import TimePicture
-    from .moments import Creeping
 
 Duration = Annotated[float, Number("time", least=0.0)]
 Temperature = Annotated[float, Number("temperature", above=0.0)]
 Frequency = Annotated[float, Number("Hz", above=0.0)]
-
-MUCH = 0.05
-"""Sum of the errors of the steps of time from which on a finding says so."""
 
 
 class ViscoelasticSettings(Settings):
@@ -150,6 +138,7 @@ class Viscoelasticity(Part):
     table = "viscoelastic"
     settings = ViscoelasticSettings
     whole_path = True
+    work = "physics.viscoelastic.work:ViscoelasticityWork"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
@@ -172,265 +161,14 @@ class Viscoelasticity(Part):
         every, first = (1, False) if path is None else (path.steps, path.mean_gap is not None)
         return InTime(settings, every, first, slides)
 
-    def check(self, ask: InTime, problem: ContactProblem) -> None:
-        """Refuse times where nothing relaxes, and a temperature without a shift."""
-        from .figures import relaxing_solids
-
-        if not relaxing_solids(problem):
-            raise InputError(
-                "body or counter_body must relax where viscoelastic (--ramp, --hold, --temperature, ...) is given, but neither does. Give one "
-                'such as "E=3MPa+10MPa@10ms,nu=0.5".'
-            )
-
-    def altered(self, ask: InTime, problem: ContactProblem) -> ContactProblem:
-        """The bodies at the temperature."""
-        if ask.settings.temperature is None:
-            return problem
-        temperature = float(ask.settings.temperature)
-        bodies = (_at_temperature(body, temperature) for body in (problem.body, problem.counter_body))
-        body, counter_body = bodies
-        return replace(problem, body=body, counter_body=counter_body)
-
-    def course(self, ask: InTime, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
-        """Ramps to the turning points of the load, and holds there."""
-        from ...contact.controls import as_step
-
-        table = ask.settings
-        if not table.in_time:
-            return controls
-        turning = ask.turning(controls)
-        ramps, holds = (_times(getattr(table, name), len(turning), name) for name in ("ramp", "hold"))
-        made: list[Step | Control] = []
-        for _ in range(table.repeat):
-            for control, ramp, hold in zip(turning, ramps, holds, strict=True):
-                made.append(replace(as_step(control), duration=ramp))
-                made += [replace(as_step(control), duration=hold)] if hold > 0.0 else []
-        return tuple(made)
-
     def options(self, ask: InTime) -> Mapping[str, Any]:
         """How durations are divided."""
         from ...contact.time_division import TimeSteps
 
         return {"time_steps": TimeSteps(float(ask.settings.tolerance), ask.settings.steps)}
 
-    def compute(self, ask: InTime, solved: Solved) -> Found:
-        """Energies, columns of all moments, response to an oscillation."""
-        steps = (solved.result,) if solved.path is None else solved.path.steps
-        found = [step.creep for step in steps if step.creep is not None]
-        if not found:
-            return Found()
-        values = _numbers(found, solved.result) | _columns(found) | _oscillation(ask, solved.result)
-        keys = ("Ferry1980", "Lee1960", "Park1999", "Ting1966")
-        return Found(
-            values,
-            {"temperature": ask.settings.temperature and float(ask.settings.temperature)},
-            _findings(values, ask),
-            keys,
-        )
-
-    def citations(self, ask: InTime, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of viscoelastic contact."""
-        return ("Ferry1980", "Lee1960", "Park1999", "Ting1966")
-
-    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Area, approach, load and energies against time, and the moduli of the solids."""
-        from ...plots.picture import figures_by
-        from .figures import SOLID_PLOTS, TIME_PLOTS
-
-        if not found.values:
-            return ()
-        shown = picture_of(found, solved)
-        lasts = float(shown.moments["time"][-1]) > float(shown.moments["time"][0])
-        return (*(figures_by(TIME_PLOTS, shown) if lasts else ()), *figures_by(SOLID_PLOTS, shown))
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """What changed in time, energies, and the response to an oscillation."""
-        return viscoelastic_words(found) if found.values else Words()
-
-    def stored(self, found: Found) -> Stored:
-        """The temperature."""
-        return Stored(facts=found.detail or {})
-
-    def restored(self, stored: Stored, solved: Solved) -> Any:
-        """The same again."""
-        return dict(stored.facts)
-
 
 def _relaxes_in(table: Any) -> bool:
     """Whether a material of the ``table`` of a body relaxes there."""
     parts = (table, *table.layers, *((table.base,) if table.base is not None else ()))
     return any(getattr(part, "relaxation", None) is not None for part in parts)
-
-
-def _at_temperature(body: Body, temperature: float) -> Body:
-    """``body`` with its viscoelastic solids at ``temperature`` (K)."""
-    from ...solids.layers import Layered
-    from ...solids.viscoelastic import Viscoelastic
-
-    def moved(solid: Any) -> Any:
-        return solid.at_temperature(temperature) if isinstance(solid, Viscoelastic) and solid.spectrum else solid
-
-    if isinstance(body, Layered):
-        layers = [replace(layer, material=moved(layer.material)) for layer in body.layers]
-        return Layered(layers, moved(body.base), body.name)
-    found: Body = moved(body)
-    return found
-
-
-def _times(times: tuple[float, ...] | None, count: int, name: str) -> list[float]:
-    """One time (s) for each of ``count`` loads."""
-    given = [float(time) for time in times or (0.0,)]
-    if len(given) not in (1, count):
-        raise InputError(
-            f"viscoelastic.{name} (--{name}) must give one time for all {count} loads or one for each, but gives {len(given)}."
-        )
-    return given * count if len(given) == 1 else given
-
-
-def _numbers(found: list[Creeping], result: ContactResult) -> dict[str, float]:
-    """``SCALARS``."""
-    import numpy as np
-
-    last = found[-1]
-    largest = float(np.abs(result.displacement).max())
-    retarded = float(np.abs(last.retarded_displacement).max())
-    return {
-        "viscoelastic_time": float(last.time[-1]),
-        "viscoelastic_heat": float(last.column("dissipated")[-1]),
-        "viscoelastic_stored": last.stored_energy,
-        "viscoelastic_work": sum(each.work for each in found),
-        "retarded_share": retarded / largest if largest > 0.0 else 0.0,
-        "time_error": max(each.time_error for each in found),
-        "time_solves": float(sum(each.tries for each in found)),
-    }
-
-
-def _columns(found: list[Creeping]) -> dict[str, Any]:
-    """Energies of the steps of the load, and columns of all moments."""
-    import numpy as np
-
-    from .moments import COLUMNS
-
-    values: dict[str, Any] = {
-        "step_end": np.array([each.time[-1] for each in found]),
-        "step_moment": np.cumsum([len(each.records) - (number > 0) for number, each in enumerate(found)]) - 1,
-        "step_heat": np.array([each.dissipated for each in found]),
-        "step_stored": np.array([each.stored_energy for each in found]),
-        "step_work": np.array([each.work for each in found]),
-    }
-    for item in COLUMNS:  # the first moment of a step is the last one of the step before
-        parts = [each.column(item.name)[number > 0 :] for number, each in enumerate(found)]
-        values[f"moment_{item.name}"] = np.concatenate(parts)
-    return values
-
-
-def _oscillation(ask: InTime, result: ContactResult) -> dict[str, float]:
-    """``OSCILLATION``; NaN without a frequency or a contact."""
-    table = ask.settings
-    if table.frequency is None or not result.contact.any():
-        return {item.name: math.nan for item in OSCILLATION}
-    from .harmonic import harmonic
-
-    response = harmonic(result, float(table.frequency))
-    heat = math.nan if table.amplitude is None else response.heat(float(table.amplitude))
-    stiffness = response.stiffness
-    return dict(
-        zip(
-            (item.name for item in OSCILLATION),
-            (stiffness.real, stiffness.imag, response.loss_tangent, heat),
-            strict=True,
-        )
-    )
-
-
-def _findings(values: Mapping[str, Any], ask: InTime) -> tuple[Advice, ...]:
-    """That nothing took time, or that steps of time are long."""
-    made = []
-    if float(values["viscoelastic_time"]) == 0.0 and not ask.slides:
-        text = "All loads come at once: the viscoelastic solids are as stiff as at the first instant. Give ramp or hold (--ramp, --hold) for what time does to the contact."
-        made.append(Advice("note", "first instant", text))
-    if ask.settings.frequency is not None and math.isnan(float(values["storage_stiffness"])):
-        text = "The surfaces do not touch under the last load: there is no contact that would oscillate."
-        made.append(Advice("warning", "oscillation", text))
-    error = float(values["time_error"])
-    if error > MUCH:
-        text = f"The steps of time may add {percent(error)} to the error of the displacement. Take a smaller tolerance (--time-tolerance) or more steps (--time-steps)."
-        made.append(Advice("warning", "steps of time", text))
-    return tuple(made)
-
-
-def picture_of(found: Found, solved: Solved) -> TimePicture:
-    """What figures are drawn from."""
-    import numpy as np
-
-    from .figures import TimePicture, relaxing_solids
-
-    return TimePicture(
-        found.columns("moment_"), np.atleast_1d(np.asarray(found.values["step_end"])), relaxing_solids(solved.problem)
-    )
-
-
-# In words and tables.
-
-REMARK = (
-    "Displacements follow the pressures of all earlier times by the creep of the solids. Heat is what their dashpots take; together with the stored energy it is the work of "
-    "the load, but for the error of the steps of time. On a periodic surface creep of the mean displacement is not included."
-)
-"""What the numbers mean."""
-
-
-def viscoelastic_words(found: Found) -> Words:
-    """Sentence, energies, oscillation, and the state after each step of the load."""
-    from ...io.words import value_text
-
-    values = found.values
-    rows: Rows = []
-    temperature = (found.detail or {}).get("temperature")
-    if temperature:
-        rows.append(("temperature", show(float(temperature), "K")))
-    for item in (*SCALARS, *OSCILLATION):
-        value = float(values.get(item.name, math.nan))
-        if math.isfinite(value):
-            text = f"{value:.0f}" if item.name == "time_solves" else value_text(item, value)
-            rows.append((item.label, text))
-    lasts = float(values["viscoelastic_time"]) > 0.0
-    headline = [("heat of viscoelastic solids", show(float(values["viscoelastic_heat"]), "J", 3))] if lasts else []
-    if math.isfinite(float(values["loss_tangent"])):
-        headline.append(("loss tangent of the oscillation", f"{float(values['loss_tangent']):.3g}"))
-    tables = (("The contact in time", time_table(values)),) if lasts else ()
-    return Words(_sentence(values), headline, rows, tables, (REMARK,))
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    import numpy as np
-
-    time, area = (np.atleast_1d(values[f"moment_{name}"]) for name in ("time", "area_fraction"))
-    if time[-1] == 0.0:
-        return "The load came at once: the viscoelastic solids are as stiff as at the first instant."
-    approach = np.atleast_1d(values["moment_approach"])
-    touched = int(np.flatnonzero(area > 0.0)[0]) if (area > 0.0).any() else 0
-    heat = show(float(values["viscoelastic_heat"]), "J", 3)
-    return (
-        f"From {show(float(time[touched]), 's', 3)} to {show(float(time[-1]), 's', 3)} the contact area went from "
-        f"{percent(float(area[touched]))} to {percent(float(area[-1]))} of the nominal area and the approach from "
-        f"{show(float(approach[touched]), 'm', 3)} to {show(float(approach[-1]), 'm', 3)}; {heat} became heat."
-    )
-
-
-def time_table(values: Mapping[str, Any]) -> Table:
-    """The contact at the end of every step of the load."""
-    import numpy as np
-
-    cells = []
-    for number, (end, at) in enumerate(
-        zip(*(np.atleast_1d(values[f"step_{x}"]) for x in ("end", "moment")), strict=True)
-    ):
-        load, approach, area = (
-            float(np.atleast_1d(values[f"moment_{name}"])[int(at)])
-            for name in ("mean_pressure", "approach", "area_fraction")
-        )
-        heat, stored = (float(np.atleast_1d(values[f"step_{name}"])[number]) for name in ("heat", "stored"))
-        state = (show(load, "Pa"), show(approach, "m"), percent(area))
-        cells.append((f"{number + 1}", show(float(end), "s"), *state, show(heat, "J", 3), show(stored, "J", 3)))
-    head = ("Step", "Until", "Mean pressure", "Approach", "Real area", "Heat of the step", "Stored energy")
-    return Table(head, tuple(cells))

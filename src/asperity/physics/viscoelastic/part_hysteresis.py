@@ -2,38 +2,22 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from pydantic import model_validator
 
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.status import Advice
-from ...core.units import percent, show
 from ...core.values import Angle, Length, Number, Whole
-from ...parts.part import Found, Part, Rows, Solved, Stored, Table, Words
-
-if TYPE_CHECKING:
-    from ...contact.problem import ContactProblem
-    from ...plots.picture import Figure
-    from .figures import SpeedPicture
-    from .steady_sliding import SteadySliding
+from ...parts.part import Part
 
 SlidingSpeed = Annotated[float, Number("speed", above=0.0)]
 Share = Annotated[float, Number(above=0.0, most=1.0)]
 
 USUAL_POINTS = 9
 """Speeds of the curve, if not said otherwise."""
-
-STEEP = 1.0
-"""Friction coefficient above which slopes are too steep for small-slope theory."""
-
-APART = 0.2
-"""Relative difference of the two coefficients of friction above which the grid is too coarse."""
 
 
 class HysteresisSettings(Settings):
@@ -125,6 +109,7 @@ class Hysteresis(Part):
     table = "hysteresis"
     settings = HysteresisSettings
     quantities = (*SCALARS, FIELD, *COLUMNS)
+    work = "physics.viscoelastic.work_hysteresis:HysteresisWork"
 
     def asked(self, document: Any, folder: Path) -> HysteresisSettings:
         """The table [hysteresis], beside no other motion."""
@@ -136,185 +121,3 @@ class Hysteresis(Part):
                     "is solved without another motion of the surfaces."
                 )
         return table
-
-    def check(self, ask: HysteresisSettings, problem: ContactProblem) -> None:
-        """Refuse what cannot slide steadily."""
-        from .steady_sliding import require_slidable
-
-        require_slidable(bare(problem), float(ask.direction))
-
-    def compute(self, ask: HysteresisSettings, solved: Solved) -> Found:
-        """Friction, area and heat at the speed and along the curve."""
-        import numpy as np
-
-        from ...theories.rough.rubber_friction import ORIGINAL
-        from .steady_sliding import slide
-
-        problem, reduction = bare(solved.problem), ORIGINAL if ask.reduction is None else float(ask.reduction)
-        direction: Any = {"direction": float(ask.direction)}
-        speeds: Any = ()
-        if ask.slowest is not None and ask.fastest is not None and solved.lines:
-            speeds = np.geomspace(float(ask.slowest), float(ask.fastest), ask.points)
-        with solved.stage("sliding") as progress:
-            found = slide(problem, solved.control, float(ask.speed or 0.0), **direction)
-            rows = []
-            for number, speed in enumerate(speeds, start=1):
-                each = slide(problem, solved.control, float(speed), **direction)
-                rows.append(
-                    (speed, each.friction, each.normal.area_fraction_corrected, each.heat, *_persson(each, reduction))
-                )
-                progress.update(number, 1.0 - number / len(speeds), 0.0)
-        values: dict[str, Any] = _numbers(found) | dict(
-            zip((item.name for item in SCALARS[-2:]), _persson(found, reduction), strict=True)
-        )
-        values[FIELD.name] = np.asarray(found.normal.pressure)
-        if rows:
-            values |= {item.name: column for item, column in zip(COLUMNS, np.array(rows).T, strict=True)}
-        facts = {"speed": found.speed, "direction": found.direction, "reduction": reduction}
-        keys = (*found.citation_keys, "Persson2001")
-        return Found(values, facts, _findings(values), keys)
-
-    def citations(self, ask: HysteresisSettings, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of sliding over viscoelastic bodies."""
-        return ("Hunter1961", "Carbone2013", "Persson2001")
-
-    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Pressure while sliding; friction and area against speed."""
-        from ...plots.picture import figures_by
-        from .figures import SLIDING_PLOT, SPEED_PLOTS
-
-        shown = picture_of(found, solved)
-        return figures_by((SLIDING_PLOT, *(SPEED_PLOTS if shown.curve else ())), shown)
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """Friction, area and heat, the theory beside them, and the curve."""
-        return hysteresis_words(found, solved.problem)
-
-    def stored(self, found: Found) -> Stored:
-        """Speed, direction and reduction."""
-        return Stored(facts=found.detail)
-
-    def restored(self, stored: Stored, solved: Solved) -> Any:
-        """The same again."""
-        return dict(stored.facts)
-
-
-def bare(problem: ContactProblem) -> ContactProblem:
-    """``problem`` without friction that does not change its pressure."""
-    from ..friction.law import Coulomb
-
-    plain = isinstance(problem.friction, Coulomb) and not problem.friction.coupled
-    return problem.with_physics(friction=None) if plain else problem
-
-
-def _numbers(found: SteadySliding) -> dict[str, float]:
-    """``SCALARS`` but for the theory."""
-    normal = found.normal
-    values = (
-        found.friction,
-        found.slope_friction,
-        found.friction_force,
-        found.heat,
-        normal.area_fraction_corrected,
-        normal.max_pressure,
-        normal.mean_gap,
-        found.energy_error,
-    )
-    return dict(zip((item.name for item in SCALARS), map(float, values), strict=False))
-
-
-def _persson(found: SteadySliding, reduction: float) -> tuple[float, float]:
-    """Friction and area by Persson's theory; NaN where it does not hold: with adhesion or menisci, on layers, on a line, on a free grid, on a smooth surface, at rest."""
-    try:
-        theory = found.persson(reduction)
-    except InputError:
-        return math.nan, math.nan
-    return theory.friction, theory.area_fraction
-
-
-def _findings(values: Mapping[str, Any]) -> tuple[Advice, ...]:
-    """Edges that the grid does not resolve, and slopes that are too steep."""
-    made = []
-    friction, slope = float(values["hysteresis_friction"]), float(values["hysteresis_slope_friction"])
-    if abs(slope - friction) > APART * max(abs(friction), 1e-12) and friction > 1e-6:
-        text = f"Friction by the loss in all waves is {friction:.3g} and by the slope of the surface {slope:.3g}: the grid does not resolve the edges of the contact. Take a finer one."
-        made.append(Advice("warning", "two ways to the friction", text))
-    if friction > STEEP:
-        text = f"A coefficient of friction of {friction:.3g} by hysteresis alone says that slopes are too steep for a theory of small slopes."
-        made.append(Advice("warning", "steep slopes", text))
-    return tuple(made)
-
-
-def picture_of(found: Found, solved: Solved) -> SpeedPicture:
-    """What figures are drawn from."""
-    import numpy as np
-
-    from .figures import SpeedPicture
-
-    curve = {
-        item.name.removeprefix("by_speed_"): np.atleast_1d(np.asarray(found.values[item.name]))
-        for item in COLUMNS
-        if item.name in found.values
-    }
-    pressure = np.asarray(found.values[FIELD.name])
-    return SpeedPicture(solved.problem, pressure, float(found.detail["direction"]), curve)
-
-
-# In words and tables.
-
-REMARK = "The rough body slides steadily without interfacial shear: the friction is by hysteresis alone, and that of a flash temperature is not included."
-"""What the model is."""
-
-OF_PRESSED = "Persson's theory sums all waves of the mean spectrum of the map, the shortest of which matter most."
-OF_PULLING = (
-    "What attracts the surfaces adds to the load that deforms the viscoelastic body, and the coefficient is over the load from outside. Persson's theory of friction knows no attraction "
-    "and is left out."
-)
-
-
-def hysteresis_words(found: Found, problem: ContactProblem) -> Words:
-    """Sentence, scalars and curve."""
-    from ...io.words import value_text
-
-    values, facts = found.values, found.detail
-    rows: Rows = [
-        ("sliding speed", show(float(facts["speed"]), "m/s")),
-        ("direction", f"{math.degrees(float(facts['direction'])):.4g}° from x"),
-    ]
-    for item in SCALARS:
-        value = float(values[item.name])
-        if math.isfinite(value):
-            rows.append((item.label, value_text(item, value)))
-    if math.isfinite(float(values["persson_friction"])):
-        rows.append(("gamma of Persson's theory", f"{float(facts['reduction']):g}"))
-    friction, force = float(values["hysteresis_friction"]), show(float(values["hysteresis_friction_force"]), "N", 3)
-    pulls = math.isnan(friction)
-    said = (
-        f"a force of hysteretic friction of {force}"
-        if pulls
-        else f"a coefficient of hysteretic friction of {friction:.3g}"
-    )
-    tables = (("Friction against speed", _curve_table(values)),) if COLUMNS[0].name in values else ()
-    sentence = (
-        f"Sliding at {show(float(facts['speed']), 'm/s', 3)} gives {said} on "
-        f"{percent(float(values['sliding_area_fraction']))} of the nominal area, and {show(float(values['hysteresis_heat']), 'W/m^2', 3)} of heat."
-    )
-    shown = (
-        ("force of hysteretic friction", force) if pulls else ("coefficient of hysteretic friction", f"{friction:.3g}")
-    )
-    attracted = problem.attracts
-    return Words(sentence, [shown], rows, tables, (REMARK, OF_PULLING if attracted else OF_PRESSED))
-
-
-def _curve_table(values: Mapping[str, Any]) -> Table:
-    """Friction, area and heat at every speed, with the theory where it holds."""
-    import numpy as np
-
-    columns = [np.atleast_1d(values[item.name]) for item in COLUMNS]
-    known = bool(np.isfinite(columns[4]).any())
-    cells = []
-    for speed, friction, area, heat, theory, share in zip(*columns, strict=True):
-        row = (show(float(speed), "m/s"), f"{friction:.3g}", percent(float(area)), show(float(heat), "W/m^2", 3))
-        cells.append((*row, *((f"{theory:.3g}", percent(float(share))) if known else ())))
-    head = ("Speed", "Friction", "Real area", "Heat", *(("Friction by Persson", "Area by Persson") if known else ()))
-    return Table(head, tuple(cells))

@@ -4,43 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...core.errors import InputError, NoSolutionError
-from ...core.quantity import Quantity
 from ...core.status import Advice
 from ...core.units import show
 from ...parts.part import Rows, Solved, Table
-
-if TYPE_CHECKING:
-    from ...plots.picture import Figure
-    from .branch import AdhesiveBranch, Jump
-
-_POINT = ("branch_point",)
-
-ENERGY = (
-    Quantity("adhesive_energy", "J", "energy of the contact, elastic and of the interface"),
-    Quantity("adhesive_energy_bound", "J", "energy that no contact at this approach is below"),
-)
-"""Energy and its bound, NaN where that does not hold."""
-
-BRANCH = (
-    Quantity("folds", "1", "folds of the branch on the way of parting"),
-    Quantity("fold_approach", "m", "approach at the first fold, where rigid grips jump"),
-    Quantity("fold_force", "N", "external force there"),
-    Quantity("branch_approach", "m", "approach along the branch", dims=_POINT),
-    Quantity("branch_force", "N", "external force along the branch", dims=_POINT),
-    Quantity(
-        "branch_margin", "1", "margin of stability along the branch, negative where grips cannot hold", dims=_POINT
-    ),
-)
-"""The branch that is left by jumps, where it is asked for."""
+from ...plots.picture import Figure, figures_by
+from .bound import energy_bound
+from .branch import AdhesiveBranch, Jump, adhesive_branch
+from .figures import BRANCH_PLOT
 
 
 def energy_values(solved: Solved) -> dict[str, float]:
     """Values of ``ENERGY``."""
-    from .bound import energy_bound
-
     found = solved.result.require_adhesion()
     energy = found.elastic_energy + found.interface_energy
     try:
@@ -52,8 +29,6 @@ def energy_values(solved: Solved) -> dict[str, float]:
 
 def branch_of(solved: Solved, farthest: float) -> tuple[AdhesiveBranch | None, tuple[Advice, ...]]:
     """Branch from the deepest contact of the path to the ``farthest`` approach (m); what stopped it."""
-    from .branch import adhesive_branch
-
     assert solved.path is not None
     deepest = max(solved.path.steps, key=lambda step: step.approach)
     try:
@@ -107,9 +82,6 @@ def branch_rows(values: Mapping[str, Any]) -> Rows:
 
 def branch_figures(values: Mapping[str, Any]) -> tuple[Figure, ...]:
     """Force against approach along the branch, the parts that grips cannot hold dashed."""
-    from ...plots.picture import figures_by
-    from .figures import BRANCH_PLOT
-
     return figures_by((BRANCH_PLOT,), values) if "branch_approach" in values else ()
 
 

@@ -1,0 +1,83 @@
+"""Friction in motion asked for by a document: computed, shown and in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from ...contact.problem import ContactProblem
+from ...core.units import show
+from ...io.words import value_text
+from ...parts.part import Found, Rows, Solved, Words, Work
+from ...plots.picture import Figure
+from .block import SlidingBlock
+from .figures import figures_of
+from .part import Dynamics, Moving
+from .work_motion import Made, fitted_law
+
+
+class DynamicsWork(Work):
+    """Motion on the interface of the contact: what is done for it."""
+
+    def compute(self, ask: Moving, solved: Solved) -> Found:
+        """Law of the interface, stability, and the motion."""
+        with solved.stage("law of the interface"):
+            fit = fitted_law(ask, solved)
+        with solved.stage("motion"):
+            made = Made(ask, solved, fit)
+            values, findings = made.values(), made.findings()
+        return Found(values, fit, findings, made.citation_keys)
+
+    def citations(self, ask: Moving, problem: ContactProblem) -> tuple[str, ...]:
+        """Papers of law and models."""
+        return SlidingBlock.citation_keys
+
+    def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
+        """Law, forces and penetration in time, phase portraits, curve of friction."""
+        return figures_of(found.values)
+
+    def words(self, found: Found, solved: Solved) -> Words:
+        """What the motion comes to."""
+        return dynamics_words(found.values)
+
+
+def dynamics_words(values: Mapping[str, Any]) -> Words:
+    """Sentence, headline and rows, from the ``values`` of the quantities."""
+    return Words(_sentence(values), _headline(values), _rows(values), remarks=(REMARK,))
+
+
+REMARK = (
+    "The whole base follows the law of normal compliance of the solved contact; friction follows the approach without delay. Vibration of the "
+    "bodies themselves is left out."
+)
+"""What the model is."""
+
+
+def _sentence(values: Mapping[str, Any]) -> str:
+    growth = values.get("growth_rate", math.nan)
+    mean, largest = values.get("apparent_friction", math.nan), values.get("peak_friction", math.nan)
+    if math.isnan(mean) and "critical_friction" in values:
+        return "The block has not begun to slide: there is no apparent friction."
+    if math.isnan(mean):
+        frequency = show(values["normal_frequency"], "Hz", 3)
+        return f"The interface vibrates at {frequency}; the normal force is between {values['smallest_normal_force']:.3g} and {values['largest_normal_force']:.3g} of the load."
+    steady = "Steady sliding is unstable" if growth > 0.0 else "Steady sliding is stable"
+    period = values.get("stick_slip_period", math.nan)
+    slips = "" if math.isnan(period) else f"; stick-slip with a period of {show(period, 's', 3)}"
+    return f"{steady}{slips}; the apparent friction is {mean:.3g}, at most {largest:.3g}."
+
+
+def _headline(values: Mapping[str, Any]) -> Rows:
+    rows = [("natural frequency", show(values["normal_frequency"], "Hz", 3))]
+    if "apparent_friction" in values:
+        rows.append(("mean / largest friction", f"{values['apparent_friction']:.3g} / {values['peak_friction']:.3g}"))
+    return rows
+
+
+def _rows(values: Mapping[str, Any]) -> Rows:
+    return [
+        (item.label, value_text(item, values[item.name]))
+        for item in Dynamics().quantities
+        if not item.dims and item.name in values and not math.isnan(values[item.name])
+    ]
