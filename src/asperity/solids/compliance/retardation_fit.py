@@ -67,7 +67,8 @@ def fitted_planes(times: RealArray, omega: RealArray, exact: PlaneCompliance) ->
         whole = np.stack([*size, np.sqrt(size[0] * size[1])])
         wave = _Wave(columns, values[:, :-1] - values[:, -1:], whole)
         strengths[:, :, number], directions = wave.fitted(directions)
-        worst = max(worst, wave.error(strengths[:, :, number]))
+        left = np.abs(strengths[:, :, number] @ columns.T - wave.wanted)
+        worst = max(worst, float((left / wave.size).max()))
     LL, zz, Lz = strengths
     return PlaneCompliance(LL=LL, zz=zz, Lz=Lz, T=across), max(error, _number(worst))
 
@@ -88,7 +89,8 @@ class _Wave:
         taken, last = np.hstack([*axes, directions]), math.inf
         wanted = (_TWICE * self.wanted / self.size).ravel()
         for _ in range(_ROUNDS):
-            matrix = self._matrix(taken)
+            of_terms = self._weighted[:, :, taken[0].astype(int)] * _components(taken[1])[:, None, :]
+            matrix = np.asarray(of_terms.reshape(-1, taken.shape[1]))
             factors, residual = _least(_real(matrix), _real(wanted))
             on = factors > 0.0
             taken, factors = taken[:, on], factors[on]
@@ -104,10 +106,6 @@ class _Wave:
         np.add.at(found, taken[0].astype(int), (factors * _components(taken[1])).T)
         return found.T * self._scale, taken[:, factors > 0.0]
 
-    def error(self, strengths: RealArray) -> float:
-        """Largest error of ``strengths`` (3, terms) relative to ``size``."""
-        return float((np.abs(strengths @ self.columns.T - self.wanted) / self.size).max())
-
     @cached_property
     def _scale(self) -> RealArray:
         """Units (3, 1) of the strengths, in which the two directions weigh alike."""
@@ -118,11 +116,6 @@ class _Wave:
     def _weighted(self) -> ComplexArray:
         """The columns (3, m, terms) over what errors are relative to."""
         return np.asarray((_TWICE * self._scale / self.size)[:, :, None] * self.columns)
-
-    def _matrix(self, taken: RealArray) -> ComplexArray:
-        """Response (3 m, number) of each direction."""
-        of_terms = self._weighted[:, :, taken[0].astype(int)] * _components(taken[1])[:, None, :]
-        return np.asarray(of_terms.reshape(-1, taken.shape[1]))
 
 
 _TWICE = np.sqrt([[1.0], [1.0], [2.0]])

@@ -67,7 +67,8 @@ def surface_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Surf
     """
     q = grid.wavenumber()
     q[0, 0] = 1.0  # any value: the mean mode is replaced
-    return tensor_of(grid, _relative_plane(q, body, counter_body), *_mean_modes(body, counter_body))
+    plane = summed_planes([(plane_compliance(solid, q), sign) for solid, sign in deformable(body, counter_body)])
+    return tensor_of(grid, plane, *_mean_modes(body, counter_body))
 
 
 def tensor_of(grid: Grid, plane: PlaneCompliance, shear: float, normal: float) -> SurfaceTensor:
@@ -91,11 +92,6 @@ def tensor_of(grid: Grid, plane: PlaneCompliance, shear: float, normal: float) -
     for entry in (tensor.xy, tensor.xz, tensor.yz):
         entry[0, 0] = 0.0
     return tensor
-
-
-def _relative_plane(q: RealArray, body: Body, counter_body: Body) -> PlaneCompliance:
-    """Sum of both compliances, with the difference of their couplings, at wavenumbers ``q`` > 0 (rad/m)."""
-    return summed_planes([(plane_compliance(solid, q), sign) for solid, sign in deformable(body, counter_body)])
 
 
 def summed_planes(parts: Sequence[tuple[PlaneCompliance, float]]) -> PlaneCompliance:
@@ -201,26 +197,12 @@ def coupling_pixels_of(grid: Grid, known: Samples) -> tuple[RealArray, RealArray
 # Plane strain: strips under shear along x and along y, and the normal displacement by the former, which couples friction to pressure.
 
 
-def shear_strips(grid: Grid, body: Body, counter_body: Body = Rigid(), *, datum: float) -> tuple[RealArray, RealArray]:
-    """Displacement (m/Pa) along x under unit shear along x, and along y under shear along y, arrays (nx, 1).
-
-    At offsets (0…nx-1) dx from a strip of width dx; those of both bodies add up. A half-space gives them relative to the distance
-    ``datum`` (m) from a line load, as ``line_influence`` of the normal compliance; for a half-space the first is the same as the
-    normal displacement (Johnson 1985, eq. 2.24).
-
-    InputError if both bodies are rigid, or a layer may slip.
-    """
-    along, across = np.zeros((grid.shape[0], 1)), np.zeros((grid.shape[0], 1))
-    for solid, _ in deformable(body, counter_body):
-        _require_bonded(solid)
-        of_solid = shear_strips_of(grid, _samples(grid, solid), datum)
-        along += of_solid[0]
-        across += of_solid[1]
-    return along, across
-
-
 def shear_strips_of(grid: Grid, known: Samples, datum: float) -> tuple[RealArray, RealArray]:
-    """``shear_strips`` from the samples ``known``."""
+    """Displacement (m/Pa) along x under unit shear along x, and along y under shear along y, arrays (nx, 1), from the samples ``known``.
+
+    At offsets (0…nx-1) dx from a strip of width dx. A half-space gives them relative to the distance ``datum`` (m) from a line load, as
+    ``line_influence`` of the normal compliance, and the first is then the same as the normal displacement (Johnson 1985, eq. 2.24).
+    """
     along = strip_coefficients(line_kernel(known.values.LL, known.limits(lambda c: c.LL)), grid, datum)
     return along, strip_coefficients(line_kernel(known.values.T, known.limits(lambda c: c.T)), grid, datum)
 
@@ -269,7 +251,7 @@ class SurfaceCompliance(Protocol):
         """``xz`` and ``yz`` of an ``InfluenceTensor``."""
 
     def shear_strips(self, grid: Grid, datum: float) -> tuple[RealArray, RealArray]:
-        """See the function of this name."""
+        """Along x under shear along x and along y under shear along y, (nx, 1), see ``shear_strips_of``."""
 
     def coupling_strips(self, grid: Grid) -> RealArray:
         """See the function of this name."""
@@ -309,7 +291,13 @@ class BodiesSurface:
 
     def shear_strips(self, grid: Grid, datum: float) -> tuple[RealArray, RealArray]:
         """Along and across, (nx, 1). InputError if a layer may slip."""
-        return shear_strips(grid, self.body, self.counter_body, datum=datum)
+        along, across = np.zeros((grid.shape[0], 1)), np.zeros((grid.shape[0], 1))
+        for solid, _ in deformable(self.body, self.counter_body):
+            _require_bonded(solid)
+            of_solid = shear_strips_of(grid, _samples(grid, solid), datum)
+            along += of_solid[0]
+            across += of_solid[1]
+        return along, across
 
     def coupling_strips(self, grid: Grid) -> RealArray:
         """Normal displacement by shear along x, (nx, 1)."""
