@@ -207,19 +207,16 @@ def _listed(reader: Any, file: Path) -> tuple[ChannelInfo, ...]:
     heights = [channel for channel in maps if isinstance(channel.unit, str)] or maps
     preferred = reader.default_channel.index
     default = preferred if preferred in [channel.index for channel in heights] else heights[0].index
-    return tuple(_info(channel, default) for channel in maps)
-
-
-def _info(channel: Any, default: int) -> ChannelInfo:
-    lateral, unit = channel.unit if isinstance(channel.unit, tuple) else (channel.unit, channel.unit)
-    size = None
-    if channel.physical_sizes is not None and lateral:
-        metre = unit_factor(str(lateral), "length", f"lateral unit of channel {channel.name!r}")
-        size = (float(channel.physical_sizes[0]) * metre, float(channel.physical_sizes[1]) * metre)
-    shape = tuple(int(n) for n in channel.nb_grid_pts)
-    return ChannelInfo(
-        int(channel.index), str(channel.name), shape, size, str(unit or ""), int(channel.index) == default
-    )
+    found = []
+    for channel in maps:
+        lateral, unit = channel.unit if isinstance(channel.unit, tuple) else (channel.unit, channel.unit)
+        size = None
+        if channel.physical_sizes is not None and lateral:
+            metre = unit_factor(str(lateral), "length", f"lateral unit of channel {channel.name!r}")
+            size = (float(channel.physical_sizes[0]) * metre, float(channel.physical_sizes[1]) * metre)
+        shape, number = tuple(int(n) for n in channel.nb_grid_pts), int(channel.index)
+        found.append(ChannelInfo(number, str(channel.name), shape, size, str(unit or ""), number == default))
+    return tuple(found)
 
 
 def _scales(
