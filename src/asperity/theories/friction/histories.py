@@ -168,10 +168,17 @@ class PartialSlip:
 
     def _path(self, normal: RealArray, tangential: RealArray, memory: SlipMemory, control: _Control) -> SlipPath:
         memories, work = [], []
-        for x, y in zip(normal, tangential, strict=True):
-            memory, lost = self._step(memory, float(x), float(y), control)
+        for x, y in zip(normal.tolist(), tangential.tolist(), strict=True):  # straight steps
+            x0, y0 = control.now(memory)
+            drive = (y - y0) / control.scale(self.ratio)
+            if min(x0, x) < 0.0:  # the part of the step in which the bodies touch
+                drive *= (max(x, 0.0) - max(x0, 0.0)) / (x - x0) if x != x0 else 0.0
+            leg = _Leg(control.stack(memory), max(x0, 0.0), max(x, 0.0), drive, self.friction)
+            grown = control.memory(leg.end())
+            shift = y if control.prescribes_shift else memory.shift + self.ratio * (grown.drawn - memory.drawn)
+            memory = replace(grown, shift=shift, height=x if control.prescribes_shift else float(grown.approach[-1]))
             memories.append(memory)
-            work.append(lost)
+            work.append(self.friction * self.ratio * control.work(leg))
         return SlipPath(
             load=np.array([one.load[-1] for one in memories]),
             tangential=np.array([one.tangential for one in memories]),
@@ -181,20 +188,6 @@ class PartialSlip:
             dissipated=np.cumsum(work),
             memories=tuple(memories),
         )
-
-    def _step(self, memory: SlipMemory, x: float, y: float, control: _Control) -> tuple[SlipMemory, float]:
-        """State after a straight step to ``x``, ``y``, and the work of friction."""
-        x0, y0 = control.now(memory)
-        before = control.stack(memory)
-        drive = (y - y0) / control.scale(self.ratio)
-        if min(x0, x) < 0.0:  # the part of the step in which the bodies touch
-            drive *= (max(x, 0.0) - max(x0, 0.0)) / (x - x0) if x != x0 else 0.0
-        leg = _Leg(before, max(x0, 0.0), max(x, 0.0), drive, self.friction)
-        after = leg.end()
-        grown = control.memory(after)
-        shift = y if control.prescribes_shift else memory.shift + self.ratio * (grown.drawn - memory.drawn)
-        grown = replace(grown, shift=shift, height=x if control.prescribes_shift else float(grown.approach[-1]))
-        return grown, self.friction * self.ratio * control.work(leg)
 
 
 @dataclass(frozen=True, eq=False)
@@ -289,21 +282,6 @@ class _Leg:
         found = found[np.isfinite(found) & (found > 0.0) & (found < 1.0)]
         return np.unique(np.concatenate([[0.0], found, [1.0]]))
 
-    def fronts(self, low: float, high: float, t: RealArray) -> tuple[RealArray, RealArray, float]:
-        """X and X* at the parts ``t`` between two events, and the direction of slip there."""
-        middle = 0.5 * (low + high)
-        s = self.sign(middle)
-        x = np.maximum(self.x0 + t * (self.x1 - self.x0), 0.0)
-        if not s:
-            return x, x, s
-        front, slope = self.front(middle)
-        rate = (
-            0.0
-            if math.isnan(slope)
-            else (self.drive - s * self.friction * (self.x1 - self.x0)) / (slope - s * self.friction)
-        )
-        return x, np.clip(front + rate * (t - middle), 0.0, x), s
-
 
 _NODES = 48
 _POWER = 6  # of the distance from the ends: makes roots and powers of multiples of 1/6 smooth there
@@ -350,15 +328,20 @@ class _Control:
     def work(self, leg: _Leg) -> float:
         """Work of friction over μκ: all of the annulus slips alike, ∫ [P - P* - P*'(δ - δ*)] dσ."""
         total = 0.0
-        events = leg.events()
-        for low, high in pairwise(events):
-            t, weight = _graded(float(low), float(high))
-            x, front, s = leg.fronts(float(low), float(high), t)
-            if s:
-                edge, inner = self.contacts(x), self.contacts(front)
-                force = edge.load - inner.load - inner.stiffness * (edge.approach - inner.approach)
-                rate = abs(leg.drive - s * leg.friction * (leg.x1 - leg.x0))
-                total += rate * float(np.sum(weight * force * self.speed(inner)))
+        for low, high in pairwise(leg.events().tolist()):
+            middle = 0.5 * (low + high)
+            s = leg.sign(middle)
+            if not s:
+                continue
+            t, weight = _graded(low, high)
+            x = np.maximum(leg.x0 + t * (leg.x1 - leg.x0), 0.0)
+            start, slope = leg.front(middle)
+            rate = leg.drive - s * leg.friction * (leg.x1 - leg.x0)
+            advance = 0.0 if math.isnan(slope) else rate / (slope - s * leg.friction)
+            front = np.clip(start + advance * (t - middle), 0.0, x)
+            edge, inner = self.contacts(x), self.contacts(front)
+            force = edge.load - inner.load - inner.stiffness * (edge.approach - inner.approach)
+            total += abs(rate) * float(np.sum(weight * force * self.speed(inner)))
         return total
 
 
