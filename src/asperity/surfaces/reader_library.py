@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from importlib.abc import InspectLoader, Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
@@ -38,7 +38,14 @@ def opened_by_first_reader(file: Path) -> Iterator[Any]:
         start = stream.read(_START)
     with _postponed_packages():
         package = import_module("SurfaceTopography.IO")
-        reader = next(_opened(package, _order(package), start, file), None)
+        reader = None
+        for name in _order(package):
+            candidate = getattr(package, name)
+            if candidate.can_read(start).name == "NO":
+                continue
+            with suppress(Exception):
+                reader = candidate(str(file))
+                break
     if reader is None:
         raise LookupError(f"no reader opens {file}")
     with reader:
@@ -64,19 +71,6 @@ def _source(package: ModuleType) -> str:
     """Source text of ``package``; empty where there is none."""
     loader = package.__spec__.loader if package.__spec__ is not None else None
     return (loader.get_source(package.__name__) or "") if isinstance(loader, InspectLoader) else ""
-
-
-def _opened(package: ModuleType, order: Sequence[str], start: bytes, file: Path) -> Iterator[Any]:
-    """What the readers make of ``file``, in their ``order``, as far as they can open it."""
-    for name in order:
-        reader = getattr(package, name)
-        if reader.can_read(start).name == "NO":
-            continue
-        try:
-            opened = reader(str(file))
-        except Exception:
-            continue
-        yield opened
 
 
 class _PostponedPackage(ModuleType):

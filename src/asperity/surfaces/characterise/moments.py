@@ -184,15 +184,13 @@ def spectral_moments(spectrum: PowerSpectrum) -> SpectralMoments:
     """
     qx, qy = spectrum.grid.wavevector()
     odd_x, odd_y = spectrum.grid.wavevector(odd=True)
-
-    def moment(power_x: int, power_y: int) -> float:
+    values = []
+    for power_x, power_y in ((0, 0), (2, 0), (1, 1), (0, 2), (4, 0), (3, 1), (2, 2), (1, 3), (0, 4)):
         factor_x = (odd_x if power_x % 2 else qx) ** power_x
         factor_y = (odd_y if power_y % 2 else qy) ** power_y
         # one row of sums over q_x: the matrix product does not write a field as large as the spectrum
-        return mode_sum(spectrum.grid, (factor_x.ravel() @ spectrum.psd)[None, :] * factor_y)
-
-    orders = ((0, 0), (2, 0), (1, 1), (0, 2), (4, 0), (3, 1), (2, 2), (1, 3), (0, 4))
-    return SpectralMoments(*(moment(a, b) for a, b in orders))
+        values.append(mode_sum(spectrum.grid, (factor_x.ravel() @ spectrum.psd)[None, :] * factor_y))
+    return SpectralMoments(*values)
 
 
 def nayak_parameter(m0: float, m2: float, m4: float) -> float:

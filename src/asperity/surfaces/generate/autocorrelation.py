@@ -13,11 +13,13 @@ from ...core.grid import Grid
 from ...core.parameters import Declared
 from ...core.units import show
 from ...core.values import Fraction, Length
-from .gaussian import clipping_text, embedded_psd
+from .gaussian import clipped_eigenvalues, eigenvalues, negative_part
 
 _INDEPENDENT = math.log(
     1e3
 )  # three 10 % lengths of the exponential: heights whose correlation is 1e-3 count as independent
+_AMPLE = 1.5  # embedding lengths from which on there is no negative part: computed for both autocorrelations
+_NOISE = 1e-15  # negative part that rounding of the transform leaves
 
 
 @dataclass(frozen=True)
@@ -64,13 +66,18 @@ class _Autocorrelation(Declared):
 
         Raises InputError if the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
         """
-        return embedded_psd(self, grid)
+        psd: RealArray = grid.pixel_area * clipped_eigenvalues(self, grid)
+        psd[0, 0] = 0.0
+        return psd
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         lengths = "decay lengths {} x {}".format(*(show(length, "m") for length in self.decay_lengths))
         words = f"{self.form} autocorrelation, rms height {show(self.rms_height, 'm')}, {lengths}"
-        return words + clipping_text(self, grid)
+        if all(size >= _AMPLE * length for size, length in zip(grid.size, self.embedding_lengths, strict=True)):
+            return words
+        negative = negative_part(grid, eigenvalues(self, grid))
+        return f"{words}, negative part {negative:.1e} of the spectrum clipped" if negative > _NOISE else words
 
 
 @dataclass(frozen=True)
