@@ -8,7 +8,6 @@ it at each wavenumber with one set of times for all (``LayeredCreep``).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import TypeAlias
@@ -24,7 +23,7 @@ from ..relaxation import Creep, merged
 from ..viscoelastic import Viscoelastic, alike
 from .halfspace import Compliance, contact_compliance
 from .influence import Limits, line_kernel, patch_coefficients, point_kernel, strip_coefficients, wavenumber_grid
-from .layered import Modulus, PlaneCompliance, Samples, operational_moduli, operational_plane
+from .layered import PlaneCompliance, Samples, operational_moduli, operational_plane
 from .retardation_fit import fitted, fitted_planes
 from .tensor import (
     SurfaceTensor,
@@ -341,7 +340,11 @@ class _Fit:
         """Series with one set of times for all wavenumbers."""
         layers = [layer for stack in self.stacks for layer in stack.layers]
         thinnest = min(layer.thickness for layer in layers)
-        stiff = max(1.0, max(m.youngs_modulus for m in self.materials) / min(_softest(m) for m in self.materials))
+        relaxed = ((m, m.relaxed_share if isinstance(m, Viscoelastic) else 1.0) for m in self.materials)
+        softest = min(
+            m.youngs_modulus * max(share, 1e-3) for m, share in relaxed
+        )  # of a fluid a thousandth of the first
+        stiff = max(1.0, max(m.youngs_modulus for m in self.materials) / softest)
         longest = _LONGEST * max(stack.thickness for stack in self.stacks) * stiff ** (1.0 / 3.0)
         first, last = 2.0 * np.pi / longest, 2.0 * np.pi / (_SHORTEST * thinnest)
         nodes = np.geomspace(first, last, math.ceil(math.log10(last / first) * _NODES_PER_DECADE) + 1)
@@ -354,14 +357,14 @@ class _Fit:
         LL, zz, Lz, T = (np.stack([getattr(row, name) for row in rows]) for name in ("LL", "zz", "Lz", "T"))
         exact = PlaneCompliance(LL, zz, Lz, T).scaled(nodes)
 
-        means, mean_error = self._mean_modes(times, self._compression)
+        means, mean_error = self._mean_modes(times, shear=False)
         if not self.shear:
             strengths, error = fitted(times, omega, np.asarray(exact.zz, dtype=complex))
             used = _used(strengths, means)
             error = max(error, mean_error)
             return LayeredCreep(times[used], nodes, strengths[used], means[used], error, instantaneous)
         planes, error = fitted_planes(times, omega, exact)
-        shears, shear_error = self._mean_modes(times, self._shearing)
+        shears, shear_error = self._mean_modes(times, shear=True)
         used = _used(planes.zz, means) | _used(planes.LL, shears) | _used(planes.T, shears)
         kept = PlaneCompliance(planes.LL[used], planes.zz[used], planes.Lz[used], planes.T[used])
         error, shear = max(error, mean_error, shear_error), ShearStrengths(kept, shears[used])
@@ -394,39 +397,27 @@ class _Fit:
     def _at(self, nodes: RealArray, s: complex) -> PlaneCompliance:
         return summed_planes([(operational_plane(stack, nodes, s), sign) for stack, sign in self.signed])
 
-    def _mean_modes(self, times: RealArray, mean: Callable[[complex], complex]) -> tuple[RealArray, float]:
-        """c_k(0) of the ``mean`` mode of layers on a rigid base; zero if one of the bodies is a half-space."""
-        if any(isinstance(stack.base, Elastic) for stack in self.stacks):
+    def _mean_modes(self, times: RealArray, *, shear: bool) -> tuple[RealArray, float]:
+        """c_k(0) of layers on a rigid base, of the compression h (1 - 2nu)/2G(1 - nu) of each or of its ``shear`` h/G.
+
+        Zero if one of the bodies is a half-space, and in shear where a layer slips: the datum is then the mean displacement.
+        """
+        on_half_space = any(isinstance(stack.base, Elastic) for stack in self.stacks)
+        if on_half_space or (shear and any(stack.slips for stack in self.stacks)):
             return np.zeros(times.size), 0.0
         finite = times[np.isfinite(times)]
         omega = np.geomspace(0.1 / finite[-1], 10.0 / finite[0], 8 * finite.size)
-        rows = np.array([mean(1j * w) for w in (*omega, 1e30 / finite[0])])
+        rows = np.zeros(omega.size + 1, dtype=complex)
+        for number, w in enumerate((*omega, 1e30 / finite[0])):
+            for layer in (layer for stack in self.stacks for layer in stack.layers):
+                (G, nu), h = operational_moduli(layer.material, 1j * w), layer.thickness
+                rows[number] += complex(h / G if shear else h * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu)))
         if not rows.any():
             return np.zeros(times.size), 0.0
         strengths, error = fitted(times, omega, rows[:, None])
         return strengths[:, 0], error
 
-    def _compression(self, s: complex) -> complex:
-        """Sum of h (1 - 2nu)/2G(1 - nu) at ``s``."""
-        return sum(complex(h * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu))) for h, G, nu in self._layers(s))
-
-    def _shearing(self, s: complex) -> complex:
-        """Sum of h/G at ``s``; zero where a layer slips, whose datum is its mean displacement."""
-        return 0.0 if any(stack.slips for stack in self.stacks) else sum(complex(h / G) for h, G, _ in self._layers(s))
-
-    def _layers(self, s: complex) -> Iterator[tuple[float, Modulus, Modulus]]:
-        """Thickness, shear modulus and Poisson's ratio at ``s`` of each layer."""
-        for stack in self.stacks:
-            for layer in stack.layers:
-                yield (layer.thickness, *operational_moduli(layer.material, s))
-
 
 def _used(strengths: RealArray, means: RealArray) -> BoolArray:
     """Whether a term shows at some wavenumber or in the mean, (terms,)."""
     return np.asarray(strengths.max(axis=1) + means / max(float(means.max()), 1e-300) > 0.0)
-
-
-def _softest(material: Elastic) -> float:
-    """Modulus (Pa) that a material relaxes to; of a fluid a thousandth of the first."""
-    share = material.relaxed_share if isinstance(material, Viscoelastic) else 1.0
-    return material.youngs_modulus * max(share, 1e-3)

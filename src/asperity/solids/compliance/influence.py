@@ -156,7 +156,7 @@ def patch_coefficients(kernel: PointKernel, grid: Grid, angular: Angular = ISOTR
     """
     (nx, ny), (dx, dy) = grid.shape, grid.spacing
     side = max(dx, dy)
-    out = np.zeros((nx, ny))
+    out: RealArray = np.zeros((nx, ny))
     if np.hypot((nx - 1) * dx, (ny - 1) * dy) > FAR * side:  # means over the five nearest nodes along x and along y
         x, y = np.arange(-2, nx + 2)[:, None] * dx, np.arange(-2, ny + 2)[None, :] * dy
         values = _values(kernel, x, y, angular)

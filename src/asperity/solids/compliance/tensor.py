@@ -68,7 +68,19 @@ def surface_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Surf
     q = grid.wavenumber()
     q[0, 0] = 1.0  # any value: the mean mode is replaced
     plane = summed_planes([(plane_compliance(solid, q), sign) for solid, sign in deformable(body, counter_body)])
-    return tensor_of(grid, plane, *_mean_modes(body, counter_body))
+    stacks = [solid.reduced if isinstance(solid, Layered) else None for solid, _ in deformable(body, counter_body)]
+    shear = normal = 0.0
+    on_rigid_bases = [stack for stack in stacks if stack is not None and not isinstance(stack.base, Elastic)]
+    if len(on_rigid_bases) == len(stacks):
+        normal = sum(LayerStack(stack).mean_mode() for stack in on_rigid_bases)
+        if not any(
+            stack.slips for stack in on_rigid_bases
+        ):  # else the mean displacement along the surface is the datum
+            shear = sum(
+                sum(layer.thickness / layer.material.shear_modulus for layer in stack.layers)
+                for stack in on_rigid_bases
+            )
+    return tensor_of(grid, plane, shear, normal)
 
 
 def tensor_of(grid: Grid, plane: PlaneCompliance, shear: float, normal: float) -> SurfaceTensor:
@@ -102,20 +114,6 @@ def summed_planes(parts: Sequence[tuple[PlaneCompliance, float]]) -> PlaneCompli
         Lz=np.add.reduce([sign * part.Lz for part, sign in parts]),
         T=np.add.reduce([part.T for part, _ in parts]),
     )
-
-
-def _mean_modes(body: Body, counter_body: Body) -> tuple[float, float]:
-    """Shear and compression of the layers per traction in m/Pa where all deformable bodies stand on rigid bases, else 0."""
-    shears, normals = [], []
-    for solid, _ in deformable(body, counter_body):
-        stack = solid.reduced if isinstance(solid, Layered) else None
-        if stack is None or isinstance(stack.base, Elastic):
-            return 0.0, 0.0
-        shears.append(
-            0.0 if stack.slips else sum(layer.thickness / layer.material.shear_modulus for layer in stack.layers)
-        )
-        normals.append(LayerStack(stack).mean_mode())
-    return (sum(shears) if all(shears) else 0.0), sum(normals)
 
 
 # Full surface compliance of pixels under uniform traction, without periodicity.
