@@ -36,9 +36,11 @@ def opened_by_first_reader(file: Path) -> Iterator[Any]:
     """
     with file.open("rb") as stream:
         start = stream.read(_START)
-    with _postponed_packages():
+    finder, reader = _Finder(), None
+    # while this finder lasts, packages that are not imported yet are imported without their code
+    sys.meta_path.insert(0, finder)
+    try:
         package = import_module("SurfaceTopography.IO")
-        reader = None
         for name in _order(package):
             candidate = getattr(package, name)
             if candidate.can_read(start).name == "NO":
@@ -46,6 +48,8 @@ def opened_by_first_reader(file: Path) -> Iterator[Any]:
             with suppress(Exception):
                 reader = candidate(str(file))
                 break
+    finally:
+        sys.meta_path.remove(finder)
     if reader is None:
         raise LookupError(f"no reader opens {file}")
     with reader:
@@ -124,14 +128,3 @@ class _Finder(MetaPathFinder):
             return None
         spec.loader = _Postponing(spec.loader)
         return spec
-
-
-@contextmanager
-def _postponed_packages() -> Iterator[None]:
-    """While this lasts, ``_POSTPONED`` packages that are not imported yet are imported without their code."""
-    finder = _Finder()
-    sys.meta_path.insert(0, finder)
-    try:
-        yield
-    finally:
-        sys.meta_path.remove(finder)

@@ -244,34 +244,30 @@ def ellipse_shakedown(ratio: float, nu: float = 0.3) -> SphereShakedown:
         }
         return StressTensor(**whole)
 
-    return _searched(stress, min(1.0, b), b, _Sampling(24, 7, 9))
+    return _searched(stress, min(1.0, b), b, along=24, across=7, down=9)
 
 
 _Stress: TypeAlias = Callable[[RealArray, RealArray, RealArray], StressTensor]
 """Stress under unit peak pressure at places in semi-axes along the pass."""
 
 
-@dataclass(frozen=True)
-class _Sampling:
-    """Numbers of places along half a pass, across the half contact, and of depths in each round."""
+def _searched(
+    stress: _Stress, depth: float, b: float, *, along: int = 81, across: int = 15, down: int = 13
+) -> SphereShakedown:
+    """Bounds of a homogeneous contact, semi-axes 1 along the pass and ``b`` across, on ever finer depths of the order of ``depth``.
 
-    along: int = 81
-    across: int = 15
-    down: int = 13
-
-
-def _searched(stress: _Stress, depth: float, b: float, sampling: _Sampling = _Sampling()) -> SphereShakedown:
-    """Bounds of a homogeneous contact, semi-axes 1 along the pass and ``b`` across, on ever finer depths of the order of ``depth``."""
+    ``along`` and ``across`` are numbers of places along half a pass and across the half contact, ``down`` of depths in each round.
+    """
     # dense at the contact, and with its edges
-    half = np.unique([*np.sinh(np.linspace(0.0, math.asinh(15.0), sampling.along)) / 5.0, 1.0])
+    half = np.unique([*np.sinh(np.linspace(0.0, math.asinh(15.0), along)) / 5.0, 1.0])
     x = np.concatenate([-half[:0:-1], half])[:, None]
-    y = np.array([*np.linspace(0.0, 1.2, sampling.across), 1.6, 2.2]) * b
+    y = np.array([*np.linspace(0.0, 1.2, across), 1.6, 2.2]) * b
     low, high, best, bound = 0.0, 1.2 * depth, (0.0, 0.0), 0.0
     for _ in range(4):
-        depths = np.linspace(low, high, sampling.down)
+        depths = np.linspace(low, high, down)
         passes = stress(x[None], y[None, None], depths[:, None, None])
         found = point_shakedown(passes, 1.0, surface=depths == 0.0)
-        place, step = int(np.argmax(found.radius)), (high - low) / (sampling.down - 1.0)
+        place, step = int(np.argmax(found.radius)), (high - low) / (down - 1.0)
         best = max(best, (float(found.radius[place]), float(depths[place])))
         bound = max(bound, float(found.least.max()))
         low, high = max(depths[place] - step, 0.0), depths[place] + step
