@@ -143,22 +143,13 @@ def influence_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> In
 
     InputError if both bodies are rigid, or a layer may slip: its displacement under a tangential force has no limit.
     """
-    xx, yy, xy = BodiesSurface(body, counter_body).shear_pixels(grid)
+    surface = BodiesSurface(body, counter_body)
+    xx, yy, xy = surface.shear_pixels(grid)
     zz = np.zeros(grid.shape)
     for solid, _ in deformable(body, counter_body):
         zz += patch_coefficients(_samples(grid, solid).kernel(lambda c: c.zz), grid, ISOTROPIC)
-    xz, yz = coupling_influence(grid, body, counter_body)
+    xz, yz = surface.coupling_pixels(grid)
     return InfluenceTensor(xx=xx, yy=yy, zz=zz, xy=xy, xz=xz, yz=yz)
-
-
-def coupling_influence(grid: Grid, body: Body, counter_body: Body = Rigid()) -> tuple[RealArray, RealArray]:
-    """``xz`` and ``yz`` of ``influence_tensor`` alone, which layers that may slip have, too."""
-    xz, yz = np.zeros(grid.shape), np.zeros(grid.shape)
-    for solid, sign in deformable(body, counter_body):
-        along_x, along_y = coupling_pixels_of(grid, _samples(grid, solid))
-        xz += sign * along_x
-        yz += sign * along_y
-    return xz, yz
 
 
 def _samples(grid: Grid, body: Elastic | Layered) -> Samples:
@@ -205,24 +196,12 @@ def shear_strips_of(grid: Grid, known: Samples, datum: float) -> tuple[RealArray
     return along, strip_coefficients(line_kernel(known.values.T, known.limits(lambda c: c.T)), grid, datum)
 
 
-def coupling_strips(grid: Grid, body: Body, counter_body: Body = Rigid()) -> RealArray:
+def coupling_strips_of(grid: Grid, known: Samples) -> RealArray:
     """Normal displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip of width dx under unit shear along +x.
 
-    It is that of ``body``, which carries the traction, relative to ``counter_body``, and odd in the offset. A line force Q
-    lifts a half-space behind it and lowers it ahead by the same amount at every distance, (1-2ν)/4G times Q (Johnson 1985,
-    eq. 2.24); with layers the step changes from that of the top layer to that of the base. No datum is needed.
-
-    InputError if both bodies are rigid.
+    It is odd in the offset. A line force Q lifts a half-space behind it and lowers it ahead by the same amount at every distance,
+    (1-2ν)/4G times Q (Johnson 1985, eq. 2.24); with layers the step changes from that of the top layer to that of the base. No datum is needed.
     """
-    total = np.zeros((grid.shape[0], 1))
-    for solid, sign in deformable(body, counter_body):
-        depth = (solid.reduced.thickness if isinstance(solid, Layered) else 0.0) or grid.spacing[0]
-        total += sign * coupling_strips_of(grid, samples(solid, depth))
-    return total
-
-
-def coupling_strips_of(grid: Grid, known: Samples) -> RealArray:
-    """``coupling_strips`` from the samples ``known``."""
     edges, alpha = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0], wavenumber_grid(known.depth)
     near = float(known.high.Lz)
     rest = line_integral(alpha, (known.values.Lz - near) / alpha, known.depth, cosine=False)
@@ -252,7 +231,7 @@ class SurfaceCompliance(Protocol):
         """Along x under shear along x and along y under shear along y, (nx, 1), see ``shear_strips_of``."""
 
     def coupling_strips(self, grid: Grid) -> RealArray:
-        """See the function of this name."""
+        """Normal displacement by shear along x, (nx, 1), see ``coupling_strips_of``."""
 
 
 @dataclass(frozen=True)
@@ -284,8 +263,13 @@ class BodiesSurface:
         return total[0], total[1], total[2]
 
     def coupling_pixels(self, grid: Grid) -> tuple[RealArray, RealArray]:
-        """``xz`` and ``yz`` of pixels."""
-        return coupling_influence(grid, self.body, self.counter_body)
+        """``xz`` and ``yz`` of ``influence_tensor`` alone, which layers that may slip have, too."""
+        xz, yz = np.zeros(grid.shape), np.zeros(grid.shape)
+        for solid, sign in deformable(self.body, self.counter_body):
+            along_x, along_y = coupling_pixels_of(grid, _samples(grid, solid))
+            xz += sign * along_x
+            yz += sign * along_y
+        return xz, yz
 
     def shear_strips(self, grid: Grid, datum: float) -> tuple[RealArray, RealArray]:
         """Along and across, (nx, 1). InputError if a layer may slip."""
@@ -298,5 +282,9 @@ class BodiesSurface:
         return along, across
 
     def coupling_strips(self, grid: Grid) -> RealArray:
-        """Normal displacement by shear along x, (nx, 1)."""
-        return coupling_strips(grid, self.body, self.counter_body)
+        """Normal displacement by shear along x, (nx, 1), of ``body`` relative to ``counter_body``."""
+        total = np.zeros((grid.shape[0], 1))
+        for solid, sign in deformable(self.body, self.counter_body):
+            depth = (solid.reduced.thickness if isinstance(solid, Layered) else 0.0) or grid.spacing[0]
+            total += sign * coupling_strips_of(grid, samples(solid, depth))
+        return total

@@ -317,12 +317,9 @@ def tip_limited(surface: Surface, radius: Annotated[Length, "radius of the tip"]
     tip = f"tip of radius {show(radius, 'm', 3)}"
     if cutoff < FINEST * max(surface.grid.spacing):
         reach = "no wave" if cutoff == 0.0 else f"waves below {show(cutoff, 'm', 3)}, less than four pixels,"
-        return _with_step(surface, f"tip-limited: {reach} shaped by a {tip}, nothing removed")
-    return _with_step(
-        filtered(surface, short=cutoff), f"tip-limited: waves below {show(cutoff, 'm', 3)} shaped by a {tip}"
-    )
-
-
-def _with_step(surface: Surface, step: str) -> Surface:
-    origin = surface.origin.continued(step, _KEYS)
-    return Surface(surface.heights, surface.dx, surface.dy, periodic=surface.periodic, origin=origin)
+        limited, step = surface, f"tip-limited: {reach} shaped by a {tip}, nothing removed"
+    else:
+        limited = filtered(surface, short=cutoff)
+        step = f"tip-limited: waves below {show(cutoff, 'm', 3)} shaped by a {tip}"
+    origin = limited.origin.continued(step, _KEYS)
+    return Surface(limited.heights, limited.dx, limited.dy, periodic=limited.periodic, origin=origin)
