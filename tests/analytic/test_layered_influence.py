@@ -11,7 +11,7 @@ import asperity as asp
 from asperity.solids.compliance.halfspace import HalfSpace, contact_compliance
 from asperity.solids.compliance.influence import ISOTROPIC, patch_coefficients
 from asperity.solids.compliance.layered import LayerStack, interface_compliances, samples
-from asperity.solids.compliance.tensor import coupling_influence, coupling_strips, influence_tensor
+from asperity.solids.compliance.tensor import BodiesSurface, influence_tensor
 
 ROWS = reference("layered_influence_surface")
 CONFIGURATIONS = sorted({row["config"] for row in ROWS})
@@ -167,13 +167,13 @@ def test_strips_under_shear_step_from_the_top_layer_to_what_holds_it(nu):
         (slipping, -0.25 * nu / film.shear_modulus),
         (film, near),
     ):
-        close = coupling_strips(asp.Grid((6, 1), (dx, 1.0)), body)[:, 0]
+        close = BodiesSurface(body, asp.Rigid()).coupling_strips(asp.Grid((6, 1), (dx, 1.0)))[:, 0]
         assert close[0] == 0.0
         np.testing.assert_allclose(close[1:] / dx, near, atol=1e-3)
-        distant = coupling_strips(asp.Grid((6, 1), (1e4, 1.0)), body)[:, 0]
+        distant = BodiesSurface(body, asp.Rigid()).coupling_strips(asp.Grid((6, 1), (1e4, 1.0)))[:, 0]
         np.testing.assert_allclose(distant[1:] / 1e4, far, atol=1e-3)
-    pair = coupling_strips(asp.Grid((6, 1), (0.3, 1.0)), bonded, film)
-    alone = [coupling_strips(asp.Grid((6, 1), (0.3, 1.0)), body) for body in (bonded, film)]
+    pair = BodiesSurface(bonded, film).coupling_strips(asp.Grid((6, 1), (0.3, 1.0)))
+    alone = [BodiesSurface(body, asp.Rigid()).coupling_strips(asp.Grid((6, 1), (0.3, 1.0))) for body in (bonded, film)]
     np.testing.assert_allclose(pair, alone[0] - alone[1], atol=1e-15)
 
 
@@ -181,7 +181,7 @@ def test_coupling_of_a_slipping_layer_tends_to_that_of_a_sheet():
     """αC_Lz from (1-2ν)/2G of the film to -ν/2G: u_x far from a normal point force is -αC_Lz/(2πr) x/r."""
     film = elastic(2.0, 0.3)
     body = asp.Layered([asp.Layer(film, 1.0, asp.Frictionless())], elastic(1.0, 0.1))
-    xz, yz = coupling_influence(asp.Grid((5, 5), (1e4, 1e4)), body)
+    xz, yz = BodiesSurface(body, asp.Rigid()).coupling_pixels(asp.Grid((5, 5), (1e4, 1e4)))
     expected = 0.3 / (2.0 * film.shear_modulus) / (2.0 * np.pi * np.arange(3, 5) * 1e4) * 1e8
     # a pixel instead of a point: the mean of x/r² over a square, harmonic but for the fourth order, 1/60 r^-4 at most
     np.testing.assert_allclose(xz[3:, 0], expected, rtol=2e-3)

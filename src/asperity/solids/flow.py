@@ -51,22 +51,22 @@ def flow_of(body: Elastic | Layered, plasticity: Plasticity = OF_STRENGTH) -> tu
             f"plasticity must be one law for each of the {len(materials)} regions of the body, but is {len(given)} laws. "
             "Give the layers from the surface down, then the base; None stays elastic."
         )
-    return tuple(_law(material, flow) for material, flow in zip(materials, given, strict=True))
-
-
-def _law(material: Elastic, flow: Flow) -> Elastic | J2:
-    if flow is None:
-        return material
-    if isinstance(flow, J2):
-        same = (flow.elastic.youngs_modulus, flow.elastic.poisson_ratio)
-        if same != (material.youngs_modulus, material.poisson_ratio):
+    laws: list[Elastic | J2] = []
+    for material, flow in zip(materials, given, strict=True):
+        if isinstance(flow, J2):
+            same = (flow.elastic.youngs_modulus, flow.elastic.poisson_ratio)
+            if same != (material.youngs_modulus, material.poisson_ratio):
+                raise InputError(
+                    f"plasticity must be laws with the elastic constants of their region, but is E = {same[0]:g} Pa, nu = {same[1]:g} in a region "
+                    f"with E = {material.youngs_modulus:g} Pa, nu = {material.poisson_ratio:g}. Give the hardening alone, or the same constants."
+                )
+            laws.append(flow)
+        elif flow is None:
+            laws.append(material)
+        elif isinstance(flow, Hardening):
+            laws.append(J2(material, flow))
+        else:
             raise InputError(
-                f"plasticity must be laws with the elastic constants of their region, but is E = {same[0]:g} Pa, nu = {same[1]:g} in a region "
-                f"with E = {material.youngs_modulus:g} Pa, nu = {material.poisson_ratio:g}. Give the hardening alone, or the same constants."
+                f"plasticity must be laws of hardening, J2 laws or None, but is {flow!r}. Write LinearHardening(Y), Swift(…), Voce(…) or J2(…)."
             )
-        return flow
-    if not isinstance(flow, Hardening):
-        raise InputError(
-            f"plasticity must be laws of hardening, J2 laws or None, but is {flow!r}. Write LinearHardening(Y), Swift(…), Voce(…) or J2(…)."
-        )
-    return J2(material, flow)
+    return tuple(laws)

@@ -10,7 +10,7 @@ from typing import ClassVar, TypeAlias
 from ..core import require
 from ..core.errors import InputError
 from ..core.late import Shown
-from .elastic import Elastic, Hardening, Rigid, Strength
+from .elastic import Elastic, Rigid, Strength
 from .viscoelastic import Viscoelastic
 
 
@@ -306,38 +306,31 @@ def graded(
 
 
 def _between(top: Elastic, bottom: Elastic, depth: float, grading: Grading) -> Elastic:
+    """Material at the relative ``depth``. InputError if top and bottom harden by laws of different kinds."""
+
     def mixed(first: float, last: float) -> float:
         return first + (last - first) * depth
 
     first, last = top.strength, bottom.strength
+    hardening, lowest = first.hardening, last.hardening
+    if hardening is not None or lowest is not None:
+        if type(hardening) is not type(lowest) or not is_dataclass(hardening) or not is_dataclass(lowest):
+            names = [getattr(item, "name", "perfectly plastic") for item in (hardening, lowest)]
+            raise InputError(
+                f"hardening of a graded layer must be of one kind at top and bottom, but is {names[0]} and {names[1]}. Give both alike."
+            )
+        names = [item.name for item in fields(hardening)]
+        values = {name: mixed(getattr(hardening, name), getattr(lowest, name)) for name in names}
+        hardening = replace(hardening, **values)
     return Elastic(
         grading.modulus(top.youngs_modulus, bottom.youngs_modulus, depth),
         mixed(top.poisson_ratio, bottom.poisson_ratio),
         Strength(
             mixed(first.hardness, last.hardness),
             mixed(first.yield_stress, last.yield_stress) if first.hardening is None else math.nan,
-            _hardening_between(first.hardening, last.hardening, depth),
+            hardening,
             mixed(first.kinematic, last.kinematic),
             mixed(first.recall, last.recall),
         ),
         name=f"graded {top.name} - {bottom.name}".strip(" -") if top.name or bottom.name else "",
     )
-
-
-def _hardening_between(top: Hardening | None, bottom: Hardening | None, depth: float) -> Hardening | None:
-    """Hardening whose values change in proportion to ``depth``.
-
-    Raises
-    ------
-    InputError
-        If the two are of different kinds.
-    """
-    if top is None and bottom is None:
-        return None
-    if type(top) is not type(bottom) or not is_dataclass(top) or not is_dataclass(bottom):
-        names = [getattr(item, "name", "perfectly plastic") for item in (top, bottom)]
-        raise InputError(
-            f"hardening of a graded layer must be of one kind at top and bottom, but is {names[0]} and {names[1]}. Give both alike."
-        )
-    values = {f.name: getattr(top, f.name) for f in fields(top)}
-    return replace(top, **{name: value + (getattr(bottom, name) - value) * depth for name, value in values.items()})

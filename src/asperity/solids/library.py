@@ -162,31 +162,30 @@ class Record:
             raise InputError(f'aliases {where} must be a list of names, such as ["steel"], but is {aliases!r}.')
         if not isinstance(note, str):
             raise InputError(f"note {where} must be text, but is {note!r}.")
-        values: Any = {key: _sourced(table[key], kind, f"{key} {where}") for key, kind in kinds.items() if key in table}
+        values: dict[str, Any] = {}
+        for key, kind in kinds.items():
+            if key not in table:
+                continue
+            what = f"{key} {where}"
+            entry = table[key] if isinstance(table[key], dict) else {"value": table[key]}
+            if "value" not in entry or set(entry) - {"value", "source"}:
+                raise InputError(
+                    f"{what} must have a value and may have a source, but has the keys {', '.join(entry) or 'none'}."
+                )
+            source, value = entry.get("source", "user"), entry["value"]
+            if not isinstance(source, str) or not source.strip():
+                raise InputError(f"source of {what} must be text, but is {source!r}.")
+            if kind == "ratio":
+                ratio = units.parse(value, "number", what) if isinstance(value, str) else value
+                number = require.within(ratio, -1.0, 0.5, what, INCOMPRESSIBLE)
+            else:
+                number = require.positive(units.parse(value, kind, what), f"{what} ({units.DIMENSIONS[kind]})")
+            values[key] = Sourced(number, source)
         return cls(name=name, aliases=tuple(aliases), note=note, **values)
 
 
 def _normal(name: str) -> str:
     return " ".join(name.casefold().split())
-
-
-def _sourced(entry: Any, kind: str, what: str) -> Sourced:
-    """Value of a ``kind`` of quantity from ``entry``, a bare value or a table with value and source."""
-    if not isinstance(entry, dict):
-        entry = {"value": entry}
-    if "value" not in entry or set(entry) - {"value", "source"}:
-        raise InputError(
-            f"{what} must have a value and may have a source, but has the keys {', '.join(entry) or 'none'}."
-        )
-    source = entry.get("source", "user")
-    if not isinstance(source, str) or not source.strip():
-        raise InputError(f"source of {what} must be text, but is {source!r}.")
-    if kind == "ratio":
-        ratio = entry["value"]
-        ratio = units.parse(ratio, "number", what) if isinstance(ratio, str) else ratio
-        return Sourced(require.within(ratio, -1.0, 0.5, what, INCOMPRESSIBLE), source)
-    value = units.parse(entry["value"], kind, what)
-    return Sourced(require.positive(value, f"{what} ({units.DIMENSIONS[kind]})"), source)
 
 
 @dataclass(frozen=True, kw_only=True)

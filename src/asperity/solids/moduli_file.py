@@ -53,24 +53,16 @@ def read_moduli(path: str | Path) -> tuple[RealArray, RealArray, RealArray]:
         raise FileFormatError(
             f"headings of the {what} must be such as {EXAMPLE!r}, but {path} has {lines[0].strip()!r}."
         )
-    rows = [
-        _row(
-            line.split(separator),
-            [places[name] for name in (*frequencies, "storage", "loss")],
-            f"{what} {path}",
-            number,
-        )
-        for number, line in enumerate(lines[1:], start=1)
-    ]
+    taken = [places[name] for name in (*frequencies, "storage", "loss")]
+    rows = []
+    for number, line in enumerate(lines[1:], start=1):
+        cells = line.split(separator)
+        try:
+            rows.append([float(cells[place]) * factor for place, factor in taken])
+        except (ValueError, IndexError):
+            raise FileFormatError(
+                f"row {number} of the {what} {path} must hold numbers in all columns, but is {cells!r}."
+            ) from None
     table = np.array(rows, dtype=float).reshape(-1, 3)
     rate = 1.0 if frequencies == ["frequency"] else 2.0 * math.pi
     return table[:, 0] / rate, table[:, 1], table[:, 2]
-
-
-def _row(cells: list[str], places: list[tuple[int, float]], what: str, number: int) -> list[float]:
-    try:
-        return [float(cells[place]) * factor for place, factor in places]
-    except (ValueError, IndexError):
-        raise FileFormatError(
-            f"row {number} of the {what} must hold numbers in all columns, but is {cells!r}."
-        ) from None

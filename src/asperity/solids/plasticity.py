@@ -238,34 +238,7 @@ class J2:
             )
         volume = eps @ UNIT
         trial = 2.0 * self.shear * (eps - before.plastic_strain - np.multiply.outer(volume / 3.0, UNIT))
-        dq = self._increment(trial, before)
-        eta, size = self._relative(trial, before, dq)
-        direction = eta / np.where(size > 0.0, size, 1.0)[..., None]
-        flow = math.sqrt(1.5) * dq[..., None] * direction
-        stress = trial - 2.0 * self.shear * flow + np.multiply.outer(self.bulk * volume, UNIT)
-        back = (before.back_stress + 2.0 / 3.0 * self.kinematic * flow) / (1.0 + self.recall * dq)[..., None]
-        after = PlasticState(before.plastic_strain + flow, back, before.accumulated + dq)
-        return PlasticStep(stress, after, self._tangent(before, dq, direction, size) if tangent else None)
-
-    def _relative(self, trial: RealArray, before: PlasticState, dq: RealArray) -> tuple[RealArray, RealArray]:
-        """Trial stress less the back stress that is recalled by Δq, and its norm."""
-        eta = trial - before.back_stress / (1.0 + self.recall * dq)[..., None]
-        return eta, norm(eta)
-
-    def _excess(self, trial: RealArray, before: PlasticState, dq: RealArray) -> tuple[RealArray, RealArray]:
-        """Yield condition after a step Δq, and its derivative with respect to it."""
-        eta, size = self._relative(trial, before, dq)
-        faded = 1.0 + self.recall * dq
-        q = before.accumulated + dq
-        left = (
-            math.sqrt(1.5) * size - 3.0 * self.shear * dq - self.kinematic * dq / faded - self.hardening.yield_stress(q)
-        )
-        turned = (eta * before.back_stress) @ WEIGHTS / np.where(size > 0.0, size, 1.0)
-        slope = math.sqrt(1.5) * turned * self.recall / faded**2 - 3.0 * self.shear - self.kinematic / faded**2
-        return left, slope - self.hardening.slope(q)
-
-    def _increment(self, trial: RealArray, before: PlasticState) -> RealArray:
-        """Δq of each point: zero where it stays elastic, else by Newton's method from zero, which is monotonic for concave hardening."""
+        # Δq of each point: zero where it stays elastic, else by Newton's method from zero, which is monotonic for concave hardening
         dq = np.zeros(trial.shape[:-1])
         left, slope = self._excess(trial, before, dq)
         scale = np.maximum(math.sqrt(1.5) * norm(trial), self.hardening.yield_stress(before.accumulated))
@@ -273,17 +246,38 @@ class J2:
         for _ in range(MOST_STEPS):
             open_ = flows & (np.abs(left) > TOLERANCE * scale)
             if not open_.any():
-                return dq
+                break
             moved = np.where(open_, np.maximum(dq - left / slope, 0.5 * dq), dq)
             if np.array_equal(moved, dq):  # at rounding
-                return dq
+                break
             dq = moved
             left, slope = self._excess(trial, before, dq)
-        if (np.abs(left[flows]) < 1e-10 * scale[flows]).all():
-            return dq
-        raise ConvergenceError(
-            f"The plastic strain of a step is not found in {MOST_STEPS} steps at every point. Take a smaller step."
+        else:
+            if not (np.abs(left[flows]) < 1e-10 * scale[flows]).all():
+                raise ConvergenceError(
+                    f"The plastic strain of a step is not found in {MOST_STEPS} steps at every point. Take a smaller step."
+                )
+        eta = trial - before.back_stress / (1.0 + self.recall * dq)[..., None]  # less what Δq leaves of the back stress
+        size = norm(eta)
+        direction = eta / np.where(size > 0.0, size, 1.0)[..., None]
+        flow = math.sqrt(1.5) * dq[..., None] * direction
+        stress = trial - 2.0 * self.shear * flow + np.multiply.outer(self.bulk * volume, UNIT)
+        back = (before.back_stress + 2.0 / 3.0 * self.kinematic * flow) / (1.0 + self.recall * dq)[..., None]
+        after = PlasticState(before.plastic_strain + flow, back, before.accumulated + dq)
+        return PlasticStep(stress, after, self._tangent(before, dq, direction, size) if tangent else None)
+
+    def _excess(self, trial: RealArray, before: PlasticState, dq: RealArray) -> tuple[RealArray, RealArray]:
+        """Yield condition after a step Δq, and its derivative with respect to it."""
+        faded = 1.0 + self.recall * dq
+        eta = trial - before.back_stress / faded[..., None]
+        size = norm(eta)
+        q = before.accumulated + dq
+        left = (
+            math.sqrt(1.5) * size - 3.0 * self.shear * dq - self.kinematic * dq / faded - self.hardening.yield_stress(q)
         )
+        turned = (eta * before.back_stress) @ WEIGHTS / np.where(size > 0.0, size, 1.0)
+        slope = math.sqrt(1.5) * turned * self.recall / faded**2 - 3.0 * self.shear - self.kinematic / faded**2
+        return left, slope - self.hardening.slope(q)
 
     def _tangent(self, before: PlasticState, dq: RealArray, n: RealArray, size: RealArray) -> RealArray:
         """Consistent tangent (Simo and Taylor 1985), of which that without recall is symmetric."""

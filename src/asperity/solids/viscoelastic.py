@@ -364,6 +364,8 @@ def power_law_series(
     Terms reach two decades beyond the longest time and 2/(1 - alpha) decades, at most 8, below the shortest: what a creep has missed
     before falls off with time to the power 1 - alpha. Those still slower are a constant. InputError if a value is outside its range.
     """
+    from scipy.optimize import nnls
+
     require.positive(coefficient, "coefficient of a power law (Pa)")
     alpha = require.between(exponent, 0.0, 1.0, "exponent of a power law")
     require.positive(shortest, "shortest time of a power law (s)")
@@ -379,24 +381,16 @@ def power_law_series(
     taus = first * 10.0 ** (np.arange(-count, steps + count + 1) / count)
     times = np.geomspace(first, last, 8 * steps)
     columns = np.exp(-times[:, None] / taus)
-    strengths, rest = _non_negative(np.hstack([columns, np.ones((times.size, 1))]), times**-alpha)
-    return Relaxation(
-        coefficient * rest, tuple((coefficient * g, float(tau)) for g, tau in zip(strengths, taus, strict=True))
-    )
+    relative = np.hstack([columns, np.ones((times.size, 1))]) / (times**-alpha)[:, None]
+    strengths, _ = nnls(relative, np.ones(times.size), maxiter=100 * relative.shape[1])
+    terms = tuple((coefficient * g, float(tau)) for g, tau in zip(strengths[:-1], taus, strict=True))
+    return Relaxation(coefficient * float(strengths[-1]), terms)
 
 
 def power_law_error(series: Relaxation, coefficient: float, exponent: float, times: ArrayLike) -> float:
     """Largest relative difference of ``series`` from ``coefficient`` t^-``exponent`` (Pa) at ``times`` (s)."""
     t = np.asarray(times, dtype=float)
     return float(np.abs(series.at(t) / (coefficient * t**-exponent) - 1.0).max())
-
-
-def _non_negative(columns: RealArray, wanted: RealArray) -> tuple[RealArray, float]:
-    """Non-negative strengths of the ``columns``, relative to ``wanted`` row by row; the last one apart."""
-    from scipy.optimize import nnls
-
-    strengths, _ = nnls(columns / wanted[:, None], np.ones(wanted.size), maxiter=100 * columns.shape[1])
-    return strengths[:-1], float(strengths[-1])
 
 
 _NEGLIGIBLE = 1e-12

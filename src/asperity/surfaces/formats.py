@@ -207,19 +207,16 @@ def _listed(reader: Any, file: Path) -> tuple[ChannelInfo, ...]:
     heights = [channel for channel in maps if isinstance(channel.unit, str)] or maps
     preferred = reader.default_channel.index
     default = preferred if preferred in [channel.index for channel in heights] else heights[0].index
-    return tuple(_info(channel, default) for channel in maps)
-
-
-def _info(channel: Any, default: int) -> ChannelInfo:
-    lateral, unit = channel.unit if isinstance(channel.unit, tuple) else (channel.unit, channel.unit)
-    size = None
-    if channel.physical_sizes is not None and lateral:
-        metre = unit_factor(str(lateral), "length", f"lateral unit of channel {channel.name!r}")
-        size = (float(channel.physical_sizes[0]) * metre, float(channel.physical_sizes[1]) * metre)
-    shape = tuple(int(n) for n in channel.nb_grid_pts)
-    return ChannelInfo(
-        int(channel.index), str(channel.name), shape, size, str(unit or ""), int(channel.index) == default
-    )
+    found = []
+    for channel in maps:
+        lateral, unit = channel.unit if isinstance(channel.unit, tuple) else (channel.unit, channel.unit)
+        size = None
+        if channel.physical_sizes is not None and lateral:
+            metre = unit_factor(str(lateral), "length", f"lateral unit of channel {channel.name!r}")
+            size = (float(channel.physical_sizes[0]) * metre, float(channel.physical_sizes[1]) * metre)
+        shape, number = tuple(int(n) for n in channel.nb_grid_pts), int(channel.index)
+        found.append(ChannelInfo(number, str(channel.name), shape, size, str(unit or ""), number == default))
+    return tuple(found)
 
 
 def _scales(
@@ -448,7 +445,27 @@ def read_plain(
     nx, ny = found.values.shape
     chosen((ChannelInfo(0, "heights", (nx, ny), None, "", True),), channel, file)
     (length_x, length_y), lateral = _given_size(file, found, size, lateral_unit)
-    factor, words = _height_factor(file, found.full_scale, height_unit, z_scale)
+    if found.full_scale is None:
+        if height_unit is None:
+            raise FileFormatError(
+                f'file {file} does not state the unit of its heights: pass height_unit="nm" (--height-unit nm).',
+                subject=f"height unit of file {file}",
+            )
+        if z_scale is not None:
+            raise FileFormatError(
+                f"file {file} holds heights, not grey levels: leave out z_scale (--z-scale).",
+                subject=f"z_scale of file {file}",
+            )
+        factor, words = unit_factor(height_unit, "length", "height_unit"), f"heights in {height_unit}"
+    else:
+        if z_scale is None or height_unit is not None:
+            raise FileFormatError(
+                f"file {file} is a picture with grey levels: pass z_scale=... in m for its full scale "
+                '(--z-scale "100 nm") instead of a height_unit.',
+                subject=f"z_scale of file {file}",
+            )
+        full = require.positive(z_scale, "z_scale (m)")
+        factor, words = full / found.full_scale, f"full grey scale {found.full_scale:g} = {full:g} m"
     dx, dy = length_x / nx, length_y / ny
     if abs(dx - dy) > _SQUARE * max(dx, dy):
         words += f", pixels of {show(dx, 'm')} x {show(dy, 'm')}"
@@ -530,32 +547,6 @@ def _given_size(
             subject=f"size of file {file}",
         )
     return checked_size(size, f"file {file}", found.values.shape), ""
-
-
-def _height_factor(
-    file: Path, full_scale: float | None, height_unit: str | None, z_scale: float | None
-) -> tuple[float, str]:
-    """Metres per number in the file, with the words for the history."""
-    if full_scale is None:
-        if height_unit is None:
-            raise FileFormatError(
-                f'file {file} does not state the unit of its heights: pass height_unit="nm" (--height-unit nm).',
-                subject=f"height unit of file {file}",
-            )
-        if z_scale is not None:
-            raise FileFormatError(
-                f"file {file} holds heights, not grey levels: leave out z_scale (--z-scale).",
-                subject=f"z_scale of file {file}",
-            )
-        return unit_factor(height_unit, "length", "height_unit"), f"heights in {height_unit}"
-    if z_scale is None or height_unit is not None:
-        raise FileFormatError(
-            f"file {file} is a picture with grey levels: pass z_scale=... in m for its full scale "
-            '(--z-scale "100 nm") instead of a height_unit.',
-            subject=f"z_scale of file {file}",
-        )
-    z_scale = require.positive(z_scale, "z_scale (m)")
-    return z_scale / full_scale, f"full grey scale {full_scale:g} = {z_scale:g} m"
 
 
 @contextmanager

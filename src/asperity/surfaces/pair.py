@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ..core import require
-from ..core.arrays import BoolArray, RealArray
+from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.spectral import RealTransform, thread_count
@@ -115,7 +115,21 @@ def on_common_grid(
     shift_x, shift_y = (require.finite(s, f"shift along {a} (m)") for s, a in zip(shift, "xy", strict=True))
     angle = require.finite(angle, "angle of the counter surface (rad)")
     other = counter_surface if mirrored is None else turned_over(counter_surface, axis=mirrored)
-    pixel = _pixel(surface, other, spacing, angle)
+    # a rotated map is as fine along x and y as its finer side is along either
+    others = (other.dx, other.dy) if angle == 0.0 else (min(other.dx, other.dy),) * 2
+    finest = pixel = (min(surface.dx, others[0]), min(surface.dy, others[1]))
+    if spacing is not None:
+        pair = require.two(spacing, "pixel of the common grid (m)", "Write (dx, dy).")
+        dx, dy = (
+            require.positive(d, f"pixel of the common grid along {a} (m)") for d, a in zip(pair, "xy", strict=True)
+        )
+        pixel = (dx, dy)
+    for d, fine, name in zip(pixel, finest, "xy", strict=True):
+        if d > fine * (1.0 + _ROUNDING):
+            raise InputError(
+                f"pixel of the common grid along {name} must not be coarser than the finer map ({fine:g} m), but is {d:g} m. "
+                "Filter or resample the surfaces first."
+            )
     words = f", shift {show(shift_x, 'm')}, {show(shift_y, 'm')}, angle {math.degrees(angle):.6g}°"
     same_size = np.allclose(surface.size, other.size, rtol=_ROUNDING, atol=0.0)
     if surface.periodic and other.periodic and same_size and angle == 0.0:
@@ -133,24 +147,6 @@ def on_common_grid(
         _interpolated(surface, grid, (x + 0.0 * y, y + 0.0 * x), ""),
         _interpolated(other, grid, (along_u, along_v), words),
     )
-
-
-def _pixel(surface: Surface, other: Surface, spacing: tuple[float, float] | None, angle: float) -> tuple[float, float]:
-    """Pixel of the common grid in m: the finer, or the given one if it is as fine."""
-    # a rotated map is as fine along x and y as its finer side is along either
-    others = (other.dx, other.dy) if angle == 0.0 else (min(other.dx, other.dy),) * 2
-    finest = min(surface.dx, others[0]), min(surface.dy, others[1])
-    if spacing is None:
-        return finest
-    pair = require.two(spacing, "pixel of the common grid (m)", "Write (dx, dy).")
-    dx, dy = (require.positive(d, f"pixel of the common grid along {a} (m)") for d, a in zip(pair, "xy", strict=True))
-    for d, fine, name in zip((dx, dy), finest, "xy", strict=True):
-        if d > fine * (1.0 + _ROUNDING):
-            raise InputError(
-                f"pixel of the common grid along {name} must not be coarser than the finer map ({fine:g} m), but is {d:g} m. "
-                "Filter or resample the surfaces first."
-            )
-    return dx, dy
 
 
 def _grid(region: tuple[float, float, float, float], pixel: tuple[float, float], *, fill: bool) -> Grid:
@@ -216,38 +212,27 @@ def _interpolated(surface: Surface, grid: Grid, nodes: tuple[RealArray, RealArra
     degree = [min(3, n - 1) for n in padded.shape]
     own = [np.arange(n, dtype=float) - pad for n in padded.shape]
     spline = RectBivariateSpline(own[0], own[1], padded, kx=degree[0], ky=degree[1])
-    # beyond the middle of the outermost pixels the spline would be clamped, so it is continued by its tangent there
-    heights = spline.ev(along[0], along[1]) if surface.periodic else _continued(spline, along, surface.shape)
-    heights[_near_missing(surface, along)] = np.nan
+    heights: RealArray
+    if surface.periodic:
+        heights = spline.ev(along[0], along[1])
+    else:
+        # beyond the middle of the outermost pixels (by half a pixel) the spline would be clamped: it is continued by its tangent
+        inside = [np.clip(number, 0.0, n - 1.0) for number, n in zip(along, surface.shape, strict=True)]
+        heights = spline.ev(inside[0], inside[1])
+        for axis, (dx, dy) in enumerate(((1, 0), (0, 1))):
+            beyond = along[axis] - inside[axis]
+            outside = beyond != 0.0
+            if outside.any():
+                heights[outside] += beyond[outside] * spline.ev(inside[0][outside], inside[1][outside], dx=dx, dy=dy)
+    if surface.n_missing:  # a point is missing where a node of the map around it is
+        ends = []
+        for number, n in zip(along, surface.shape, strict=True):
+            low, high = np.floor(number + _ROUNDING).astype(int), np.ceil(number - _ROUNDING).astype(int)
+            ends.append([end % n if surface.periodic else np.clip(end, 0, n - 1) for end in (low, high)])
+        for i, j in itertools.product(*ends):
+            heights[surface.mask[i, j]] = np.nan
     origin = surface.origin.continued(_step(grid, words))
     return Surface(heights, *grid.spacing, origin=origin)
-
-
-def _continued(spline: Any, along: list[RealArray], shape: tuple[int, int]) -> RealArray:
-    """Values of the spline, linear in each direction beyond the outermost nodes (by half a pixel at most)."""
-    inside = [np.clip(number, 0.0, n - 1.0) for number, n in zip(along, shape, strict=True)]
-    values: RealArray = spline.ev(inside[0], inside[1])
-    for axis, (dx, dy) in enumerate(((1, 0), (0, 1))):
-        beyond = along[axis] - inside[axis]
-        outside = beyond != 0.0
-        if outside.any():
-            values[outside] += beyond[outside] * spline.ev(inside[0][outside], inside[1][outside], dx=dx, dy=dy)
-    return values
-
-
-def _near_missing(surface: Surface, along: list[RealArray]) -> BoolArray:
-    """Whether one of the nodes of the map around each point is missing."""
-    if surface.n_missing == 0:
-        return np.zeros(along[0].shape, dtype=bool)
-    ends = []
-    for number, n in zip(along, surface.shape, strict=True):
-        low, high = np.floor(number + _ROUNDING).astype(int), np.ceil(number - _ROUNDING).astype(int)
-        ends.append([end % n if surface.periodic else np.clip(end, 0, n - 1) for end in (low, high)])
-    missing: BoolArray = np.zeros(along[0].shape, dtype=bool)
-    for i in ends[0]:
-        for j in ends[1]:
-            missing |= surface.mask[i, j]
-    return missing
 
 
 def _step(grid: Grid, words: str) -> str:

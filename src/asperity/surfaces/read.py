@@ -6,10 +6,18 @@ import os
 from pathlib import Path
 
 from ..core.errors import FileFormatError
-from . import formats as instrument
-from . import formats as netcdf
-from . import formats as plain
-from .formats import ChannelInfo, chosen
+from .formats import (
+    ChannelInfo,
+    chosen,
+    instrument_channels,
+    is_own,
+    is_plain,
+    netcdf_channel,
+    plain_channels,
+    read_instrument,
+    read_netcdf,
+    read_plain,
+)
 from .surface import Surface
 
 
@@ -62,17 +70,17 @@ def read(
         If ``height_unit`` is not a unit of length.
     """
     file = _checked(path)
-    if netcdf.is_own(file):
-        chosen((netcdf.netcdf_channel(file),), channel, file)
+    if is_own(file):
+        chosen((netcdf_channel(file),), channel, file)
         if any(scale is not None for scale in (size, height_unit, z_scale, lateral_unit)):
             raise FileFormatError(
                 f"file {file} states its size and unit itself: leave out size, height_unit and z_scale "
                 "(--size, --height-unit, --z-scale).",
                 subject=f"size and unit of file {file}",
             )
-        surface = netcdf.read_netcdf(file)
-    elif plain.is_plain(file):
-        surface = plain.read_plain(
+        surface = read_netcdf(file)
+    elif is_plain(file):
+        surface = read_plain(
             file, channel=channel, size=size, height_unit=height_unit, z_scale=z_scale, lateral_unit=lateral_unit
         )
     else:
@@ -86,7 +94,7 @@ def read(
                 f"file {file} is no list of points x y z, so lateral_unit (--lateral-unit) must be left out.",
                 subject=f"lateral unit of file {file}",
             )
-        surface = instrument.read_instrument(file, channel=channel, size=size, height_unit=height_unit)
+        surface = read_instrument(file, channel=channel, size=size, height_unit=height_unit)
     if min(surface.shape) < 2:
         raise FileFormatError(f"file {file} must hold a map of at least 2 x 2 points, but holds {surface.shape}.")
     return surface
@@ -98,9 +106,9 @@ def channels(path: str | os.PathLike[str]) -> tuple[ChannelInfo, ...]:
     Raises FileFormatError if the file is missing, unreadable, empty, damaged or of unknown format.
     """
     file = _checked(path)
-    if netcdf.is_own(file):
-        return (netcdf.netcdf_channel(file),)
-    return plain.plain_channels(file) if plain.is_plain(file) else instrument.instrument_channels(file)
+    if is_own(file):
+        return (netcdf_channel(file),)
+    return plain_channels(file) if is_plain(file) else instrument_channels(file)
 
 
 def _checked(path: str | os.PathLike[str]) -> Path:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from importlib.abc import InspectLoader, Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
@@ -36,9 +36,20 @@ def opened_by_first_reader(file: Path) -> Iterator[Any]:
     """
     with file.open("rb") as stream:
         start = stream.read(_START)
-    with _postponed_packages():
+    finder, reader = _Finder(), None
+    # while this finder lasts, packages that are not imported yet are imported without their code
+    sys.meta_path.insert(0, finder)
+    try:
         package = import_module("SurfaceTopography.IO")
-        reader = next(_opened(package, _order(package), start, file), None)
+        for name in _order(package):
+            candidate = getattr(package, name)
+            if candidate.can_read(start).name == "NO":
+                continue
+            with suppress(Exception):
+                reader = candidate(str(file))
+                break
+    finally:
+        sys.meta_path.remove(finder)
     if reader is None:
         raise LookupError(f"no reader opens {file}")
     with reader:
@@ -64,19 +75,6 @@ def _source(package: ModuleType) -> str:
     """Source text of ``package``; empty where there is none."""
     loader = package.__spec__.loader if package.__spec__ is not None else None
     return (loader.get_source(package.__name__) or "") if isinstance(loader, InspectLoader) else ""
-
-
-def _opened(package: ModuleType, order: Sequence[str], start: bytes, file: Path) -> Iterator[Any]:
-    """What the readers make of ``file``, in their ``order``, as far as they can open it."""
-    for name in order:
-        reader = getattr(package, name)
-        if reader.can_read(start).name == "NO":
-            continue
-        try:
-            opened = reader(str(file))
-        except Exception:
-            continue
-        yield opened
 
 
 class _PostponedPackage(ModuleType):
@@ -130,14 +128,3 @@ class _Finder(MetaPathFinder):
             return None
         spec.loader = _Postponing(spec.loader)
         return spec
-
-
-@contextmanager
-def _postponed_packages() -> Iterator[None]:
-    """While this lasts, ``_POSTPONED`` packages that are not imported yet are imported without their code."""
-    finder = _Finder()
-    sys.meta_path.insert(0, finder)
-    try:
-        yield
-    finally:
-        sys.meta_path.remove(finder)

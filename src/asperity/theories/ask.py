@@ -165,7 +165,12 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
     else:
         raise InputError(f"{theory.name} must be asked {_choice(theory)}, but is asked by {', '.join(sorted(names))}.")
     values = curve(arguments[way.axis.name], f"{way.axis.help} ({way.axis.unit or 'number'})")
-    given = {item.name: _one(item, arguments.get(item.name, item.default)) for item in way.given}
+    given = {}
+    for item in way.given:
+        beside = curve(arguments.get(item.name, item.default), f"{item.help} ({item.unit or 'number'})")
+        if beside.size != 1:
+            raise InputError(f"{item.name} must be one number beside the range, but has {beside.size}.")
+        given[item.name] = float(beside[0])
     answer = getattr(theory, way.method)(**{way.axis.name: values}, **given)
     columns = [(Quantity(way.axis.name, way.axis.unit or "1", way.axis.help), values)]
     for column in way.columns:
@@ -174,13 +179,6 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
             columns.append((column, found))
     limits = theory.validity(answer) if way.checked else ()
     return Evaluation(theory, numbers, tuple(columns), limits)
-
-
-def _one(item: Parameter, value: ArrayLike) -> float:
-    numbers = curve(value, f"{item.help} ({item.unit or 'number'})")
-    if numbers.size != 1:
-        raise InputError(f"{item.name} must be one number beside the range, but has {numbers.size}.")
-    return float(numbers[0])
 
 
 def _choice(theory: Described) -> str:

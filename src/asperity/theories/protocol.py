@@ -430,7 +430,9 @@ def separation_at(
     pressure changes, which sets the accuracy. InputError if a pressure lies beyond those at ``low`` and ``high``.
     """
     table = np.linspace(low, high, _TABLE)
-    logs = _log(law(table)[0])
+    borne = law(table)[0]
+    with np.errstate(divide="ignore"):
+        logs = np.log(borne)
     wanted = np.log(pressure)
     if wanted.max() > logs[0] or wanted.min() < logs[-1]:
         least = np.exp(logs[-1])
@@ -445,7 +447,8 @@ def separation_at(
     h = below + np.where(np.isfinite(share), share, 0.5) * (above - below)
     for _ in range(_STEPS):
         p, stiffness = law(h)
-        excess = _log(p) - wanted
+        with np.errstate(divide="ignore"):
+            excess = np.log(p) - wanted
         below, above = np.where(excess >= 0.0, h, below), np.where(excess <= 0.0, h, above)
         with np.errstate(divide="ignore", invalid="ignore"):
             step = h + excess * p / stiffness
@@ -455,9 +458,3 @@ def separation_at(
         if np.all((inside & (change <= _SQUARED * unit)) | (change <= _ROUNDING * (unit + np.abs(h)))):
             break
     return h
-
-
-def _log(values: RealArray) -> RealArray:
-    with np.errstate(divide="ignore"):
-        logs: RealArray = np.log(values)
-    return logs

@@ -8,7 +8,6 @@ it at each wavenumber with one set of times for all (``LayeredCreep``).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import TypeAlias
@@ -20,11 +19,11 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ..elastic import Elastic
 from ..layers import Body, Layered, deformable, materials_of, relaxes
-from ..relaxation import Creep, Terms, merged
+from ..relaxation import Creep, merged
 from ..viscoelastic import Viscoelastic, alike
 from .halfspace import Compliance, contact_compliance
 from .influence import Limits, line_kernel, patch_coefficients, point_kernel, strip_coefficients, wavenumber_grid
-from .layered import Modulus, PlaneCompliance, Samples, operational_compliance, operational_moduli, operational_plane
+from .layered import PlaneCompliance, Samples, operational_moduli, operational_plane
 from .retardation_fit import fitted, fitted_planes
 from .tensor import (
     SurfaceTensor,
@@ -252,9 +251,10 @@ def contact_creep(body: Body, counter_body: Body, *, shear: bool = False) -> Any
         return None
     materials = tuple(material for solid in solids for material in materials_of(solid))
     if len(materials) == len(solids) and not any(_stacked(solid).layers for solid in solids):
-        total = _creep(materials[0])
-        for material in materials[1:]:
-            total = total + _creep(material)
+        creeps = [
+            m.contact_creep if isinstance(m, Viscoelastic) else Creep(1.0 / m.plane_strain_modulus) for m in materials
+        ]
+        total = sum(creeps[1:], start=creeps[0])
         return SharedCreep(total.times(1.0 / total.instantaneous))
     first = materials[0]
     if alike(materials) and isinstance(first, Viscoelastic):
@@ -287,14 +287,10 @@ def complex_compliance(body: Body, counter_body: Body, wavenumber: RealArray, om
     The two broadcast against each other. InputError if both bodies are rigid.
     """
     solids = (_stacked(solid) for solid, _ in deformable(body, counter_body))
-    first, *others = (operational_compliance(solid, wavenumber, 1j * omega) for solid in solids)
+    first, *others = (
+        np.asarray(operational_plane(solid, wavenumber, 1j * omega).zz, dtype=complex) for solid in solids
+    )
     return sum(others, start=first)
-
-
-def _creep(material: Elastic) -> Creep:
-    if isinstance(material, Viscoelastic):
-        return material.contact_creep
-    return Creep(1.0 / material.plane_strain_modulus)
 
 
 def _stacked(solid: Elastic | Layered) -> Layered:
@@ -342,106 +338,86 @@ class _Fit:
 
     def creep(self, instantaneous: Compliance) -> LayeredCreep:
         """Series with one set of times for all wavenumbers."""
-        nodes = self._nodes()
-        times = self._times(nodes)
-        omega, exact = self._operational(nodes, times)
-        means, mean_error = self._mean_modes(times, self._compression)
+        layers = [layer for stack in self.stacks for layer in stack.layers]
+        thinnest = min(layer.thickness for layer in layers)
+        relaxed = ((m, m.relaxed_share if isinstance(m, Viscoelastic) else 1.0) for m in self.materials)
+        softest = min(
+            m.youngs_modulus * max(share, 1e-3) for m, share in relaxed
+        )  # of a fluid a thousandth of the first
+        stiff = max(1.0, max(m.youngs_modulus for m in self.materials) / softest)
+        longest = _LONGEST * max(stack.thickness for stack in self.stacks) * stiff ** (1.0 / 3.0)
+        first, last = 2.0 * np.pi / longest, 2.0 * np.pi / (_SHORTEST * thinnest)
+        nodes = np.geomspace(first, last, math.ceil(math.log10(last / first) * _NODES_PER_DECADE) + 1)
+
+        times = self._times(nodes, stiff)
+        finite = times[np.isfinite(times)]
+        low, high = (0.1 if finite.size == times.size else 10.0) / finite[-1], 10.0 / finite[0]
+        omega = np.geomspace(low, high, math.ceil(math.log10(high / low) * self.per_decade) + 1)
+        rows = [self._at(nodes, 1j * w) for w in (*omega, 1e30 * high)]  # the last at infinite frequency
+        LL, zz, Lz, T = (np.stack([getattr(row, name) for row in rows]) for name in ("LL", "zz", "Lz", "T"))
+        exact = PlaneCompliance(LL, zz, Lz, T).scaled(nodes)
+
+        means, mean_error = self._mean_modes(times, shear=False)
         if not self.shear:
             strengths, error = fitted(times, omega, np.asarray(exact.zz, dtype=complex))
             used = _used(strengths, means)
             error = max(error, mean_error)
             return LayeredCreep(times[used], nodes, strengths[used], means[used], error, instantaneous)
         planes, error = fitted_planes(times, omega, exact)
-        shears, shear_error = self._mean_modes(times, self._shearing)
+        shears, shear_error = self._mean_modes(times, shear=True)
         used = _used(planes.zz, means) | _used(planes.LL, shears) | _used(planes.T, shears)
         kept = PlaneCompliance(planes.LL[used], planes.zz[used], planes.Lz[used], planes.T[used])
         error, shear = max(error, mean_error, shear_error), ShearStrengths(kept, shears[used])
         return LayeredCreep(times[used], nodes, kept.zz, means[used], error, instantaneous, shear)
 
-    def _nodes(self) -> RealArray:
-        layers = [layer for stack in self.stacks for layer in stack.layers]
-        thinnest = min(layer.thickness for layer in layers)
-        stiff = max(m.youngs_modulus for m in self.materials) / min(_softest(m) for m in self.materials)
-        longest = _LONGEST * max(stack.thickness for stack in self.stacks) * max(1.0, stiff) ** (1.0 / 3.0)
-        first, last = 2.0 * np.pi / longest, 2.0 * np.pi / (_SHORTEST * thinnest)
-        return np.geomspace(first, last, math.ceil(math.log10(last / first) * _NODES_PER_DECADE) + 1)
+    def _times(self, nodes: RealArray, stiff: float) -> RealArray:
+        """Those of the materials, and equal steps of the logarithm as far as retardation shows at some wavenumber.
 
-    def _times(self, nodes: RealArray) -> RealArray:
-        """Those of the materials, and equal steps of the logarithm as far as retardation shows at some wavenumber."""
+        ``stiff`` >= 1 is the largest modulus over the smallest that a material relaxes to. A step near a time of the materials is left out.
+        """
         viscous = [m for m in self.materials if isinstance(m, Viscoelastic) and m.spectrum]
         own = [lam for m in viscous for _, lam in m.contact_creep.terms]
         relaxations = [tau for m in viscous for _, tau in m.spectrum]
-        stiff = max(m.youngs_modulus for m in self.materials) / min(_softest(m) for m in self.materials)
-        first, last = 0.5 * min(relaxations), 4.0 * max([*own, *relaxations]) * max(1.0, stiff)
+        first, last = 0.5 * min(relaxations), 4.0 * max([*own, *relaxations]) * stiff
         fluid = any(m.contact_creep.fluidity for m in viscous)
         last *= _FLUID if fluid else 1.0
         pilot = np.geomspace(first, last, math.ceil(math.log10(last / first) * self.per_decade) + 1)
         if not fluid:
-            c = np.stack([self._real(nodes, 1.0 / t) for t in pilot])
+            planes = [self._at(nodes, complex(1.0 / t)) for t in pilot]
+            c = np.stack([np.concatenate([p.zz, p.LL, p.T] if self.shear else [p.zz]).real for p in planes])
             shows = np.diff(c, axis=0).max(axis=1, initial=0.0, where=np.diff(c, axis=0) > _SHOWS * c[:-1]) > 0.0
             inside = np.flatnonzero(shows)
             if inside.size:
                 pilot = pilot[max(inside[0] - 1, 0) : inside[-1] + 3]
-        times = [lam for _, lam in _distinct(tuple(pilot), tuple(own), self.per_decade)]
+        near = 10.0 ** ((_APART if self.per_decade < 4 else _NEAR) / self.per_decade)
+        kept = [t for t in pilot if not any(1.0 / near < t / lam < near for lam in own)]
+        times = [lam for _, lam in merged((1.0, t) for t in (*kept, *own))]
         return np.array([*times, math.inf] if fluid else times)
-
-    def _real(self, nodes: RealArray, s: float) -> RealArray:
-        """Compliances at the ``nodes`` and real ``s`` (1/s): of pressure, and after it of shear along and across the wavevector."""
-        plane = self._at(nodes, complex(s))
-        return np.concatenate([plane.zz, plane.LL, plane.T] if self.shear else [plane.zz]).real
 
     def _at(self, nodes: RealArray, s: complex) -> PlaneCompliance:
         return summed_planes([(operational_plane(stack, nodes, s), sign) for stack, sign in self.signed])
 
-    def _operational(self, nodes: RealArray, times: RealArray) -> tuple[RealArray, PlaneCompliance]:
-        """Angular frequencies (m,), and q c(q, omega) in rows of these and last at infinite frequency, (m + 1, n)."""
-        finite = times[np.isfinite(times)]
-        low, high = (0.1 if finite.size == times.size else 10.0) / finite[-1], 10.0 / finite[0]
-        omega = np.geomspace(low, high, math.ceil(math.log10(high / low) * self.per_decade) + 1)
-        rows = [self._at(nodes, 1j * w) for w in (*omega, 1e30 * high)]
-        LL, zz, Lz, T = (np.stack([getattr(row, name) for row in rows]) for name in ("LL", "zz", "Lz", "T"))
-        return omega, PlaneCompliance(LL, zz, Lz, T).scaled(nodes)
+    def _mean_modes(self, times: RealArray, *, shear: bool) -> tuple[RealArray, float]:
+        """c_k(0) of layers on a rigid base, of the compression h (1 - 2nu)/2G(1 - nu) of each or of its ``shear`` h/G.
 
-    def _mean_modes(self, times: RealArray, mean: Callable[[complex], complex]) -> tuple[RealArray, float]:
-        """c_k(0) of the ``mean`` mode of layers on a rigid base; zero if one of the bodies is a half-space."""
-        if any(isinstance(stack.base, Elastic) for stack in self.stacks):
+        Zero if one of the bodies is a half-space, and in shear where a layer slips: the datum is then the mean displacement.
+        """
+        on_half_space = any(isinstance(stack.base, Elastic) for stack in self.stacks)
+        if on_half_space or (shear and any(stack.slips for stack in self.stacks)):
             return np.zeros(times.size), 0.0
         finite = times[np.isfinite(times)]
         omega = np.geomspace(0.1 / finite[-1], 10.0 / finite[0], 8 * finite.size)
-        rows = np.array([mean(1j * w) for w in (*omega, 1e30 / finite[0])])
+        rows = np.zeros(omega.size + 1, dtype=complex)
+        for number, w in enumerate((*omega, 1e30 / finite[0])):
+            for layer in (layer for stack in self.stacks for layer in stack.layers):
+                (G, nu), h = operational_moduli(layer.material, 1j * w), layer.thickness
+                rows[number] += complex(h / G if shear else h * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu)))
         if not rows.any():
             return np.zeros(times.size), 0.0
         strengths, error = fitted(times, omega, rows[:, None])
         return strengths[:, 0], error
 
-    def _compression(self, s: complex) -> complex:
-        """Sum of h (1 - 2nu)/2G(1 - nu) at ``s``."""
-        return sum(complex(h * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu))) for h, G, nu in self._layers(s))
-
-    def _shearing(self, s: complex) -> complex:
-        """Sum of h/G at ``s``; zero where a layer slips, whose datum is its mean displacement."""
-        return 0.0 if any(stack.slips for stack in self.stacks) else sum(complex(h / G) for h, G, _ in self._layers(s))
-
-    def _layers(self, s: complex) -> Iterator[tuple[float, Modulus, Modulus]]:
-        """Thickness, shear modulus and Poisson's ratio at ``s`` of each layer."""
-        for stack in self.stacks:
-            for layer in stack.layers:
-                yield (layer.thickness, *operational_moduli(layer.material, s))
-
 
 def _used(strengths: RealArray, means: RealArray) -> BoolArray:
     """Whether a term shows at some wavenumber or in the mean, (terms,)."""
     return np.asarray(strengths.max(axis=1) + means / max(float(means.max()), 1e-300) > 0.0)
-
-
-def _softest(material: Elastic) -> float:
-    """Modulus (Pa) that a material relaxes to; of a fluid a thousandth of the first."""
-    share = material.relaxed_share if isinstance(material, Viscoelastic) else 1.0
-    return material.youngs_modulus * max(share, 1e-3)
-
-
-def _distinct(pilot: tuple[float, ...], own: tuple[float, ...], per_decade: int) -> Terms:
-    """Times of the materials, and those of the ``pilot`` that do not stand near one."""
-    near = 10.0 ** ((_APART if per_decade < 4 else _NEAR) / per_decade)
-    kept = [t for t in pilot if not any(1.0 / near < t / lam < near for lam in own)]
-    return merged((1.0, t) for t in (*kept, *own))

@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+import numpy as np
+
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.grid import Grid
 from ..layers import Body, Layered, contact_modulus, deformable, materials_of
-from .influence import half_space_strips, patch_displacement
+from .influence import patch_displacement
 from .layered import LayerStack
 
 
@@ -71,8 +73,13 @@ class HalfSpace:
         return patch_displacement(x, y, *grid.spacing) / self.modulus
 
     def line_influence(self, grid: Grid, datum: float) -> RealArray:
-        """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx, zero at distance ``datum``."""
-        return half_space_strips(grid, datum) / self.modulus
+        """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx, zero at distance ``datum``.
+
+        Differences of the integral of -2/(pi E') ln(x/datum) (Johnson 1985, eq. 2.24), which is odd: the first strip reaches from -edge to edge.
+        """
+        edge = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0]
+        integral = 2.0 / np.pi * edge * (1.0 - np.log(edge / datum))
+        return np.asarray(np.diff(integral, prepend=-integral[0])[:, None] / self.modulus)
 
 
 @dataclass(frozen=True)

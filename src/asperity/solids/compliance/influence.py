@@ -155,16 +155,31 @@ def patch_coefficients(kernel: PointKernel, grid: Grid, angular: Angular = ISOTR
     half-space of the top layer's material.
     """
     (nx, ny), (dx, dy) = grid.shape, grid.spacing
-    x, y = grid.coordinates()
     side = max(dx, dy)
-    out = (
-        _averages(kernel, grid, angular) if np.hypot((nx - 1) * dx, (ny - 1) * dy) > FAR * side else np.zeros((nx, ny))
-    )
+    out: RealArray = np.zeros((nx, ny))
+    if np.hypot((nx - 1) * dx, (ny - 1) * dy) > FAR * side:  # means over the five nearest nodes along x and along y
+        x, y = np.arange(-2, nx + 2)[:, None] * dx, np.arange(-2, ny + 2)[None, :] * dy
+        values = _values(kernel, x, y, angular)
+        along_x = sum(w * values[k : k + nx] for k, w in enumerate(_AVERAGE))
+        mean: RealArray = sum(w * along_x[:, k : k + ny] for k, w in enumerate(_AVERAGE))
+        out = mean * grid.pixel_area
+
+    x, y = grid.coordinates()
     distance = np.hypot(x[: _reach(FAR, side, dx, nx)], y[:, : _reach(FAR, side, dy, ny)])
     i, j = np.nonzero((distance >= NEAR * side) & (distance < FAR * side))
-    out[i, j] = _gauss(kernel, i * dx, j * dy, grid, angular)
+    node, weight = rule(_GAUSS)
+    across_x, across_y = 0.5 * dx * node[:, None], 0.5 * dy * node
+    points = _values(kernel, (i * dx)[:, None, None] + across_x, (j * dy)[:, None, None] + across_y, angular)
+    out[i, j] = np.einsum("kij,i,j->k", points, weight, weight) * 0.25 * grid.pixel_area
+
     i, j = np.nonzero(distance < NEAR * side)
-    out[i, j] = _corner_sums(kernel, grid, angular)[i, j]
+    near_x, near_y = _reach(NEAR, side, dx, nx), _reach(NEAR, side, dy, ny)
+    X, Y = (np.arange(near_x) + 0.5)[:, None] * dx, (np.arange(near_y) + 0.5)[None, :] * dy
+    quarter = _rectangle(kernel, X, Y, angular)  # between the origin and the far corners of the pixels
+    # the pixels at the origin reach half a side beyond it: mirror, with the sign of an integral from 0 to -X
+    over_x = np.vstack([(-quarter[:1] if angular.even_x else quarter[:1]), quarter])
+    whole = np.hstack([(-over_x[:, :1] if angular.even_y else over_x[:, :1]), over_x])
+    out[i, j] = np.diff(np.diff(whole, axis=0), axis=1)[i, j]
     return out
 
 
@@ -181,37 +196,6 @@ def _values(kernel: PointKernel, x: RealArray, y: RealArray, angular: Angular) -
     if angular is not ISOTROPIC:
         result *= angular.factor(x / r, y / r)
     return result
-
-
-def _averages(kernel: PointKernel, grid: Grid, angular: Angular) -> RealArray:
-    """Pixel means of the point response from its values at the five nearest nodes along x and along y."""
-    (nx, ny), (dx, dy) = grid.shape, grid.spacing
-    x, y = np.arange(-2, nx + 2)[:, None] * dx, np.arange(-2, ny + 2)[None, :] * dy
-    values = _values(kernel, x, y, angular)
-    along_x = sum(w * values[k : k + nx] for k, w in enumerate(_AVERAGE))
-    mean: RealArray = sum(w * along_x[:, k : k + ny] for k, w in enumerate(_AVERAGE))
-    return mean * grid.pixel_area
-
-
-def _gauss(kernel: PointKernel, x: RealArray, y: RealArray, grid: Grid, angular: Angular) -> RealArray:
-    """Integral over the pixels around (x, y), 1-D arrays, by Gauss points."""
-    node, weight = rule(_GAUSS)
-    dx, dy = grid.spacing
-    points = _values(kernel, x[:, None, None] + 0.5 * dx * node[:, None], y[:, None, None] + 0.5 * dy * node, angular)
-    return np.asarray(np.einsum("kij,i,j->k", points, weight, weight) * 0.25 * grid.pixel_area)
-
-
-def _corner_sums(kernel: PointKernel, grid: Grid, angular: Angular) -> RealArray:
-    """Integral over the nearest pixels, from integrals over the rectangles between the origin and their corners."""
-    (nx, ny), (dx, dy) = grid.shape, grid.spacing
-    side = max(dx, dy)
-    nx, ny = _reach(NEAR, side, dx, nx), _reach(NEAR, side, dy, ny)
-    X, Y = (np.arange(nx) + 0.5)[:, None] * dx, (np.arange(ny) + 0.5)[None, :] * dy
-    quarter = _rectangle(kernel, X, Y, angular)
-    # the pixels at the origin reach half a side beyond it: mirror, with the sign of an integral from 0 to -X
-    over_x = np.vstack([(-quarter[:1] if angular.even_x else quarter[:1]), quarter])
-    whole = np.hstack([(-over_x[:, :1] if angular.even_y else over_x[:, :1]), over_x])
-    return np.diff(np.diff(whole, axis=0), axis=1)
 
 
 def _rectangle(kernel: PointKernel, X: RealArray, Y: RealArray, angular: Angular) -> RealArray:
@@ -285,18 +269,7 @@ def strip_coefficients(kernel: LineKernel, grid: Grid, datum: float) -> RealArra
     zero = kernel.descent(np.array([datum if kernel.infinity == np.inf else kernel.infinity]))
     edge = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0]
     integral: RealArray = (edge * (zero - kernel.descent(edge)) + kernel.moment(edge)) / np.pi
-    return _between_edges(integral)
-
-
-def half_space_strips(grid: Grid, datum: float) -> RealArray:
-    """``strip_coefficients`` of a half-space with E' = 1: the integral of -2/pi ln(x/datum) (Johnson 1985, eq. 2.24)."""
-    edge = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0]
-    return _between_edges(2.0 / np.pi * edge * (1.0 - np.log(edge / datum)))
-
-
-def _between_edges(integral: RealArray) -> RealArray:
-    """Differences of an odd ``integral`` given at the upper edges of the strips; the first strip reaches from -edge to edge."""
-    differences: RealArray = np.diff(integral, prepend=-integral[0])
+    differences: RealArray = np.diff(integral, prepend=-integral[0])  # odd: the first strip reaches from -edge to edge
     return differences[:, None]
 
 

@@ -239,11 +239,6 @@ def interface_compliances(stack: Layered, alpha: ArrayLike) -> tuple[PlaneCompli
     return _compliances(stack, alpha, lambda solid: (solid.shear_modulus, solid.poisson_ratio))
 
 
-def operational_compliance(stack: Layered, alpha: ArrayLike, s: ArrayLike) -> ComplexArray:
-    """C_zz (m/Pa) of the surface of a viscoelastic ``stack`` in operational form, see ``operational_plane``."""
-    return np.asarray(operational_plane(stack, alpha, s).zz, dtype=complex)
-
-
 def operational_plane(stack: Layered, alpha: ArrayLike, s: ArrayLike) -> PlaneCompliance:
     """Compliance (m/Pa, complex) of the surface of a viscoelastic ``stack`` in operational form: its moduli replaced by those at complex ``s`` (1/s).
 

@@ -9,8 +9,6 @@ begins with the two axes, and takes in the direction of each term in which its e
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -65,64 +63,46 @@ def fitted_planes(times: RealArray, omega: RealArray, exact: PlaneCompliance) ->
         values = np.stack([component[:, number] for component in (exact.LL, exact.zz, exact.Lz)]).astype(complex)
         size = np.abs(values[:2, :-1])
         whole = np.stack([*size, np.sqrt(size[0] * size[1])])
-        wave = _Wave(columns, values[:, :-1] - values[:, -1:], whole)
-        strengths[:, :, number], directions = wave.fitted(directions)
-        worst = max(worst, wave.error(strengths[:, :, number]))
+        wanted = values[:, :-1] - values[:, -1:]
+        strengths[:, :, number], directions = _fitted_wave(columns, wanted, whole, directions)
+        left = np.abs(strengths[:, :, number] @ columns.T - wanted)
+        worst = max(worst, float((left / whole).max()))
     LL, zz, Lz = strengths
     return PlaneCompliance(LL=LL, zz=zz, Lz=Lz, T=across), max(error, _number(worst))
 
 
-@dataclass(frozen=True, eq=False)
-class _Wave:
-    """Fit at one wavenumber of ``wanted``, LL, zz and Lz (3, m), with errors relative to ``size`` (3, m), by the ``columns`` (m, terms)."""
+def _fitted_wave(
+    columns: ComplexArray, wanted: ComplexArray, size: RealArray, directions: RealArray
+) -> tuple[RealArray, RealArray]:
+    """Strengths LL, zz, Lz (3, terms) at one wavenumber, begun from the axes and ``directions``, and those taken: term and angle of each, (2, number).
 
-    columns: ComplexArray
-    wanted: ComplexArray
-    size: RealArray
-
-    def fitted(self, directions: RealArray) -> tuple[RealArray, RealArray]:
-        """Strengths LL, zz, Lz (3, terms), begun from the axes and ``directions``, and those taken: term and angle of each, (2, number)."""
-        terms = np.arange(self.columns.shape[1])
-        steep = _STEEP * np.sqrt((np.abs(self._weighted) ** 2).sum(axis=(0, 1)))
-        axes = [np.stack([terms, np.full(terms.size, angle)]) for angle in (0.0, 0.5 * np.pi)]
-        taken, last = np.hstack([*axes, directions]), math.inf
-        wanted = (_TWICE * self.wanted / self.size).ravel()
-        for _ in range(_ROUNDS):
-            matrix = self._matrix(taken)
-            factors, residual = _least(_real(matrix), _real(wanted))
-            on = factors > 0.0
-            taken, factors = taken[:, on], factors[on]
-            rest = (wanted - matrix[:, on] @ factors).reshape(self.size.shape)
-            slopes = np.einsum("imk,im->ik", self._weighted, rest.conj()).real
-            half, off = 0.5 * (slopes[0] - slopes[1]), 0.5 * slopes[2]
-            helps = 0.5 * (slopes[0] + slopes[1]) + np.hypot(half, off) > steep
-            if not helps.any() or residual > last * (1.0 - _GAIN):
-                break
-            more, last = np.stack([terms, 0.5 * np.arctan2(off, half)])[:, helps], residual
-            taken, factors = np.hstack([taken, more]), np.append(factors, np.zeros(more.shape[1]))
-        found = np.zeros((terms.size, 3))
-        np.add.at(found, taken[0].astype(int), (factors * _components(taken[1])).T)
-        return found.T * self._scale, taken[:, factors > 0.0]
-
-    def error(self, strengths: RealArray) -> float:
-        """Largest error of ``strengths`` (3, terms) relative to ``size``."""
-        return float((np.abs(strengths @ self.columns.T - self.wanted) / self.size).max())
-
-    @cached_property
-    def _scale(self) -> RealArray:
-        """Units (3, 1) of the strengths, in which the two directions weigh alike."""
-        along, normal = self.size[:2].max(axis=1)
-        return np.array([[along], [normal], [math.sqrt(along * normal)]])
-
-    @cached_property
-    def _weighted(self) -> ComplexArray:
-        """The columns (3, m, terms) over what errors are relative to."""
-        return np.asarray((_TWICE * self._scale / self.size)[:, :, None] * self.columns)
-
-    def _matrix(self, taken: RealArray) -> ComplexArray:
-        """Response (3 m, number) of each direction."""
-        of_terms = self._weighted[:, :, taken[0].astype(int)] * _components(taken[1])[:, None, :]
-        return np.asarray(of_terms.reshape(-1, taken.shape[1]))
+    ``wanted`` (3, m), with errors relative to ``size`` (3, m), is fitted by the ``columns`` (m, terms).
+    """
+    along, normal = size[:2].max(axis=1)
+    scale = np.array([[along], [normal], [math.sqrt(along * normal)]])  # units in which the two directions weigh alike
+    weighted = (_TWICE * scale / size)[:, :, None] * columns  # (3, m, terms)
+    terms = np.arange(columns.shape[1])
+    steep = _STEEP * np.sqrt((np.abs(weighted) ** 2).sum(axis=(0, 1)))
+    axes = [np.stack([terms, np.full(terms.size, angle)]) for angle in (0.0, 0.5 * np.pi)]
+    taken, last = np.hstack([*axes, directions]), math.inf
+    relative = (_TWICE * wanted / size).ravel()
+    for _ in range(_ROUNDS):
+        of_terms = weighted[:, :, taken[0].astype(int)] * _components(taken[1])[:, None, :]
+        matrix = np.asarray(of_terms.reshape(-1, taken.shape[1]))
+        factors, residual = _least(_real(matrix), _real(relative))
+        on = factors > 0.0
+        taken, factors = taken[:, on], factors[on]
+        rest = (relative - matrix[:, on] @ factors).reshape(size.shape)
+        slopes = np.einsum("imk,im->ik", weighted, rest.conj()).real
+        half, off = 0.5 * (slopes[0] - slopes[1]), 0.5 * slopes[2]
+        helps = 0.5 * (slopes[0] + slopes[1]) + np.hypot(half, off) > steep
+        if not helps.any() or residual > last * (1.0 - _GAIN):
+            break
+        more, last = np.stack([terms, 0.5 * np.arctan2(off, half)])[:, helps], residual
+        taken, factors = np.hstack([taken, more]), np.append(factors, np.zeros(more.shape[1]))
+    found = np.zeros((terms.size, 3))
+    np.add.at(found, taken[0].astype(int), (factors * _components(taken[1])).T)
+    return found.T * scale, taken[:, factors > 0.0]
 
 
 _TWICE = np.sqrt([[1.0], [1.0], [2.0]])

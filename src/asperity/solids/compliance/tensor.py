@@ -67,7 +67,20 @@ def surface_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Surf
     """
     q = grid.wavenumber()
     q[0, 0] = 1.0  # any value: the mean mode is replaced
-    return tensor_of(grid, _relative_plane(q, body, counter_body), *_mean_modes(body, counter_body))
+    plane = summed_planes([(plane_compliance(solid, q), sign) for solid, sign in deformable(body, counter_body)])
+    stacks = [solid.reduced if isinstance(solid, Layered) else None for solid, _ in deformable(body, counter_body)]
+    shear = normal = 0.0
+    on_rigid_bases = [stack for stack in stacks if stack is not None and not isinstance(stack.base, Elastic)]
+    if len(on_rigid_bases) == len(stacks):
+        normal = sum(LayerStack(stack).mean_mode() for stack in on_rigid_bases)
+        if not any(
+            stack.slips for stack in on_rigid_bases
+        ):  # else the mean displacement along the surface is the datum
+            shear = sum(
+                sum(layer.thickness / layer.material.shear_modulus for layer in stack.layers)
+                for stack in on_rigid_bases
+            )
+    return tensor_of(grid, plane, shear, normal)
 
 
 def tensor_of(grid: Grid, plane: PlaneCompliance, shear: float, normal: float) -> SurfaceTensor:
@@ -93,11 +106,6 @@ def tensor_of(grid: Grid, plane: PlaneCompliance, shear: float, normal: float) -
     return tensor
 
 
-def _relative_plane(q: RealArray, body: Body, counter_body: Body) -> PlaneCompliance:
-    """Sum of both compliances, with the difference of their couplings, at wavenumbers ``q`` > 0 (rad/m)."""
-    return summed_planes([(plane_compliance(solid, q), sign) for solid, sign in deformable(body, counter_body)])
-
-
 def summed_planes(parts: Sequence[tuple[PlaneCompliance, float]]) -> PlaneCompliance:
     """Sum of the compliances of bodies with the signs of the tractions that they carry: their couplings subtract."""
     return PlaneCompliance(
@@ -106,20 +114,6 @@ def summed_planes(parts: Sequence[tuple[PlaneCompliance, float]]) -> PlaneCompli
         Lz=np.add.reduce([sign * part.Lz for part, sign in parts]),
         T=np.add.reduce([part.T for part, _ in parts]),
     )
-
-
-def _mean_modes(body: Body, counter_body: Body) -> tuple[float, float]:
-    """Shear and compression of the layers per traction in m/Pa where all deformable bodies stand on rigid bases, else 0."""
-    shears, normals = [], []
-    for solid, _ in deformable(body, counter_body):
-        stack = solid.reduced if isinstance(solid, Layered) else None
-        if stack is None or isinstance(stack.base, Elastic):
-            return 0.0, 0.0
-        shears.append(
-            0.0 if stack.slips else sum(layer.thickness / layer.material.shear_modulus for layer in stack.layers)
-        )
-        normals.append(LayerStack(stack).mean_mode())
-    return (sum(shears) if all(shears) else 0.0), sum(normals)
 
 
 # Full surface compliance of pixels under uniform traction, without periodicity.
@@ -149,22 +143,13 @@ def influence_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> In
 
     InputError if both bodies are rigid, or a layer may slip: its displacement under a tangential force has no limit.
     """
-    xx, yy, xy = BodiesSurface(body, counter_body).shear_pixels(grid)
+    surface = BodiesSurface(body, counter_body)
+    xx, yy, xy = surface.shear_pixels(grid)
     zz = np.zeros(grid.shape)
     for solid, _ in deformable(body, counter_body):
         zz += patch_coefficients(_samples(grid, solid).kernel(lambda c: c.zz), grid, ISOTROPIC)
-    xz, yz = coupling_influence(grid, body, counter_body)
+    xz, yz = surface.coupling_pixels(grid)
     return InfluenceTensor(xx=xx, yy=yy, zz=zz, xy=xy, xz=xz, yz=yz)
-
-
-def coupling_influence(grid: Grid, body: Body, counter_body: Body = Rigid()) -> tuple[RealArray, RealArray]:
-    """``xz`` and ``yz`` of ``influence_tensor`` alone, which layers that may slip have, too."""
-    xz, yz = np.zeros(grid.shape), np.zeros(grid.shape)
-    for solid, sign in deformable(body, counter_body):
-        along_x, along_y = coupling_pixels_of(grid, _samples(grid, solid))
-        xz += sign * along_x
-        yz += sign * along_y
-    return xz, yz
 
 
 def _samples(grid: Grid, body: Elastic | Layered) -> Samples:
@@ -201,48 +186,22 @@ def coupling_pixels_of(grid: Grid, known: Samples) -> tuple[RealArray, RealArray
 # Plane strain: strips under shear along x and along y, and the normal displacement by the former, which couples friction to pressure.
 
 
-def shear_strips(grid: Grid, body: Body, counter_body: Body = Rigid(), *, datum: float) -> tuple[RealArray, RealArray]:
-    """Displacement (m/Pa) along x under unit shear along x, and along y under shear along y, arrays (nx, 1).
-
-    At offsets (0…nx-1) dx from a strip of width dx; those of both bodies add up. A half-space gives them relative to the distance
-    ``datum`` (m) from a line load, as ``line_influence`` of the normal compliance; for a half-space the first is the same as the
-    normal displacement (Johnson 1985, eq. 2.24).
-
-    InputError if both bodies are rigid, or a layer may slip.
-    """
-    along, across = np.zeros((grid.shape[0], 1)), np.zeros((grid.shape[0], 1))
-    for solid, _ in deformable(body, counter_body):
-        _require_bonded(solid)
-        of_solid = shear_strips_of(grid, _samples(grid, solid), datum)
-        along += of_solid[0]
-        across += of_solid[1]
-    return along, across
-
-
 def shear_strips_of(grid: Grid, known: Samples, datum: float) -> tuple[RealArray, RealArray]:
-    """``shear_strips`` from the samples ``known``."""
+    """Displacement (m/Pa) along x under unit shear along x, and along y under shear along y, arrays (nx, 1), from the samples ``known``.
+
+    At offsets (0…nx-1) dx from a strip of width dx. A half-space gives them relative to the distance ``datum`` (m) from a line load, as
+    ``line_influence`` of the normal compliance, and the first is then the same as the normal displacement (Johnson 1985, eq. 2.24).
+    """
     along = strip_coefficients(line_kernel(known.values.LL, known.limits(lambda c: c.LL)), grid, datum)
     return along, strip_coefficients(line_kernel(known.values.T, known.limits(lambda c: c.T)), grid, datum)
 
 
-def coupling_strips(grid: Grid, body: Body, counter_body: Body = Rigid()) -> RealArray:
+def coupling_strips_of(grid: Grid, known: Samples) -> RealArray:
     """Normal displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip of width dx under unit shear along +x.
 
-    It is that of ``body``, which carries the traction, relative to ``counter_body``, and odd in the offset. A line force Q
-    lifts a half-space behind it and lowers it ahead by the same amount at every distance, (1-2ν)/4G times Q (Johnson 1985,
-    eq. 2.24); with layers the step changes from that of the top layer to that of the base. No datum is needed.
-
-    InputError if both bodies are rigid.
+    It is odd in the offset. A line force Q lifts a half-space behind it and lowers it ahead by the same amount at every distance,
+    (1-2ν)/4G times Q (Johnson 1985, eq. 2.24); with layers the step changes from that of the top layer to that of the base. No datum is needed.
     """
-    total = np.zeros((grid.shape[0], 1))
-    for solid, sign in deformable(body, counter_body):
-        depth = (solid.reduced.thickness if isinstance(solid, Layered) else 0.0) or grid.spacing[0]
-        total += sign * coupling_strips_of(grid, samples(solid, depth))
-    return total
-
-
-def coupling_strips_of(grid: Grid, known: Samples) -> RealArray:
-    """``coupling_strips`` from the samples ``known``."""
     edges, alpha = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0], wavenumber_grid(known.depth)
     near = float(known.high.Lz)
     rest = line_integral(alpha, (known.values.Lz - near) / alpha, known.depth, cosine=False)
@@ -269,10 +228,10 @@ class SurfaceCompliance(Protocol):
         """``xz`` and ``yz`` of an ``InfluenceTensor``."""
 
     def shear_strips(self, grid: Grid, datum: float) -> tuple[RealArray, RealArray]:
-        """See the function of this name."""
+        """Along x under shear along x and along y under shear along y, (nx, 1), see ``shear_strips_of``."""
 
     def coupling_strips(self, grid: Grid) -> RealArray:
-        """See the function of this name."""
+        """Normal displacement by shear along x, (nx, 1), see ``coupling_strips_of``."""
 
 
 @dataclass(frozen=True)
@@ -304,13 +263,28 @@ class BodiesSurface:
         return total[0], total[1], total[2]
 
     def coupling_pixels(self, grid: Grid) -> tuple[RealArray, RealArray]:
-        """``xz`` and ``yz`` of pixels."""
-        return coupling_influence(grid, self.body, self.counter_body)
+        """``xz`` and ``yz`` of ``influence_tensor`` alone, which layers that may slip have, too."""
+        xz, yz = np.zeros(grid.shape), np.zeros(grid.shape)
+        for solid, sign in deformable(self.body, self.counter_body):
+            along_x, along_y = coupling_pixels_of(grid, _samples(grid, solid))
+            xz += sign * along_x
+            yz += sign * along_y
+        return xz, yz
 
     def shear_strips(self, grid: Grid, datum: float) -> tuple[RealArray, RealArray]:
         """Along and across, (nx, 1). InputError if a layer may slip."""
-        return shear_strips(grid, self.body, self.counter_body, datum=datum)
+        along, across = np.zeros((grid.shape[0], 1)), np.zeros((grid.shape[0], 1))
+        for solid, _ in deformable(self.body, self.counter_body):
+            _require_bonded(solid)
+            of_solid = shear_strips_of(grid, _samples(grid, solid), datum)
+            along += of_solid[0]
+            across += of_solid[1]
+        return along, across
 
     def coupling_strips(self, grid: Grid) -> RealArray:
-        """Normal displacement by shear along x, (nx, 1)."""
-        return coupling_strips(grid, self.body, self.counter_body)
+        """Normal displacement by shear along x, (nx, 1), of ``body`` relative to ``counter_body``."""
+        total = np.zeros((grid.shape[0], 1))
+        for solid, sign in deformable(self.body, self.counter_body):
+            depth = (solid.reduced.thickness if isinstance(solid, Layered) else 0.0) or grid.spacing[0]
+            total += sign * coupling_strips_of(grid, samples(solid, depth))
+        return total

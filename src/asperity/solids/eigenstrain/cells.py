@@ -130,13 +130,10 @@ def depth_edges(body: Elastic | Layered, depth: float, first: float, cells: int 
     stops = [z for z in places if z < bottom * (1.0 - _SAME)]
     if len(stops) < len(places) and (places[len(stops)] - bottom) < 0.25 * (bottom - stops[-1]):
         bottom = places[len(stops)]
-    spans = [
-        (low, high, index > 0, high in places)
-        for index, (low, high) in enumerate(zip(stops, [*stops[1:], bottom], strict=True))
-    ]
+    spans = list(zip(stops, [*stops[1:], bottom], strict=True))
 
     def made(growth: float) -> list[RealArray]:
-        return [_span(low, high, first, growth, ends=high != bottom) for low, high, *_ in spans]
+        return [_span(low, high, first, growth, ends=high != bottom) for low, high in spans]
 
     low, high = 0.0, 2.0
     for _ in range(40):

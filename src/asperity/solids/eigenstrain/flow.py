@@ -182,7 +182,13 @@ class VolumeFlow:
         self.stress = deviators
         before, n = self.before, self.points.size
         strain, back, total = np.empty((n, 6)), np.empty((n, 6)), np.empty(n)
-        for law, rows in self._groups():
+        groups: dict[int, tuple[J2, list[int]]] = {}  # depth cells of each law
+        for number, law in enumerate(self.laws):
+            if law is not None:
+                groups.setdefault(id(law), (law, []))[1].append(number)
+        cell = self.cell
+        for law, cells in groups.values():
+            rows = np.flatnonzero(np.isin(cell, cells))
             part = PlasticState(before.plastic_strain[rows], before.back_stress[rows], before.accumulated[rows])
             trial = deviators[rows] / (2.0 * law.shear) + part.plastic_strain + self.delta[rows]
             after = law.step(trial, part).state
@@ -192,15 +198,6 @@ class VolumeFlow:
         weights = self.weights[:, None] * WEIGHTS
         size = max(float((each**2 * weights).sum()) for each in (strain, strain - step))
         return step, float((step**2 * weights).sum() / size) ** 0.5 if size > 0.0 else 0.0
-
-    def _groups(self) -> list[tuple[J2, NDArray[np.int64]]]:
-        """Points of each law."""
-        found: dict[int, tuple[J2, list[int]]] = {}
-        for cell, law in enumerate(self.laws):
-            if law is not None:
-                found.setdefault(id(law), (law, []))[1].append(cell)
-        of = self.cell
-        return [(law, np.flatnonzero(np.isin(of, cells))) for law, cells in found.values()]
 
     def _deviators(self, loads: ComplexArray) -> RealArray:
         """Deviator (n, 6) in Pa at the points, to which those beyond the yield stress are added."""
@@ -230,20 +227,15 @@ class VolumeFlow:
 
         shared(backward, cells, operator.threads)
         points = np.concatenate([new[cell] for cell in cells]) if cells else self.points
-        self._grow(points)
+        if points.size > self.points.size:  # those that are new are virgin
+            old, before = self.points, self.before
+            self.before = PlasticState(
+                joined(old, points, before.plastic_strain),
+                joined(old, points, before.back_stress),
+                joined(old, points, before.accumulated),
+            )
+            self.delta, self.points = joined(old, points, self.delta), points
         return np.concatenate([values[cell] for cell in cells]) if cells else np.zeros((0, 6))
-
-    def _grow(self, points: Points) -> None:
-        """Add the ``points`` that are new, virgin ones."""
-        if points.size == self.points.size:
-            return
-        old, before = self.points, self.before
-        self.before = PlasticState(
-            joined(old, points, before.plastic_strain),
-            joined(old, points, before.back_stress),
-            joined(old, points, before.accumulated),
-        )
-        self.delta, self.points = joined(old, points, self.delta), points
 
     def flowed(self) -> Flowed:
         """State after the last ``returned``, without points that have never flowed."""

@@ -84,8 +84,8 @@ def swept(
     return moved
 
 
-def shared(task: Callable[[int], None], numbers: Iterable[int], threads: int) -> None:
-    """Do ``task`` for all ``numbers``, in any order, by so many threads."""
+def shared(task: Callable[[int], object], numbers: Iterable[int], threads: int) -> None:
+    """Do ``task`` for all ``numbers``, in any order, by so many threads; what it returns is not kept."""
     if threads == 1:
         for number in numbers:
             task(number)
@@ -254,12 +254,12 @@ class EigenstrainOperator:
     def forward(self, strain: RealArray, fields: ComplexArray, slots: Iterable[Slot]) -> None:
         """Put the transforms of the ``slots`` of ``strain`` (cells, 6, nx, ny) into ``fields``."""
         pairs, transform = list(slots), self.transform
-        shared(lambda n: _into(transform.forward(strain[pairs[n]], fields[pairs[n]])), range(len(pairs)), self.threads)
+        shared(lambda n: transform.forward(strain[pairs[n]], fields[pairs[n]]), range(len(pairs)), self.threads)
 
     def backward(self, fields: ComplexArray, found: RealArray, slots: Iterable[Slot]) -> None:
         """Put the fields of the ``slots`` of ``fields``, which are overwritten, into ``found`` (cells, 6, nx, ny)."""
         pairs, transform = list(slots), self.transform
-        shared(lambda n: _into(transform.backward(fields[pairs[n]], found[pairs[n]])), range(len(pairs)), self.threads)
+        shared(lambda n: transform.backward(fields[pairs[n]], found[pairs[n]]), range(len(pairs)), self.threads)
 
     def respond(self, loads: ComplexArray, fields: ComplexArray) -> ComplexArray:
         """Displacement (3, …) of the surface; turns the eigenstrain ``fields`` into mean stress, all of them transforms."""
@@ -285,7 +285,3 @@ class EigenstrainOperator:
 
         shared(part, range(0, fields.shape[2], _ROWS), self.threads)
         fields[:, :, 0, 0] = added
-
-
-def _into(_: object) -> None:
-    """A result that is written where it was asked for."""

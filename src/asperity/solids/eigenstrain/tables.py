@@ -49,7 +49,16 @@ class SweepTable:
             [(m.shear_modulus, m.poisson_ratio, h) for m, h in zip(cells.materials, cells.thickness, strict=True)]
         )
         table = np.empty((alpha.shape[0], cells.count, ENTRIES, alpha.shape[1]))
-        below = _below(cells, alpha)
+        stack, bottom = cells.stack, float(cells.edges[-1])
+        rest, depth = [], 0.0  # what lies under the last cell
+        for layer in stack.layers:
+            depth += layer.thickness
+            if depth > bottom * (1.0 + 1e-9):
+                rest.append(Layer(layer.material, min(depth - bottom, layer.thickness), layer.interface))
+        if not rest and isinstance(stack.base, Elastic):
+            below = half_space(alpha, shear_modulus=stack.base.shear_modulus, nu=stack.base.poisson_ratio)
+        else:
+            below = interface_compliances(Layered(rest, stack.base), alpha)[0]
         for number in range(cells.count - 1, -1, -1):
             shear, nu, thickness = solids[number]
             matrices = layer_matrices(alpha, thickness, shear_modulus=shear, nu=nu)
@@ -58,19 +67,6 @@ class SweepTable:
             below = raised(below, matrices)
         top = np.stack([below.LL, below.Lz, below.zz, below.T], axis=1)
         return cls(alpha, top, table, solids)
-
-
-def _below(cells: DepthCells, alpha: RealArray) -> PlaneCompliance:
-    """Compliance of what lies under the last cell."""
-    stack, bottom = cells.stack, float(cells.edges[-1])
-    rest, depth = [], 0.0
-    for layer in stack.layers:
-        depth += layer.thickness
-        if depth > bottom * (1.0 + 1e-9):
-            rest.append(Layer(layer.material, min(depth - bottom, layer.thickness), layer.interface))
-    if not rest and isinstance(stack.base, Elastic):
-        return half_space(alpha, shear_modulus=stack.base.shear_modulus, nu=stack.base.poisson_ratio)
-    return interface_compliances(Layered(rest, stack.base), alpha)[0]
 
 
 def _entries(below: PlaneCompliance, m: LayerMatrices) -> tuple[RealArray, ...]:

@@ -73,7 +73,19 @@ class Autocovariance:
         """
         require.between(drop, 0.0, 1.0, "drop that defines a correlation length")
         lags, values = self.along(axis)
-        return first_crossing(lags, values, drop * self.mean_square, logarithmic=logarithmic)
+        level = drop * self.mean_square
+        below = np.flatnonzero(values <= level)
+        if below.size == 0 or not level > 0.0:
+            return math.nan
+        after = int(below[0])
+        if after == 0:
+            return float(lags[0])
+        high, low = float(values[after - 1]), float(values[after])
+        if logarithmic and low > 0.0:
+            share = math.log(high / level) / math.log(high / low)
+        else:
+            share = (high - level) / (high - low)
+        return float(lags[after - 1] + share * (lags[after] - lags[after - 1]))
 
     def within(self, largest: LagRange) -> Autocovariance:
         """The part with lags up to ``largest`` pixels."""
@@ -103,22 +115,6 @@ def autocovariance(surface: Surface) -> Autocovariance:
     with np.errstate(divide="ignore", invalid="ignore"):
         values = np.where(pairs > 0.0, sums / pairs, np.nan)
     return Autocovariance(values, pairs, surface.grid.spacing, surface.size)
-
-
-def first_crossing(lags: RealArray, values: RealArray, level: float, *, logarithmic: bool = False) -> float:
-    """First of the ``lags`` at which ``values`` fall to ``level``, interpolated; NaN if they do not."""
-    below = np.flatnonzero(values <= level)
-    if below.size == 0 or not level > 0.0:
-        return math.nan
-    after = int(below[0])
-    if after == 0:
-        return float(lags[0])
-    high, low = float(values[after - 1]), float(values[after])
-    if logarithmic and low > 0.0:
-        share = math.log(high / level) / math.log(high / low)
-    else:
-        share = (high - level) / (high - low)
-    return float(lags[after - 1] + share * (lags[after] - lags[after - 1]))
 
 
 def _pair_sums(field: RealArray, transform: RealTransform, largest: LagRange) -> RealArray:

@@ -161,14 +161,13 @@ def tilt_share(surface: Surface) -> float:
     if total == 0.0:
         return 0.0
     count = surface.grid.n_points - surface.n_missing
-    return min(1.0, sum(_explained(z.sum(axis=1 - axis), count) for axis in (0, 1)) / total)
-
-
-def _explained(sums: RealArray, count: int) -> float:
-    """Sum of squares that the line along an axis explains, from the ``sums`` of heights of its lines."""
-    x = np.arange(sums.size) - 0.5 * (sums.size - 1)
-    spread = float(x @ x) * count / sums.size
-    return float(x @ sums) ** 2 / spread if spread > 0.0 else 0.0
+    explained = 0.0  # squares that the lines along x and along y explain
+    for axis in (0, 1):
+        sums = z.sum(axis=1 - axis)
+        x = np.arange(sums.size) - 0.5 * (sums.size - 1)
+        spread = float(x @ x) * count / sums.size
+        explained += float(x @ sums) ** 2 / spread if spread > 0.0 else 0.0
+    return min(1.0, explained / total)
 
 
 # The areal material ratio (Abbott-Firestone, bearing area) curve and its parameters (ISO 25178-2, 4.5).
@@ -319,12 +318,25 @@ def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
         raise InputError(
             "surface must have heights that differ for a core of its material ratio curve, but all are equal."
         )
-    start, drop = _flattest(curve)
+    n = curve.heights.size
+    whole = int(np.floor(_CORE * n + 1e-9))
+    share = max(0.0, _CORE * n - whole)
+    highest = curve.heights[: max(1, n - whole - (share > 1e-9))]
+    lowest, following = (part[whole : whole + highest.size] for part in (curve.heights, curve._next))
+    drops = highest - (lowest + share * (following - lowest))
+    first = int(np.argmin(drops))  # the window begins at one of the samples
+    start = (first + 0.5) / n
     if line == "secant":
-        slope = -drop / _CORE
+        slope = -float(drops[first]) / _CORE
         top = float(curve.height(start)) - slope * start
     else:
-        slope, top = _fitted(curve, start)
+        heights = curve.heights[first : first + whole + 1]
+        if heights.size < 2:
+            raise InputError(f"surface must have more points for a core of its material ratio curve than {n}.")
+        ratios = (np.arange(heights.size) + first + 0.5) / n
+        centred, mean = ratios - ratios.mean(), float(heights.mean())
+        slope = float(centred @ (heights - mean) / (centred @ centred))
+        top = mean - slope * float(ratios.mean())
     bottom = top + slope
     ratio_1, ratio_2 = curve.crossing(top), curve.crossing(bottom)
     peak = curve._area_to(ratio_1) - ratio_1 * top
@@ -361,32 +373,3 @@ def functional_parameters(curve: MaterialRatioCurve, line: str = "least squares"
         Sxp=curve.height_difference(0.025, 0.5),
         Sdc=curve.height_difference(0.1, 0.8),
     )
-
-
-def _flattest(curve: MaterialRatioCurve) -> tuple[float, float]:
-    """Ratio at which the window of least drop begins (one of the samples), and that drop in m."""
-    n = curve.heights.size
-    width = _CORE * n
-    whole = int(np.floor(width + 1e-9))
-    part = max(0.0, width - whole)
-    first = curve.heights[: max(1, n - whole - (part > 1e-9))]
-    last = curve.heights[whole : whole + first.size]
-    following = curve._next[whole : whole + first.size]
-    drops = first - (last + part * (following - last))
-    best = int(np.argmin(drops))
-    return (best + 0.5) / n, float(drops[best])
-
-
-def _fitted(curve: MaterialRatioCurve, start: float) -> tuple[float, float]:
-    """Slope and intercept at ratio 0 (m) of the least-squares line through the samples in the window."""
-    n = curve.heights.size
-    first = round(start * n - 0.5)
-    count = int(np.floor(_CORE * n + 1e-9)) + 1
-    heights = curve.heights[first : first + count]
-    ratios = (np.arange(heights.size) + first + 0.5) / n
-    centred = ratios - ratios.mean()
-    if heights.size < 2:
-        raise InputError(f"surface must have more points for a core of its material ratio curve than {n}.")
-    mean = float(heights.mean())
-    slope = float(centred @ (heights - mean) / (centred @ centred))
-    return slope, mean - slope * float(ratios.mean())

@@ -11,11 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.arrays import RealArray
 from ...core.spectral import mode_sum
 from ..surface import Surface
 from .heights import rms_height
-from .slopes import forward_slopes, mean_of, rms_laplacian, rms_profile_curvature, rms_profile_slope
+from .slopes import increments, mean_of, rms_laplacian, rms_profile_curvature, rms_profile_slope
 from .spectrum import PowerSpectrum
 
 
@@ -115,7 +114,8 @@ def slope_tensor(surface: Surface) -> SlopeTensor:
 
     Raises InputError if no node has both slopes.
     """
-    along_x, along_y = forward_slopes(surface)
+    along_x, along_y = increments(surface, (1, 0)) / surface.dx, increments(surface, (0, 1)) / surface.dy
+    along_x, along_y = along_x[:, : along_y.shape[1]], along_y[: along_x.shape[0]]
     both = np.isnan(along_x) | np.isnan(along_y) if surface.n_missing else None
     if both is not None:
         along_x, along_y = along_x[~both], along_y[~both]
@@ -184,21 +184,15 @@ def spectral_moments(spectrum: PowerSpectrum) -> SpectralMoments:
     """
     qx, qy = spectrum.grid.wavevector()
     odd_x, odd_y = spectrum.grid.wavevector(odd=True)
-
-    def moment(power_x: int, power_y: int) -> float:
+    values = []
+    for power_x, power_y in ((0, 0), (2, 0), (1, 1), (0, 2), (4, 0), (3, 1), (2, 2), (1, 3), (0, 4)):
         factor_x = (odd_x if power_x % 2 else qx) ** power_x
         factor_y = (odd_y if power_y % 2 else qy) ** power_y
-        return mode_sum(spectrum.grid, _weighted(spectrum.psd, factor_x, factor_y))
-
-    orders = ((0, 0), (2, 0), (1, 1), (0, 2), (4, 0), (3, 1), (2, 2), (1, 3), (0, 4))
-    return SpectralMoments(*(moment(a, b) for a, b in orders))
+        # one row of sums over q_x: the matrix product does not write a field as large as the spectrum
+        values.append(mode_sum(spectrum.grid, (factor_x.ravel() @ spectrum.psd)[None, :] * factor_y))
+    return SpectralMoments(*values)
 
 
 def nayak_parameter(m0: float, m2: float, m4: float) -> float:
     """α = m0 m4/m2², at least 1.5 for an isotropic Gaussian surface and 1 for any profile; NaN for m2 = 0."""
     return m0 * m4 / m2**2 if m2 > 0.0 else math.nan
-
-
-def _weighted(psd: RealArray, factor_x: RealArray, factor_y: RealArray) -> RealArray:
-    """One row of sums over q_x, weighted: the matrix product does not write a field as large as the spectrum."""
-    return (factor_x.ravel() @ psd)[None, :] * factor_y

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
@@ -70,6 +70,8 @@ class SamplingStudy:
 def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16, most: int = 64) -> SamplingStudy:
     """Study of windows of size L/2^k at all positions that do not overlap, at the sampling interval of the map.
 
+    Windows of which more than half is missing are left out.
+
     Raises InputError if the form is unknown or the map has fewer points than ``smallest`` along a side.
 
     Parameters
@@ -89,7 +91,13 @@ def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16
     for power in reversed(sides):
         shape = tuple(n >> power for n in surface.shape)
         lengths.append(math.sqrt(shape[0] * surface.dx * shape[1] * surface.dy))
-        levels.append([_measured(window, form) for window in _windows(surface, (shape[0], shape[1]), most)])
+        along_x, along_y = (range(0, n - width + 1, width) for n, width in zip(surface.shape, shape, strict=True))
+        periodic, level = surface.periodic and shape == surface.shape, []
+        for i, j in _spread_evenly([(i, j) for i in along_x for j in along_y], most):
+            part = (slice(i, i + shape[0]), slice(j, j + shape[1]))
+            if np.count_nonzero(surface.mask[part]) <= 0.5 * shape[0] * shape[1]:
+                level.append(_measured(_like(surface, surface.heights[part], 1, periodic=periodic), form))
+        levels.append(level)
     return _study("scan size", form, lengths, levels)
 
 
@@ -115,11 +123,19 @@ def sampling_interval_study(
     """
     require.one_of(mode, MODES, "mode of a sampling-interval study")
     least = require.integer(smallest, 4, "least number of points along a side")
-    thinned = _picked if mode == "pick" else _averaged
     lengths, levels = [], []
     for power in _halvings(min(surface.shape), least):
-        lengths.append(math.sqrt(surface.grid.pixel_area) * 2**power)
-        levels.append([_measured(part, form) for part in thinned(surface, 2**power, most)])
+        step = 2**power
+        lengths.append(math.sqrt(surface.grid.pixel_area) * step)
+        periodic = surface.periodic and all(n % step == 0 for n in surface.shape)
+        if mode == "pick":
+            offsets = _spread_evenly([(i, j) for i in range(step) for j in range(step)], most)
+            parts = [surface.heights[i::step, j::step] for i, j in offsets]
+        else:
+            nx, ny = (n // step for n in surface.shape)
+            whole = surface.heights[: nx * step, : ny * step].astype(np.float64, copy=False)
+            parts = [whole.reshape(nx, step, ny, step).mean(axis=(1, 3))]
+        levels.append([_measured(_like(surface, part, step, periodic=periodic), form) for part in parts])
     return _study(f"sampling interval, {mode}", form, lengths, levels)
 
 
@@ -127,31 +143,6 @@ def _halvings(points: int, least: int) -> list[int]:
     if points < least:
         raise InputError(f"surface must have at least {least} points along each side for a study, but has {points}.")
     return list(range(int(math.log2(points / least)) + 1))
-
-
-def _windows(surface: Surface, shape: tuple[int, int], most: int) -> Iterator[Surface]:
-    """Windows of ``shape`` points that do not overlap, evenly spread, at most ``most``; those over half empty are omitted."""
-    along_x, along_y = (range(0, n - width + 1, width) for n, width in zip(surface.shape, shape, strict=True))
-    starts = [(i, j) for i in along_x for j in along_y]
-    for i, j in _spread_evenly(starts, most):
-        part = (slice(i, i + shape[0]), slice(j, j + shape[1]))
-        whole = shape == surface.shape
-        if np.count_nonzero(surface.mask[part]) <= 0.5 * shape[0] * shape[1]:
-            yield _like(surface, surface.heights[part], 1, periodic=surface.periodic and whole)
-
-
-def _picked(surface: Surface, step: int, most: int) -> Iterator[Surface]:
-    for i, j in _spread_evenly([(i, j) for i in range(step) for j in range(step)], most):
-        wraps = all(n % step == 0 for n in surface.shape)
-        yield _like(surface, surface.heights[i::step, j::step], step, periodic=surface.periodic and wraps)
-
-
-def _averaged(surface: Surface, step: int, most: int) -> Iterator[Surface]:
-    count = tuple(n // step for n in surface.shape)
-    part = surface.heights[: count[0] * step, : count[1] * step].astype(np.float64, copy=False)
-    means = part.reshape(count[0], step, count[1], step).mean(axis=(1, 3))
-    wraps = all(n % step == 0 for n in surface.shape)
-    yield _like(surface, means, step, periodic=surface.periodic and wraps)
 
 
 def _like(surface: Surface, heights: RealArray, step: int, *, periodic: bool) -> Surface:

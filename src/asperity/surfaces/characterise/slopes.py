@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -119,7 +118,20 @@ def stencil_sums(surface: Surface, axis: str, order: int, step: int) -> StencilS
             f"surface must have more than {order * step} points along {axis} for a difference over {step} pixels, but has {n}."
         )
     total, least, count, has_holes = 0.0, math.inf, 0, surface.n_missing > 0
-    for points in _strips(surface, number, order, step):
+    h = surface.heights.astype(np.float64, copy=False)
+    begin = h.shape[0] - (order * step if number == 0 and not surface.periodic else 0)
+    rows = max(1, _STRIP // h.shape[1])
+    for start in range(0, begin, rows):
+        stop = min(begin, start + rows)
+        if number == 0:
+            points = [_rows(h, start + k * step, stop + k * step) for k in range(order + 1)]
+        else:
+            strip = h[start:stop]
+            if surface.periodic:
+                turns = 1 + math.ceil(order * step / n)
+                strip = np.concatenate([strip] * turns, axis=1)[:, : n + order * step]
+            width = strip.shape[1] - order * step
+            points = [strip[:, k * step : k * step + width] for k in range(order + 1)]
         values = points[1] - points[0] if order == 1 else (points[2] - points[1]) - (points[1] - points[0])
         values = values[~np.isnan(values)] if has_holes else values.ravel()
         total += float(np.einsum("i,i->", values, values))
@@ -133,19 +145,6 @@ def stencil_sums(surface: Surface, axis: str, order: int, step: int) -> StencilS
     return StencilSums(total / count, least, count)
 
 
-def _strips(surface: Surface, number: int, order: int, step: int) -> Iterator[list[RealArray]]:
-    """For each strip of rows the heights at the ``order`` + 1 points of the stencils that begin in it."""
-    h = surface.heights.astype(np.float64, copy=False)
-    begin = h.shape[0] - (order * step if number == 0 and not surface.periodic else 0)
-    rows = max(1, _STRIP // h.shape[1])
-    for start in range(0, begin, rows):
-        stop = min(begin, start + rows)
-        if number == 0:
-            yield [_rows(h, start + k * step, stop + k * step) for k in range(order + 1)]
-        else:
-            yield _columns(h[start:stop], order, step, periodic=surface.periodic)
-
-
 def _rows(h: RealArray, start: int, stop: int) -> RealArray:
     """Rows ``start`` to ``stop`` of ``h``, continued periodically."""
     n = h.shape[0]
@@ -154,24 +153,6 @@ def _rows(h: RealArray, start: int, stop: int) -> RealArray:
     if start >= n and stop - start <= n - start % n:
         return h[start % n : start % n + stop - start]
     return np.asarray(h[np.arange(start, stop) % n])
-
-
-def _columns(strip: RealArray, order: int, step: int, *, periodic: bool) -> list[RealArray]:
-    n = strip.shape[1]
-    if periodic:
-        turns = 1 + math.ceil(order * step / n)
-        strip = np.concatenate([strip] * turns, axis=1)[:, : n + order * step]
-    width = strip.shape[1] - order * step
-    return [strip[:, k * step : k * step + width] for k in range(order + 1)]
-
-
-def forward_slopes(surface: Surface) -> tuple[RealArray, RealArray]:
-    """[h(i+1,j) - h(i,j)]/dx and [h(i,j+1) - h(i,j)]/dy at the nodes where both can exist; NaN where a point is missing.
-
-    Both have the shape (nx, ny) of a periodic surface, (nx - 1, ny - 1) otherwise.
-    """
-    along_x, along_y = increments(surface, (1, 0)) / surface.dx, increments(surface, (0, 1)) / surface.dy
-    return along_x[:, : along_y.shape[1]], along_y[: along_x.shape[0]]
 
 
 def rms_slope(surface: Surface) -> float:

@@ -227,7 +227,13 @@ def fitted_shape(rings: RadialSpectrum, shape: Shape) -> Solution:
 
     scale = float(rings.modes.sum())
     starts = sorted(_starts(shape, log_q, measured, rings.modes), key=lambda values: deviance(values)[0])[:_STARTS]
-    bounds = _bounds(shape, log_q, measured)
+    low, high, log_i = float(log_q[0]), float(log_q[-1]), np.log(measured)
+    wide = 5.0 + float(log_i.max() - log_i.min())
+    bounds = [(float(log_i.min()) - wide, float(log_i.max()) + wide)]
+    bounds += [(low, high)] if shape.plateau else []
+    bounds += [(_NEAREST, high - low) if shape.plateau else (low, high)] if shape.slopes == 2 else []
+    bounds += [(-_STEEPEST, _STEEPEST)] * shape.slopes
+    bounds += [(float(log_i.min()) - 12.0, float(log_i.max()))] if shape.floor else []
     options: Any = {"maxfun": 2000, "ftol": 1e-13, "gtol": 1e-8}
     found = [minimize(deviance, start, jac=True, bounds=bounds, method="TNC", options=options) for start in starts]
     best = min(found, key=lambda item: float(item.fun))
@@ -309,17 +315,6 @@ def _starts(shape: Shape, log_q: RealArray, measured: RealArray, modes: RealArra
         values += list(np.clip(solved[1:], -_STEEPEST, _STEEPEST)) + ([floor] if shape.floor else [])
         starts.append(np.array(values))
     return starts
-
-
-def _bounds(shape: Shape, log_q: RealArray, measured: RealArray) -> list[tuple[float, float]]:
-    low, high = float(log_q[0]), float(log_q[-1])
-    log_i = np.log(measured)
-    wide = 5.0 + float(log_i.max() - log_i.min())
-    bounds = [(float(log_i.min()) - wide, float(log_i.max()) + wide)]
-    bounds += [(low, high)] if shape.plateau else []
-    bounds += [(_NEAREST, high - low) if shape.plateau else (low, high)] if shape.slopes == 2 else []
-    bounds += [(-_STEEPEST, _STEEPEST)] * shape.slopes
-    return bounds + ([(float(log_i.min()) - 12.0, float(log_i.max()))] if shape.floor else [])
 
 
 # Short cut-off of generated or filtered surfaces.
@@ -424,12 +419,39 @@ def fit_spectrum(
     if slopes not in (None, 1, 2):
         raise InputError(f"number of power laws of a spectrum must be 1 or 2, but is {slopes!r}.")
     require.finite(reliable_wavelength, "shortest reliable wavelength (m)")
-    rings, cutoff = _usable(spectrum, reliable_wavelength)
+    first = 0.0 if spectrum.window == "none" else _FIRST_WINDOWED * 2.0 * np.pi / min(spectrum.grid.size)
+    last = _TOP * spectrum.nyquist
+    if reliable_wavelength > 0.0:
+        last = min(last, 2.0 * np.pi / reliable_wavelength)
+    edges = default_edges(spectrum)
+    edges = np.unique(np.clip(edges, max(first, edges[0]), max(last, edges[0])))
+    rings = radial_spectrum(spectrum, edges)
+    last_wave = short_cutoff(spectrum, rings)
+    if not math.isnan(last_wave):
+        edges = np.unique(np.minimum(edges, last_wave))
+        rings = radial_spectrum(spectrum, edges)
+    if rings.q.size < _FEWEST_RINGS or not np.all(rings.psd > 0.0):
+        raise InputError(
+            f"spectrum must hold power in at least {_FEWEST_RINGS} rings of modes for a fit, but has {rings.q.size}. "
+            "Use a map of more points, or one that is not flat."
+        )
+    cutoff = 2.0 * math.pi / last_wave
+
     lost = LOST_MODES[spectrum.window] ** 2
     error = require.finite(model_error, "relative error of the model")
     # fewer modes, so that the relative variance of a ring's mean is 2 lost/N + error²
     weighed = replace(rings, modes=1.0 / (1.0 / rings.modes + error**2 / (2.0 * lost)))
-    found = _solutions(weighed, rings, (plateau, slopes, floor))
+    found = []
+    for shape in SHAPES:
+        features = zip((plateau, slopes, floor), (shape.plateau, shape.slopes, shape.floor), strict=True)
+        if not all(wish in (None, has) for wish, has in features):
+            continue
+        solution = fitted_shape(weighed, shape)
+        if plateau is None and shape.plateau:
+            rolloff = 2.0 * math.pi / solution.model(math.inf).rolloff_wavelength
+            if rings.modes[rings.q < rolloff].sum() < _PLATEAU_MODES:
+                continue
+        found.append(solution)
     information = math.log(0.5 * float(weighed.modes.sum()))  # logarithm of the number of independent modes
     criteria = {item.shape.name: item.deviance / lost + item.shape.parameters * information for item in found}
     best = min(found, key=lambda item: criteria[item.shape.name])
@@ -451,44 +473,3 @@ def _ratio(model: SpectralModel, rings: RadialSpectrum, power: int) -> float:
     """Mean square height (``power`` 0) or slope (2) of ``model`` over that of the spectrum, in the range of ``rings``."""
     weight = rings.modes * rings.q**power
     return float(weight @ model.psd(rings.q) / (weight @ rings.psd))
-
-
-def _usable(spectrum: PowerSpectrum, reliable_wavelength: float) -> tuple[RadialSpectrum, float]:
-    """Rings that are fitted, and the short cut-off wavelength (m, NaN if there is none)."""
-    first = 0.0 if spectrum.window == "none" else _FIRST_WINDOWED * 2.0 * np.pi / min(spectrum.grid.size)
-    last = _TOP * spectrum.nyquist
-    if reliable_wavelength > 0.0:
-        last = min(last, 2.0 * np.pi / reliable_wavelength)
-    edges = default_edges(spectrum)
-    edges = np.unique(np.clip(edges, max(first, edges[0]), max(last, edges[0])))
-    rings = radial_spectrum(spectrum, edges)
-    cutoff = short_cutoff(spectrum, rings)
-    if not math.isnan(cutoff):
-        edges = np.unique(np.minimum(edges, cutoff))
-        rings = radial_spectrum(spectrum, edges)
-    if rings.q.size < _FEWEST_RINGS or not np.all(rings.psd > 0.0):
-        raise InputError(
-            f"spectrum must hold power in at least {_FEWEST_RINGS} rings of modes for a fit, but has {rings.q.size}. "
-            "Use a map of more points, or one that is not flat."
-        )
-    return rings, 2.0 * math.pi / cutoff
-
-
-def _solutions(
-    weighed: RadialSpectrum, rings: RadialSpectrum, wishes: tuple[bool | None, int | None, bool | None]
-) -> list[Solution]:
-    """Fits of the shapes that agree with the ``wishes``; unless prescribed, a plateau needs enough modes."""
-    found = [
-        fitted_shape(weighed, shape)
-        for shape in SHAPES
-        if all(
-            wish in (None, has) for wish, has in zip(wishes, (shape.plateau, shape.slopes, shape.floor), strict=True)
-        )
-    ]
-    if wishes[0] is not None:
-        return found
-
-    def modes_on_plateau(item: Solution) -> float:
-        return float(rings.modes[rings.q < 2.0 * math.pi / item.model(math.inf).rolloff_wavelength].sum())
-
-    return [item for item in found if not item.shape.plateau or modes_on_plateau(item) >= _PLATEAU_MODES]

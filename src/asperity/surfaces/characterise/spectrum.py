@@ -264,7 +264,19 @@ def mean_square_after_levelling(
     if bend > low:
         # resolves the oscillations of the Bessel functions, of period π in q L/2
         q, weight = gauss(_with_ripples(low, bend, longer), _NODES)
-        filtered = float((weight * q * psd(q)) @ _passed(q, size, degree))
+        # share of the power that remains, averaged over all directions
+        count = 16 + np.ceil(0.5 * _ANGLES * max(size) * q).astype(np.int64)
+        passed = np.empty_like(q)
+        for part in np.array_split(np.arange(q.size), 1 + int(count.sum()) // _CHUNK):
+            n = count[part]
+            first, points = np.cumsum(n) - n, np.repeat(n, n)
+            angle = (np.arange(points.size) - np.repeat(first, n) + 0.5) * (0.5 * np.pi / points)
+            radius = np.repeat(0.5 * q[part], n)
+            along_x = _bessel_squares(radius * size[0] * np.cos(angle), degree)
+            along_y = _bessel_squares(radius * size[1] * np.sin(angle), degree)
+            fitted = sum(along_x[a] * along_y[b] for a in range(degree + 1) for b in range(degree + 1 - a))
+            passed[part] = 1.0 - np.add.reduceat(fitted, first) / n
+        filtered = float((weight * q * psd(q)) @ passed)
     if high > bend:
         q, weight = gauss(_logarithmic(max(bend, low), high), _NODES)
         filtered += float(weight @ (q * psd(q)))
@@ -312,22 +324,6 @@ def effective_samples(spectrum: PowerSpectrum) -> float:
     total = float(spectrum.psd.sum(axis=0) @ columns)
     squares = float(np.einsum("ij,ij->j", spectrum.psd, spectrum.psd) @ columns)
     return 2.0 * total**2 / squares if squares > 0.0 else math.nan
-
-
-def _passed(q: RealArray, size: tuple[float, float], degree: int) -> RealArray:
-    """Share of the power at wavenumbers ``q`` that remains after levelling a window, averaged over all directions."""
-    count = 16 + np.ceil(0.5 * _ANGLES * max(size) * q).astype(np.int64)
-    passed = np.empty_like(q)
-    for part in np.array_split(np.arange(q.size), 1 + int(count.sum()) // _CHUNK):
-        n = count[part]
-        first, points = np.cumsum(n) - n, np.repeat(n, n)
-        angle = (np.arange(points.size) - np.repeat(first, n) + 0.5) * (0.5 * np.pi / points)
-        radius = np.repeat(0.5 * q[part], n)
-        along_x = _bessel_squares(radius * size[0] * np.cos(angle), degree)
-        along_y = _bessel_squares(radius * size[1] * np.sin(angle), degree)
-        fitted = sum(along_x[a] * along_y[b] for a in range(degree + 1) for b in range(degree + 1 - a))
-        passed[part] = 1.0 - np.add.reduceat(fitted, first) / n
-    return passed
 
 
 def _bessel_squares(x: RealArray, degree: int) -> list[RealArray]:

@@ -115,23 +115,6 @@ class SpectralCurves:
     tip_cutoff: float
 
 
-def measured_curves(surface: Surface, attempt: Attempts) -> Curves:
-    """Functions of ``surface`` that need no spectrum; missing points are left out."""
-    structure = attempt.along_axes("structure function", lambda axis: structure_function(surface, axis=axis))
-    known = dict(zip("xy", structure, strict=True))
-    scale = attempt.along_axes(
-        "scale-dependent curvature", lambda axis: scale_dependence(surface, axis=axis, structure=known[axis])
-    )
-    return Curves(
-        material_ratio=material_ratio_curve(surface),
-        distribution=height_distribution(surface),
-        autocovariance=autocovariance(surface),
-        summits=summits(surface),
-        structure=structure,
-        scale=scale,
-    )
-
-
 def measured_spectra(
     surface: Surface, window: str, *, tip_radius: float | None, curves: Curves, attempt: Attempts
 ) -> SpectralCurves:
@@ -369,25 +352,43 @@ def characterise(
         require.positive(tip_radius, "radius of the tip (m)")
     attempt = Attempts()
     complete = completed(surface, fill, attempt)
-    curves = measured_curves(surface, attempt)
+    structure = attempt.along_axes("structure function", lambda axis: structure_function(surface, axis=axis))
+    known = dict(zip("xy", structure, strict=True))
+    scale = attempt.along_axes(
+        "scale-dependent curvature", lambda axis: scale_dependence(surface, axis=axis, structure=known[axis])
+    )
+    covariance, found = autocovariance(surface), summits(surface)
+    curves = Curves(material_ratio_curve(surface), height_distribution(surface), covariance, found, structure, scale)
     spectra = measured_spectra(complete, window, tip_radius=tip_radius, curves=curves, attempt=attempt)
     if not surface.periodic and (share := tilt_share(surface)) > _TILT:
         attempt.remarks.append(f"A plane contains {percent(share)} of the mean square height; level the surface first.")
     difference = attempt("moments by differences", lambda: difference_moments(surface))
     difference = difference or undefined(DifferenceMoments, slope_tensor=undefined(SlopeTensor))
     spectral = undefined(SpectralMoments) if spectra.power is None else spectral_moments(spectra.power)
-    eight = summit_statistics(curves.summits)
-    known = dict(zip("xy", curves.structure, strict=True))
+    tensor, lengths, eight = difference.slope_tensor, texture_lengths(covariance), summit_statistics(found)
     fractal = attempt.along_axes(
         "fractal dimension", lambda axis: fractal_parameters(surface, axis=axis, structure=known[axis])
     )
     samples = math.nan if spectra.power is None else effective_samples(spectra.power)
     core = attempt("core of the material ratio curve", lambda: functional_parameters(curves.material_ratio))
+    slope = attempt("rms gradient Sdq", lambda: rms_slope(surface))
+    area = attempt("developed area Sdr", lambda: developed_area_ratio(surface))
     return Characterisation(
         surface,
         heights=height_parameters(surface),
-        spatial=_spatial(curves, spectra, difference.slope_tensor),
-        hybrid=_hybrid(surface, eight.mean_curvature, attempt),
+        spatial=SpatialParameters(
+            Sal=lengths.Sal,
+            Str=lengths.Str,
+            Std=math.nan if spectra.angular is None else spectra.angular.peak,
+            lay=(tensor.direction + 0.5 * math.pi) % math.pi if tensor.xx + tensor.yy > 0.0 else math.nan,
+            beta_e_x=covariance.correlation_length(DROP_1E, axis="x"),
+            beta_e_y=covariance.correlation_length(DROP_1E, axis="y"),
+            beta_01_x=covariance.correlation_length(DROP_TENTH, axis="x"),
+            beta_01_y=covariance.correlation_length(DROP_TENTH, axis="y"),
+        ),
+        hybrid=HybridParameters(
+            math.nan if slope is None else slope, math.nan if area is None else area, Ssc=eight.mean_curvature
+        ),
         functional=core or undefined(FunctionalParameters),
         moments=Moments(difference, spectral),
         summits=SummitDensities(eight, summit_statistics(summits(surface, 4))),
@@ -400,26 +401,4 @@ def characterise(
         curves=curves,
         spectra=spectra,
         remarks=tuple(attempt.remarks),
-    )
-
-
-def _spatial(curves: Curves, spectra: SpectralCurves, tensor: SlopeTensor) -> SpatialParameters:
-    covariance, lengths = curves.autocovariance, texture_lengths(curves.autocovariance)
-    return SpatialParameters(
-        Sal=lengths.Sal,
-        Str=lengths.Str,
-        Std=math.nan if spectra.angular is None else spectra.angular.peak,
-        lay=(tensor.direction + 0.5 * math.pi) % math.pi if tensor.xx + tensor.yy > 0.0 else math.nan,
-        beta_e_x=covariance.correlation_length(DROP_1E, axis="x"),
-        beta_e_y=covariance.correlation_length(DROP_1E, axis="y"),
-        beta_01_x=covariance.correlation_length(DROP_TENTH, axis="x"),
-        beta_01_y=covariance.correlation_length(DROP_TENTH, axis="y"),
-    )
-
-
-def _hybrid(surface: Surface, summit_curvature: float, attempt: Attempts) -> HybridParameters:
-    slope = attempt("rms gradient Sdq", lambda: rms_slope(surface))
-    area = attempt("developed area Sdr", lambda: developed_area_ratio(surface))
-    return HybridParameters(
-        Sdq=math.nan if slope is None else slope, Sdr=math.nan if area is None else area, Ssc=summit_curvature
     )

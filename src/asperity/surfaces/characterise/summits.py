@@ -9,7 +9,7 @@ from typing import ClassVar, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.arrays import BoolArray, RealArray
+from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ..surface import Surface
 from .heights import mean_height, rms_height
@@ -117,16 +117,27 @@ def summits(surface: Surface, neighbours: int = 8) -> Summits:
     if neighbours not in (4, 8):
         raise InputError(f"neighbours of a summit must be 4 or 8, but are {neighbours!r}.")
     heights = surface.heights.astype(np.float64, copy=False)
-    padded = np.pad(heights, 1, mode="wrap") if surface.periodic else heights
-    highest, candidate = _compared(padded, neighbours)
-    i, j = np.nonzero(highest)
+    h = np.pad(heights, 1, mode="wrap") if surface.periodic else heights
+    middle = h[1:-1, 1:-1]
+    highest, candidate = ~np.isnan(middle), ~np.isnan(middle)
+    complete = bool(candidate.all()) and not np.isnan(h).any()
+    for step_x, step_y in _SIDES + (_DIAGONALS if neighbours == 8 else ()):
+        for sign in (1, -1):
+            neighbour = h[1 + sign * step_x :, 1 + sign * step_y :][: middle.shape[0], : middle.shape[1]]
+            highest &= middle > neighbour
+            if not complete:
+                candidate &= ~np.isnan(neighbour)
+    i, j = (places + 1 for places in np.nonzero(highest & candidate))
+    dx, dy = surface.grid.spacing
     number = int(np.count_nonzero(candidate))
-    offset = 0 if surface.periodic else 1
+    border = 1 if surface.periodic else 0
     return Summits(
-        i + offset,
-        j + offset,
-        padded[i + 1, j + 1] - mean_height(surface),
-        *_curvatures(padded, (i + 1, j + 1), surface.grid.spacing),
+        i - border,
+        j - border,
+        h[i, j] - mean_height(surface),
+        kappa_x=-(h[i + 1, j] - 2.0 * h[i, j] + h[i - 1, j]) / dx**2,
+        kappa_y=-(h[i, j + 1] - 2.0 * h[i, j] + h[i, j - 1]) / dy**2,
+        kappa_xy=-(h[i + 1, j + 1] - h[i + 1, j - 1] - h[i - 1, j + 1] + h[i - 1, j - 1]) / (4.0 * dx * dy),
         candidates=number,
         candidate_area=number * surface.grid.pixel_area,
         neighbours=neighbours,
@@ -153,32 +164,6 @@ def summit_statistics(found: Summits) -> SummitStatistics:
         saddles=int(np.count_nonzero(found.principal_curvatures[1] <= 0.0)),
         bandwidth=found.density * height_deviation / mean_curvature,
     )
-
-
-def _compared(h: RealArray, neighbours: int) -> tuple[BoolArray, BoolArray]:
-    """For the inner points: whether they exceed all neighbours, and whether they and all neighbours are valid."""
-    middle = h[1:-1, 1:-1]
-    highest, candidate = ~np.isnan(middle), ~np.isnan(middle)
-    complete = bool(candidate.all()) and not np.isnan(h).any()
-    nx, ny = middle.shape
-    for dx, dy in _SIDES + (_DIAGONALS if neighbours == 8 else ()):
-        for sign in (1, -1):
-            neighbour = h[1 + sign * dx :, 1 + sign * dy :][:nx, :ny]
-            highest &= middle > neighbour
-            if not complete:
-                candidate &= ~np.isnan(neighbour)
-    return highest & candidate, candidate
-
-
-def _curvatures(
-    h: RealArray, at: tuple[Indices, Indices], spacing: tuple[float, float]
-) -> tuple[RealArray, RealArray, RealArray]:
-    i, j = at
-    dx, dy = spacing
-    kappa_x = -(h[i + 1, j] - 2.0 * h[i, j] + h[i - 1, j]) / dx**2
-    kappa_y = -(h[i, j + 1] - 2.0 * h[i, j] + h[i, j - 1]) / dy**2
-    kappa_xy = -(h[i + 1, j + 1] - h[i + 1, j - 1] - h[i - 1, j + 1] + h[i - 1, j - 1]) / (4.0 * dx * dy)
-    return kappa_x, kappa_y, kappa_xy
 
 
 # Profile peaks (Whitehouse & Archard 1970).
@@ -214,7 +199,10 @@ def profile_peaks(surface: Surface, *, axis: str = "x") -> ProfilePeaks:
     """
     number = axis_index(axis)
     d, variance = surface.grid.spacing[number], rms_height(surface) ** 2
-    z = _lines(surface, number)
+    z = surface.heights.astype(np.float64, copy=False) - mean_height(surface)
+    z = z if number == 0 else z.T
+    if surface.periodic:
+        z = np.asarray(z[np.arange(z.shape[0] + 2) % z.shape[0]])
     left, middle, right = z[:-2], z[1:-1], z[2:]
     curvature = (middle - left) - (right - middle)
     triples = int(np.count_nonzero(~np.isnan(curvature)))
@@ -233,15 +221,6 @@ def profile_peaks(surface: Surface, *, axis: str = "x") -> ProfilePeaks:
         rho_1=_mean(products[0]) / variance if variance > 0.0 else math.nan,
         rho_2=_mean(products[1]) / variance if variance > 0.0 else math.nan,
     )
-
-
-def _lines(surface: Surface, number: int) -> RealArray:
-    """Heights about their mean with the profiles along the first axis, two points longer where they wrap."""
-    z = surface.heights.astype(np.float64, copy=False) - mean_height(surface)
-    z = z if number == 0 else z.T
-    if not surface.periodic:
-        return z
-    return np.asarray(z[np.arange(z.shape[0] + 2) % z.shape[0]])
 
 
 def _products(surface: Surface, z: RealArray, lag: int) -> RealArray:

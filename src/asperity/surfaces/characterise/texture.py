@@ -51,9 +51,9 @@ class AngularSpectrum:
 
 
 def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> TextureLengths:
-    """Sal and Str (ISO 25178-2, 4.3.1 and 4.3.2) from the first crossings along rays, one per degree.
+    """Sal and Str (ISO 25178-2, 4.3.1 and 4.3.2) from the first falls to ``drop`` R(0) along rays, one per degree.
 
-    Rays end at half the map; R is interpolated bilinearly.
+    Rays end at half the map; R is interpolated bilinearly, in blocks of distances from the origin up to the last crossing.
     Raises InputError if ``drop`` is not between 0 and 1.
     """
     require.between(drop, 0.0, 1.0, "drop that defines a correlation length")
@@ -65,7 +65,21 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
     farthest = math.hypot(*(k * d for k, d in zip(centre.range, centre.spacing, strict=True)))
     step = min(centre.spacing) / _RAY_STEPS
     distances = step * np.arange(int(farthest / step) + 2)
-    lengths = _crossings(centre, angles, distances, drop)
+    lengths = np.full(angles.size, np.nan)
+    open_rays = np.arange(angles.size)
+    level, block = drop * centre.mean_square, max(2, _BLOCK // angles.size)
+    for start in range(0, distances.size - 1, block - 1):
+        part = distances[start : start + block]
+        values = _bilinear(centre, np.cos(angles[open_rays])[:, None] * part, np.sin(angles[open_rays])[:, None] * part)
+        below = values <= level
+        crossed = below.any(axis=1)
+        after = np.maximum(below.argmax(axis=1), 1)[crossed]
+        high, low = values[crossed, after - 1], values[crossed, after]
+        share = np.divide(high - level, high - low, out=np.zeros_like(high), where=high > low)
+        lengths[open_rays[crossed]] = part[after - 1] + share * (part[after] - part[after - 1])
+        open_rays = open_rays[~crossed]
+        if open_rays.size == 0:
+            break
     found = np.isfinite(lengths)
     if not found.any() or autocovariance.mean_square == 0.0:
         return TextureLengths(math.nan, math.nan, math.nan, math.nan)
@@ -97,29 +111,6 @@ def angular_spectrum(spectrum: PowerSpectrum) -> AngularSpectrum:
     total = density.sum() * np.pi / count
     middle = np.arange(count) * np.pi / count
     return AngularSpectrum(middle, density / total if total > 0.0 else np.full(count, np.nan))
-
-
-def _crossings(centre: Autocovariance, angles: RealArray, distances: RealArray, drop: float) -> RealArray:
-    """Distance (m) of the first fall to ``drop`` R(0) along each ray, NaN where there is none inside the range.
-
-    Distances are evaluated in blocks from the origin, up to the last crossing.
-    """
-    lengths = np.full(angles.size, np.nan)
-    open_rays = np.arange(angles.size)
-    level, block = drop * centre.mean_square, max(2, _BLOCK // angles.size)
-    for start in range(0, distances.size - 1, block - 1):
-        part = distances[start : start + block]
-        values = _bilinear(centre, np.cos(angles[open_rays])[:, None] * part, np.sin(angles[open_rays])[:, None] * part)
-        below = values <= level
-        crossed = below.any(axis=1)
-        after = np.maximum(below.argmax(axis=1), 1)[crossed]
-        high, low = values[crossed, after - 1], values[crossed, after]
-        share = np.divide(high - level, high - low, out=np.zeros_like(high), where=high > low)
-        lengths[open_rays[crossed]] = part[after - 1] + share * (part[after] - part[after - 1])
-        open_rays = open_rays[~crossed]
-        if open_rays.size == 0:
-            break
-    return lengths
 
 
 def _bilinear(centre: Autocovariance, x: RealArray, y: RealArray) -> RealArray:

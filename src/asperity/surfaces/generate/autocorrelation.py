@@ -13,16 +13,18 @@ from ...core.grid import Grid
 from ...core.parameters import Declared
 from ...core.units import show
 from ...core.values import Fraction, Length
-from .gaussian import clipping_text, embedded_psd
+from .gaussian import clipped_eigenvalues, eigenvalues, negative_part
 
 _INDEPENDENT = math.log(
     1e3
 )  # three 10 % lengths of the exponential: heights whose correlation is 1e-3 count as independent
+_AMPLE = 1.5  # embedding lengths from which on there is no negative part: computed for both autocorrelations
+_NOISE = 1e-15  # negative part that rounding of the transform leaves
 
 
 @dataclass(frozen=True)
 class _Autocorrelation(Declared):
-    """Base of autocorrelations that fall as exp(-c) over ``_decays(c)`` decay lengths in every direction.
+    """Base of autocorrelations that fall as exp(-c) over c decay lengths in every direction, ``smooth`` ones over sqrt(c).
 
     ``form`` is their name in words, ``domain`` the number of decay lengths that a period must hold.
     """
@@ -33,10 +35,11 @@ class _Autocorrelation(Declared):
     correlation_length_y: Annotated[Length | None, "the same along y, if it differs"] = None
     form: ClassVar[str]
     domain: ClassVar[float]
+    smooth: ClassVar[bool]
 
-    @staticmethod
-    def _decays(c: float) -> float:
-        raise NotImplementedError
+    def _decays(self, c: float) -> float:
+        """Decay lengths over which the autocorrelation falls as exp(-c)."""
+        return math.sqrt(c) if self.smooth else c
 
     @property
     def decay_lengths(self) -> tuple[float, float]:
@@ -64,13 +67,18 @@ class _Autocorrelation(Declared):
 
         Raises InputError if the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
         """
-        return embedded_psd(self, grid)
+        psd: RealArray = grid.pixel_area * clipped_eigenvalues(self, grid)
+        psd[0, 0] = 0.0
+        return psd
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         lengths = "decay lengths {} x {}".format(*(show(length, "m") for length in self.decay_lengths))
         words = f"{self.form} autocorrelation, rms height {show(self.rms_height, 'm')}, {lengths}"
-        return words + clipping_text(self, grid)
+        if all(size >= _AMPLE * length for size, length in zip(grid.size, self.embedding_lengths, strict=True)):
+            return words
+        negative = negative_part(grid, eigenvalues(self, grid))
+        return f"{words}, negative part {negative:.1e} of the spectrum clipped" if negative > _NOISE else words
 
 
 @dataclass(frozen=True)
@@ -83,12 +91,9 @@ class ExponentialAutocorrelation(_Autocorrelation):
     """
 
     form: ClassVar[str] = "exponential"
+    smooth: ClassVar[bool] = False
     domain: ClassVar[float] = 12.0  # at 8 the negative part is 7e-6, at 4 it is 4e-3
     citation_keys: ClassVar[tuple[str, ...]] = ("Dietrich1997", "PengBhushan2001")
-
-    @staticmethod
-    def _decays(c: float) -> float:
-        return c
 
     def autocovariance(self, x: RealArray, y: RealArray) -> RealArray:
         """R(x, y) in m² at the lags ``x`` and ``y`` in m, broadcast against each other."""
@@ -111,12 +116,9 @@ class GaussianAutocorrelation(_Autocorrelation):
     """
 
     form: ClassVar[str] = "Gaussian"
+    smooth: ClassVar[bool] = True
     domain: ClassVar[float] = 8.0  # negative part 1e-7
     citation_keys: ClassVar[tuple[str, ...]] = ("Dietrich1997",)
-
-    @staticmethod
-    def _decays(c: float) -> float:
-        return math.sqrt(c)
 
     def autocovariance(self, x: RealArray, y: RealArray) -> RealArray:
         """R(x, y) in m² at the lags ``x`` and ``y`` in m, broadcast against each other."""

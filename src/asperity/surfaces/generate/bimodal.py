@@ -11,7 +11,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
@@ -120,34 +119,28 @@ def particles(
     radii = radius + radius_deviation * draw.standard_normal(count)
     while (wrong := radii <= 0.0).any():
         radii[wrong] = radius + radius_deviation * draw.standard_normal(int(np.count_nonzero(wrong)))
-    for place, size in zip(places, radii, strict=True):
-        _add_sphere(heights, ground, grid, place, float(size), exposure)
+    for place, size in zip(places, (float(number) for number in radii), strict=True):
+        if 2.0 * size > min(grid.size):
+            raise InputError(
+                f"particles must fit into the grid of {grid.size[0]:.3g} x {grid.size[1]:.3g} m, but one has the radius "
+                f"{size:.3g} m. Enlarge the grid or reduce the radius."
+            )
+        nodes = [
+            np.arange(math.ceil((c - size) / d), math.floor((c + size) / d) + 1)
+            for c, d in zip(place, grid.spacing, strict=True)
+        ]
+        square = size**2 - (
+            (nodes[0][:, None] * grid.spacing[0] - place[0]) ** 2
+            + (nodes[1][None, :] * grid.spacing[1] - place[1]) ** 2
+        )
+        nearest = tuple(round(c / d) % n for c, d, n in zip(place, grid.spacing, grid.shape, strict=True))
+        base = float(ground[nearest]) + (exposure - 1.0) * size
+        cap = np.where(square >= 0.0, base + np.sqrt(np.maximum(square, 0.0)), -np.inf)
+        at = np.ix_(nodes[0] % grid.shape[0], nodes[1] % grid.shape[1])
+        heights[at] = np.maximum(heights[at], cap)
     text = (
         f"{count} particles of radius {show(radius, 'm')} ± {show(radius_deviation, 'm')}, exposed by {exposure:.4g} radii, "
         f"on {matrix.describe(grid)}, seed {seed}"
     )
     keys = (*citation_keys(matrix), *_KEYS)
     return generated(grid, heights, "particles", text, citation_keys=keys)
-
-
-def _add_sphere(
-    heights: RealArray, ground: RealArray, grid: Grid, place: RealArray, radius: float, exposure: float
-) -> None:
-    """Raise ``heights`` to the sphere at ``place`` (x, y) in m, across the borders."""
-    if 2.0 * radius > min(grid.size):
-        raise InputError(
-            f"particles must fit into the grid of {grid.size[0]:.3g} x {grid.size[1]:.3g} m, but one has the radius "
-            f"{radius:.3g} m. Enlarge the grid or reduce the radius."
-        )
-    nodes = [
-        np.arange(math.ceil((c - radius) / d), math.floor((c + radius) / d) + 1)
-        for c, d in zip(place, grid.spacing, strict=True)
-    ]
-    square = radius**2 - (
-        (nodes[0][:, None] * grid.spacing[0] - place[0]) ** 2 + (nodes[1][None, :] * grid.spacing[1] - place[1]) ** 2
-    )
-    nearest = tuple(round(c / d) % n for c, d, n in zip(place, grid.spacing, grid.shape, strict=True))
-    base = float(ground[nearest]) + (exposure - 1.0) * radius
-    cap = np.where(square >= 0.0, base + np.sqrt(np.maximum(square, 0.0)), -np.inf)
-    at = np.ix_(nodes[0] % grid.shape[0], nodes[1] % grid.shape[1])
-    heights[at] = np.maximum(heights[at], cap)

@@ -223,10 +223,11 @@ def laser_bumps(
     """
     height, width, rim, crater = rim_height, rim_width, rim_radius, depth
     radius = crater_radius or rim or width
-    r = np.hypot(*_from_centres(grid, pitch))
+    r = np.hypot(*(_from_nearest(grid, pitch[axis], axis) for axis in (0, 1)))
     heights = height * np.exp(-(((r - rim) / width) ** 2)) - crater * np.exp(-((r / radius) ** 2))
     text = f"laser bumps, rim {show(height, 'm')} high at {show(rim, 'm')}, {show(width, 'm')} wide, crater {show(crater, 'm')} deep"
-    return _texture(grid, heights, text, pitch)
+    text += f", pitch {show(pitch[0], 'm')} x {show(pitch[1], 'm')}"
+    return _shape(grid, heights, text, periodic=True)
 
 
 @checked
@@ -245,14 +246,13 @@ def dimples(
     ``pitch`` as for :func:`laser_bumps`. The highest level is zero.
     Raises InputError if a side of the grid is not a whole number of pitches.
     """
-    x, y = _from_centres(grid, pitch)
+    x, y = (_from_nearest(grid, pitch[axis], axis) for axis in (0, 1))
     with np.errstate(over="ignore"):  # far outside a sharp dimple
         shape = np.exp(-(((x**2 + y**2) / radius**2) ** sharpness))
     heights = depth * (shape - 1.0) if raised else -depth * shape
     name = "pillars" if raised else "dimples"
-    return _texture(
-        grid, heights, f"{name}, radius {show(radius, 'm')}, {show(depth, 'm')}, sharpness {sharpness:g}", pitch
-    )
+    text = f"{name}, radius {show(radius, 'm')}, {show(depth, 'm')}, sharpness {sharpness:g}"
+    return _shape(grid, heights, f"{text}, pitch {show(pitch[0], 'm')} x {show(pitch[1], 'm')}", periodic=True)
 
 
 @checked
@@ -280,12 +280,8 @@ def grooves(
     return _shape(grid, -depth * profile, text, periodic=True)
 
 
-def _from_centres(grid: Grid, pitch: tuple[float, float]) -> tuple[RealArray, RealArray]:
-    """Distances x (nx, 1) and y (1, ny) in m from the nearest centre of the lattice."""
-    return _from_nearest(grid, pitch[0], 0), _from_nearest(grid, pitch[1], 1)
-
-
 def _from_nearest(grid: Grid, pitch: float, axis: int) -> RealArray:
+    """Distances along ``axis`` in m, x (nx, 1) or y (1, ny), from the nearest centre of the lattice."""
     size, name = grid.size[axis], "xy"[axis]
     count = round(size / pitch)
     if count < 1 or abs(size / pitch - count) > 1e-9 * count:
@@ -296,10 +292,6 @@ def _from_nearest(grid: Grid, pitch: float, axis: int) -> RealArray:
     period = size / count
     u = grid.centred_coordinates()[axis]
     return u - period * np.round(u / period)
-
-
-def _texture(grid: Grid, heights: RealArray, text: str, pitch: tuple[float, float]) -> Surface:
-    return _shape(grid, heights, f"{text}, pitch {show(pitch[0], 'm')} x {show(pitch[1], 'm')}", periodic=True)
 
 
 # Weierstrass-Mandelbrot functions: deterministic fractal profiles and surfaces of a discrete spectrum.
@@ -334,7 +326,8 @@ def weierstrass_mandelbrot(
     n_max = floor(ln(L/L_s)/ln γ), phases φ uniform. The spectrum is a set of lines, the map is not periodic, and isotropic only
     for many ridges; prefer ``asp.generate.gaussian`` unless a published case is to be repeated.
     """
-    longest, shortest = _limits(length, shortest_wavelength, max(grid.size), max(grid.spacing))
+    longest = max(grid.size) if length is None else length
+    shortest = 2.0 * max(grid.spacing) if shortest_wavelength is None else shortest_wavelength
     if shortest > longest:
         raise InputError(
             f"shortest wave must not be longer than the longest ({longest:g} m), but is {shortest:g} m. Refine the grid."
@@ -342,12 +335,16 @@ def weierstrass_mandelbrot(
     count = math.floor(math.log(longest / shortest) / math.log(gamma) + 1e-9) + 1
     _require_count(count * ridges)
     powers = np.arange(count, dtype=float)
-    phases = _phases(seed, (ridges, powers.size))
+    phases = np.random.Generator(np.random.PCG64(seed)).uniform(0.0, 2.0 * np.pi, (ridges, powers.size))
     angle = np.pi * np.arange(1, ridges + 1)[:, None] / ridges
     q = 2.0 * np.pi * gamma**powers / longest
     level = longest * (roughness / longest) ** (dimension - 2.0) * math.sqrt(math.log(gamma) / ridges)
-    amplitude = np.broadcast_to(-level * gamma ** ((dimension - 3.0) * powers), phases.shape)
-    heights = _waves(grid, (q * np.cos(angle)).ravel(), (q * np.sin(angle)).ravel(), amplitude.ravel(), phases.ravel())
+    amplitude = np.broadcast_to(-level * gamma ** ((dimension - 3.0) * powers), phases.shape).ravel()
+    # the sum of waves is one matrix product: cos(α + β) is the real part of e^(iα) e^(iβ)
+    x, y = grid.coordinates()
+    along_x, along_y = (q * np.cos(angle)).ravel() * x + phases.ravel(), (q * np.sin(angle)).ravel() * y.T
+    heights: RealArray = (np.cos(along_x) * amplitude) @ np.cos(along_y).T
+    heights -= (np.sin(along_x) * amplitude) @ np.sin(along_y).T
     text = (
         f"Weierstrass-Mandelbrot surface, dimension {dimension:.4g}, roughness {show(roughness, 'm')}, γ {gamma:.4g}, "
         f"{ridges} ridges, {powers.size} waves each from {show(longest, 'm')} down, PCG64 seed {seed}"
@@ -370,11 +367,14 @@ def weierstrass_mandelbrot_profile(
 
     γ^n counts cycles per metre; n1 = floor(ln(1/L)/ln γ), n2 = ceil(ln(1/L_s)/ln γ) (Majumdar & Bhushan 1990).
     """
-    longest, shortest = _limits(length, shortest_wavelength, grid.size[0], grid.spacing[0])
+    longest = grid.size[0] if length is None else length
+    shortest = 2.0 * grid.spacing[0] if shortest_wavelength is None else shortest_wavelength
     first = math.floor(math.log(1.0 / longest) / math.log(gamma))
     powers = np.arange(first, math.ceil(math.log(1.0 / shortest) / math.log(gamma)) + 1, dtype=float)
     _require_count(powers.size)
-    phases = np.zeros(powers.size) if seed is None else _phases(seed, (powers.size,))
+    phases = np.zeros(powers.size)
+    if seed is not None:
+        phases = np.random.Generator(np.random.PCG64(seed)).uniform(0.0, 2.0 * np.pi, powers.size)
     amplitude = roughness ** (dimension - 1.0) * gamma ** (-(2.0 - dimension) * powers)
     x = grid.coordinates()[0]
     profile = np.cos(2.0 * np.pi * gamma**powers * x + phases) @ amplitude
@@ -387,27 +387,9 @@ def weierstrass_mandelbrot_profile(
     return generated(grid, heights, _SOURCE, text, periodic=False, citation_keys=("Majumdar1990",))
 
 
-def _phases(seed: int, shape: tuple[int, ...]) -> RealArray:
-    return np.random.Generator(np.random.PCG64(seed)).uniform(0.0, 2.0 * np.pi, shape)
-
-
-def _limits(longest: float | None, shortest: float | None, size: float, spacing: float) -> tuple[float, float]:
-    """Longest and shortest wave in m: the size and two pixels if they are not given."""
-    return size if longest is None else longest, 2.0 * spacing if shortest is None else shortest
-
-
 def _require_count(count: int) -> None:
     if not 0 < count <= _MOST_WAVES:
         raise InputError(
             f"waves of a Weierstrass-Mandelbrot function must be between 1 and {_MOST_WAVES}, but are {count}. "
             "Change γ, the wavelengths or the number of ridges."
         )
-
-
-def _waves(grid: Grid, qx: RealArray, qy: RealArray, amplitude: RealArray, phase: RealArray) -> RealArray:
-    """Σ a cos(qx x + qy y + φ) at all nodes, as one matrix product: cos(α + β) is the real part of e^(iα) e^(iβ)."""
-    x, y = grid.coordinates()
-    along_x, along_y = qx * x + phase, qy * y.T
-    heights: RealArray = (np.cos(along_x) * amplitude) @ np.cos(along_y).T
-    heights -= (np.sin(along_x) * amplitude) @ np.sin(along_y).T
-    return heights

@@ -70,9 +70,33 @@ def filter_kernel(spectrum: Spectrum, spacing: tuple[float, float], *, reach: fl
         Distance in m beyond which the weights are dropped (the rest is scaled to the same mean square);
         ``spectrum.correlation_range`` if omitted.
     """
-    length = _reach(spectrum, reach)
-    domain = _domain(spectrum, spacing, length)
-    values = _endless_eigenvalues(spectrum, domain)
+    known = getattr(spectrum, "correlation_range", None)
+    if reach is not None:
+        length = require.positive(reach, "reach of a digital filter (m)")
+    elif known is not None:
+        length = float(known)
+    else:
+        raise InputError(
+            "reach of a digital filter must be given for a spectrum without correlation_range, but is not."
+        )
+    # a periodic domain on which neither kernel nor autocovariance meets itself
+    sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))
+    nx, ny = (
+        fast_length(int(np.ceil(max(4.0 * length, side) / d)) + 5) for side, d in zip(sides, spacing, strict=True)
+    )
+    if nx * ny > _LARGEST_DOMAIN:
+        raise InputError(
+            f"pixel of a digital filter must not be much smaller than its reach of {length:.3g} m, but {spacing[0]:.3g} x "
+            f"{spacing[1]:.3g} m take {nx} x {ny} points. Enlarge the pixel or shorten the reach."
+        )
+    domain = Grid((nx, ny), spacing)
+    values = lattice_eigenvalues(spectrum, domain)
+    if values[0, 0] == 0.0 and np.isinf(getattr(spectrum, "longest_wavelength", np.inf)):
+        # waves longer than the domain belong to an endless surface
+        values[0, 0] = min(values[1, 0], values[0, 1])
+        amplitude = getattr(spectrum, "amplitude", None)
+        if isinstance(amplitude, RmsHeight):  # of all waves together
+            values *= amplitude.value**2 / (mode_sum(domain, values) * domain.pixel_area)
     whole = zero_phase_weights(values, domain)
     counts = tuple(min(int(np.ceil(length / d)), (n - 1) // 4) for d, n in zip(spacing, domain.shape, strict=True))
     centred = np.roll(whole, [n // 2 for n in domain.shape], axis=(0, 1))
@@ -100,40 +124,6 @@ def cumulant_factors(weights: RealArray) -> tuple[float, float]:
     """N3 = Σα³/(Σα²)^(3/2) and N4 = Σα⁴/(Σα²)²: by what the filter reduces skewness and excess kurtosis of its input."""
     square = float(np.sum(weights**2))
     return float(np.sum(weights**3)) / square**1.5, float(np.sum(weights**4)) / square**2
-
-
-def _reach(spectrum: Spectrum, reach: float | None) -> float:
-    if reach is not None:
-        return require.positive(reach, "reach of a digital filter (m)")
-    known = getattr(spectrum, "correlation_range", None)
-    if known is None:
-        raise InputError(
-            "reach of a digital filter must be given for a spectrum without correlation_range, but is not."
-        )
-    return float(known)
-
-
-def _domain(spectrum: Spectrum, spacing: tuple[float, float], reach: float) -> Grid:
-    """Periodic grid on which neither kernel nor autocovariance meets itself."""
-    sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))
-    nx, ny = (fast_length(int(np.ceil(max(4.0 * reach, side) / d)) + 5) for side, d in zip(sides, spacing, strict=True))
-    if nx * ny > _LARGEST_DOMAIN:
-        raise InputError(
-            f"pixel of a digital filter must not be much smaller than its reach of {reach:.3g} m, but {spacing[0]:.3g} x "
-            f"{spacing[1]:.3g} m take {nx} x {ny} points. Enlarge the pixel or shorten the reach."
-        )
-    return Grid((nx, ny), spacing)
-
-
-def _endless_eigenvalues(spectrum: Spectrum, domain: Grid) -> RealArray:
-    """Mean squares of the waves in m² of an endless surface: those longer than the domain belong to it."""
-    values = lattice_eigenvalues(spectrum, domain)
-    if values[0, 0] == 0.0 and np.isinf(getattr(spectrum, "longest_wavelength", np.inf)):
-        values[0, 0] = min(values[1, 0], values[0, 1])
-        amplitude = getattr(spectrum, "amplitude", None)
-        if isinstance(amplitude, RmsHeight):  # of all waves together
-            values *= amplitude.value**2 / (mode_sum(domain, values) * domain.pixel_area)
-    return values
 
 
 _KEYS = ("HuTonder1992", "Salmon2011")

@@ -30,9 +30,6 @@ SurfaceSeed: TypeAlias = Annotated[Seed, "seed of the random numbers; equal seed
 CLIP_LIMIT = 1e-4
 """Largest negative part of a circulant spectrum, relative to its positive part, that may be clipped."""
 
-_AMPLE = 1.5  # embedding lengths from which on there is no negative part: computed for both autocorrelations
-_NOISE = 1e-15  # negative part that rounding of the transform leaves
-
 
 class Spectrum(Protocol):
     """Isotropic or anisotropic spectrum from which a periodic random surface can be generated.
@@ -73,7 +70,12 @@ def lattice_eigenvalues(spectrum: Spectrum, grid: Grid) -> RealArray:
 
 def eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:
     """FFT of the wrapped autocovariance in m², shape (nx, ny // 2 + 1); C = dx dy times it; may be negative."""
-    lag_x, lag_y = wrapped_lags(grid)
+    (nx, ny), (dx, dy) = grid.shape, grid.spacing
+    x, y = np.arange(nx), np.arange(ny)
+    lag_x, lag_y = (
+        np.minimum(x, nx - x)[:, None] * dx,
+        np.minimum(y, ny - y)[None, :] * dy,
+    )  # the shortest, not negative
     return RealTransform(grid.shape, thread_count()).forward(model.autocovariance(lag_x, lag_y)).real
 
 
@@ -92,31 +94,9 @@ def clipped_eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:
     return np.maximum(values, 0.0)
 
 
-def embedded_psd(model: Autocovariance, grid: Grid) -> RealArray:
-    """C in m⁴ on the modes of ``grid`` that gives its lags the autocovariance, zero at q = 0."""
-    psd: RealArray = grid.pixel_area * clipped_eigenvalues(model, grid)
-    psd[0, 0] = 0.0
-    return psd
-
-
-def clipping_text(model: Autocovariance, grid: Grid) -> str:
-    """Words on the clipped part of the spectrum, empty if it is no more than rounding."""
-    if all(size >= _AMPLE * length for size, length in zip(grid.size, model.embedding_lengths, strict=True)):
-        return ""
-    negative = negative_part(grid, eigenvalues(model, grid))
-    return f", negative part {negative:.1e} of the spectrum clipped" if negative > _NOISE else ""
-
-
 def negative_part(grid: Grid, values: RealArray) -> float:
     """Sum of the negative eigenvalues over that of the positive ones."""
     return mode_sum(grid, np.maximum(-values, 0.0)) / mode_sum(grid, np.maximum(values, 0.0))
-
-
-def wrapped_lags(grid: Grid) -> tuple[RealArray, RealArray]:
-    """Shortest periodic lags x (nx, 1) and y (1, ny) in m, not negative."""
-    (nx, ny), (dx, dy) = grid.shape, grid.spacing
-    x, y = np.arange(nx), np.arange(ny)
-    return np.minimum(x, nx - x)[:, None] * dx, np.minimum(y, ny - y)[None, :] * dy
 
 
 # White noise: standard normal numbers in an order that no machine, thread count or tiling changes.
@@ -161,7 +141,9 @@ def block_noise(first: tuple[int, int], shape: tuple[int, int], seed: int) -> Re
                 low, high = max(f, block * BLOCK), min(f + n, (block + 1) * BLOCK)
                 inside.append(slice(low - f, high - f))
                 part.append(slice(low - block * BLOCK, high - block * BLOCK))
-            noise[inside[0], inside[1]] = _block(block_x, block_y, seed)[part[0], part[1]]
+            counter = np.array([0, 0, block_x % 2**64, block_y % 2**64], dtype=np.uint64)
+            draw = np.random.Generator(np.random.Philox(key=seed, counter=counter))
+            noise[inside[0], inside[1]] = draw.standard_normal((BLOCK, BLOCK))[part[0], part[1]]
     return noise
 
 
@@ -176,14 +158,15 @@ def wave_noise(shape: tuple[int, int], seed: int) -> ComplexArray:
     for ring in range(1, max(nx, ny) // 2 + 1):
         waves = draw.standard_normal(8 * ring).view(complex)  # 4 ring waves; the opposite ones are their conjugates
         _place(half, shape, ring, waves)
-    _make_hermitian(half, ny)
+    # the columns that are their own mirror image (ky = 0 and the Nyquist column) have the symmetry of a real field
+    for column in (0, ny // 2) if ny % 2 == 0 else (0,):
+        positive = half[1 : (nx - 1) // 2 + 1, column]
+        if positive.size:
+            half[-positive.size :, column] = positive[::-1].conj()
+        for row in (0, nx // 2) if nx % 2 == 0 else (0,):
+            half[row, column] = np.sqrt(2.0) * half[row, column].real
     half *= np.sqrt(0.5 * nx * ny)
     return half
-
-
-def _block(block_x: int, block_y: int, seed: int) -> RealArray:
-    counter = np.array([0, 0, block_x % 2**64, block_y % 2**64], dtype=np.uint64)
-    return np.random.Generator(np.random.Philox(key=seed, counter=counter)).standard_normal((BLOCK, BLOCK))
 
 
 def _place(half: ComplexArray, shape: tuple[int, int], ring: int, waves: ComplexArray) -> None:
@@ -202,17 +185,6 @@ def _place(half: ComplexArray, shape: tuple[int, int], ring: int, waves: Complex
         negative = min(ring - 1, (nx - 1) // 2)
         if negative:
             half[-negative:, ring] = across[ring - 1 - negative : ring - 1]
-
-
-def _make_hermitian(half: ComplexArray, ny: int) -> None:
-    """Give the columns that are their own mirror image (ky = 0 and the Nyquist column) the symmetry of a real field."""
-    nx = half.shape[0]
-    for column in (0, ny // 2) if ny % 2 == 0 else (0,):
-        positive = half[1 : (nx - 1) // 2 + 1, column]
-        if positive.size:
-            half[-positive.size :, column] = positive[::-1].conj()
-        for row in (0, nx // 2) if nx % 2 == 0 else (0,):
-            half[row, column] = np.sqrt(2.0) * half[row, column].real
 
 
 VARIANTS = {"random": "PCG64", "fixed": "fixed amplitudes and phases of PCG64", "nested": "nested waves of PCG64"}
@@ -258,7 +230,19 @@ def gaussian(
         If false, a window of a periodic surface that is longer by ``spectrum.correlation_range`` (twice as long if the
         spectrum has none), so that opposite borders are independent. Its mean, tilt and rms height scatter.
     """
-    parent = grid if periodic else parent_grid(grid, spectrum)
+    parent = grid
+    if not periodic:
+        reach = getattr(spectrum, "correlation_range", None)
+        sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))
+        margins = grid.size if reach is None else (float(reach), float(reach))
+        lengths = [max(size + margin, side) for size, margin, side in zip(grid.size, margins, sides, strict=True)]
+        nx, ny = (fast_length(int(np.ceil(length / d))) for length, d in zip(lengths, grid.spacing, strict=True))
+        if nx * ny > _LARGEST_PARENT:
+            raise InputError(
+                f"grid of a window must not be much smaller than the longest waves of the spectrum, but {grid.size[0]:.3g} x "
+                f"{grid.size[1]:.3g} m would be cut from {nx} x {ny} points. Enlarge the window or shorten the waves."
+            )
+        parent = Grid((nx, ny), grid.spacing)
     psd = spectrum.lattice_psd(parent)
     target = np.sqrt(mean_square(parent, psd))
     transform = RealTransform(parent.shape, thread_count())
@@ -277,24 +261,6 @@ def gaussian(
         text += f", rescaled to the rms height {show(target, 'm')}"
     keys = (*citation_keys(spectrum), *(("Wu2000",) if variant == "fixed" else ()))
     return generated(grid, heights, "gaussian", text, periodic=periodic, citation_keys=keys)
-
-
-def parent_grid(grid: Grid, spectrum: object) -> Grid:
-    """Grid of the periodic surface from which a window on ``grid`` is cut.
-
-    Raises InputError if it would have more than 2^29 points.
-    """
-    reach = getattr(spectrum, "correlation_range", None)
-    sides = getattr(spectrum, "embedding_lengths", (0.0, 0.0))
-    margins = grid.size if reach is None else (float(reach), float(reach))
-    lengths = [max(size + margin, side) for size, margin, side in zip(grid.size, margins, sides, strict=True)]
-    nx, ny = (fast_length(int(np.ceil(length / d))) for length, d in zip(lengths, grid.spacing, strict=True))
-    if nx * ny > _LARGEST_PARENT:
-        raise InputError(
-            f"grid of a window must not be much smaller than the longest waves of the spectrum, but {grid.size[0]:.3g} x "
-            f"{grid.size[1]:.3g} m would be cut from {nx} x {ny} points. Enlarge the window or shorten the waves."
-        )
-    return Grid((nx, ny), grid.spacing)
 
 
 def random_field(grid: Grid, spectrum: Spectrum, seed: int) -> RealArray:

@@ -388,9 +388,21 @@ def translated(
 
 
 def translated_correlation(law: HeightLaw, correlation: RealArray) -> RealArray:
-    """Correlation of T(G1) and T(G2) for that of the normal numbers G1, G2: ρ_z = Σ c_k² ρ_G^k, Hermite coefficients c_k."""
-    squares = _hermite_squares(law)
-    return np.asarray(np.polynomial.polynomial.polyval(correlation, np.concatenate([[0.0], squares])))
+    """Correlation of T(G1) and T(G2) for that of the normal numbers G1, G2: ρ_z = Σ c_k² ρ_G^k, k = 1, 2, …
+
+    c_k are the Hermite coefficients of T = Σ c_k He_k/sqrt(k!).
+    """
+    normal = np.arange(-_HERMITE_REACH, _HERMITE_REACH + 0.5 * _HERMITE_STEP, _HERMITE_STEP)
+    weighted = law.of_normal(normal) * np.exp(-0.5 * normal**2) * (_HERMITE_STEP / math.sqrt(2.0 * math.pi))
+    before, now = np.ones_like(normal), normal
+    squares: list[float] = []
+    for k in range(1, _TERMS + 1):
+        squares.append(float(weighted @ now) ** 2)
+        if sum(squares) > 1.0 - _REST:
+            break
+        before, now = now, (normal * now - math.sqrt(k) * before) / math.sqrt(k + 1.0)
+    normalised = np.array(squares) / sum(squares)  # to the variance 1
+    return np.asarray(np.polynomial.polynomial.polyval(correlation, np.concatenate([[0.0], normalised])))
 
 
 def _predistorted(eigenvalues: RealArray, law: HeightLaw, grid: Grid) -> tuple[RealArray, float]:
@@ -418,34 +430,12 @@ def _predistorted(eigenvalues: RealArray, law: HeightLaw, grid: Grid) -> tuple[R
     return np.maximum(values, 0.0), negative
 
 
-def _hermite_squares(law: HeightLaw) -> RealArray:
-    """c_k², k = 1, 2, …, of T = Σ c_k He_k/sqrt(k!), normalised to the sum 1 (the variance)."""
-    normal = np.arange(-_HERMITE_REACH, _HERMITE_REACH + 0.5 * _HERMITE_STEP, _HERMITE_STEP)
-    weighted = law.of_normal(normal) * np.exp(-0.5 * normal**2) * (_HERMITE_STEP / math.sqrt(2.0 * math.pi))
-    before, now = np.ones_like(normal), normal
-    squares: list[float] = []
-    for k in range(1, _TERMS + 1):
-        squares.append(float(weighted @ now) ** 2)
-        if sum(squares) > 1.0 - _REST:
-            break
-        before, now = now, (normal * now - math.sqrt(k) * before) / math.sqrt(k + 1.0)
-    return np.array(squares) / sum(squares)
-
-
 # Surfaces with a prescribed spectrum and prescribed heights at once, by alternating between the two.
 
 
 _KEYS = ("Schreiber1996", "PerezRafols2019")
 _PATIENCE, _SETTLED = 10, 0.97  # the error of the amplitudes has settled when so many iterations leave so much of it
 _ERROR_LIMIT = 0.05  # relative error of the amplitudes beyond which spectrum and heights do not go together
-
-
-@dataclass(frozen=True, eq=False)
-class _Target:
-    grid: Grid
-    amplitude: RealArray
-    heights: RealArray
-    transform: RealTransform
 
 
 @checked
@@ -478,10 +468,22 @@ def rank_ordered(
     wanted = wanted - wanted.mean()
     wanted *= np.sqrt(square / np.mean(np.square(wanted)))
     amplitude = np.sqrt(psd * (grid.n_points / grid.pixel_area))
-    target = _Target(grid, amplitude, wanted, RealTransform(grid.shape, thread_count()))
+    transform = RealTransform(grid.shape, thread_count())
     values = np.random.Generator(np.random.PCG64(seed)).permutation(wanted).reshape(grid.shape)
-    values, iterations, settled = _iterated(values, target, (tolerance, max_iterations), progress)
-    error = _amplitude_error(target.transform.forward(values), target)
+    errors: list[float] = []
+    iterations, settled = max_iterations, False
+    for iteration in range(1, max_iterations + 1):
+        modes = transform.forward(values)
+        errors.append(_amplitude_error(modes, amplitude, grid))
+        stalled = len(errors) > _PATIENCE and errors[-1] > _SETTLED * errors[-1 - _PATIENCE]
+        if stalled or errors[-1] <= tolerance:
+            iterations, settled = iteration - 1, True
+            break
+        order = np.argsort(_with_amplitudes(modes, amplitude, transform), axis=None)
+        values = np.empty(grid.shape)
+        values.ravel()[order] = wanted
+        progress.update(iteration, errors[-1], 0.0)
+    error = _amplitude_error(transform.forward(values), amplitude, grid)
     if error > _ERROR_LIMIT:
         raise InputError(
             "spectrum and distribution of the heights must go together, but after "
@@ -490,7 +492,7 @@ def rank_ordered(
         )
     exact = f"amplitudes to {error:.1e}"
     if last == "spectrum":
-        values = _with_amplitudes(target.transform.forward(values), target)
+        values = _with_amplitudes(transform.forward(values), amplitude, transform)
         apart = np.sort(values, axis=None) - wanted
         exact = f"heights to {np.sqrt(np.mean(np.square(apart)) / np.mean(np.square(wanted))):.1e}"
     state = f"{iterations} iterations, {'settled' if settled else 'not settled'}, {exact}"
@@ -499,36 +501,14 @@ def rank_ordered(
     return generated(grid, values, "rank-ordered", text, citation_keys=keys)
 
 
-def _iterated(
-    values: RealArray, target: _Target, limits: tuple[float, int], progress: Progress
-) -> tuple[RealArray, int, bool]:
-    """Heights after the last step of ranks, the number of iterations, and whether the amplitudes have settled.
-
-    ``limits`` are the tolerance and the most iterations.
-    """
-    tolerance, max_iterations = limits
-    errors: list[float] = []
-    for iteration in range(1, max_iterations + 1):
-        modes = target.transform.forward(values)
-        errors.append(_amplitude_error(modes, target))
-        stalled = len(errors) > _PATIENCE and errors[-1] > _SETTLED * errors[-1 - _PATIENCE]
-        if stalled or errors[-1] <= tolerance:
-            return values, iteration - 1, True
-        order = np.argsort(_with_amplitudes(modes, target), axis=None)
-        values = np.empty(target.grid.shape)
-        values.ravel()[order] = target.heights
-        progress.update(iteration, errors[-1], 0.0)
-    return values, max_iterations, False
-
-
-def _with_amplitudes(modes: ComplexArray, target: _Target) -> RealArray:
+def _with_amplitudes(modes: ComplexArray, amplitude: RealArray, transform: RealTransform) -> RealArray:
     """Values of the ``modes``, which are overwritten, with their phases kept and their amplitudes replaced."""
     magnitude = np.abs(modes)
-    modes *= np.divide(target.amplitude, magnitude, out=np.zeros_like(magnitude), where=magnitude > 0.0)
-    return target.transform.backward(modes)
+    modes *= np.divide(amplitude, magnitude, out=np.zeros_like(magnitude), where=magnitude > 0.0)
+    return transform.backward(modes)
 
 
-def _amplitude_error(modes: ComplexArray, target: _Target) -> float:
+def _amplitude_error(modes: ComplexArray, amplitude: RealArray, grid: Grid) -> float:
     """sqrt(Σ (|F| - |F0|)² / Σ |F0|²) over all modes."""
-    missing = mode_sum(target.grid, np.square(np.abs(modes) - target.amplitude))
-    return float(np.sqrt(missing / mode_sum(target.grid, np.square(target.amplitude))))
+    missing = mode_sum(grid, np.square(np.abs(modes) - amplitude))
+    return float(np.sqrt(missing / mode_sum(grid, np.square(amplitude))))

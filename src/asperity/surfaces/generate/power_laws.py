@@ -151,22 +151,6 @@ def lattice_level(law: PowerLaws, amplitude: Amplitude, grid: Grid, parts: Itera
     return amplitude.value if isinstance(amplitude, PlateauPSD) else amplitude.value**2 / moment
 
 
-def continuous_level(law: PowerLaws, amplitude: Amplitude) -> float:
-    """C0 in m⁴ of the continuous surface, from <h²> = (1/2π) ∫ q C dq or <|∇h|²> = (1/2π) ∫ q³ C dq.
-
-    Raises InputError if the integral diverges.
-    """
-    if isinstance(amplitude, PlateauPSD):
-        return amplitude.value
-    moment = law.integral(1.0 if isinstance(amplitude, RmsHeight) else 3.0) / (2.0 * np.pi)
-    if math.isinf(moment):
-        raise InputError(
-            "shortest wavelength must be greater than zero for an rms slope of the continuous surface to be finite, "
-            "but is 0. Give a cut-off, or the plateau of the spectrum."
-        )
-    return amplitude.value**2 / moment
-
-
 def _monomial(power: float, low: float, high: float) -> float:
     """∫ x^power dx from ``low`` to ``high``; infinite where it diverges."""
     if power == -1.0:

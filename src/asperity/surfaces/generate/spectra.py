@@ -32,7 +32,6 @@ from .power_laws import (
     RmsHeight,
     RmsSlope,
     amplitude_text,
-    continuous_level,
     lattice_level,
     lattice_psd,
     require_amplitude,
@@ -73,8 +72,20 @@ class _PowerLawSpectrum(ABC):
         return twice if math.isinf(self.longest_wavelength) else max(twice, self.longest_wavelength)
 
     def psd(self, q: RealArray | float) -> RealArray:
-        """C(q) in m⁴ of the continuous surface at wavenumbers ``q`` (rad/m, any shape)."""
-        return continuous_level(self.law, self.amplitude) * self.law.relative(np.asarray(q, dtype=float))
+        """C(q) in m⁴ of the continuous surface at wavenumbers ``q`` (rad/m, any shape).
+
+        C0 follows from <h²> = (1/2π) ∫ q C dq or <|∇h|²> = (1/2π) ∫ q³ C dq. Raises InputError if the integral diverges.
+        """
+        level = self.amplitude.value
+        if not isinstance(self.amplitude, PlateauPSD):
+            moment = self.law.integral(1.0 if isinstance(self.amplitude, RmsHeight) else 3.0) / (2.0 * np.pi)
+            if math.isinf(moment):
+                raise InputError(
+                    "shortest wavelength must be greater than zero for an rms slope of the continuous surface to be finite, "
+                    "but is 0. Give a cut-off, or the plateau of the spectrum."
+                )
+            level = self.amplitude.value**2 / moment
+        return level * self.law.relative(np.asarray(q, dtype=float))
 
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
@@ -315,10 +326,22 @@ def spectrum_of(
     if isotropic:
         lowest = first * 2.0 * np.pi / min(spectrum.grid.size)
         q, psd = ring_table(spectrum, per_decade=per_decade, lowest=lowest, floor=floor)
-        _require_some(psd, floor)
+    else:
+        qx, qy = spectrum.grid.wavevector()
+        step_x, step_y = (2.0 * np.pi / side for side in spectrum.grid.size)
+        distance = np.hypot(qx / step_x, qy / step_y)
+        psd, mixed = spectrum.psd.copy(), distance < first
+        beyond = (distance >= first) & (distance < first + 1.0)
+        if mixed.any() and beyond.any():
+            psd[mixed] = psd[beyond].mean()
+        psd[0, 0] = 0.0
+        psd = np.maximum(psd - floor, 0.0)
+    if not psd.any():
+        raise InputError(
+            f"surface whose spectrum is to be generated must be rough beyond the floor of {floor:g} m^4, but is not."
+        )
+    if isotropic:
         return TabulatedSpectrum(q, psd, words=f"radial spectrum of {source}", citation_keys=keys)
-    psd = np.maximum(_without_mixed(spectrum, first) - floor, 0.0)
-    _require_some(psd, floor)
     return MeasuredSpectrum(replace(spectrum, psd=psd), source, keys)
 
 
@@ -326,26 +349,6 @@ def _on_modes(number: RealArray) -> RealArray:
     """Numbers of modes, whole where they differ from a whole one by rounding only."""
     whole = np.round(number)
     return np.where(np.abs(number - whole) < 1e-9, whole, number)
-
-
-def _require_some(psd: RealArray, floor: float) -> None:
-    if not psd.any():
-        raise InputError(
-            f"surface whose spectrum is to be generated must be rough beyond the floor of {floor:g} m^4, but is not."
-        )
-
-
-def _without_mixed(spectrum: PowerSpectrum, first: float) -> RealArray:
-    """C with the modes nearer than ``first`` steps to the mean replaced by the mean of those of the next step."""
-    qx, qy = spectrum.grid.wavevector()
-    step_x, step_y = (2.0 * np.pi / side for side in spectrum.grid.size)
-    distance = np.hypot(qx / step_x, qy / step_y)
-    psd, mixed = spectrum.psd.copy(), distance < first
-    beyond = (distance >= first) & (distance < first + 1.0)
-    if mixed.any() and beyond.any():
-        psd[mixed] = psd[beyond].mean()
-    psd[0, 0] = 0.0
-    return psd
 
 
 # The table of an isotropic spectrum whose interpolation keeps the power of every ring of modes it was averaged over.

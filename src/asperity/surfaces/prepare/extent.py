@@ -140,7 +140,7 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     if surface.periodic:
         how = "in Fourier space"
         spectrum = RealTransform(surface.shape).forward(heights)
-        spectrum = _resized_full_axis(_resized_half_axis(spectrum, surface.shape[1], ny), nx)
+        spectrum = _resized(spectrum, surface.shape, (nx, ny))
         heights = RealTransform((nx, ny)).backward(spectrum * (nx * ny / heights.size))
     else:
         how = ", ".join(
@@ -154,63 +154,47 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     return Surface(heights, size_x / nx, size_y / ny, periodic=surface.periodic, origin=surface.origin.continued(step))
 
 
-def _resized_full_axis(spectrum: ComplexArray, new: int) -> ComplexArray:
-    """Spectrum with ``new`` modes along axis 0 (all signs of the wavenumber)."""
-    old, kept = spectrum.shape[0], min(spectrum.shape[0], new)
-    if new == old:
-        return spectrum
-    positive, negative = (kept + 1) // 2, (kept - 1) // 2
-    result = np.zeros((new, spectrum.shape[1]), dtype=complex)
-    result[:positive] = spectrum[:positive]
-    if negative:
-        result[-negative:] = spectrum[-negative:]
-    if kept % 2 == 0:
-        half = kept // 2
-        if new > old:
-            result[half] = result[-half] = 0.5 * spectrum[half]
-        else:
-            result[half] = spectrum[half] + spectrum[-half]
-    return result
-
-
-def _resized_half_axis(spectrum: ComplexArray, old: int, new: int) -> ComplexArray:
-    """Half spectrum of ``old`` real points along axis 1 turned into that of ``new`` points."""
-    if new == old:
-        return spectrum
-    result = np.zeros((spectrum.shape[0], new // 2 + 1), dtype=complex)
-    kept = min(spectrum.shape[1], result.shape[1])
-    result[:, :kept] = spectrum[:, :kept]
-    half = min(old, new) // 2
-    if min(old, new) % 2 == 0:
-        if new > old:
+def _resized(spectrum: ComplexArray, old: tuple[int, int], new: tuple[int, int]) -> ComplexArray:
+    """Half spectrum of ``old`` real points turned into that of ``new`` points."""
+    if new[1] != old[1]:
+        result = np.zeros((old[0], new[1] // 2 + 1), dtype=complex)
+        kept = min(spectrum.shape[1], result.shape[1])
+        result[:, :kept] = spectrum[:, :kept]
+        half = min(old[1], new[1]) // 2
+        if min(old[1], new[1]) % 2 == 0 and new[1] > old[1]:
             result[:, half] *= 0.5
-        else:
+        elif min(old[1], new[1]) % 2 == 0:
             line = spectrum[:, half]
             result[:, half] = line + np.conj(np.roll(line[::-1], 1))  # both signs of the new Nyquist wavenumber
-    return result
+        spectrum = result
+    if new[0] != old[0]:  # all signs of the wavenumber
+        kept = min(old[0], new[0])
+        positive, negative, half = (kept + 1) // 2, (kept - 1) // 2, kept // 2
+        result = np.zeros((new[0], spectrum.shape[1]), dtype=complex)
+        result[:positive] = spectrum[:positive]
+        if negative:
+            result[-negative:] = spectrum[-negative:]
+        if kept % 2 == 0 and new[0] > old[0]:
+            result[half] = result[-half] = 0.5 * spectrum[half]
+        elif kept % 2 == 0:
+            result[half] = spectrum[half] + spectrum[-half]
+        spectrum = result
+    return spectrum
 
 
 def _axis_resampled(heights: RealArray, new: int) -> RealArray:
+    """Heights at ``new`` points of axis 0: means over equal intervals, from the cumulative integral of the pixel values, or a spline."""
     old = heights.shape[0]
     if new == old:
         return heights
-    return _averaged(heights, new) if new < old else _interpolated(heights, new)
-
-
-def _averaged(heights: RealArray, new: int) -> RealArray:
-    """Mean over each of ``new`` equal intervals of axis 0, from the cumulative integral of the pixel values."""
-    old = heights.shape[0]
-    integral = np.concatenate([np.zeros((1, heights.shape[1])), np.cumsum(heights, axis=0)])
-    edges = np.arange(new + 1) * (old / new)
-    whole = np.minimum(edges.astype(int), old - 1)
-    at_edges = integral[whole] + (edges - whole)[:, None] * heights[whole]
-    return np.asarray(np.diff(at_edges, axis=0) * (new / old))
-
-
-def _interpolated(heights: RealArray, new: int) -> RealArray:
+    if new < old:
+        integral = np.concatenate([np.zeros((1, heights.shape[1])), np.cumsum(heights, axis=0)])
+        edges = np.arange(new + 1) * (old / new)
+        whole = np.minimum(edges.astype(int), old - 1)
+        at_edges = integral[whole] + (edges - whole)[:, None] * heights[whole]
+        return np.asarray(np.diff(at_edges, axis=0) * (new / old))
     from scipy.interpolate import make_interp_spline
 
-    old = heights.shape[0]
     if old == 1:
         return np.repeat(heights, new, axis=0)
     centres = (np.arange(new) + 0.5) * (old / new) - 0.5  # pixel centres in units of the old pixel

@@ -200,11 +200,26 @@ def filtered(
     cutoffs = _cutoffs(surface, short, long, 2.0 if kind == "sharp" else FINEST)
     heights: RealArray = surface.heights.astype(np.float64)
     if kind == "sharp":
-        heights = _sharp(surface, cutoffs)
+        require_complete(surface, "filtered sharply")
+        if not surface.periodic:
+            raise InputError(
+                "surface must be periodic for a sharp filter, which acts across its borders, but is not. "
+                "Use the gaussian filter, or periodised() first."
+            )
+        transform = RealTransform(surface.shape, thread_count())
+        modes = transform.forward(heights)
+        qx, qy = surface.grid.wavevector()
+        for name, (along_x, along_y) in cutoffs.items():
+            ratio = np.hypot(qx * along_x, qy * along_y) / (2.0 * np.pi)  # cut-off over wavelength
+            # a long cut-off also removes the mean
+            modes *= ratio <= 1.0 + _ROUNDING if name == "short" else ratio >= 1.0 - _ROUNDING
+        heights = transform.backward(modes)
     else:
+        valid = (~surface.mask).astype(np.float64)
         for name, cutoff in cutoffs.items():
             fit = local_regression(surface.grid, cutoff, order=order, periodic=surface.periodic, reach=reach)
-            smooth = _robust(heights, surface, fit) if kind == "robust" else fit.smooth(*_weighted(heights, surface))
+            known = np.where(surface.mask, 0.0, heights)
+            smooth = _robust(known, valid, fit) if kind == "robust" else fit.smooth(known, valid)
             heights = smooth if name == "short" else heights - smooth
             heights[surface.mask] = np.nan
     words = ", ".join(f"{name} waves from {_text(cutoff)}" for name, cutoff in cutoffs.items())
@@ -247,43 +262,20 @@ def _cutoffs(
     return found
 
 
-def _weighted(heights: RealArray, surface: Surface) -> tuple[RealArray, RealArray]:
-    """Heights with 0 at missing points, and the weights 1 and 0."""
-    weights = (~surface.mask).astype(np.float64)
-    return np.where(surface.mask, 0.0, heights), weights
-
-
-def _robust(heights: RealArray, surface: Surface, fit: LocalRegression) -> RealArray:
-    """Smooth surface by iteratively reweighted fits (ISO 16610-71)."""
-    values, valid = _weighted(heights, surface)
+def _robust(values: RealArray, valid: RealArray, fit: LocalRegression) -> RealArray:
+    """Smooth surface by iteratively reweighted fits (ISO 16610-71) of ``values``, which are ``valid`` where that is 1, not 0."""
+    present = valid > 0.0
     weights, width = valid.copy(), np.inf
     smooth = values
     for _ in range(_MOST_PASSES):
         smooth = fit.smooth(values, weights)
-        residual = np.where(surface.mask, 0.0, values - smooth)
-        before, width = width, _BIWEIGHT * float(np.median(np.abs(residual[~surface.mask])))
+        residual = np.where(present, values - smooth, 0.0)
+        before, width = width, _BIWEIGHT * float(np.median(np.abs(residual[present])))
         if width == 0.0 or abs(before - width) <= _SETTLED * width:
             break
         biweight = np.square(np.maximum(1.0 - np.square(residual / width), 0.0))
         weights = valid * np.maximum(biweight, _LEAST_WEIGHT)
     return smooth
-
-
-def _sharp(surface: Surface, cutoffs: dict[str, tuple[float, float]]) -> RealArray:
-    """Heights of the waves between the cut-offs; a long cut-off also removes the mean."""
-    require_complete(surface, "filtered sharply")
-    if not surface.periodic:
-        raise InputError(
-            "surface must be periodic for a sharp filter, which acts across its borders, but is not. "
-            "Use the gaussian filter, or periodised() first."
-        )
-    transform = RealTransform(surface.shape, thread_count())
-    modes = transform.forward(surface.heights.astype(np.float64))
-    qx, qy = surface.grid.wavevector()
-    for name, (along_x, along_y) in cutoffs.items():
-        ratio = np.hypot(qx * along_x, qy * along_y) / (2.0 * np.pi)  # cut-off over wavelength
-        modes *= ratio <= 1.0 + _ROUNDING if name == "short" else ratio >= 1.0 - _ROUNDING
-    return transform.backward(modes)
 
 
 def _text(cutoff: tuple[float, float]) -> str:
@@ -325,12 +317,9 @@ def tip_limited(surface: Surface, radius: Annotated[Length, "radius of the tip"]
     tip = f"tip of radius {show(radius, 'm', 3)}"
     if cutoff < FINEST * max(surface.grid.spacing):
         reach = "no wave" if cutoff == 0.0 else f"waves below {show(cutoff, 'm', 3)}, less than four pixels,"
-        return _with_step(surface, f"tip-limited: {reach} shaped by a {tip}, nothing removed")
-    return _with_step(
-        filtered(surface, short=cutoff), f"tip-limited: waves below {show(cutoff, 'm', 3)} shaped by a {tip}"
-    )
-
-
-def _with_step(surface: Surface, step: str) -> Surface:
-    origin = surface.origin.continued(step, _KEYS)
-    return Surface(surface.heights, surface.dx, surface.dy, periodic=surface.periodic, origin=origin)
+        limited, step = surface, f"tip-limited: {reach} shaped by a {tip}, nothing removed"
+    else:
+        limited = filtered(surface, short=cutoff)
+        step = f"tip-limited: waves below {show(cutoff, 'm', 3)} shaped by a {tip}"
+    origin = limited.origin.continued(step, _KEYS)
+    return Surface(limited.heights, limited.dx, limited.dy, periodic=limited.periodic, origin=origin)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
@@ -73,7 +74,16 @@ def levelled(surface: Surface, form: str | int = "plane", *, robust: bool = Fals
         Repeat the fit without the points more than three standard deviations (3 x 1.4826 MAD) from it, until the
         excluded points no longer change: for surfaces whose peaks or pits would tilt the plane.
     """
-    degree, name = _degree(form)
+    if isinstance(form, str):
+        degree, name = _DEGREES[require.one_of(form, _DEGREES, "form to be removed")], form
+    else:
+        degree = require.integer(form, 0, "degree of the form to be removed")
+        if degree > HIGHEST_DEGREE:
+            raise InputError(
+                f"degree of the form to be removed must be at most {HIGHEST_DEGREE}, but is {degree}; filter instead."
+            )
+        named = {known: name for name, known in _DEGREES.items()}
+        name = named.get(degree, f"polynomial of degree {degree}")
     used = ~surface.mask
     before: RealArray = surface.heights.astype(np.float64, copy=False)
     fit = _fitted(surface, used, degree, name)
@@ -87,18 +97,6 @@ def levelled(surface: Surface, form: str | int = "plane", *, robust: bool = Fals
         fit = _fitted(surface, used, degree, name)
     how = f", robustly without {int(np.count_nonzero(~used & ~surface.mask))} points" if robust else ""
     return recorded(surface, before - fit, f"levelled: {name} removed{how}", periodic=surface.periodic and degree == 0)
-
-
-def _degree(form: str | int) -> tuple[int, str]:
-    """Total degree of the form and its name."""
-    if isinstance(form, str):
-        return _DEGREES[require.one_of(form, _DEGREES, "form to be removed")], form
-    degree = require.integer(form, 0, "degree of the form to be removed")
-    if degree > HIGHEST_DEGREE:
-        raise InputError(
-            f"degree of the form to be removed must be at most {HIGHEST_DEGREE}, but is {degree}; filter instead."
-        )
-    return degree, next((name for name, known in _DEGREES.items() if known == degree), f"polynomial of degree {degree}")
 
 
 def _fitted(surface: Surface, used: BoolArray, degree: int, form: str) -> RealArray:
@@ -117,20 +115,18 @@ def _fitted(surface: Surface, used: BoolArray, degree: int, form: str) -> RealAr
         columns = [(along_x[part, None, a] * along_y[None, :, b])[valid] for a, b in powers]
         block = np.column_stack([*columns, surface.heights[part][valid].astype(np.float64) - offset])
         triangle = np.linalg.qr(np.vstack([triangle, block])).R
-    coefficients = np.zeros((degree + 1, degree + 1))
-    for (a, b), value in zip(powers, _solved(triangle, len(powers), form), strict=True):
-        coefficients[a, b] = value
-    return along_x @ coefficients @ along_y.T + offset
-
-
-def _solved(triangle: RealArray, unknowns: int, form: str) -> RealArray:
+    unknowns = len(powers)
     diagonal = np.abs(np.diag(triangle))[:unknowns]
     if diagonal.size < unknowns or diagonal.min() < 1e-10 * diagonal.max():
         raise InputError(
             f"surface must have enough valid points, not all on one line, to fit a {form} ({unknowns} coefficients), "
             "but has not. Use a lower form or fill the missing points."
         )
-    return np.linalg.solve(triangle[:unknowns, :unknowns], triangle[:unknowns, unknowns])
+    coefficients = np.zeros((degree + 1, degree + 1))
+    solution = np.linalg.solve(triangle[:unknowns, :unknowns], triangle[:unknowns, unknowns])
+    for (a, b), value in zip(powers, solution, strict=True):
+        coefficients[a, b] = value
+    return along_x @ coefficients @ along_y.T + offset
 
 
 # Spikes and scan lines.
@@ -151,7 +147,20 @@ def despiked(
     The limit is ``threshold`` standard deviations of these distances, estimated robustly from their median (1.4826
     MAD). Fill the points afterwards, or leave them missing. Heights are never clipped.
     """
-    distance = np.abs(surface.heights.astype(np.float64) - _local_median(surface, window))
+    half = window // 2
+    heights: RealArray = surface.heights.astype(np.float64)
+    mode: Any = {"mode": "wrap"} if surface.periodic else {"mode": "constant", "constant_values": np.nan}
+    padded = np.pad(heights, half, **mode)
+    median = np.empty(heights.shape)  # of the valid heights around every node, NaN where there are none
+    rows = max(1, _SORTED_TOGETHER // (window**2 * heights.shape[1]))
+    for start in range(0, heights.shape[0], rows):
+        end = min(start + rows, heights.shape[0])
+        block = np.lib.stride_tricks.sliding_window_view(padded[start : end + 2 * half], (window, window))
+        values = np.sort(block.reshape(end - start, heights.shape[1], window**2), axis=-1)  # NaN last
+        around = np.count_nonzero(~np.isnan(values), axis=-1)
+        median[start:end] = 0.5 * (_taken(values, (around - 1) // 2) + _taken(values, around // 2))
+        median[start:end][around == 0] = np.nan
+    distance = np.abs(heights - median)
     valid = ~surface.mask
     scale = _NORMAL * float(np.median(distance[valid]))
     if scale == 0.0:  # more than half of the nodes are at their median, as on coarsely digitised maps
@@ -184,24 +193,6 @@ def line_corrected(
     return recorded(surface, corrected if axis == "x" else corrected.T, text, periodic=surface.periodic)
 
 
-def _local_median(surface: Surface, window: int) -> RealArray:
-    """Median of the valid heights around every node (nx, ny) in m; NaN where there are none."""
-    half = window // 2
-    heights = surface.heights.astype(np.float64)
-    mode = {"mode": "wrap"} if surface.periodic else {"mode": "constant", "constant_values": np.nan}
-    padded = np.pad(heights, half, **mode)
-    median = np.empty(heights.shape)
-    rows = max(1, _SORTED_TOGETHER // (window**2 * heights.shape[1]))
-    for start in range(0, heights.shape[0], rows):
-        end = min(start + rows, heights.shape[0])
-        block = np.lib.stride_tricks.sliding_window_view(padded[start : end + 2 * half], (window, window))
-        values = np.sort(block.reshape(end - start, heights.shape[1], window**2), axis=-1)  # NaN last
-        valid = np.count_nonzero(~np.isnan(values), axis=-1)
-        median[start:end] = 0.5 * (_taken(values, (valid - 1) // 2) + _taken(values, valid // 2))
-        median[start:end][valid == 0] = np.nan
-    return median
-
-
 def _taken(values: RealArray, index: RealArray | BoolArray) -> RealArray:
     at = np.clip(index, 0, values.shape[-1] - 1)[..., None].astype(np.intp)
     return np.take_along_axis(values, at, axis=-1)[..., 0]
@@ -230,7 +221,16 @@ def filled(surface: Surface, method: Annotated[FillMethod, "how missing points a
     if method == "mean":
         heights[surface.mask] = np.nanmean(surface.heights, dtype=np.float64)
     elif method == "nearest":
-        heights[surface.mask] = _nearest(surface)
+        from scipy.ndimage import distance_transform_edt
+
+        pad = [(n // 2, n // 2) for n in surface.shape] if surface.periodic else [(0, 0), (0, 0)]
+        missing = np.pad(surface.mask, pad, mode="wrap") if surface.periodic else surface.mask
+        indices = distance_transform_edt(
+            missing, sampling=surface.grid.spacing, return_distances=False, return_indices=True
+        )
+        window = tuple(slice(before, before + n) for (before, _), n in zip(pad, surface.shape, strict=True))
+        rows, columns = ((indices[axis][window][surface.mask] - pad[axis][0]) % surface.shape[axis] for axis in (0, 1))
+        heights[surface.mask] = surface.heights[rows, columns]
     else:
         heights[surface.mask] = _harmonic(surface)
     share = surface.n_missing / surface.grid.n_points
@@ -239,21 +239,11 @@ def filled(surface: Surface, method: Annotated[FillMethod, "how missing points a
     return surface.with_heights(heights, step)
 
 
-def _nearest(surface: Surface) -> RealArray:
-    from scipy.ndimage import distance_transform_edt
-
-    pad = [(n // 2, n // 2) for n in surface.shape] if surface.periodic else [(0, 0), (0, 0)]
-    missing = np.pad(surface.mask, pad, mode="wrap") if surface.periodic else surface.mask
-    indices = distance_transform_edt(
-        missing, sampling=surface.grid.spacing, return_distances=False, return_indices=True
-    )
-    window = tuple(slice(before, before + n) for (before, _), n in zip(pad, surface.shape, strict=True))
-    rows, columns = ((indices[axis][window][surface.mask] - pad[axis][0]) % surface.shape[axis] for axis in (0, 1))
-    return np.asarray(surface.heights[rows, columns])
-
-
 def _harmonic(surface: Surface) -> RealArray:
-    """Heights of the missing points from the five-point Laplace equation, in the order of the mask."""
+    """Heights of the missing points from the five-point Laplace equation, in the order of the mask.
+
+    Points beyond the border of a map that is not periodic have no weight.
+    """
     from scipy.sparse import coo_array
     from scipy.sparse.linalg import spsolve
 
@@ -263,7 +253,17 @@ def _harmonic(surface: Surface) -> RealArray:
     flat = surface.heights.ravel()
     rows, columns, values = [], [], []
     diagonal, right = np.zeros(missing.size), np.zeros(missing.size)
-    for here, neighbour, weight in _links(surface, missing):
+    points = np.unravel_index(missing, surface.shape)
+    smallest = min(surface.grid.spacing)
+    for axis, shift in itertools.product((0, 1), (-1, 1)):
+        weight, n = (smallest / surface.grid.spacing[axis]) ** 2, surface.shape[axis]
+        moved = [points[0], points[1]]
+        moved[axis] = moved[axis] + shift
+        inside = (moved[axis] >= 0) & (moved[axis] < n)
+        if surface.periodic:
+            moved[axis], inside = moved[axis] % n, np.ones(missing.size, dtype=bool)
+        here = np.flatnonzero(inside)
+        neighbour = moved[0][inside] * surface.shape[1] + moved[1][inside]
         diagonal += np.bincount(here, minlength=missing.size) * weight
         inner = number[neighbour] >= 0
         rows.append(here[inner])
@@ -274,23 +274,3 @@ def _harmonic(surface: Surface) -> RealArray:
     entries = (np.concatenate([*values, diagonal]), (np.concatenate([*rows, every]), np.concatenate([*columns, every])))
     matrix = coo_array(entries, shape=(missing.size, missing.size)).tocsc()
     return np.atleast_1d(np.asarray(spsolve(matrix, right), dtype=np.float64))
-
-
-def _links(surface: Surface, missing: _Indices) -> list[tuple[_Indices, _Indices, float]]:
-    """For each of the four directions: number of the missing point, flat index of its neighbour, weight."""
-    shape = surface.shape
-    links: list[tuple[_Indices, _Indices, float]] = []
-    points = np.unravel_index(missing, shape)
-    smallest = min(surface.grid.spacing)
-    for axis in (0, 1):
-        for shift in (-1, 1):
-            moved = [points[0], points[1]]
-            moved[axis] = moved[axis] + shift
-            inside = np.ones(missing.size, dtype=bool)
-            if surface.periodic:
-                moved[axis] = moved[axis] % shape[axis]
-            else:
-                inside = (moved[axis] >= 0) & (moved[axis] < shape[axis])
-            neighbour = moved[0][inside] * shape[1] + moved[1][inside]
-            links.append((np.flatnonzero(inside), neighbour, (smallest / surface.grid.spacing[axis]) ** 2))
-    return links

@@ -289,7 +289,10 @@ def maugis_pull_off(transition: float) -> MaugisState:
 def _radius(lam: float, s: RealArray) -> RealArray:
     """A > 0 of the first equation, quadratic in A: uA² + 2vA = 1."""
     theta = np.arctan(s)
-    u = 0.5 * lam * _ring(s, theta)
+    # s + (s² - 1) arctan s; by its series for small s, where the terms cancel to (4/3) s³
+    small = np.minimum(s, 0.2)
+    terms = [(-1.0) ** (k - 1) * (1.0 / (2 * k - 1) + 1.0 / (2 * k + 1)) * small ** (2 * k + 1) for k in range(1, 12)]
+    u = 0.5 * lam * np.where(s < 0.2, sum(terms), s + (s**2 - 1.0) * theta)
     # sϑ - m + 1 with m - 1 = s²/(m + 1)
     v = 2.0 / 3.0 * lam**2 * (s * theta - s**2 / (1.0 + np.hypot(1.0, s)))
     return 1.0 / (v + np.sqrt(v**2 + u))
@@ -371,10 +374,3 @@ class MaugisDugdale(Theory):
     @property
     def _unit_radius(self) -> float:
         return float(np.cbrt(np.pi * self.work * self.radius**2 / self._K))
-
-
-def _ring(s: RealArray, theta: RealArray) -> RealArray:
-    """s + (s² - 1) arctan s; by its series for small s, where the terms cancel to (4/3) s³."""
-    small = np.minimum(s, 0.2)
-    terms = [(-1.0) ** (k - 1) * (1.0 / (2 * k - 1) + 1.0 / (2 * k + 1)) * small ** (2 * k + 1) for k in range(1, 12)]
-    return np.where(s < 0.2, sum(terms), s + (s**2 - 1.0) * theta)

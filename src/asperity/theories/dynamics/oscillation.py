@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core import require
-from ...core.arrays import BoolArray, RealArray
+from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.quadrature import rule
 from ..protocol import bisected
@@ -52,29 +52,25 @@ def free_vibration(exponent: ArrayLike, highest: ArrayLike) -> FreeVibration:
     # in contact the lower turning point is between 0 and 1
     low = bisected(lambda y: y - y ** (m + 1.0) / (m + 1.0) + energy, np.zeros_like(top), np.ones_like(top))
     lowest = np.where(flies, -energy, low)
-    contact = 2.0 * _fall_time(m, np.where(flies, 0.0, low), top, open_end=flies)
+    # Y = middle + half sin θ takes away the roots at turning points, and the kinetic energy is taken from the nearer of them,
+    # without cancellation; without a turning point below, Y = top sin θ from θ = 0
+    low = np.where(flies, 0.0, low)
+    nodes, weights = rule(NODES)
+    start = np.where(flies, 0.0, -0.5 * math.pi)
+    half = (0.25 * math.pi - 0.5 * start)[..., None]
+    angle = start[..., None] + half * (nodes + 1.0)
+    reach = np.where(flies, top, 0.5 * (top - low))[..., None]
+    below_top = 2.0 * reach * np.sin(0.25 * math.pi - 0.5 * angle) ** 2
+    above_low = 2.0 * reach * np.sin(0.25 * math.pi + 0.5 * angle) ** 2
+    far = (angle < 0.0) & ~flies[..., None]
+    base = np.where(far, np.maximum(low[..., None], np.finfo(float).tiny), top[..., None])
+    step, power = np.where(far, above_low, -below_top), m[..., None] + 1.0
+    gained = base**power * np.expm1(power * np.log1p(step / base)) / power
+    slowness = reach * np.abs(np.cos(angle)) / np.sqrt(2.0 * (step - gained))
+    contact: RealArray = 2.0 * half[..., 0] * (slowness @ weights)
     flight = np.where(flies, 2.0 * np.sqrt(2.0 * np.maximum(energy, 0.0)), 0.0)
     period = contact + flight
     return FreeVibration(lowest, period * np.sqrt(m) / (2.0 * math.pi), flight / period)
-
-
-def _fall_time(m: RealArray, low: RealArray, top: RealArray, *, open_end: BoolArray) -> RealArray:
-    """Time from ``low`` to ``top``. Y = middle + half sin θ takes away the roots at turning points, and the kinetic energy is taken from the
-    nearer of them, without cancellation.
-    """
-    nodes, weights = rule(NODES)
-    start = np.where(open_end, 0.0, -0.5 * math.pi)  # without a turning point below, Y = top sin θ from θ = 0
-    half = (0.25 * math.pi - 0.5 * start)[..., None]
-    angle = start[..., None] + half * (nodes + 1.0)
-    reach = np.where(open_end, top, 0.5 * (top - low))[..., None]
-    below_top = 2.0 * reach * np.sin(0.25 * math.pi - 0.5 * angle) ** 2
-    above_low = 2.0 * reach * np.sin(0.25 * math.pi + 0.5 * angle) ** 2
-    m, low, top, far = m[..., None], low[..., None], top[..., None], (angle < 0.0) & ~open_end[..., None]
-    base, step = np.where(far, np.maximum(low, np.finfo(float).tiny), top), np.where(far, above_low, -below_top)
-    gained = base ** (m + 1.0) * np.expm1((m + 1.0) * np.log1p(step / base)) / (m + 1.0)
-    slowness = reach * np.abs(np.cos(angle)) / np.sqrt(2.0 * (step - gained))
-    time: RealArray = half[..., 0] * (slowness @ weights)
-    return time
 
 
 @dataclass(frozen=True)

@@ -14,9 +14,10 @@ Y(X*) + sμ(X - X*) = Y, s = ±1.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import ClassVar, Protocol
+from typing import ClassVar, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -38,6 +39,10 @@ class NormalContact(Protocol):
     def pressure(self, r: ArrayLike, load: float, /) -> RealArray:
         """Pressure at places."""
         ...
+
+
+Contacts: TypeAlias = Callable[[RealArray], ContactAnswer]
+"""Normal contacts at loads, or at approaches."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,12 +152,18 @@ class PartialSlip:
                 "tangential force must be at most friction coefficient times load at every step, but exceeds it by "
                 f"{float((np.abs(Q) - self.friction * P).max()):.4g} N. Beyond it the contact slides."
             )
-        return self._path(P, Q, start, _Forces(self.normal))
+        return self._path(P, Q, start, self.normal.at_load, of_shifts=False)
 
     def under_shifts(self, approach: ArrayLike, shift: ArrayLike, start: SlipMemory = UNTOUCHED) -> SlipPath:
         """Path through ``approach`` δ and ``shift`` δ_t in m, (n,) each, straight in between; δ < 0 is out of contact."""
         delta, moved = _paired(curve(approach, "approach (m)"), curve(shift, "shift (m)"))
-        return self._path(delta, moved, start, _Displacements(self.normal))
+        at_approach = getattr(self.normal, "at_approach", None)
+        if at_approach is None:
+            raise InputError(
+                f"normal contact must be a theory with at_approach on a path of shifts, but is {type(self.normal).__name__} "
+                "which has none. Prescribe the forces instead."
+            )
+        return self._path(delta, moved, start, at_approach, of_shifts=True)
 
     def traction(self, r: ArrayLike, memory: SlipMemory) -> RealArray:
         """Shear traction in Pa at the distance ``r`` in m (any shape) from the axis in the state ``memory``."""
@@ -166,12 +177,30 @@ class PartialSlip:
         path = self.under_forces([load] * 4, amplitude * np.array([0.0, 1.0, -1.0, 1.0]))
         return float(path.dissipated[-1] - path.dissipated[1])
 
-    def _path(self, normal: RealArray, tangential: RealArray, memory: SlipMemory, control: _Control) -> SlipPath:
+    def _path(
+        self, normal: RealArray, tangential: RealArray, memory: SlipMemory, contacts: Contacts, *, of_shifts: bool
+    ) -> SlipPath:
+        """Straight steps of X and Y: load and tangential force, or approach and shift over κ; ``contacts`` are those at levels of X."""
         memories, work = [], []
-        for x, y in zip(normal, tangential, strict=True):
-            memory, lost = self._step(memory, float(x), float(y), control)
+        for x, y in zip(normal.tolist(), tangential.tolist(), strict=True):
+            if of_shifts:
+                x0, y0, levels, unit = memory.height, memory.shift, memory.approach, self.ratio
+            else:
+                x0, y0, levels, unit = float(memory.load[-1]), memory.tangential, memory.load, 1.0
+            drive = (y - y0) / unit
+            if min(x0, x) < 0.0:  # the part of the step in which the bodies touch
+                drive *= (max(x, 0.0) - max(x0, 0.0)) / (x - x0) if x != x0 else 0.0
+            leg = _Leg(_Stack(levels, memory.slopes), max(x0, 0.0), max(x, 0.0), drive, self.friction)
+            after = leg.end()
+            found = contacts(after.levels)
+            if of_shifts:
+                memory = SlipMemory(found.load, after.levels, after.slopes, shift=y, height=x)
+            else:
+                grown = SlipMemory(after.levels, found.approach, after.slopes)
+                shift = memory.shift + self.ratio * (grown.drawn - memory.drawn)
+                memory = replace(grown, shift=shift, height=float(found.approach[-1]))
             memories.append(memory)
-            work.append(lost)
+            work.append(self.friction * self.ratio * _work(leg, contacts, of_shifts=of_shifts))
         return SlipPath(
             load=np.array([one.load[-1] for one in memories]),
             tangential=np.array([one.tangential for one in memories]),
@@ -181,20 +210,6 @@ class PartialSlip:
             dissipated=np.cumsum(work),
             memories=tuple(memories),
         )
-
-    def _step(self, memory: SlipMemory, x: float, y: float, control: _Control) -> tuple[SlipMemory, float]:
-        """State after a straight step to ``x``, ``y``, and the work of friction."""
-        x0, y0 = control.now(memory)
-        before = control.stack(memory)
-        drive = (y - y0) / control.scale(self.ratio)
-        if min(x0, x) < 0.0:  # the part of the step in which the bodies touch
-            drive *= (max(x, 0.0) - max(x0, 0.0)) / (x - x0) if x != x0 else 0.0
-        leg = _Leg(before, max(x0, 0.0), max(x, 0.0), drive, self.friction)
-        after = leg.end()
-        grown = control.memory(after)
-        shift = y if control.prescribes_shift else memory.shift + self.ratio * (grown.drawn - memory.drawn)
-        grown = replace(grown, shift=shift, height=x if control.prescribes_shift else float(grown.approach[-1]))
-        return grown, self.friction * self.ratio * control.work(leg)
 
 
 @dataclass(frozen=True, eq=False)
@@ -289,21 +304,6 @@ class _Leg:
         found = found[np.isfinite(found) & (found > 0.0) & (found < 1.0)]
         return np.unique(np.concatenate([[0.0], found, [1.0]]))
 
-    def fronts(self, low: float, high: float, t: RealArray) -> tuple[RealArray, RealArray, float]:
-        """X and X* at the parts ``t`` between two events, and the direction of slip there."""
-        middle = 0.5 * (low + high)
-        s = self.sign(middle)
-        x = np.maximum(self.x0 + t * (self.x1 - self.x0), 0.0)
-        if not s:
-            return x, x, s
-        front, slope = self.front(middle)
-        rate = (
-            0.0
-            if math.isnan(slope)
-            else (self.drive - s * self.friction * (self.x1 - self.x0)) / (slope - s * self.friction)
-        )
-        return x, np.clip(front + rate * (t - middle), 0.0, x), s
-
 
 _NODES = 48
 _POWER = 6  # of the distance from the ends: makes roots and powers of multiples of 1/6 smooth there
@@ -318,94 +318,26 @@ def _graded(low: float, high: float) -> tuple[RealArray, RealArray]:
     return low + (high - low) * np.sum(terms, axis=0), (high - low) * step * density * weight
 
 
-class _Control:
-    """What is prescribed: how a memory becomes a stack, and back."""
-
-    prescribes_shift = False
-
-    def __init__(self, normal: NormalContact) -> None:
-        self.normal = normal
-
-    def now(self, memory: SlipMemory) -> tuple[float, float]:
-        raise NotImplementedError
-
-    def stack(self, memory: SlipMemory) -> _Stack:
-        raise NotImplementedError
-
-    def memory(self, stack: _Stack) -> SlipMemory:
-        raise NotImplementedError
-
-    def contacts(self, levels: RealArray) -> ContactAnswer:
-        """The normal contacts at the levels."""
-        raise NotImplementedError
-
-    def scale(self, ratio: float) -> float:
-        """What the prescribed tangential number is over Y."""
-        return 1.0
-
-    def speed(self, at_front: ContactAnswer) -> RealArray:
-        """Slip over κ per unit of Y - sμX."""
-        raise NotImplementedError
-
-    def work(self, leg: _Leg) -> float:
-        """Work of friction over μκ: all of the annulus slips alike, ∫ [P - P* - P*'(δ - δ*)] dσ."""
-        total = 0.0
-        events = leg.events()
-        for low, high in pairwise(events):
-            t, weight = _graded(float(low), float(high))
-            x, front, s = leg.fronts(float(low), float(high), t)
-            if s:
-                edge, inner = self.contacts(x), self.contacts(front)
-                force = edge.load - inner.load - inner.stiffness * (edge.approach - inner.approach)
-                rate = abs(leg.drive - s * leg.friction * (leg.x1 - leg.x0))
-                total += rate * float(np.sum(weight * force * self.speed(inner)))
-        return total
-
-
-class _Forces(_Control):
-    def now(self, memory: SlipMemory) -> tuple[float, float]:
-        return float(memory.load[-1]), memory.tangential
-
-    def stack(self, memory: SlipMemory) -> _Stack:
-        return _Stack(memory.load, memory.slopes)
-
-    def memory(self, stack: _Stack) -> SlipMemory:
-        return SlipMemory(stack.levels, self.contacts(stack.levels).approach, stack.slopes)
-
-    def contacts(self, levels: RealArray) -> ContactAnswer:
-        return self.normal.at_load(levels)
-
-    def speed(self, at_front: ContactAnswer) -> RealArray:
-        return 1.0 / np.maximum(at_front.stiffness, np.finfo(float).tiny)
-
-
-class _Displacements(_Control):
-    prescribes_shift = True
-
-    def now(self, memory: SlipMemory) -> tuple[float, float]:
-        return memory.height, memory.shift
-
-    def stack(self, memory: SlipMemory) -> _Stack:
-        return _Stack(memory.approach, memory.slopes)
-
-    def memory(self, stack: _Stack) -> SlipMemory:
-        return SlipMemory(self.contacts(stack.levels).load, stack.levels, stack.slopes)
-
-    def contacts(self, levels: RealArray) -> ContactAnswer:
-        at_approach = getattr(self.normal, "at_approach", None)
-        if at_approach is None:
-            raise InputError(
-                f"normal contact must be a theory with at_approach on a path of shifts, but is {type(self.normal).__name__} "
-                "which has none. Prescribe the forces instead."
-            )
-        answer: ContactAnswer = at_approach(levels)
-        return answer
-
-    def scale(self, ratio: float) -> float:
-        return ratio
-
-    def speed(self, at_front: ContactAnswer) -> RealArray:
-        return np.ones_like(at_front.load)
+def _work(leg: _Leg, contacts: Contacts, *, of_shifts: bool) -> float:
+    """Work of friction over μκ: all of the annulus slips alike, ∫ [P - P* - P*'(δ - δ*)] dσ."""
+    total = 0.0
+    for low, high in pairwise(leg.events().tolist()):
+        middle = 0.5 * (low + high)
+        s = leg.sign(middle)
+        if not s:
+            continue
+        t, weight = _graded(low, high)
+        x = np.maximum(leg.x0 + t * (leg.x1 - leg.x0), 0.0)
+        start, slope = leg.front(middle)
+        rate = leg.drive - s * leg.friction * (leg.x1 - leg.x0)
+        advance = 0.0 if math.isnan(slope) else rate / (slope - s * leg.friction)
+        front = np.clip(start + advance * (t - middle), 0.0, x)
+        edge, inner = contacts(x), contacts(front)
+        force = edge.load - inner.load - inner.stiffness * (edge.approach - inner.approach)
+        # slip over κ per unit of Y - sμX
+        speed = 1.0 if of_shifts else 1.0 / np.maximum(inner.stiffness, np.finfo(float).tiny)
+        total += abs(rate) * float(np.sum(weight * force * speed))
+    return total
 
 
 def _paired(first: RealArray, second: RealArray) -> tuple[RealArray, RealArray]:

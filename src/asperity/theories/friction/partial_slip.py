@@ -381,12 +381,21 @@ class MindlinWave(Theory):
         a, c = (0.5 * self.wavelength * self.normal.area_fraction(value) for value in (p, left))
         scale = self.friction * self.ratio
         shift = scale * (self.normal.approach(p) - self.normal.approach(left))
+        full, amplitude = self.normal.full_contact_pressure, self.friction * (p - left)
+        if p <= full:
+            unit = self.ratio * self.wavelength / (np.pi * self.E_star)
+            dissipation = unit * _loop(np.asarray(p), amplitude, self.friction)
+        else:  # above p* nothing gives way: 8 [q δ/2 - ∫ δ dq], ∫ ω (1 - ln ω) dω = 3ω²/4 - (ω²/2) ln ω
+            s = np.minimum((p - amplitude / self.friction) / full, 1.0)
+            below = 0.25 - s + 0.75 * s**2 - 0.5 * s**2 * np.log(np.maximum(s, 1e-300))
+            rest = self.friction**2 * self.ratio * full * self.amplitude * below
+            dissipation = np.asarray(8.0 * (0.5 * amplitude * shift - rest))
         return WaveSlipAnswer(
             half_width=a + 0.0 * c,
             stick_half_width=c,
             displacement=shift,
             stiffness=self.normal.stiffness(left) / self.ratio,
-            dissipation=self._dissipation(p, self.friction * (p - left), shift),
+            dissipation=dissipation,
             pressure=p + 0.0 * c,
         )
 
@@ -398,15 +407,3 @@ class MindlinWave(Theory):
         """Motion of facing points past each other in m at ``x`` in m (any shape) from a crest."""
         left = pressure * sticking_share(tangential, self.friction * pressure)
         return _slip(self.normal.gap, x, pressure, left, self.friction * self.ratio)
-
-    def _dissipation(self, p: float, amplitude: RealArray, shift: RealArray) -> RealArray:
-        """Of cycles between ± ``amplitude``, which displace by ± ``shift``."""
-        full, scale = self.normal.full_contact_pressure, self.ratio * self.wavelength / (np.pi * self.E_star)
-        if p <= full:
-            return scale * _loop(np.asarray(p), amplitude, self.friction)
-        # above p* nothing gives way: 8 [q δ/2 - ∫ δ dq], ∫ ω (1 - ln ω) dω = 3ω²/4 - (ω²/2) ln ω
-        s = np.minimum((p - amplitude / self.friction) / full, 1.0)
-        below = 0.25 - s + 0.75 * s**2 - 0.5 * s**2 * np.log(np.maximum(s, 1e-300))
-        return np.asarray(
-            8.0 * (0.5 * amplitude * shift - self.friction**2 * self.ratio * full * self.amplitude * below)
-        )

@@ -151,7 +151,12 @@ class _OnSummits(_OfMoments):
 
     @cached_property
     def _shapes(self) -> SummitShapes:
-        return _shapes(circles=self.circles)
+        log_k, weight = gauss(np.array(_RATIOS), _NODES)
+        shape = ellipse(np.exp(log_k))
+        spherical = 1.0 - shape.r**2
+        area, load = (spherical**-0.5, spherical**-0.25) if self.circles else (shape.area, shape.load)
+        common = -weight * shape.slope * 2.0 * shape.r * spherical
+        return SummitShapes(shape.r**2, np.stack([common * area, common * load], axis=-1))
 
     @property
     def _ends(self) -> tuple[float, float, float]:
@@ -204,15 +209,6 @@ class _OnSummits(_OfMoments):
         t = np.maximum(np.where(is_above, edge + root * root, below), 0.0)
         weight = np.where(is_above, 2.0 * root * weight_above, weight_below)
         return t, weight * np.exp(-0.5 * t * t) / math.sqrt(2.0 * math.pi)
-
-
-def _shapes(*, circles: bool) -> SummitShapes:
-    log_k, weight = gauss(np.array(_RATIOS), _NODES)
-    shape = ellipse(np.exp(log_k))
-    spherical = 1.0 - shape.r**2
-    area, load = (spherical**-0.5, spherical**-0.25) if circles else (shape.area, shape.load)
-    common = -weight * shape.slope * 2.0 * shape.r * spherical
-    return SummitShapes(shape.r**2, np.stack([common * area, common * load], axis=-1))
 
 
 # Bush, Gibson & Thomas (1975): all summits of an isotropic Gaussian surface, each an elliptical Hertz contact.

@@ -241,16 +241,6 @@ def settled(
         return w
 
 
-def graded_loads(loads: RealArray) -> RealArray:
-    """The ``loads`` (n,) as they rise, with lighter ones to begin with and others between those that are too far apart."""
-    return _graded(np.append(loads, _FIRST_SHARE * loads.min()), _LOAD_STEP)
-
-
-def graded_approaches(approaches: RealArray) -> RealArray:
-    """The ``approaches`` (n,) as they rise, with others between those that are too far apart."""
-    return _graded(approaches, _APPROACH_STEP)
-
-
 def _graded(values: RealArray, ratio: float) -> RealArray:
     rising = np.unique(values)
     parts = [rising[:1]]
@@ -399,24 +389,10 @@ class InteractingCrests(Theory):
         ConvergenceError if the iteration does not converge.
         """
         wanted = curve(pressure, "pressures (Pa)", positive=True)
-        approaches, states = self._loaded(wanted)
-        return self._predicted(self.highest - approaches, states)
-
-    def validity(self, answer: Prediction, roughness: Roughness | None = None) -> tuple[Limit, ...]:
-        """Its ``limits``, for which the crests are solved again."""
-        states = self._states(self.highest - answer.separation)
-        wavelength = np.asarray(self.wavelength)
-        slender = [math.sqrt(float(np.max(w / wavelength[: w.size] ** 2, initial=0.0))) for _, w in states]
-        near = [math.sqrt(float(np.max(w * system.nearness(w) ** 2, initial=0.0))) for system, w in states]
-        return super().validity(_Touching(**vars(answer), slender=np.array(slender), near=np.array(near)), roughness)
-
-    def _loaded(self, pressure: RealArray) -> tuple[RealArray, list[State]]:
-        """Approaches δ in m at which the crests carry ``pressure`` (n,) in Pa, and the crests there.
-
-        Spheres without interaction carry it at a smaller approach; what is lacking grows slowly with the load, so that
-        the last one starts the next. With the method of least squares the radii are solved for once more.
-        """
-        path = graded_loads(pressure)
+        # spheres without interaction carry the load at a smaller approach; what is lacking grows slowly with the load, so that
+        # the last one starts the next. With the method of least squares the radii are solved for once more
+        # lighter loads to begin with, and others between those that are too far apart
+        path = _graded(np.append(wanted, _FIRST_SHARE * wanted.min()), _LOAD_STEP)
         depths = self.highest - np.asarray(self.height)
         radius = np.asarray(self.wavelength) ** 2 / (2.0 * math.pi**2 * np.asarray(self.depth))
         spheres = DiscreteSummits(self.E_star, self.height, radius, self.area)
@@ -435,15 +411,24 @@ class InteractingCrests(Theory):
                 delta, w[:count] = solve_load(part, depths[:count], float(load), delta=delta, start=w[:count])
                 states[n] = part, w[:count].copy()
             approaches[n], more = delta, delta / float(alone[n])
-        found = np.searchsorted(path, pressure)
-        wanted = approaches[found]
-        return wanted, self._states(wanted) if self.method == "least squares" else [states[n] for n in found]
+        found = np.searchsorted(path, wanted)
+        reached = approaches[found]
+        states = self._states(reached) if self.method == "least squares" else [states[n] for n in found]
+        return self._predicted(self.highest - reached, states)
+
+    def validity(self, answer: Prediction, roughness: Roughness | None = None) -> tuple[Limit, ...]:
+        """Its ``limits``, for which the crests are solved again."""
+        states = self._states(self.highest - answer.separation)
+        wavelength = np.asarray(self.wavelength)
+        slender = [math.sqrt(float(np.max(w / wavelength[: w.size] ** 2, initial=0.0))) for _, w in states]
+        near = [math.sqrt(float(np.max(w * system.nearness(w) ** 2, initial=0.0))) for system, w in states]
+        return super().validity(_Touching(**vars(answer), slender=np.array(slender), near=np.array(near)), roughness)
 
     def _states(self, deltas: RealArray) -> list[State]:
         """The crests that may touch at each approach in m, and the squares of their radii, each from those at the one
         before.
         """
-        z, path = np.asarray(self.height), graded_approaches(deltas)
+        z, path = np.asarray(self.height), _graded(deltas, _APPROACH_STEP)
         counts = np.searchsorted(-z, path - z[0], side="left")
         system = self._system(int(counts.max()))
         solve = solve_complementarity if self.method == "complementarity" else solve_least_squares

@@ -494,14 +494,25 @@ def diffused_pressure(
     InputError if a number is out of its range.
     """
     from scipy.linalg import solve_banded
+    from scipy.optimize import brentq
 
     modulus = require.positive(E_star, "contact modulus E* (Pa)")
     nominal = require.positive(pressure, "nominal pressure (Pa)")
     count = require.integer(points, 20, "number of pressures")
     rounds = require.integer(steps, 4, "number of steps")
     variance = (0.5 * modulus * spectrum.rms_slope) ** 2
-    grid = _pressure_grid(nominal, nominal + _REACH * math.sqrt(variance), count)
-    density = _delta(grid, nominal)
+    # equal pressures from zero on, one of them the nominal pressure if it is not tiny
+    highest = nominal + _REACH * math.sqrt(variance)
+    interval = highest / count
+    if nominal >= interval:
+        interval = nominal / math.floor(nominal / interval)
+    grid = interval * np.arange(math.ceil(highest / interval) + 1)
+    # δ(p - p_a) shared between its neighbours on the grid so that its mean is right
+    place = nominal / grid[1]
+    below = min(round(place) if abs(place - round(place)) < 1e-6 else int(place), grid.size - 2)
+    density = np.zeros_like(grid)
+    density[below + 1] = max(0.0, place - below) / grid[1]
+    density[below] = 1.0 / grid[1] - density[below + 1] if below > 0 else 0.0
     kept = [density]
     diffusion = 0.5 * variance / rounds / grid[1] ** 2  # of one step, in intervals²
     for number in range(rounds):
@@ -509,46 +520,18 @@ def diffused_pressure(
         for _ in range(2 if implicit else 1):
             share, step = (1.0, 0.5 * diffusion) if implicit else (0.5, diffusion)
             right = density[1:-1] + (1.0 - share) * step * np.diff(density, 2)
+            bands = np.empty((3, right.size))  # of 1 - share × step × second difference
+            bands[0], bands[1], bands[2] = -share * step, 1.0 + 2.0 * share * step, -share * step
             density = np.zeros_like(density)
-            density[1:-1] = solve_banded((1, 1), _bands(right.size, share * step), right)
+            density[1:-1] = solve_banded((1, 1), bands, right)
         kept.append(density)
-    return PressureHistory(_wavenumbers(spectrum, rounds), grid, np.stack(kept))
-
-
-def _pressure_grid(nominal: float, highest: float, count: int) -> RealArray:
-    """Equal pressures from zero to ``highest`` or a little beyond, one of them the nominal pressure if it is not tiny."""
-    interval = highest / count
-    if nominal >= interval:
-        interval = nominal / math.floor(nominal / interval)
-    return interval * np.arange(math.ceil(highest / interval) + 1)
-
-
-def _delta(grid: RealArray, nominal: float) -> RealArray:
-    """Density of one at ``nominal``, shared between its neighbours on the grid so that its mean is right."""
-    place = nominal / grid[1]
-    below = min(round(place) if abs(place - round(place)) < 1e-6 else int(place), grid.size - 2)
-    density = np.zeros_like(grid)
-    density[below + 1] = max(0.0, place - below) / grid[1]
-    density[below] = 1.0 / grid[1] - density[below + 1] if below > 0 else 0.0
-    return density
-
-
-def _bands(size: int, weight: float) -> RealArray:
-    """Bands of 1 - weight × second difference, for ``solve_banded``."""
-    bands = np.empty((3, size))
-    bands[0], bands[1], bands[2] = -weight, 1.0 + 2.0 * weight, -weight
-    return bands
-
-
-def _wavenumbers(spectrum: IsotropicSpectrum, steps: int) -> RealArray:
-    """Wavenumbers (steps + 1,) at which the integral of q³ C has grown by equal parts."""
-    from scipy.optimize import brentq
-
+    # wavenumbers at which the integral of q³ C has grown by equal parts
     whole, last = spectrum.moment(3), float(spectrum.span[-1])
 
     def lacking(span: float, part: float) -> float:
         return float(spectrum.partial_moment(3, np.array([span]))[0]) - part * whole
 
-    inner = [brentq(lacking, 0.0, last, args=(number / steps,), xtol=1e-14) for number in range(1, steps)]
+    inner = [brentq(lacking, 0.0, last, args=(number / rounds,), xtol=1e-14) for number in range(1, rounds)]
     spans = np.array([0.0, *inner, last])
-    return np.asarray(np.asarray(spectrum.wavenumber)[0] * np.exp(spans))
+    wavenumbers = np.asarray(spectrum.wavenumber)[0] * np.exp(spans)
+    return PressureHistory(wavenumbers, grid, np.stack(kept))

@@ -208,8 +208,14 @@ class SampledPeaks(Theory):
 
     @property
     def curvature_deviation(self) -> float:
-        """Standard deviation of the curvature of the peaks in σ/ℓ²."""
-        return math.sqrt(self._mean_square_curvature - self.mean_curvature**2)
+        """Standard deviation of the curvature of the peaks in σ/ℓ².
+
+        <C²> over the peaks is ∫₀^∞ C² n(C) erf(C/2sqrt(1 - ρ2)) dC/N with n the normal density of C; with a² = Var C and b² the
+        variance of the slope, the integral is (a²/π) [arctan(a/b) + ab/(a² + b²)].
+        """
+        a, b = math.sqrt(self._curvature_variance), math.sqrt(2.0 * (1.0 - self.rho_2))
+        mean_square = a**2 / math.pi * (math.atan(a / b) + a * b / (a**2 + b**2)) / self.fraction
+        return math.sqrt(mean_square - self.mean_curvature**2)
 
     @property
     def height_deviation(self) -> float:
@@ -238,13 +244,3 @@ class SampledPeaks(Theory):
     def _regression(self) -> float:
         """Slope of the mean height over the curvature: 2(1 - ρ1)/Var C."""
         return 2.0 * (1.0 - self.rho_1) / self._curvature_variance
-
-    @property
-    def _mean_square_curvature(self) -> float:
-        """<C²> over the peaks, from ∫₀^∞ C² n(C) erf(C/2sqrt(1 - ρ2)) dC/N with n the normal density of C.
-
-        With a² = Var C and b² the variance of the slope, the integral is
-        (a²/π) [arctan(a/b) + ab/(a² + b²)].
-        """
-        a, b = math.sqrt(self._curvature_variance), math.sqrt(2.0 * (1.0 - self.rho_2))
-        return a**2 / math.pi * (math.atan(a / b) + a * b / (a**2 + b**2)) / self.fraction

@@ -98,7 +98,10 @@ def rubber_friction(
     gamma = require.at_most(reduction, 1.0, "reduction factor gamma of the deformation")
     from scipy.special import erf
 
-    cosine, weight = _quarter()
+    # a quarter turn of φ, dense where the motion is along the wave's crests and the frequency goes to zero
+    w, share = gauss(np.linspace(0.0, _DECAY, _ANGLES + 1), 8)
+    angle = 0.5 * np.pi * np.exp(-w)
+    cosine, weight = np.sin(angle), share * angle
 
     def losses(span: RealArray) -> tuple[RealArray, RealArray]:
         """dG/d ln q, and dmu/d ln q where S P = 1, at ln(q/q_L) (any shape)."""
@@ -125,13 +128,6 @@ def rubber_friction(
 def _gathered(parts: RealArray) -> RealArray:
     """Integrals from the first panel on, of those within each panel (panels, nodes)."""
     return np.asarray(parts + np.concatenate([[0.0], np.cumsum(parts[:-1, -1])])[:, None])
-
-
-def _quarter() -> tuple[RealArray, RealArray]:
-    """cos phi and weights over a quarter turn, dense where the motion is along the wave's crests and the frequency goes to zero."""
-    w, share = gauss(np.linspace(0.0, _DECAY, _ANGLES + 1), 8)
-    angle = 0.5 * np.pi * np.exp(-w)
-    return np.sin(angle), share * angle
 
 
 @dataclass(frozen=True, eq=False)

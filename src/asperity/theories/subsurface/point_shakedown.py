@@ -64,6 +64,9 @@ def point_shakedown(
 ) -> PointShakedown:
     """Bounds on elastic shakedown from the ``stress`` (n, m_x, m_y) on n planes under a load that passes along x.
 
+    ``least`` is that of the smallest spheres about the loops of states with free centres, by pairwise exchange of weights between the
+    farthest and the nearest state; the value of the dual problem is a lower bound of the radius whatever the number of exchanges.
+
     Homogeneous or layered: each plane has its own ``shear_strength`` k in Pa, a number or (n,). ``surface``, a truth value or
     (n,), tells which planes are the surface of the body, on which residual stresses have no σ_xz and σ_yz.
 
@@ -79,16 +82,16 @@ def point_shakedown(
             f"stress must be (planes, places along the pass, places across) and the shear strength above zero, a number or one for each plane, but they have the shapes {shape} and {k.shape}."
         )
     scale = np.broadcast_to(k, shape[:1])[:, None, None]
-    states = _deviator(stress.map(lambda component: np.swapaxes(np.asarray(component), 1, 2) / scale))
-    along, across, radius = _best_normal_stresses(states)
-    on_surface = np.broadcast_to(np.asarray(surface, dtype=bool), shape[:1])
-    return PointShakedown(radius, _least_radius(states, on_surface), along, across)
-
-
-def _deviator(s: StressTensor) -> RealArray:
-    """Components (5, …) whose squares sum to J2; a shift of σ_xx changes the first alone, one of σ_yy the first two."""
+    s = stress.map(lambda component: np.swapaxes(np.asarray(component), 1, 2) / scale)
+    # components whose squares sum to J2; a shift of σ_xx changes the first alone, one of σ_yy the first two
     first = (2.0 * s.xx - s.yy - s.zz) / math.sqrt(12.0)
-    return np.stack([first, 0.5 * (s.yy - s.zz), s.xz, s.xy, s.yz])
+    states = np.stack([first, 0.5 * (s.yy - s.zz), s.xz, s.xy, s.yz])
+    along, across, radius = _best_normal_stresses(states)
+    least = np.zeros(shape[0])
+    for plane, bare in enumerate(np.broadcast_to(np.asarray(surface, dtype=bool), shape[:1])):
+        points = np.moveaxis(states[:, plane], 0, 1)  # (places across, 5, places along)
+        least[plane] = math.sqrt(_largest_sphere(points, np.array([True, True, not bare, True, not bare])))
+    return PointShakedown(radius, least, along, across)
 
 
 _ROUNDS = 32
@@ -153,19 +156,6 @@ def _best_centres(at: RealArray, height: RealArray) -> tuple[RealArray, RealArra
 
 
 _EXCHANGES = 150
-
-
-def _least_radius(states: RealArray, surface: BoolArray) -> RealArray:
-    """Largest radius (n,) on each plane of the smallest spheres about the loops of ``states`` (5, n, m across, m along).
-
-    Spheres with free centres, by pairwise exchange of weights between the farthest and the nearest state; the value of the dual
-    problem is a lower bound of the radius whatever the number of exchanges. Residual shear on the ``surface`` is zero there.
-    """
-    found = np.zeros(states.shape[1])
-    for plane, bare in enumerate(surface):
-        points = np.moveaxis(states[:, plane], 0, 1)  # (m across, 5, m along)
-        found[plane] = math.sqrt(_largest_sphere(points, np.array([True, True, not bare, True, not bare])))
-    return found
 
 
 def _largest_sphere(points: RealArray, free: BoolArray) -> float:
@@ -254,34 +244,30 @@ def ellipse_shakedown(ratio: float, nu: float = 0.3) -> SphereShakedown:
         }
         return StressTensor(**whole)
 
-    return _searched(stress, min(1.0, b), b, _Sampling(24, 7, 9))
+    return _searched(stress, min(1.0, b), b, along=24, across=7, down=9)
 
 
 _Stress: TypeAlias = Callable[[RealArray, RealArray, RealArray], StressTensor]
 """Stress under unit peak pressure at places in semi-axes along the pass."""
 
 
-@dataclass(frozen=True)
-class _Sampling:
-    """Numbers of places along half a pass, across the half contact, and of depths in each round."""
+def _searched(
+    stress: _Stress, depth: float, b: float, *, along: int = 81, across: int = 15, down: int = 13
+) -> SphereShakedown:
+    """Bounds of a homogeneous contact, semi-axes 1 along the pass and ``b`` across, on ever finer depths of the order of ``depth``.
 
-    along: int = 81
-    across: int = 15
-    down: int = 13
-
-
-def _searched(stress: _Stress, depth: float, b: float, sampling: _Sampling = _Sampling()) -> SphereShakedown:
-    """Bounds of a homogeneous contact, semi-axes 1 along the pass and ``b`` across, on ever finer depths of the order of ``depth``."""
+    ``along`` and ``across`` are numbers of places along half a pass and across the half contact, ``down`` of depths in each round.
+    """
     # dense at the contact, and with its edges
-    half = np.unique([*np.sinh(np.linspace(0.0, math.asinh(15.0), sampling.along)) / 5.0, 1.0])
+    half = np.unique([*np.sinh(np.linspace(0.0, math.asinh(15.0), along)) / 5.0, 1.0])
     x = np.concatenate([-half[:0:-1], half])[:, None]
-    y = np.array([*np.linspace(0.0, 1.2, sampling.across), 1.6, 2.2]) * b
+    y = np.array([*np.linspace(0.0, 1.2, across), 1.6, 2.2]) * b
     low, high, best, bound = 0.0, 1.2 * depth, (0.0, 0.0), 0.0
     for _ in range(4):
-        depths = np.linspace(low, high, sampling.down)
+        depths = np.linspace(low, high, down)
         passes = stress(x[None], y[None, None], depths[:, None, None])
         found = point_shakedown(passes, 1.0, surface=depths == 0.0)
-        place, step = int(np.argmax(found.radius)), (high - low) / (sampling.down - 1.0)
+        place, step = int(np.argmax(found.radius)), (high - low) / (down - 1.0)
         best = max(best, (float(found.radius[place]), float(depths[place])))
         bound = max(bound, float(found.least.max()))
         low, high = max(depths[place] - step, 0.0), depths[place] + step

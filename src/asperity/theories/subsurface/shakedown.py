@@ -120,22 +120,16 @@ def cylinder_shakedown(friction: float = 0.0) -> CylinderShakedown:
 @functools.cache
 def _cylinder(mu: float) -> CylinderShakedown:
     """The limit at one friction; it takes a second, and studies of loads and thicknesses ask for it again and again."""
+    x = np.linspace(-4.0, 4.0, PLACES)[None, :]  # in half-widths, as the depths; the peak pressure is one
     low, high = 0.0, 1.2
     for _ in range(6):
         depths = np.linspace(low, high, 41)
-        circles = _circles(depths, mu)
+        normal = hertz_line_normal(x, depths[:, None], 1.0, shear=1.0, nu=0.3).stress
+        shear = hertz_line_shear(x, depths[:, None], 1.0, shear=1.0, nu=0.3).stress
+        circles = line_shakedown(normal + shear * mu, 1.0)
         place = int(np.argmax(circles.radius))
         step = (high - low) / 40.0
         if depths[place] == 0.0:
             break
         low, high = max(depths[place] - step, 0.0), depths[place] + step
     return CylinderShakedown(1.0 / float(circles.radius[place]), float(depths[place]), float(circles.residual[place]))
-
-
-def _circles(depths: RealArray, mu: float) -> LineShakedown:
-    """Smallest circles at ``depths`` in half-widths under unit peak pressure."""
-    x = np.linspace(-4.0, 4.0, PLACES)[None, :]
-    z = depths[:, None]
-    normal = hertz_line_normal(x, z, 1.0, shear=1.0, nu=0.3).stress
-    shear = hertz_line_shear(x, z, 1.0, shear=1.0, nu=0.3).stress
-    return line_shakedown(normal + shear * mu, 1.0)
