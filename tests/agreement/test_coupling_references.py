@@ -17,11 +17,11 @@ from reference_data import FOLDER, reference
 
 import asperity as asp
 from asperity.contact.operators import prepare_operator
-from asperity.contact.solvers import ContactQP, DenseActiveSet, FixedMean, run
 from asperity.contact.solvers.protocol import feasible_start
 from asperity.core.arrays import RealArray
 from asperity.physics.friction.sliding import ShearKernel
 from asperity.physics.menisci.film import wetting
+from asperity.solvers import ContactQP, DenseActiveSet, FixedMean, run
 
 BODY = asp.Elastic(0.91, 0.2)
 MU = 0.8

@@ -12,9 +12,9 @@ from catalogue import feasible_start
 import asperity as asp
 from asperity.contact.operators import prepare_operator
 from asperity.contact.solve import doubted
-from asperity.contact.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, FixedOffset, run
 from asperity.core.arrays import RealArray
 from asperity.solids.compliance.halfspace import Compliance, HalfSpace
+from asperity.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, FixedOffset, run
 
 LARGEST_ERROR = 1e-3
 """Of the pressure, relative L2."""

@@ -18,7 +18,12 @@ from contact_cases import elastic, rough
 import asperity as asp
 from asperity.contact.boundary import Boundary
 from asperity.contact.certificate import certify
-from asperity.contact.solvers import (
+from asperity.contact.solvers.protocol import energy, relative_error, scaled_error
+from asperity.core.arrays import RealArray
+from asperity.core.engine import cpu, spline_levels
+from asperity.core.status import Outcome
+from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import (
     ActiveSet,
     ConjugateGradient,
     ContactQP,
@@ -28,11 +33,6 @@ from asperity.contact.solvers import (
     Solution,
     run,
 )
-from asperity.contact.solvers.protocol import energy, relative_error, scaled_error
-from asperity.core.arrays import RealArray
-from asperity.core.engine import cpu, spline_levels
-from asperity.core.status import Outcome
-from asperity.solids.compliance.halfspace import HalfSpace
 
 PRECISIONS = ("mixed", "double")
 BOUNDARIES = (asp.Periodic(), asp.Free())

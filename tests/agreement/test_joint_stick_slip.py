@@ -7,8 +7,8 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
 from asperity.physics.friction.solver.joint import JointProblem
+from asperity.solvers import ActiveSet
 
 TIGHT = {"solver": ActiveSet(tolerance=1e-12), "rounds": asp.Rounds(tolerances={"stick_slip": 1e-9})}
 SOFT = asp.Elastic(1.0, 0.3)

@@ -10,7 +10,7 @@ from contact_cases import elastic, square_grid
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 TIGHT = ActiveSet(tolerance=1e-9)
 HARDNESS = 0.5

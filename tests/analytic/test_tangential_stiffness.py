@@ -6,7 +6,7 @@ from contact_cases import rough
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 TIGHT = {"solver": ActiveSet(tolerance=1e-13), "rounds": asp.Rounds(tolerances={"stick_slip": 1e-10})}
 SOFT = asp.Elastic(1.0, 0.3)

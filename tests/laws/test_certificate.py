@@ -15,11 +15,11 @@ from hypothesis import strategies as st
 
 import asperity as asp
 from asperity.contact.certificate import Certificate, certify
-from asperity.contact.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, Solution, run
 from asperity.contact.solvers.protocol import SolverState, best_level, duality_gap, relative_error, scaled_to_load
 from asperity.core.arrays import RealArray
 from asperity.core.status import Outcome, Status
 from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, Solution, run
 
 few = settings(max_examples=40)
 SEEDS = st.integers(0, 10**6)

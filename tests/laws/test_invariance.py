@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import asperity as asp
-from asperity.contact.solvers import ConjugateGradient
+from asperity.solvers import ConjugateGradient
 
 SHAPES = st.sampled_from([(16, 16), (12, 18), (15, 11), (32, 4)])
 SEEDS = st.integers(0, 10**6)

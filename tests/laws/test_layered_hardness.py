@@ -11,7 +11,7 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.law import LimitByDepth
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 SOLVER = ActiveSet(tolerance=1e-10)
 FILMS = pytest.mark.parametrize(("film", "base"), [(0.3, 0.6), (0.6, 0.3), (0.25, 1.0)])

@@ -11,7 +11,7 @@ from contact_cases import elastic, rough
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 SOLVER = ActiveSet(tolerance=1e-10)
 BOUNDARIES = pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)

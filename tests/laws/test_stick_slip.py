@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
 from asperity.physics.friction.operator import TangentialOperator
 from asperity.physics.friction.solver.newton import StickSlipNewton
 from asperity.physics.friction.solver.problem import TangentialQP
 from asperity.physics.friction.stick_slip import SERVES
+from asperity.solvers import ActiveSet
 
 TIGHT = {"solver": ActiveSet(tolerance=1e-12), "rounds": asp.Rounds(tolerances={"stick_slip": 1e-9})}
 SOFT = asp.Elastic(1.0, 0.3)

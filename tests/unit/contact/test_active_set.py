@@ -14,7 +14,6 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.operators.convolution import coarse_grid, restricted
 from asperity.contact.solve import default_solver
-from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
 from asperity.contact.solvers.active_set import bounds, first_guess, linear_system, spline_model
 from asperity.contact.solvers.active_set import solver as solver_module
 from asperity.contact.solvers.active_set.first_guess import COARSEST, coarsened, highest_points, nested_start
@@ -22,6 +21,7 @@ from asperity.contact.solvers.active_set.linear_system import Stopping
 from asperity.contact.solvers.protocol import relative_error
 from asperity.core.engine import SQUARE_SIDE, cpu
 from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
 
 BOUNDARIES = pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 

@@ -10,7 +10,7 @@ import pytest
 from contact_cases import elastic, rough
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 SOLVER = ActiveSet(tolerance=1e-9)
 LOADS = (0.02, 0.03, 0.045, 0.06)

@@ -19,10 +19,10 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.operators import Operator
 from asperity.contact.solve import steps
-from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean
 from asperity.contact.solvers.protocol import SolverState
 from asperity.core.arrays import RealArray
 from asperity.core.engine import CpuEngine
+from asperity.solvers import ActiveSet, ContactQP, FixedMean
 
 SOLVER = ActiveSet(tolerance=1e-10)
 LOADS = (0.05, 0.1, 0.15)

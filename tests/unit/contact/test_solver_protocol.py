@@ -16,8 +16,13 @@ from refusals import refused
 import asperity as asp
 from asperity import Grid, InputError, NoSolutionError
 from asperity.contact.operators import PeriodicOperator
-from asperity.contact.solvers import SOLVERS as CLASSES
-from asperity.contact.solvers import (
+from asperity.contact.solvers.protocol import best_level, duality_gap, relative_error, scaled_to_load
+from asperity.contact.solvers.reference import nnls
+from asperity.contact.solvers.reference.steepest_descent import shifted_to_load
+from asperity.core.status import Outcome
+from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import SOLVERS as CLASSES
+from asperity.solvers import (
     ActiveSet,
     ContactQP,
     FixedMean,
@@ -30,11 +35,6 @@ from asperity.contact.solvers import (
     run,
     solver_by_name,
 )
-from asperity.contact.solvers.protocol import best_level, duality_gap, relative_error, scaled_to_load
-from asperity.contact.solvers.reference import nnls
-from asperity.contact.solvers.reference.steepest_descent import shifted_to_load
-from asperity.core.status import Outcome
-from asperity.solids.compliance.halfspace import HalfSpace
 
 BY_NAME = {case.name: case for case in CASES}
 SOME = [

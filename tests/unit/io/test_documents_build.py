@@ -37,16 +37,16 @@ from asperity import (
     Surface,
     Tresca,
     Unloaded,
+    generate,
     graded,
     material,
 )
-from asperity.contact.solvers import ActiveSet
 from asperity.core import units
 from asperity.io.schemas.surfaces import SURFACE_TABLES, SURFACES
 from asperity.physics.stress.survey import StressRequest, WantedProfile, WantedSection
 from asperity.run.build import build, build_control, build_part, build_surface
 from asperity.run.document import checked, relocated
-from asperity.surfaces import generate
+from asperity.solvers import ActiveSet
 
 GRID = {"points": [16, 12], "size": "8 um x 6 um"}
 EXPONENTIAL = {"kind": "exponential", "rms_height": "1 nm", "correlation_length": "0.5 um"}

@@ -17,7 +17,6 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.result import SCALARS
-from asperity.contact.solvers import ConjugateGradient
 from asperity.core.arrays import array_digest
 from asperity.core.citations import reference
 from asperity.core.errors import OutputError
@@ -25,6 +24,7 @@ from asperity.io.words import body_rows, body_text, scalar_text, surface_rows
 from asperity.plots import PLASTIC_PLOTS, PLOTS
 from asperity.report import write_report
 from asperity.report.page import prose, script
+from asperity.solvers import ConjugateGradient
 from asperity.surfaces.surface import Origin
 
 pytestmark = pytest.mark.usefixtures("unrendered")

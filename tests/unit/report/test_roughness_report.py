@@ -22,7 +22,7 @@ from asperity.report.roughness import (
     summit_comparison,
     write_roughness_report,
 )
-from asperity.surfaces.roughness import QUANTITIES
+from asperity.roughness import QUANTITIES
 
 pytestmark = pytest.mark.usefixtures("unrendered")
 

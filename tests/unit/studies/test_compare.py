@@ -16,9 +16,9 @@ from refusals import refused
 from scipy.special import erf
 
 import asperity as asp
+from asperity import generate
 from asperity.plots.comparison import LABEL_ROOM, MUTED, SIZE, plot_comparison_area
 from asperity.report.comparison import comparison_sentence
-from asperity.surfaces import generate
 from asperity.theories import Limit, Prediction, Westergaard, theory
 from asperity.theories.protocol import prediction
 

@@ -10,8 +10,8 @@ from refusals import refused
 import asperity as asp
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
+from asperity.generate import RmsHeight, SelfAffine, gaussian
 from asperity.surfaces.characterise.heights import rms_height
-from asperity.surfaces.generate import RmsHeight, SelfAffine, gaussian
 from asperity.surfaces.prepare.extent import cropped, periodised, resampled, tapered
 from asperity.surfaces.prepare.level import filled, levelled
 from asperity.surfaces.surface import Surface
