@@ -17,7 +17,6 @@ from asperity import (
     Frictionless,
     Grid,
     Hardness,
-    HardWall,
     Layer,
     Layered,
     MeanGap,
@@ -32,6 +31,7 @@ from asperity.contact.law import InterfaceLaw
 from asperity.contact.solve import Prepared
 from asperity.contact.solvers.protocol import scaled_to_load
 from asperity.core.arrays import RealArray
+from asperity.plasticity import HardWall
 from asperity.solids.layers import Body
 from asperity.solvers import (
     ActiveSet,

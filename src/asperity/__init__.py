@@ -1,6 +1,6 @@
 """Contact mechanics of layered rough surfaces.
 
-What most work needs stands here, such as ``solve``, ``ContactProblem``, ``read`` and ``Layered``.
+What most work needs stands here, such as ``solve``, ``ContactProblem`` and ``read``.
 Everything of a subject stands in its module. Numbers are in SI units, arrays are ``[x, y]``.
 
     adhesion        laws of attraction, branches and jumps, loops of approach and separation
@@ -26,7 +26,7 @@ Everything of a subject stands in its module. Numbers are in SI units, arrays ar
     theories        closed forms of contact, which take and return numbers
     viscoelasticity materials that relax, oscillating and sliding contacts, hysteretic friction
 
-Go on with ``help(asperity.solve)`` or ``help(asperity.contact)``; ``dir(asperity)`` lists the names.
+Go on with ``help(asperity.solve)`` or ``help(asperity.contact)``.
 """
 
 import sys

@@ -85,7 +85,7 @@ def test_long_hold_of_layers_and_at_a_mean_gap(control: asp.Control, coating: bo
 def test_sheared_contact_held_in_place_relaxes() -> None:
     """Where surfaces stick, force and tangential force of a position held go to those of the relaxed body."""
     place = asp.Step(DEPTH, asp.Shift(20e-9))
-    both = [problem(body, friction=asp.FullStick()) for body in (STANDARD, asp.Elastic(RELAXED, 0.5))]
+    both = [problem(body, friction=asp.friction.FullStick()) for body in (STANDARD, asp.Elastic(RELAXED, 0.5))]
     found = asp.solve(both[0], asp.History([place, replace(place, duration=0.2)]))
     end = asp.solve(both[1], place)
     assert found.last.force == pytest.approx(end.force, rel=1e-4)
@@ -97,7 +97,7 @@ def test_sheared_coating_held_in_place_stays_in_touch() -> None:
     """Points that touch later stick elsewhere than in the relaxed contact: the same forces for other lengths of the steps, and energies that balance."""
     place = asp.Step(DEPTH, asp.Shift(20e-9))
     course = asp.History([place, replace(place, duration=0.2)])
-    sheared = problem(coated(STANDARD), friction=asp.FullStick())
+    sheared = problem(coated(STANDARD), friction=asp.friction.FullStick())
     coarse, fine = (asp.solve(sheared, course, time_steps=asp.TimeSteps(each)) for each in (1e-2, 1e-3))
     creep = coarse.last.creep
     assert creep is not None
@@ -229,7 +229,7 @@ def test_history_of_a_dented_surface_begins_at_its_touch() -> None:
     law = {"law": asp.Hardness(20e6)}
     dented = asp.solve(problem(asp.Elastic(FIRST, 0.5), **law), asp.History([DEPTH, asp.Unloaded()])).state
     assert dented is not None
-    state = asp.InterfaceState.dented(dented.permanent_indentation, np.zeros((24, 24)), dented.plastic_work)
+    state = asp.solvers.InterfaceState.dented(dented.permanent_indentation, np.zeros((24, 24)), dented.plastic_work)
     found = asp.solve(problem(STANDARD, **law), asp.History([asp.Step(DEPTH, duration=TIME)]), state=state)
     creep = found.last.creep
     assert creep is not None
@@ -242,7 +242,7 @@ def test_state_after_sliding_in_time_goes_on_with_a_new_account() -> None:
     """The work of a surface that moves is not that of the force over the approach; what follows is counted from its end."""
     wave = asp.Surface(1e-7 * np.cos(2.0 * np.pi * np.arange(24) / 24)[:, None] * np.ones(4), 1e-6, periodic=True)
     moving = asp.ContactProblem(wave, asp.Rigid(), counter_body=MILD)
-    moved = asp.slide_in_time(moving, asp.MeanPressure(1e4), 1e-3, 12e-6)
+    moved = asp.viscoelasticity.slide_in_time(moving, asp.MeanPressure(1e4), 1e-3, 12e-6)
     after = asp.solve(moved.last.problem, asp.Step(asp.MeanPressure(1e4), duration=1.0), state=moved.last.state)
     assert after.converged
     assert after.creep is not None

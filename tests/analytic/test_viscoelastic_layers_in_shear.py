@@ -171,7 +171,7 @@ def stuck(stack: asp.Layered, times: RealArray, steps: asp.TimeSteps) -> RealArr
     """Amplitudes of shear traction and pressure of a wavy surface pressed flat at once, and held without slip for these ``times`` (s)."""
     x = 2.0 * np.pi * np.arange(16) / 16
     surface = asp.Surface(WAVE * np.cos(x)[:, None] * np.ones(4), 1.0 / 16)
-    problem = asp.ContactProblem(surface, stack, counter_body=asp.Rigid(), friction=asp.FullStick())
+    problem = asp.ContactProblem(surface, stack, counter_body=asp.Rigid(), friction=asp.friction.FullStick())
     load = asp.MeanPressure(0.2)
     held = [asp.Step(load, asp.Shift(), duration=float(dt)) for dt in np.diff([0.0, *times])]
     found = asp.solve(problem, asp.History([asp.Step(load, asp.Shift()), *held]), time_steps=steps)
@@ -310,7 +310,7 @@ def test_tresca_and_a_force_along_y_on_a_line() -> None:
     x = (np.arange(48) - 23.5) * 0.05
     surface = asp.Surface(-(x[:, None] ** 2) / 20.0, 0.05)
     problem = asp.ContactProblem(
-        surface, COATED, boundary=asp.FreeLine(), counter_body=asp.Rigid(), friction=asp.TrescaFriction(0.05)
+        surface, COATED, boundary=asp.FreeLine(), counter_body=asp.Rigid(), friction=asp.friction.TrescaFriction(0.05)
     )
     load, force = asp.Force(0.02), asp.TangentialForce(1.8e-3, 1.8e-3)
     course = [

@@ -33,7 +33,7 @@ problems = given(SEEDS, SHAPES, BOUNDARIES, LOADS, CAPS)
 def posed(seed: int, shape: tuple[int, int], boundary: object, load: float, cap: str) -> ContactQP:
     """Random problem at prescribed load, E* = 1, heights of unit rms, cap of a few times the load."""
     rng = np.random.default_rng(seed)
-    operator = asp.prepare_operator(HalfSpace(1.0), asp.Grid(shape, (1.0, 1.3)), boundary)  # type: ignore[arg-type]
+    operator = asp.solvers.prepare_operator(HalfSpace(1.0), asp.Grid(shape, (1.0, 1.3)), boundary)  # type: ignore[arg-type]
     heights = rough(shape, seed).heights
     caps = {"none": np.inf, "scalar": load * rng.uniform(1.1, 9.0), "map": load * rng.uniform(1.1, 9.0, shape)}
     return ContactQP(operator, heights, caps[cap], FixedMean(load), float(heights.std()))
