@@ -30,7 +30,9 @@ class Count:
     def __init__(self) -> None:
         self.solves, self.pairs = 0, 0.0
 
-    def solve(self, problem: asp.ContactProblem, control: asp.Control, state: asp.solvers.InterfaceState | None = None):
+    def solve(
+        self, problem: asp.ContactProblem, control: asp.contact.Control, state: asp.solvers.InterfaceState | None = None
+    ):
         found = asp.solve(problem, control, state=state, keep=Keep(stiffness=False))
         self.solves += found.certificate.rounds
         self.pairs += found.certificate.fft_pairs

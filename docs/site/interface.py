@@ -69,7 +69,7 @@ def _page(name: str, module: ModuleType, top: list[str]) -> str:
     both = [f"`{one}`" for one in kinds if one in top]
     lines += [f"At the top too, as `asp.NAME`: {', '.join(both)}.", ""] if both else []
     tables = [f"`{one}`" for one, kind in kinds.items() if kind == "data"]
-    lines += [f"Tables and constants: {', '.join(tables)}.", ""] if tables else []
+    lines += [f"Tables, constants and types: {', '.join(tables)}.", ""] if tables else []
     documented = {one: kind for one, kind in kinds.items() if kind != "data"}
     return "\n".join([*lines, *_documented(f"asperity.{name}", documented)])
 

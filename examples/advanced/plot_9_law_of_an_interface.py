@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity as asp
-from asperity.physics import dynamics as dyn
+from asperity import dynamics as dyn
 
 # %%
 # A ground surface on steel, loaded up to 30 MPa and unloaded: once elastic, once with the pressure limited by the hardness.

@@ -3,6 +3,7 @@ from .physics.adhesion.bound import EnergyBound, energy_bound
 from .physics.adhesion.branch import AdhesiveBranch, adhesive_branch, adhesive_jumps
 from .physics.adhesion.jkr import JKRAdhesion
 from .physics.adhesion.law import (
+    Adhesion,
     CustomAdhesion,
     DugdaleAdhesion,
     ExponentialAdhesion,
@@ -14,6 +15,7 @@ from .physics.adhesion.loop import AdhesionLoop, adhesion_cycle, adhesion_loop
 from .physics.adhesion.surface_energy import work_of_adhesion
 
 __all__ = [
+    "Adhesion",
     "AdhesionLoop",
     "AdhesiveBranch",
     "AdhesiveContact",

@@ -106,7 +106,9 @@ def test_no_problem_of_a_thousand_is_wrongly_called_converged() -> None:
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 @pytest.mark.parametrize(("shape", "height"), [((100, 100), 0.0), ((16, 16), 1e-7), ((60, 45), 1e-7)], ids=str)
 @pytest.mark.parametrize("pressure", [1e-3, 1e3, 1e8])
-def test_flat_bodies_are_solved(boundary: asp.Boundary, shape: tuple[int, int], height: float, pressure: float) -> None:
+def test_flat_bodies_are_solved(
+    boundary: asp.contact.Boundary, shape: tuple[int, int], height: float, pressure: float
+) -> None:
     """Their rms height is nothing but rounding."""
     surface = asp.Surface(np.full(shape, height), 1e-6, periodic=boundary == asp.Periodic())
     result = asp.solve(
@@ -120,7 +122,7 @@ def test_flat_bodies_are_solved(boundary: asp.Boundary, shape: tuple[int, int], 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 @pytest.mark.parametrize("pressure", [1e-3, 0.1, 10.0, 1e5])
-def test_a_plateau_under_a_tiny_load_carries_it_as_a_whole(boundary: asp.Boundary, pressure: float) -> None:
+def test_a_plateau_under_a_tiny_load_carries_it_as_a_whole(boundary: asp.contact.Boundary, pressure: float) -> None:
     heights = np.zeros((16, 16))
     heights[4:12, 4:12] = 1e-6
     surface = asp.Surface(heights, 1e-6, periodic=boundary == asp.Periodic())
@@ -217,7 +219,9 @@ def test_a_load_just_below_the_cap_is_solved_to_rounding(shape: tuple[int, int],
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 @pytest.mark.parametrize("film", [1.0, 100.0])
-def test_a_load_equal_to_the_cap_but_for_rounding_puts_all_points_at_it(boundary: asp.Boundary, film: float) -> None:
+def test_a_load_equal_to_the_cap_but_for_rounding_puts_all_points_at_it(
+    boundary: asp.contact.Boundary, film: float
+) -> None:
     wrong = []
     for seed in (*range(20), 153, 263):
         rng = np.random.default_rng([seed, 13])
@@ -232,7 +236,9 @@ def test_a_load_equal_to_the_cap_but_for_rounding_puts_all_points_at_it(boundary
 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
-def test_the_certificate_of_a_light_load_states_the_duality_gap_that_heights_round_away(boundary: asp.Boundary) -> None:
+def test_the_certificate_of_a_light_load_states_the_duality_gap_that_heights_round_away(
+    boundary: asp.contact.Boundary,
+) -> None:
     """Plateaus so that points share a load whose deflection is 1e-11 of the heights."""
     heights = 1e-8 * np.minimum(np.random.default_rng(3).standard_normal((14, 6)), 0.5)
     surface = asp.Surface(heights, 5e-6, periodic=boundary == asp.Periodic())
@@ -278,7 +284,7 @@ SOLVED = ("low", "hard", "hard and low", "soft film")
 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
-def test_extreme_numbers_are_refused_or_solved(boundary: asp.Boundary) -> None:
+def test_extreme_numbers_are_refused_or_solved(boundary: asp.contact.Boundary) -> None:
     """What is called converged is finite, in balance and has a small duality gap."""
     wrong = []
     for name, case in EXTREME.items():

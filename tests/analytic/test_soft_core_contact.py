@@ -30,7 +30,7 @@ def work_of(tabor: float) -> float:
     return math.sqrt(tabor**3 * SPACING**3)
 
 
-def sphere(attraction: asp.contact.laws.Adhesion, points: int, half: float, **more: object) -> asp.ContactProblem:
+def sphere(attraction: asp.adhesion.Adhesion, points: int, half: float, **more: object) -> asp.ContactProblem:
     size = 2.0 * half * math.sqrt(SPACING)
     x = (np.arange(points) - 0.5 * (points - 1)) * size / points
     surface = asp.Surface(-(x[:, None] ** 2 + x[None, :] ** 2) / 2.0, size / points)
@@ -38,7 +38,7 @@ def sphere(attraction: asp.contact.laws.Adhesion, points: int, half: float, **mo
     return asp.ContactProblem(surface, **settings)  # type: ignore[arg-type]
 
 
-def beyond(law: asp.contact.laws.Adhesion, half: float, approach: float) -> float:
+def beyond(law: asp.adhesion.Adhesion, half: float, approach: float) -> float:
     """Force of the attraction outside the square, where the sphere hardly deforms, over πwR."""
     angle = (np.arange(200) + 0.5) / 200.0 * 0.25 * math.pi
     border = half * math.sqrt(SPACING) / np.cos(angle)

@@ -177,7 +177,10 @@ STICKY = asp.ExponentialAdhesion(2e-4, 2e-3)
 
 
 def sticky(
-    points: int, adhesion: asp.Adhesion | None = STICKY, body: asp.Elastic = SLS, film: asp.LiquidFilm | None = None
+    points: int,
+    adhesion: asp.adhesion.Adhesion | None = STICKY,
+    body: asp.Elastic = SLS,
+    film: asp.LiquidFilm | None = None,
 ) -> asp.ContactProblem:
     return asp.ContactProblem(wave(points, 0.01, 1.0), asp.Rigid(), counter_body=body, adhesion=adhesion, film=film)
 
@@ -248,7 +251,7 @@ def test_machine_that_gives_way_while_it_slides() -> None:
 
 
 @pytest.mark.parametrize("adhesion", [None, STICKY])
-def test_menisci_press_a_sliding_surface(adhesion: asp.Adhesion | None) -> None:
+def test_menisci_press_a_sliding_surface(adhesion: asp.adhesion.Adhesion | None) -> None:
     """The contact is that under the load and the force of the menisci together, and the coefficient is over the load."""
     film = asp.LiquidFilm(surface_tension=2.5e-6, thickness=1e-3)
     load = 0.1 * np.pi * 0.01

@@ -28,11 +28,11 @@ def ball(points: int = 24, radius: float = 20e-6) -> asp.Surface:
     return asp.Surface(-(x[:, None] ** 2 + x**2) / (2.0 * radius), 12.8e-6 / points)
 
 
-def problem(body: Body, boundary: asp.Boundary = asp.Free(), **more: object) -> asp.ContactProblem:
+def problem(body: Body, boundary: asp.contact.Boundary = asp.Free(), **more: object) -> asp.ContactProblem:
     return asp.ContactProblem(ball(), body, boundary=boundary, **more)  # type: ignore[arg-type]
 
 
-def held(control: asp.Control, *durations: float) -> asp.History:
+def held(control: asp.contact.Control, *durations: float) -> asp.History:
     """Pressed at once, and held."""
     return asp.History([control, *(asp.Step(control, duration=duration) for duration in durations)])
 
@@ -72,7 +72,7 @@ def test_force_of_a_long_hold_is_that_of_the_relaxed_body(duration: float) -> No
 
 @pytest.mark.parametrize("control", [DEPTH, asp.MeanGap(4e-7)])
 @pytest.mark.parametrize("coating", [False, True])
-def test_long_hold_of_layers_and_at_a_mean_gap(control: asp.Control, coating: bool) -> None:
+def test_long_hold_of_layers_and_at_a_mean_gap(control: asp.contact.Control, coating: bool) -> None:
     """The relaxed contact, within the error of the series of a coating (1e-3)."""
     boundary = asp.Periodic() if isinstance(control, asp.MeanGap) else asp.Free()
     bodies = STANDARD, asp.Elastic(RELAXED, 0.5)
@@ -213,7 +213,7 @@ def test_heat_of_a_long_hold_under_a_load(duration: float) -> None:
 
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
-def test_energies_of_sliding_surfaces_that_creep(boundary: asp.Boundary) -> None:
+def test_energies_of_sliding_surfaces_that_creep(boundary: asp.contact.Boundary) -> None:
     """The work of the displacement by shear is that of pressures linear in time: energies balance over long and short holds."""
     solid = asp.Viscoelastic.standard_linear(RELAXED, 4.0 * RELAXED, TIME, 0.2)
     sliding = problem(solid, boundary, friction=asp.Coulomb(0.8))

@@ -95,7 +95,9 @@ def memory_of(problem: asp.ContactProblem) -> LayeredShear:
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("pair", PAIRS)
-def test_operators_of_the_first_instant_and_of_long_times(pair: tuple[Body, Body], boundary: asp.Boundary) -> None:
+def test_operators_of_the_first_instant_and_of_long_times(
+    pair: tuple[Body, Body], boundary: asp.contact.Boundary
+) -> None:
     """Those of the elastic bodies that both are at once and after all relaxation, coupling included, and on coarser grids."""
     memory = memory_of(sphere(pair[0], 12, counter_body=pair[1], boundary=boundary))
     rng = np.random.default_rng(1)
@@ -234,7 +236,7 @@ def forces(found: asp.HistoryResult) -> RealArray:
 @pytest.mark.slow
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("body", [COATED, FILM])
-def test_fast_and_slow_shear_are_elastic(body: asp.Layered, boundary: asp.Boundary) -> None:
+def test_fast_and_slow_shear_are_elastic(body: asp.Layered, boundary: asp.contact.Boundary) -> None:
     """Steps far shorter than all relaxation see the layers of the first instant, far longer ones the relaxed layers."""
     number, shift = 6, 0.004
     for duration, relaxed, allowed in ((1e-7, 0.0, 2e-5), (1e7, 1.0, 1e-3)):
@@ -270,7 +272,7 @@ def test_layers_of_one_material_are_that_material(solid: asp.Viscoelastic) -> No
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("body", [COATED, FILM, PAD])
-def test_work_is_stored_or_heat_of_slip_or_of_the_layers(body: asp.Layered, boundary: asp.Boundary) -> None:
+def test_work_is_stored_or_heat_of_slip_or_of_the_layers(body: asp.Layered, boundary: asp.contact.Boundary) -> None:
     """The balance of a loop with coupling between shear and pressure closes as the steps of time get shorter."""
     left, whole = left_of_a_loop(sphere(body, 16, boundary=boundary), 0.004)
     assert left[1] < 1e-3 * whole
@@ -359,7 +361,7 @@ SLIDING: tuple[tuple[Body, Body], ...] = (
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("pair", SLIDING)
-def test_shear_of_sliding_creeps_with_the_pressure(pair: tuple[Body, Body], boundary: asp.Boundary) -> None:
+def test_shear_of_sliding_creeps_with_the_pressure(pair: tuple[Body, Body], boundary: asp.contact.Boundary) -> None:
     """Coupled friction, by a map of coefficients too: at once as the first elastic bodies, after a long hold as the relaxed ones."""
     coefficients = 0.4 + 0.4 * (np.arange(24)[:, None] > 12) * np.ones(24)
     course = asp.History([LOAD, asp.Step(LOAD, duration=0.5), asp.Step(LOAD, duration=1e4)])

@@ -1,7 +1,7 @@
 from ..core.status import Advice
 from .advice import advise, review
-from .boundary import Free, FreeLine, Periodic
-from .controls import Approach, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
+from .boundary import Boundary, Free, FreeLine, Periodic
+from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .history import EnergyBalance, History, HistoryResult, ramps
 from .problem import ContactProblem, Flat
 from .result import ContactResult
@@ -11,8 +11,10 @@ from .time_division import TimeSteps
 __all__ = [
     "Advice",
     "Approach",
+    "Boundary",
     "ContactProblem",
     "ContactResult",
+    "Control",
     "EnergyBalance",
     "FixedGrips",
     "Flat",

@@ -50,7 +50,7 @@ def rough_set(shape: tuple[int, int], share: float, seed: int) -> RealArray:
 def on_set(
     inside: RealArray,
     compliance: Compliance = BODY,
-    boundary: asp.Boundary | None = None,
+    boundary: asp.contact.Boundary | None = None,
     engine: Engine | None = None,
     spacing: tuple[float, float] = (1.0, 1.0),
 ) -> tuple[ScaledOperator, FreeSet]:
@@ -98,7 +98,7 @@ CASES = {
 @pytest.mark.parametrize("share", [0.1, 0.35, 0.8, 1.0])
 @pytest.mark.parametrize("case", CASES.values(), ids=list(CASES))
 def test_the_model_is_near_the_compliance_on_any_set(
-    case: tuple[Compliance, tuple[int, int], tuple[float, float], asp.Boundary], share: float
+    case: tuple[Compliance, tuple[int, int], tuple[float, float], asp.contact.Boundary], share: float
 ) -> None:
     """Deflections are within a factor 1.2 of those of the model, whatever the load, on square pixels of an even number or with a free boundary; near the seam
     of an odd number, on lines, oblong pixels and stiff films within 1.7 (the worst is 0.61 to 1.31). The inverse is positive definite, symmetric but for a tenth where
@@ -180,7 +180,7 @@ def test_cells_are_as_square_as_the_pixels_allow(spacing: tuple[float, float]) -
 
 
 def steps_to(
-    inside: RealArray, reduction: float, compliance: Compliance = BODY, boundary: asp.Boundary | None = None
+    inside: RealArray, reduction: float, compliance: Compliance = BODY, boundary: asp.contact.Boundary | None = None
 ) -> float:
     """Products to reduce the residual of a rough right side."""
     scaled, free = on_set(inside, compliance, boundary)
@@ -207,7 +207,7 @@ def test_lines_and_other_boundaries_converge_as_well(shape: tuple[int, int]) -> 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=["periodic", "free"])
 @pytest.mark.parametrize(("ratio", "thickness"), [(0.1, 4.0), (2.0, 4.0), (10.0, 4.0), (10.0, 10.0)])
-def test_layers_converge_as_well(ratio: float, thickness: float, boundary: asp.Boundary) -> None:
+def test_layers_converge_as_well(ratio: float, thickness: float, boundary: asp.contact.Boundary) -> None:
     """A factor 0.21 a step at worst, 1e-6 in 9 steps."""
     assert steps_to(rough_set((128, 128), 0.2, 7), 1e-6, film(ratio, thickness), boundary) <= 9.0
 
