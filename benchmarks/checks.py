@@ -18,7 +18,7 @@ PRESSURE_LIMIT = 1e-4
 def field_error(heights: NDArray[np.float64], pressure: NDArray[np.float64]) -> float:
     """Customary error of the field, sum of p (gap - min gap) over total load times rms height, for anyone's pressure."""
     problem = asp.ContactProblem(asp.Surface(heights, 1.0, 1.0, periodic=True), BODY)
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
     r = operator.apply(pressure) - heights
     return float((pressure * (r - r.min())).sum() / (pressure.sum() * heights.std()))
 

@@ -147,7 +147,7 @@ def pairs(module: Any, name: str = "") -> str:
     for kind, problem, control, method in cases():
         keep = asp.Keep(stiffness=False)
         try:
-            result = asp.solve(problem, control, solver=method, keep=keep, engine=asp.CpuEngine(1))
+            result = asp.solve(problem, control, solver=method, keep=keep, engine=asp.engines.CpuEngine(1))
         except asp.ConvergenceError:
             failed[kind] += 1
             continue

@@ -30,7 +30,9 @@ class Count:
     def __init__(self) -> None:
         self.solves, self.pairs = 0, 0.0
 
-    def solve(self, problem: asp.ContactProblem, control: asp.Control, state: asp.InterfaceState | None = None):
+    def solve(
+        self, problem: asp.ContactProblem, control: asp.contact.Control, state: asp.solvers.InterfaceState | None = None
+    ):
         found = asp.solve(problem, control, state=state, keep=Keep(stiffness=False))
         self.solves += found.certificate.rounds
         self.pairs += found.certificate.fft_pairs
@@ -84,7 +86,7 @@ def main() -> None:
     )
     write("|---|---|---|---|---|---|---|---|---|\n")
     for (name, body), film, friction in itertools.product(bodies.items(), (None, FILM), (None, FRICTION)):
-        law = asp.LayeredHardness(body) if isinstance(body, asp.Layered) else asp.HardWall()
+        law = asp.plasticity.LayeredHardness(body) if isinstance(body, asp.Layered) else asp.plasticity.HardWall()
         problem = asp.ContactProblem(surface, body, law=law, film=film, friction=friction)
         row = []
         flat, nested = Count(), Count()

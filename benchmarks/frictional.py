@@ -65,7 +65,7 @@ def history(n: int, name: str, body: asp.Elastic | asp.Layered, repeats: int) ->
     problem = asp.ContactProblem(surface, body, friction=asp.Coulomb(FRICTION))
     press = [asp.Step(asp.MeanPressure(LOAD * modulus * k / 4), asp.Shift()) for k in range(1, 5)]
     amplitude = asp.Shift(0.5 * FRICTION * float(normal.mean_gap))
-    cycle = asp.shear_cycles(asp.MeanPressure(LOAD * modulus), amplitude, cycles=1, steps=3)
+    cycle = asp.friction.shear_cycles(asp.MeanPressure(LOAD * modulus), amplitude, cycles=1, steps=3)
     steps = asp.History([*press, *cycle[:16]])
     found, seconds = timed(lambda: asp.solve(problem, steps), 1)
     assert found.converged

@@ -39,7 +39,7 @@ def ours(seed: int, tolerance: float) -> float:
     started = time.process_time()
     made = case(seed, tolerance)
     controls = [asp.MeanPressure(E_STAR * float(load)) for load in LOADS]
-    asp.solve(made.problem, asp.History(controls), solver=made.solver, engine=asp.CpuEngine(1))
+    asp.solve(made.problem, asp.History(controls), solver=made.solver, engine=asp.engines.CpuEngine(1))
     return time.process_time() - started
 
 

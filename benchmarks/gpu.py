@@ -92,8 +92,8 @@ def main() -> None:
     parser.add_argument("--largest-cpu", type=int, default=8192, help="largest size that the CPU solves too")
     parser.add_argument("--repeats", type=int, default=3)
     given = parser.parse_args()
-    engine = asp.ArrayEngine(importlib.import_module(given.arrays)) if given.arrays else asp.GpuEngine()
-    reference = asp.CpuEngine(given.threads)
+    engine = asp.engines.ArrayEngine(importlib.import_module(given.arrays)) if given.arrays else asp.engines.GpuEngine()
+    reference = asp.engines.CpuEngine(given.threads)
     print(f"asperity {asp.__version__}, {engine.name} against {reference.name}")
     if not agree(given.check_size, engine, reference):
         sys.exit(f"the pressures differ by more than {AGREEMENT:.0e}")

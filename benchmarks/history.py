@@ -31,8 +31,8 @@ class Clock:
 def histories(heights: NDArray[np.float64], load: float, threads: int) -> dict[str, Clock]:
     """Histories of our solvers down to a tight tolerance, each after a first, unmeasured solve."""
     problem = asp.ContactProblem(asp.Surface(heights, 1.0, 1.0, periodic=True), BODY)
-    engine = asp.CpuEngine(threads)
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    engine = asp.engines.CpuEngine(threads)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     found = {}
     for name, solver in SOLVERS.items():
         for tolerance in (1e-2, _TIGHT):

@@ -35,7 +35,7 @@ def bodies() -> dict[str, tuple[asp.Layered | asp.Elastic, asp.Layered | asp.Rig
 
     layer = asp.Elastic(2.0 * BODY.youngs_modulus, 0.3)
     rubber = asp.Elastic(BODY.youngs_modulus, 0.49)
-    coating = asp.graded(layer, BODY, 20.0, sublayers=32)
+    coating = asp.solids.graded(layer, BODY, 20.0, sublayers=32)
     single = {f"E {ratio:g}, h {h:g}": coated(ratio, h) for ratio in (0.5, 2.0, 10.0) for h in (4.0, 20.0, 100.0)}
     return {
         "homogeneous": (BODY, asp.Rigid()),
@@ -61,10 +61,10 @@ class Row:
     area: float = 0.0
 
 
-def setup_seconds(problem: asp.ContactProblem, engine: asp.CpuEngine) -> float:
+def setup_seconds(problem: asp.ContactProblem, engine: asp.engines.CpuEngine) -> float:
     """Time of the kernels of the grid and of all coarser grids of the nested start."""
     started = time.perf_counter()
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     while min(operator.grid.shape) > _COARSEST:
         operator = operator.coarsened
     return time.perf_counter() - started
@@ -72,10 +72,10 @@ def setup_seconds(problem: asp.ContactProblem, engine: asp.CpuEngine) -> float:
 
 def once(row: Row, problem: asp.ContactProblem, load: float, tolerance: float, threads: int) -> None:
     """One round of ``problem``: set-up alone, then preparation and solve together."""
-    engine, solver = asp.CpuEngine(threads), asp.solvers.ActiveSet(tolerance=tolerance)
+    engine, solver = asp.engines.CpuEngine(threads), asp.solvers.ActiveSet(tolerance=tolerance)
     row.setup.append(setup_seconds(problem, engine))
     started, worked = time.perf_counter(), time.process_time()
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     prepared = time.perf_counter() - started
     result = asp.solve(problem, asp.MeanPressure(load), solver=solver, operator=operator, keep=_KEEP)
     row.total.append(prepared + result.certificate.wall_time)

@@ -12,7 +12,7 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
-from asperity.physics import dynamics as dyn
+from asperity import dynamics as dyn
 from asperity.theories import free_vibration
 
 LAW = dyn.NormalCompliance.amontons(2.8e18, 2.0, friction=0.4, relative_damping=20.0)

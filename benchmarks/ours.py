@@ -37,8 +37,8 @@ class Ours:
         """Prepare the operator and solve. ``user_seconds`` adds what a user gets besides: gap, spots, area, certificate."""
         problem = asp.ContactProblem(asp.Surface(heights, 1.0, 1.0, periodic=True), BODY)
         started = time.perf_counter()
-        engine = asp.CpuEngine(self.threads)
-        operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+        engine = asp.engines.CpuEngine(self.threads)
+        operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
         prepared = time.perf_counter() - started
         result = asp.solve(
             problem,

@@ -51,7 +51,7 @@ def least(repeats: int, *works: Callable[[], object]) -> list[float]:
 
 def solved(problem: asp.ContactProblem, load: float) -> asp.ContactResult:
     """Contact at the mean pressure ``load``, with all that a user gets."""
-    return asp.solve(problem, asp.MeanPressure(load), solver=SOLVER, engine=asp.CpuEngine(1))
+    return asp.solve(problem, asp.MeanPressure(load), solver=SOLVER, engine=asp.engines.CpuEngine(1))
 
 
 def in_pairs(n: int, load: float, repeats: int) -> str:
@@ -62,7 +62,7 @@ def in_pairs(n: int, load: float, repeats: int) -> str:
 
     def whole() -> None:
         watched, started = Watched(), time.process_time()
-        options: dict[str, Any] = {"solver": SOLVER, "engine": asp.CpuEngine(1), "progress": watched}
+        options: dict[str, Any] = {"solver": SOLVER, "engine": asp.engines.CpuEngine(1), "progress": watched}
         asp.solve(problem, asp.MeanPressure(load), **options)
         shares.append((time.process_time() - started) / (watched.spent - started))
 
@@ -76,7 +76,7 @@ def path(n: int, steps: int, repeats: int) -> str:
     """Step of a path over a cold solve: processor time, FFT pairs."""
     problem = asp.ContactProblem(self_affine(n), BODY)
     controls = [asp.MeanPressure(float(load)) for load in np.linspace(LOADS[0], LOADS[-1], steps)]
-    options: dict[str, Any] = {"solver": SOLVER, "engine": asp.CpuEngine(1), "keep": asp.Keep(stiffness=False)}
+    options: dict[str, Any] = {"solver": SOLVER, "engine": asp.engines.CpuEngine(1), "keep": asp.Keep(stiffness=False)}
     found: dict[str, float] = {}
 
     def along() -> None:
@@ -100,8 +100,8 @@ def ratios(n: int) -> list[tuple[str, float]]:
     cases = {
         "hardness 0.3 E*": (BODY, BODY, asp.Hardness(0.3), (0.02, 0.1)),
         "hardness of a layer 0.6, base 0.3 E*": (hard, BODY, None, (0.02, 0.1)),
-        "film E 10, h 4 pixels": (coated[0], BASE, asp.HardWall(), (0.2,)),
-        "film E 10, h 20 pixels": (coated[1], BASE, asp.HardWall(), (0.4,)),
+        "film E 10, h 4 pixels": (coated[0], BASE, asp.plasticity.HardWall(), (0.2,)),
+        "film E 10, h 20 pixels": (coated[1], BASE, asp.plasticity.HardWall(), (0.4,)),
     }
     rows = []
     for name, (body, plain, law, loads) in cases.items():
@@ -109,7 +109,7 @@ def ratios(n: int) -> list[tuple[str, float]]:
         for seed in (1, 2):
             surface = self_affine(n, seed=seed)
             for load in loads:
-                limits = asp.LayeredHardness(body) if law is None else law
+                limits = asp.plasticity.LayeredHardness(body) if law is None else law
                 posed = asp.ContactProblem(surface, body, law=limits)
                 pairs += solved(posed, load).certificate.fft_pairs
                 alone += solved(asp.ContactProblem(surface, plain), min(load, 0.1)).certificate.fft_pairs
@@ -121,7 +121,7 @@ def surveyed(n: int, repeats: int) -> str:
     """Stress survey with three sections of a coated contact over the inverse transforms of the six components on its planes."""
     body = asp.Layered([asp.Layer(asp.Elastic(280e9, 0.25), 5 * DX)], asp.Elastic(70e9, 0.33))
     surface = asp.Surface(DX * self_affine(n).heights, DX, periodic=True)
-    result = asp.solve(asp.ContactProblem(surface, body), asp.MeanPressure(2e9), engine=asp.CpuEngine(1))
+    result = asp.solve(asp.ContactProblem(surface, body), asp.MeanPressure(2e9), engine=asp.engines.CpuEngine(1))
     request = StressRequest(friction=0.3, sections=(WantedSection("y", "max"),))
     number = len(planes(body, list(map(float, survey_depths(request, result)))))
     transform = RealTransform((n, n), 1)

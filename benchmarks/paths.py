@@ -31,7 +31,7 @@ def timed(work: Callable[[], list[asp.ContactResult]]) -> tuple[float, list[asp.
 def compare_path(problem: asp.ContactProblem, steps: int, tolerance: float, threads: int) -> str:
     """Row: path, cold solves, their ratio in time and in FFT pairs, largest difference of the pressures."""
     controls = [asp.MeanPressure(float(load)) for load in np.linspace(_LEAST, _MOST, steps)]
-    solver, engine = asp.solvers.ActiveSet(tolerance=tolerance), asp.CpuEngine(threads)
+    solver, engine = asp.solvers.ActiveSet(tolerance=tolerance), asp.engines.CpuEngine(threads)
 
     def along() -> list[asp.ContactResult]:
         return list(asp.solve(problem, asp.History(controls), solver=solver, engine=engine, keep=_KEEP).steps)
@@ -51,7 +51,7 @@ def compare_path(problem: asp.ContactProblem, steps: int, tolerance: float, thre
 
 def compare_boundaries(surface: asp.Surface, load: float, tolerance: float, threads: int, repeats: int) -> str:
     """Row: medians of periodic and free solves (alternating), their ratio, FFT pairs of each."""
-    solver, engine = asp.solvers.ActiveSet(tolerance=tolerance), asp.CpuEngine(threads)
+    solver, engine = asp.solvers.ActiveSet(tolerance=tolerance), asp.engines.CpuEngine(threads)
     seconds: dict[str, list[float]] = {"periodic": [], "free": []}
     pairs: dict[str, float] = {}
     problems = {

@@ -57,11 +57,14 @@ def rough(points: int, count: int) -> None:
         shortest_wavelength=8 * SPACING,
     )
     surface = asp.generate.gaussian(asp.Grid((points, points), (SPACING, SPACING)), waves, seed=1)
-    laws = (asp.J2(FILM, asp.LinearHardening(5e9, 4e9)), asp.J2(STEEL, asp.LinearHardening(1.5e9, 4e9)))
+    laws = (
+        asp.plasticity.J2(FILM, asp.plasticity.LinearHardening(5e9, 4e9)),
+        asp.plasticity.J2(STEEL, asp.plasticity.LinearHardening(1.5e9, 4e9)),
+    )
     problem = asp.ContactProblem(surface, BODY, plastic_flow=asp.PlasticFlow(laws))
     loads = [asp.MeanPressure(0.6e9 * k / count) for k in range(1, count + 1)]
     begin = time.process_time()
-    for step in steps(problem, asp.History(loads), engine=asp.CpuEngine(threads=1), on_failure="return"):
+    for step in steps(problem, asp.History(loads), engine=asp.engines.CpuEngine(threads=1), on_failure="return"):
         flow = step.require_plastic_flow()
         print(
             f"{step.mean_pressure / 1e6:6.0f} MPa, area {step.area_fraction:.4f}, {flow.depths.size} cells, {flow.flowed.points.size} points, "
@@ -112,11 +115,13 @@ def beside_tamaas(python: str, points: int = 32) -> None:
     x = (np.arange(points) - points // 2) / points
     surface = asp.Surface(-(x[:, None] ** 2 + x**2) / (2.0 * case["radius"]), 1.0 / points, 1.0 / points)
     solid = asp.Elastic(case["modulus"] * unit, case["nu"])
-    law = asp.J2(solid, asp.LinearHardening(case["yield_stress"] * unit, case["hardening"] * unit))
+    law = asp.plasticity.J2(
+        solid, asp.plasticity.LinearHardening(case["yield_stress"] * unit, case["hardening"] * unit)
+    )
     problem = asp.ContactProblem(surface, solid, plastic_flow=asp.PlasticFlow(law))
     history = asp.History([asp.MeanPressure(load * unit) for load in case["loads"]])
     begin = time.process_time()
-    for step in steps(problem, history, engine=asp.CpuEngine(threads=1)):
+    for step in steps(problem, history, engine=asp.engines.CpuEngine(threads=1)):
         (zone,) = step.require_plastic_flow().zones
         print(
             f"asperity {step.mean_pressure / unit:g}: area {step.area_fraction:.6f}, pressure {step.max_pressure / unit:.6f}, "

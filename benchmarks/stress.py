@@ -37,13 +37,15 @@ def milliseconds(work: Callable[[], object]) -> float:
     return 1e3 * (time.perf_counter() - start)
 
 
-def shears(shape: tuple[int, int], rng: np.random.Generator) -> dict[str, asp.Sliding | asp.ShearTraction]:
+def shears(
+    shape: tuple[int, int], rng: np.random.Generator
+) -> dict[str, asp.stresses.Sliding | asp.stresses.ShearTraction]:
     """Pressure alone, shear in proportion to it along an axis and askew, shear of its own."""
-    fields = asp.ShearTraction(*rng.standard_normal((2, *shape)))
+    fields = asp.stresses.ShearTraction(*rng.standard_normal((2, *shape)))
     return {
-        "pressure": asp.Sliding(0.0),
-        "along x": asp.Sliding(0.3),
-        "sliding": asp.Sliding(0.3, 0.4),
+        "pressure": asp.stresses.Sliding(0.0),
+        "along x": asp.stresses.Sliding(0.3),
+        "sliding": asp.stresses.Sliding(0.3, 0.4),
         "shear fields": fields,
     }
 
@@ -83,7 +85,7 @@ def searched(n: int, threads: int, repeats: int) -> None:
     """Print the time of a plane that is kept, and of one that is read for its maxima, at several depths."""
     rough = np.fft.irfft2(np.fft.rfft2(np.random.default_rng(0).standard_normal((n, n))) * smooth(n), s=(n, n))
     pressure = np.maximum(rough / rough.std() - 1.0, 0.0)
-    loads = Tractions(asp.Grid((n, n), (DX, DX)), pressure, asp.Sliding(0.3))
+    loads = Tractions(asp.Grid((n, n), (DX, DX)), pressure, asp.stresses.Sliding(0.3))
     print(f"\nmaxima of a plane, one layer, sliding: ms, medians of {repeats}")
     for dtype in ("float64", "float32"):
         source = PeriodicPlanes(loads, BODIES["1 layer"], dtype=dtype, threads=threads)
@@ -114,7 +116,7 @@ def free(n: int, threads: int) -> None:
     grid, pressure = asp.Grid((n, n), (DX, DX)), np.random.default_rng(0).random((n, n))
     print(f"\nfree boundary, {n}²: seconds for one plane")
     for name, body in BODIES.items():
-        for load, shear in (("pressure", asp.Sliding(0.0)), ("sliding", asp.Sliding(0.3, 0.4))):
+        for load, shear in (("pressure", asp.stresses.Sliding(0.0)), ("sliding", asp.stresses.Sliding(0.3, 0.4))):
             source = FreePlanes(Tractions(grid, pressure, shear, "free"), body, threads=threads)
             seconds = 1e-3 * milliseconds(lambda s=source, b=body: s.stress(planes(b, [DEPTH])[0]))
             print(f"{name:11} {load:13} {seconds:6.2f}")

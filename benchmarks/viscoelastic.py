@@ -40,7 +40,9 @@ def bodies() -> dict[str, tuple[asp.Elastic | asp.Layered, asp.Elastic | asp.Lay
 
 def prepared(problem: asp.ContactProblem, threads: int, settings: asp.TimeSteps) -> Prepared:
     """``problem`` with its operator."""
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=asp.CpuEngine(threads))
+    operator = asp.solvers.prepare_operator(
+        problem.compliance, problem.grid, problem.boundary, engine=asp.engines.CpuEngine(threads)
+    )
     return Prepared(problem, operator=operator, time_steps=settings, keep=asp.Keep(stiffness=False))
 
 

@@ -49,8 +49,8 @@ def _timed(method: Callable[..., Any], label: Callable[..., str], spent: dict[st
 
 def show(n: int, load: float, tolerance: float, threads: int) -> None:
     """Table of one solve, the most expensive first."""
-    problem, engine = asp.ContactProblem(self_affine(n), BODY), asp.CpuEngine(threads)
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    problem, engine = asp.ContactProblem(self_affine(n), BODY), asp.engines.CpuEngine(threads)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     solver, keep = asp.solvers.ActiveSet(tolerance=tolerance), asp.Keep(stiffness=False)
     spent: dict[str, list[float]] = defaultdict(list)
     asp.solve(problem, asp.MeanPressure(load), solver=solver, operator=operator, keep=keep)

@@ -17,7 +17,6 @@ from asperity import (
     Frictionless,
     Grid,
     Hardness,
-    HardWall,
     Layer,
     Layered,
     MeanGap,
@@ -30,7 +29,11 @@ from asperity.contact.boundary import Boundary
 from asperity.contact.controls import Control, Step
 from asperity.contact.law import InterfaceLaw
 from asperity.contact.solve import Prepared
-from asperity.contact.solvers import (
+from asperity.contact.solvers.protocol import scaled_to_load
+from asperity.core.arrays import RealArray
+from asperity.plasticity import HardWall
+from asperity.solids.layers import Body
+from asperity.solvers import (
     ActiveSet,
     ConjugateGradient,
     ContactQP,
@@ -43,9 +46,6 @@ from asperity.contact.solvers import (
     Solver,
     SteepestDescent,
 )
-from asperity.contact.solvers.protocol import scaled_to_load
-from asperity.core.arrays import RealArray
-from asperity.solids.layers import Body
 
 MODULUS = 100e9
 """Contact modulus of every case, Pa."""

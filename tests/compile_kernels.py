@@ -28,7 +28,7 @@ def problems(body: asp.Elastic | asp.Layered) -> list[asp.ContactProblem]:
     hard = np.full(heights.shape, 0.4)
     return [
         asp.ContactProblem(surface, body, law=law, boundary=boundary)
-        for law in (asp.HardWall(), asp.Hardness(0.5), asp.Hardness(hard))
+        for law in (asp.plasticity.HardWall(), asp.Hardness(0.5), asp.Hardness(hard))
         for boundary in (asp.Periodic(), asp.Free())
     ]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 TIGHT = ActiveSet(tolerance=1e-11)
 

@@ -7,7 +7,7 @@ from reference_data import Row
 from solid_cases import on_half_space
 
 import asperity as asp
-from asperity.contact.solvers import ConjugateGradient
+from asperity.solvers import ConjugateGradient
 from asperity.theories.single.hertz import HertzLine, HertzPoint
 
 RADIUS = 100.0

@@ -37,7 +37,7 @@ def stacks(
     most: int = 5,
     moduli: st.SearchStrategy[float] = MODULI,
     thicknesses: st.SearchStrategy[float] = THICKNESSES,
-    interfaces: st.SearchStrategy[object] = st.sampled_from([asp.Bonded(), asp.Frictionless()]),
+    interfaces: st.SearchStrategy[object] = st.sampled_from([asp.solids.Bonded(), asp.Frictionless()]),
     rigid: bool = True,
 ) -> st.SearchStrategy[asp.Layered]:
     """Random bodies of up to ``most`` layers."""

@@ -78,7 +78,7 @@ def rolling() -> Any:
     """A ball that rolls with creepage."""
     surface = asp.generate.sphere(asp.Grid((12, 10), (1e-5, 1e-5)), radius=10e-3)
     problem = asp.ContactProblem(surface, STEEL, boundary=asp.Free(), friction=asp.Coulomb(np.full((12, 10), 0.2)))
-    return asp.roll(problem, asp.Force(2.0), asp.Creepage(1e-4, 5e-5, 0.2), direction="-x")
+    return asp.roll(problem, asp.Force(2.0), asp.rolling.Creepage(1e-4, 5e-5, 0.2), direction="-x")
 
 
 def stressed() -> Any:

@@ -96,7 +96,7 @@ def page(
     )
 
 
-def pulled(problem: asp.ContactProblem, approaches: list[float]) -> tuple[float, asp.AdhesiveContact]:
+def pulled(problem: asp.ContactProblem, approaches: list[float]) -> tuple[float, asp.adhesion.AdhesiveContact]:
     """Most tensile force (N) of grips at these ``approaches`` (m), one after the other, and the adhesion at the end."""
     found = asp.solve(problem, asp.History([asp.FixedGrips(float(value)) for value in approaches]))
     return -float(min(found.external_force)), found.last.adhesion
@@ -109,7 +109,7 @@ def sphere(transition: float, points: int, least: float) -> tuple[float, float, 
     unit = length**2 / RADIUS
     strength = 0.5 * transition / np.cbrt(RADIUS / (math.pi * WORK * K**2))
     exact = maugis_pull_off(transition)
-    law = asp.DugdaleAdhesion(WORK, WORK / strength, smoothing=0.2)
+    law = asp.adhesion.DugdaleAdhesion(WORK, WORK / strength, smoothing=0.2)
     size = max(least, 2.6 * math.sqrt(2.0 * (law.range / unit + 1.0))) * length
     problem = asp.ContactProblem(paraboloid(points, size, RADIUS), isotropic(E_STAR), boundary=asp.Free(), adhesion=law)
     steps = [0.3 * unit, *((float(exact.approach) + step) * unit for step in (0.1, 0.05, 0.0, -0.05))]

@@ -58,7 +58,7 @@ class Interface:
 
     def __init__(self, surface: asp.Surface) -> None:
         self.problem = asp.ContactProblem(surface, BODY)
-        self._operator = asp.prepare_operator(self.problem.compliance, self.problem.grid, self.problem.boundary)
+        self._operator = asp.solvers.prepare_operator(self.problem.compliance, self.problem.grid, self.problem.boundary)
         self._dry: dict[float, asp.ContactResult] = {}
 
     def menisci(self, liquid: asp.LiquidFilm, load: float = LOAD, *, theory: bool = False) -> Found:
@@ -69,9 +69,9 @@ class Interface:
             self._dry[load] = asp.solve(self.problem, control, operator=self._operator, keep=keep)
         wet = replace(self.problem, film=liquid)
         options = {"state": self._dry[load].state, "operator": self._operator}
-        once = asp.solve(wet, control, rounds=asp.Rounds(most=1), on_failure="return", **options)
+        once = asp.solve(wet, control, rounds=asp.solvers.Rounds(most=1), on_failure="return", **options)
         first = once.menisci.relative_meniscus_force
-        beside = asp.wet_theory(once).meniscus_force / once.external_force if theory else math.nan
+        beside = asp.menisci.wet_theory(once).meniscus_force / once.external_force if theory else math.nan
         try:
             steady = asp.solve(wet, control, **options)
         except asp.NoSolutionError:

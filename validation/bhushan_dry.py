@@ -139,7 +139,7 @@ class Stresses:
 
 def _stresses(result: asp.ContactResult, friction: float) -> Stresses:
     def planes() -> Iterator[tuple[float, float, float]]:
-        for field in asp.stress_planes(result, DEPTHS, friction=friction):
+        for field in asp.stresses.stress_planes(result, DEPTHS, friction=friction):
             yield float(field.von_mises.max()), field.planes[0].depth, float(field.principal[0].max())
 
     found = list(planes())

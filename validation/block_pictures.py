@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import sliding_block
 
-from asperity.physics import dynamics as dyn
+from asperity import dynamics as dyn
 from asperity.physics.dynamics.figures import plot_branches
 from asperity.plots.picture import BLACK, BLUE, GREEN, VERMILLION
 

@@ -77,7 +77,7 @@ def _areas(points: int, shares: tuple[float, ...]) -> list[float]:
     x, y = (2.0 * np.pi * (np.arange(points) + offset) / points for offset in OFFSET)
     heights = WAVES.amplitude * (np.cos(x)[:, None] + np.cos(y)[None, :] - 2.0)
     problem = asp.ContactProblem(asp.Surface(heights, 1.0 / points, 1.0 / points), BODY)
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
     loads = [asp.MeanPressure(share * WAVES.full_contact_pressure) for share in shares]
     keep = asp.Keep(stiffness=False)
     return [asp.solve(problem, load, operator=operator, keep=keep).area_fraction_corrected for load in loads]

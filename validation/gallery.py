@@ -47,7 +47,7 @@ class Entry:
     """One file: its ``name``, what was ``found``, or the sentence why it cannot be read."""
 
     name: str
-    found: asp.Characterisation | None
+    found: asp.roughness.Characterisation | None
     fault: str = ""
 
 
@@ -63,7 +63,7 @@ def write_gallery(folder: Path, out: Path, level: str = "plane") -> list[Entry]:
     made = entries(folder, level)
     for entry in made:
         if entry.found is not None:
-            asp.write_roughness_report(entry.found, out / f"{entry.name}.html", overwrite=True)
+            asp.report.write_roughness_report(entry.found, out / f"{entry.name}.html", overwrite=True)
     (out / "index.html").write_text(_index(made, level), encoding="utf-8")
     return made
 
@@ -96,12 +96,12 @@ def _index(made: list[Entry], level: str) -> str:
     )
 
 
-def _text(quantity: asp.roughness.Quantity, found: asp.Characterisation) -> str:
+def _text(quantity: asp.roughness.Quantity, found: asp.roughness.Characterisation) -> str:
     value = float(attrgetter(quantity.name)(found))
     return "–" if value != value else show(value, quantity.unit, 3)
 
 
-def _section(name: str, found: asp.Characterisation) -> str:
+def _section(name: str, found: asp.roughness.Characterisation) -> str:
     pictures = [plot for plot in SURFACE_PLOTS if plot.name in SHOWN]
     shown = "".join(
         f'<figure><img alt="{escape(plot.title)}" src="data:image/png;base64,'

@@ -91,7 +91,7 @@ def like_the_film(samples: int, points: int) -> dict[str, Any]:
 
 def curves(table: dict[str, Any], folder: Path) -> Curves:
     """Run the study ``table`` in ``folder``, or take what is there."""
-    data = asp.run_study(table, folder).dataset()
+    data = asp.studies.run_study(table, folder).dataset()
     found = (
         np.asarray(data[name].transpose("sample", "load")) for name in ("area_fraction_corrected", "area_fraction")
     )
@@ -114,7 +114,7 @@ def processor_seconds(table: dict[str, Any], load: np.ndarray, count: int) -> fl
         problem = {**table["problem"], "surface": {**table["problem"]["surface"], "seed": seed}}
         case = build(checked(problem))
         controls = [asp.MeanPressure(E_STAR * float(one)) for one in load]
-        asp.solve(case.problem, asp.History(controls), solver=case.solver, engine=asp.CpuEngine(1))
+        asp.solve(case.problem, asp.History(controls), solver=case.solver, engine=asp.engines.CpuEngine(1))
         spent.append(time.process_time() - started)
     return min(spent[1:])
 

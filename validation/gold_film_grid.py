@@ -62,7 +62,7 @@ def study(finest: int, *, cut: bool = False) -> dict[str, Any]:
 
 def levels(table: dict[str, Any], folder: Path) -> Levels:
     """Run the study ``table`` in ``folder``, or take what is there."""
-    data = asp.run_study(table, folder).dataset().transpose("load", "level", ...)
+    data = asp.studies.run_study(table, folder).dataset().transpose("load", "level", ...)
     names = ("area_fraction_corrected", "area_fraction", "mean_gap", "rms_height")
     found = (np.asarray(data[name], dtype=float) for name in names)
     return Levels(np.asarray(data["level"]), np.asarray(data["load"]) / E_STAR, *found)

@@ -77,7 +77,7 @@ def _contacts(surfaces: Sequence[asp.Surface], ratio: float, thickness: float) -
     law, solid, operator, rows = asp.Hardness(hardness(ratio, thickness)), body(ratio, thickness), None, []
     for surface in surfaces:
         problem = asp.ContactProblem(surface, solid, counter_body=SLIDER, law=law)
-        operator = operator or asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+        operator = operator or asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
         dry = asp.solve(problem, LOAD, operator=operator, keep=KEEP)
         wet = asp.solve(
             replace(problem, film=FILM),
@@ -85,7 +85,7 @@ def _contacts(surfaces: Sequence[asp.Surface], ratio: float, thickness: float) -
             operator=operator,
             keep=KEEP,
             state=dry.state,
-            rounds=asp.Rounds(most=1),
+            rounds=asp.solvers.Rounds(most=1),
             on_failure="return",
         )
         force = wet.require_menisci().relative_meniscus_force

@@ -82,8 +82,8 @@ def coefficients(ratio: float, nu: float, pixels: int) -> np.ndarray:
     x, y = (half * (2.0 * (np.arange(pixels + 2) + 0.5) / pixels - 1.0 - 2.0 / pixels) for half in (a, b))
     inside = (x[:, None] / a) ** 2 + (y[None, :] / b) ** 2 < 1.0
     punch = asp.Surface(np.where(inside, 0.0, -1e3), 2.0 * a / pixels, 2.0 * b / pixels)
-    problem = asp.ContactProblem(punch, body, counter_body=body, boundary=asp.Free(), friction=asp.FullStick())
-    motions = asp.Creepage(SMALL), asp.Creepage(0.0, SMALL), asp.Creepage(0.0, 0.0, SMALL)
+    problem = asp.ContactProblem(punch, body, counter_body=body, boundary=asp.Free(), friction=asp.friction.FullStick())
+    motions = asp.rolling.Creepage(SMALL), asp.rolling.Creepage(0.0, SMALL), asp.rolling.Creepage(0.0, 0.0, SMALL)
     along, across, spin = (asp.roll(problem, asp.Force(1e-3), motion) for motion in motions)
     size = np.sqrt(inside.sum() * punch.grid.pixel_area / np.pi)  # of the pixels, whose rim is a staircase
     return np.array([along.force_x, across.force_y, spin.force_y, spin.torque]) / SMALL / size ** np.array([2, 2, 3, 4])

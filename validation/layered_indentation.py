@@ -96,7 +96,7 @@ class Indented:
 def indented(ratio: float, load: float, across: int, cycles: int, thickness: float = 1.0) -> Indented:
     """The history of a body with one layer of the ``thickness`` in a_y."""
     solids = [asp.Elastic(scale * E, NU) for scale in (ratio, 1.0)]
-    laws = [asp.LinearHardening(scale * Y, HARDENING * scale * E) for scale in (ratio, 1.0)]
+    laws = [asp.plasticity.LinearHardening(scale * Y, HARDENING * scale * E) for scale in (ratio, 1.0)]
     shares = [*PUSHED, *LIFTED, *((*AGAIN, *LIFTED) * (cycles - 1))]
     first = len(PUSHED) - 1
     found = fem.indentation(
@@ -117,7 +117,7 @@ ONSETS = tuple(np.geomspace(0.85, 4.5, 16))
 def onsets(ratio: float, across: int) -> tuple[float, float]:
     """Loads in P_y at which the part of the body above the depth a_y and that below first flow."""
     solids = [asp.Elastic(scale * E, NU) for scale in (ratio, 1.0)]
-    laws = [asp.LinearHardening(scale * Y, HARDENING * scale * E) for scale in (ratio, 1.0)]
+    laws = [asp.plasticity.LinearHardening(scale * Y, HARDENING * scale * E) for scale in (ratio, 1.0)]
     body = asp.Layered([asp.Layer(solids[0], RADIUS)], solids[1])
     steps = [fem.Load(load * LOAD) for load in ONSETS]
     found = fem.indentation(

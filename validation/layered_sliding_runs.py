@@ -112,7 +112,7 @@ def track_of(case: Case) -> fem.Track:
     """The meshed half of the layered body."""
     solids = [asp.Elastic(scale * E, NU) for scale in (case.ratio, 1.0)]
     laws = [
-        asp.J2(solid, asp.LinearHardening(scale * Y, HARDENING * scale * E))
+        asp.plasticity.J2(solid, asp.plasticity.LinearHardening(scale * Y, HARDENING * scale * E))
         for solid, scale in zip(solids, (case.ratio, 1.0), strict=True)
     ]
     body = asp.Layered([asp.Layer(solids[0], RADIUS)], solids[1])

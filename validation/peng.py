@@ -78,12 +78,12 @@ def contacts(
 ) -> Iterator[asp.ContactResult]:
     """Contact of ``case`` on every one of ``shapes``, whose heights are in units of σ; one operator serves them all."""
     solid = body or coated(case.ratio)
-    law = asp.Hardness(case.cap * BASE.youngs_modulus) if capped else asp.HardWall()
+    law = asp.Hardness(case.cap * BASE.youngs_modulus) if capped else asp.plasticity.HardWall()
     operator = None
     for shape in shapes:
         surface = shape.with_heights(case.rms * shape.heights, f"rms height {case.rms:g} m")
         problem = asp.ContactProblem(surface, solid, boundary=boundary, law=law)
-        operator = operator or asp.prepare_operator(problem.compliance, problem.grid, boundary)
+        operator = operator or asp.solvers.prepare_operator(problem.compliance, problem.grid, boundary)
         load = asp.MeanPressure(case.load * BASE.youngs_modulus)
         yield asp.solve(problem, load, operator=operator, keep=asp.Keep(stiffness=False))
 

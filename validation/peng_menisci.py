@@ -79,7 +79,7 @@ def forces(surface: asp.Surface, ratio: float, x: float, *, rms: float, factors:
     tension = WATER * factors.stress * factors.height
     film = asp.LiquidFilm(surface_tension=tension, thickness=height, contact_angles=(ANGLE, ANGLE))
     load = asp.MeanPressure(x * rms / CORRELATION_LENGTH * BASE.youngs_modulus * factors.stress)
-    first = asp.solve(replace(problem, film=film), load, rounds=asp.Rounds(most=1), on_failure="return")
+    first = asp.solve(replace(problem, film=film), load, rounds=asp.solvers.Rounds(most=1), on_failure="return")
     try:
         steady = asp.solve(replace(problem, film=film), load).menisci.relative_meniscus_force
     except asp.NoSolutionError:

@@ -63,12 +63,12 @@ def profiles(ratio: float, friction: float, points: int) -> tuple[np.ndarray, np
     grid = asp.Grid((points, points), (SIDE, SIDE))
     middle = points // 2 * SIDE
     ends = (middle - 0.5 * SIDE, middle + 0.5 * SIDE)
-    patch = asp.PatchLoad(x=ends, y=ends, pressure=SIDE**-2, shear=(friction * SIDE**-2, 0.0))
+    patch = asp.stresses.PatchLoad(x=ends, y=ends, pressure=SIDE**-2, shear=(friction * SIDE**-2, 0.0))
     base = asp.Elastic(1.0, 0.3)
     body = asp.Layered([asp.Layer(asp.Elastic(ratio, 0.3), 1.0)], base)
-    loaded = asp.LoadedBody(body, asp.Tractions.of(grid, patch, boundary="free"))
-    surface = asp.stress(loaded, [0.0], on=asp.Section(y=middle)).sqrt_J2[0]
-    line = asp.stress(loaded, DEPTHS, on=asp.DepthProfile(middle + BESIDE * SIDE, middle)).sqrt_J2
+    loaded = asp.stresses.LoadedBody(body, asp.stresses.Tractions.of(grid, patch, boundary="free"))
+    surface = asp.stress(loaded, [0.0], on=asp.stresses.Section(y=middle)).sqrt_J2[0]
+    line = asp.stress(loaded, DEPTHS, on=asp.stresses.DepthProfile(middle + BESIDE * SIDE, middle)).sqrt_J2
     return surface, line
 
 

@@ -88,9 +88,11 @@ def sphere(figure: Figure) -> None:
         ax.set_ylabel(label)
     axes[2].invert_yaxis()
     axes[2].set_xlabel("x/a₀ (blue: rough, black: smooth)")
-    depths = asp.depths_through(rough_sphere.BODIES["layered"], rough_sphere.CONTACT_RADIUS, per_region=PER_REGION)
+    depths = asp.stresses.depths_through(
+        rough_sphere.BODIES["layered"], rough_sphere.CONTACT_RADIUS, per_region=PER_REGION
+    )
     for ax, (name, one) in zip(right.subplots(2, 1), results.items(), strict=True):
-        field = asp.stress(one, depths, on=asp.Section(y=float(one.problem.grid.coordinates()[1][0, row])))
+        field = asp.stress(one, depths, on=asp.stresses.Section(y=float(one.problem.grid.coordinates()[1][0, row])))
         plot_stress_section(field, ax, log=True)
         ax.set_title({"base": "base alone", "layered": "with the layer"}[name])
     right.subplots_adjust(left=0.14, right=0.8, hspace=0.35)
@@ -152,8 +154,8 @@ def stresses(figure: Figure, ratio: float) -> None:
     for row, (thickness, friction) in zip(figure.subplots(len(cases), 4), cases, strict=True):
         result = results[thickness]
         top = asp.stress(result, [0.0], friction=friction)
-        depths = asp.depths_through(result.problem.body, 1.5e-6, per_region=PER_REGION)
-        field = asp.stress(result, depths, on=asp.Section(y="max"), friction=friction)
+        depths = asp.stresses.depths_through(result.problem.body, 1.5e-6, per_region=PER_REGION)
+        field = asp.stress(result, depths, on=asp.stresses.Section(y="max"), friction=friction)
         x, y = (1e6 * at for at in _middle(result))
         _stress(row[0], 1e6 * top.x, 1e6 * top.y, top.sqrt_J2[0].T)
         row[0].set(

@@ -152,7 +152,7 @@ def _exact(pixels: int) -> tuple[Table, tuple[Claim, ...]]:
     return Table(about, head, tuple(rows)), claims
 
 
-def _scaled(factors: Factors, pixels: int) -> tuple[asp.ContactResult, asp.StressField]:
+def _scaled(factors: Factors, pixels: int) -> tuple[asp.ContactResult, asp.stresses.StressField]:
     heights = factors.height * RMS * surfaces(1, grid(pixels))[0].heights
     cell = grid(pixels, factors.length * SIDE)
     modulus, thickness = factors.modulus * BASE.youngs_modulus, factors.length * THICKNESS
@@ -182,7 +182,7 @@ def curve(ratio: float, count: int, stressed: int, values: Sequence[float] = VAL
 def _largest_root(result: asp.ContactResult) -> float:
     """Largest √J2 on planes down to one pixel, about the width of a contact."""
     depths = np.array((0.0, 0.1, 0.2, 0.35, 0.5, 1.0)) * result.problem.grid.spacing[0]
-    return max(float(field.sqrt_J2.max()) for field in asp.stress_planes(result, depths))
+    return max(float(field.sqrt_J2.max()) for field in asp.stresses.stress_planes(result, depths))
 
 
 def published(ratio: float, fewest: int = FEWEST) -> Curve:

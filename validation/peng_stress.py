@@ -110,7 +110,7 @@ def _coupled(result: asp.ContactResult) -> tuple[float, float]:
         replace(result.problem, friction=asp.Coulomb(FRICTIONS[-1])),
         result.control,
         keep=asp.Keep(stiffness=False),
-        rounds=asp.Rounds(tolerances={"sliding": 1e-4}),
+        rounds=asp.solvers.Rounds(tolerances={"sliding": 1e-4}),
     )
     return sliding.area_fraction / result.area_fraction - 1.0, sliding.max_pressure / result.max_pressure - 1.0
 

@@ -45,7 +45,7 @@ def sphere(across: int) -> tuple[Table, tuple[Claim, ...]]:
     Y = 1e-3 * E
     depth, radius, force = yield_scales(Y)
     steps = [ratio * depth for ratio in (0.8, 1.2, *SPHERE)]
-    law = asp.LinearHardening(Y, 1e-4 * E)
+    law = asp.plasticity.LinearHardening(Y, 1e-4 * E)
     found = fem.indentation(
         asp.Elastic(E, NU), fem.Paraboloid(R), steps, plasticity=law, resolution=fem.Resolution(across=across)
     )
@@ -73,7 +73,7 @@ def layered(across: int) -> tuple[Table, tuple[Claim, ...]]:
     for ratio in dict.fromkeys(ratio for ratio, _ in LAYERED):
         wanted = [deep for one, deep in LAYERED if one == ratio]
         layer = asp.Elastic(ratio * E, NU)
-        laws = [asp.LinearHardening(ratio * Y, 1e-5 * E), asp.LinearHardening(Y, 1e-5 * E)]
+        laws = [asp.plasticity.LinearHardening(ratio * Y, 1e-5 * E), asp.plasticity.LinearHardening(Y, 1e-5 * E)]
         body = asp.Layered([asp.Layer(layer, radius)], asp.Elastic(E, NU))
         steps = [one * depth for one in (1.0, 2.0, *wanted)]
         resolution = fem.Resolution(across=across)
@@ -115,8 +115,8 @@ def both_methods(across: int) -> tuple[Table, tuple[Claim, ...]]:
     rows, loads, volumes = [], [], []
     for ratio, deepest in BOTH.items():
         elastic, base = asp.Elastic(ratio * E, NU), asp.Elastic(E, NU)
-        hardenings = [asp.LinearHardening(ratio * Y, 1e-5 * E), asp.LinearHardening(Y, 1e-5 * E)]
-        laws = tuple(asp.J2(solid, law) for solid, law in zip((elastic, base), hardenings, strict=True))
+        hardenings = [asp.plasticity.LinearHardening(ratio * Y, 1e-5 * E), asp.plasticity.LinearHardening(Y, 1e-5 * E)]
+        laws = tuple(asp.plasticity.J2(solid, law) for solid, law in zip((elastic, base), hardenings, strict=True))
         body = asp.Layered([asp.Layer(elastic, radius)], base)
         steps = [one * depth for one in (1.0, 2.0, 3.0, deepest)]
         element = fem.indentation(
@@ -165,7 +165,10 @@ def to_full_plasticity(across: int) -> tuple[Table, tuple[Claim, ...], tuple[Pub
     """Loads of fig. 10 on E/Y = 685, perfectly plastic and hardening with the exponent 0.3."""
     Y = E / 685.0
     _, radius, force = yield_scales(Y)
-    laws = {"perfectly plastic": asp.LinearHardening(Y, 3e-4 * E), "n = 0.3": asp.Swift(Y, Y / E, 0.3)}
+    laws = {
+        "perfectly plastic": asp.plasticity.LinearHardening(Y, 3e-4 * E),
+        "n = 0.3": asp.plasticity.Swift(Y, Y / E, 0.3),
+    }
     steps = [
         fem.Load(ratio * force)
         for ratio in (0.9, 2.0, 5.0, 9.0, LOADS[0], 30.0, 60.0, LOADS[1], 150.0, LOADS[2], 250.0, LOADS[3])

@@ -104,7 +104,7 @@ def rollers(body: asp.Elastic | asp.Layered, points: int) -> tuple[asp.ContactPr
 def curve(body: asp.Elastic | asp.Layered, at: np.ndarray, points: int) -> np.ndarray:
     """Force over the friction limit at creepages ``at`` over μa/R."""
     problem, load = rollers(body, points)
-    found = asp.creep_curve(problem, load, at * UNIT)
+    found = asp.rolling.creep_curve(problem, load, at * UNIT)
     return np.asarray(found.longitudinal_force / found.friction_limit)
 
 
@@ -124,7 +124,7 @@ def creepage_at(s: float, points: int) -> float:
 def stick_at(s: float, points: int) -> float:
     """Share of the contact that sticks at Carter's creepage for ``s``."""
     problem, load = rollers(STEEL, points)
-    return 1.0 - asp.roll(problem, load, asp.Creepage(UNIT * (1.0 - np.sqrt(1.0 - s)))).slip_area_fraction
+    return 1.0 - asp.roll(problem, load, asp.rolling.Creepage(UNIT * (1.0 - np.sqrt(1.0 - s)))).slip_area_fraction
 
 
 def lubkin(c: float) -> tuple[float, float]:

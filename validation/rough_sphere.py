@@ -134,8 +134,8 @@ def seen(result: asp.ContactResult) -> Seen:
     """What is seen of one contact."""
     largest: list[tuple[float, float]] = []
 
-    def watched() -> Iterator[asp.StressField]:
-        for field in asp.stress_planes(result, np.array(DEPTHS) * CONTACT_RADIUS):
+    def watched() -> Iterator[asp.stresses.StressField]:
+        for field in asp.stresses.stress_planes(result, np.array(DEPTHS) * CONTACT_RADIUS):
             largest.append((float(field.sqrt_J2.max()) / HERTZ, field.planes[0].depth / CONTACT_RADIUS))
             yield field
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from page import Claim, Page, Table, write_page
 
-from asperity.physics import dynamics as dyn
+from asperity import dynamics as dyn
 from asperity.theories import flutter_friction
 
 C_N = 2.8e18

@@ -63,7 +63,7 @@ def expected() -> dict[str, float]:
     }
 
 
-MEASURES: dict[str, Callable[[asp.Characterisation], float]] = {
+MEASURES: dict[str, Callable[[asp.roughness.Characterisation], float]] = {
     "rms height": lambda f: f.heights.Sq,
     "kurtosis": lambda f: f.heights.Sku,
     "β_e": lambda f: f.spatial.beta_e_x,

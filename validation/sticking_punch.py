@@ -72,8 +72,8 @@ def _load(body: asp.Elastic, grid: asp.Grid, under: np.ndarray, *, sticks: bool)
     def displaced(unknowns: np.ndarray) -> np.ndarray:
         fields = np.zeros((3, *grid.shape))
         fields[:parts, under] = unknowns.reshape(parts, count)
-        tractions = asp.Tractions(grid, fields[0], asp.ShearTraction(fields[1], fields[2]), "free")
-        moved = asp.stress(asp.LoadedBody(body, tractions), [0.0], displacement=True).displacement
+        tractions = asp.stresses.Tractions(grid, fields[0], asp.stresses.ShearTraction(fields[1], fields[2]), "free")
+        moved = asp.stress(asp.stresses.LoadedBody(body, tractions), [0.0], displacement=True).displacement
         assert moved is not None
         return np.concatenate([part[0][under] for part in (moved.z, moved.x, moved.y)[:parts]])
 

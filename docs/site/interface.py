@@ -1,100 +1,91 @@
-"""Pages of the Python interface: every public name with its docstring, by subject."""
+"""Pages of the Python interface: one for each public module, with every name and its docstring, and a table of the names at the top."""
 
 from __future__ import annotations
 
 import inspect
 from types import ModuleType
 
+from theories import escaped
+
 import asperity
-
-SUBJECTS = {
-    "surfaces": ("Surfaces", "Read, prepare, pair and characterise height maps.", ("surfaces",)),
-    "solids": ("Bodies", "Elastic, layered and graded bodies; materials and liquids.", ("solids",)),
-    "contact": ("Contact", "State a problem, prescribe a load, solve, and read the result.", ("contact",)),
-    "physics": (
-        "Physics of the interface",
-        "Adhesion, menisci, friction, hardness, plastic flow, rolling, bodies that relax.",
-        ("physics",),
-    ),
-    "stress": ("Stress", "Stresses below the surface, and where a body yields first.", ("stress",)),
-    "studies": (
-        "Documents, studies, comparison",
-        "Run documents and campaigns; compare theories with the solution.",
-        ("run", "studies"),
-    ),
-    "files": ("Files, pictures and reports", "Save, load, export, draw and report.", ("io", "plots", "report")),
-    "core": ("Grids, engines, errors", "What everything else rests on.", ("core",)),
-}
-"""Pages of names: title, what is on them, and the packages whose names they hold."""
-
-MODULES = {
-    "generate": ("Generated surfaces", "Functions that make surfaces, and the spectra and statistics they take."),
-    "roughness": ("Roughness", "Every quantity of a surface, one function or record each."),
-    "solvers": ("Solvers", "Numerical methods for the normal contact."),
-    "theories": (
-        "Theories",
-        "Closed-form theories; their formulas, inputs and limits are listed under [all theories](../theories.md).",
-    ),
-}
-"""Pages of the modules that are public names."""
 
 
 def pages() -> dict[str, str]:
     """Every page by its place on the site."""
-    found = {}
-    home = {name: getattr(asperity, name) for name in asperity.__all__ if not name.startswith("_")}
-    packages = {name: _package(name, value) for name, value in home.items()}
-    for page, (title, about, wanted) in SUBJECTS.items():
-        names = [name for name, value in home.items() if packages[name] in wanted and not isinstance(value, ModuleType)]
-        found[f"reference/api/{page}.md"] = _page(title, about, "asperity", names)
-    for name, (title, about) in MODULES.items():
-        module = home[name]
-        names = [one for one in sorted(module.__all__) if getattr(module, one) is not home.get(one)]
-        found[f"reference/api/{name}.md"] = _page(title, about, f"asperity.{name}", names)
-    rows = [f"| [{title}]({page}.md) | {about} |" for page, (title, about, *_) in (SUBJECTS | MODULES).items()]
-    found["reference/api/index.md"] = (
-        INDEX + "\n".join(rows) + "\n\n```{toctree}\n:hidden:\n\n" + "\n".join((*SUBJECTS, *MODULES)) + "\n```\n"
-    )
+    modules = {name: getattr(asperity, name) for name in asperity.__all__}
+    top = [name for name in dir(asperity) if asperity._HOME.get(name)]
+    place = {name: next((one for one, module in modules.items() if name in module.__all__), "") for name in top}
+    alone = [name for name, module in place.items() if not module]
+    found = {f"reference/api/{name}.md": _page(name, module, top) for name, module in modules.items()}
+    rows = [f"| [{_title(module)}]({name}.md) | `asp.{name}` | {_about(module)} |" for name, module in modules.items()]
+    names = [f"| `{name}` | {_where(place[name])} | {_first(getattr(asperity, name))} |" for name in top]
+    cited = _documented("asperity", dict.fromkeys(alone, "function"))
+    contents = ["```{toctree}", ":hidden:", "", *modules, "```", ""]
+    found["reference/api/index.md"] = "\n".join([INDEX, *rows, "", TOP, *names, "", *cited, *contents])
     return found
 
 
 INDEX = """# Python interface
 
-`import asperity as asp`: every name below is `asp.NAME`. Numbers are in SI units, arrays `[x, y]`
+`import asperity as asp`: every name stands in a module of its subject, as `asp.MODULE.NAME`. Numbers are in SI units, arrays `[x, y]`
 ([conventions](../conventions.md)).
 
-| | |
-|---|---|
-"""
+| subject | module | |
+|---|---|---|"""
+
+TOP = """## Names at the top
+
+What most work needs stands at the top too: `asp.solve` is `asp.contact.solve`.
+
+| name | of | |
+|---|---|---|"""
+
+SEE = {"theories": "Their formulas, inputs and limits are listed under [all theories](../theories.md)."}
+"""What pages link to, by module."""
 
 
-def _package(name: str, value: object) -> str:
-    """The folder of the package that a public name comes from."""
-    if name == "Roughness":
-        return "surfaces"
-    _, package, *rest = getattr(value, "__module__", "asperity.core").split(".")
-    return "stress" if package == "physics" and rest[0] == "stress" else package
+def _title(module: ModuleType) -> str:
+    return (module.__doc__ or "").partition(":")[0]
 
 
-def _page(title: str, about: str, module: str, names: list[str]) -> str:
-    owner = asperity if module == "asperity" else getattr(asperity, module.rpartition(".")[2])
-    kinds = {name: _kind(getattr(owner, name)) for name in names}
-    lines = [f"# {title}", "", about, ""]
-    tables = [name for name, kind in kinds.items() if kind == "data"]
-    if tables:
-        lines += [f"Tables and constants: {', '.join(f'`{name}`' for name in tables)}.", ""]
-    documented = {name: kind for name, kind in kinds.items() if kind != "data"}
-    lines += [
+def _about(module: ModuleType) -> str:
+    return escaped((module.__doc__ or "").splitlines()[0].partition(": ")[2])
+
+
+def _where(module: str) -> str:
+    return f"[{module}]({module}.md)" if module else "–"
+
+
+def _first(item: object) -> str:
+    return escaped(inspect.cleandoc(item.__doc__ or "").splitlines()[0])
+
+
+def _page(name: str, module: ModuleType, top: list[str]) -> str:
+    kinds = {one: _kind(getattr(module, one)) for one in sorted(module.__all__)}
+    about, *more = (module.__doc__ or "").split("\n\n")
+    lines = [f"# {_title(module)}", "", f"`asperity.{name}`: {escaped(' '.join(about.split()).partition(': ')[2])}", ""]
+    lines += [text for part in more for text in (escaped(" ".join(part.split())), "")]
+    lines += [SEE[name], ""] if name in SEE else []
+    both = [f"`{one}`" for one in kinds if one in top]
+    lines += [f"At the top too, as `asp.NAME`: {', '.join(both)}.", ""] if both else []
+    tables = [f"`{one}`" for one, kind in kinds.items() if kind == "data"]
+    lines += [f"Tables, constants and types: {', '.join(tables)}.", ""] if tables else []
+    documented = {one: kind for one, kind in kinds.items() if kind != "data"}
+    return "\n".join([*lines, *_documented(f"asperity.{name}", documented)])
+
+
+def _documented(module: str, kinds: dict[str, str]) -> list[str]:
+    lines = [
         "```{eval-rst}",
         ".. autosummary::",
         "   :nosignatures:",
         "",
-        *(f"   ~{module}.{name}" for name in documented),
+        *(f"   ~{module}.{name}" for name in kinds),
         "",
     ]
-    for name, kind in documented.items():
+    for name, kind in kinds.items():
         lines += [f".. auto{kind}:: {module}.{name}", *([] if kind == "function" else ["   :members:"]), ""]
-    return "\n".join([*lines, "```", ""])
+    return [*lines, "```", ""]
 
 
 def _kind(value: object) -> str:

@@ -31,7 +31,7 @@ def draw(path: Path) -> None:
     disk = asp.Layered([asp.Layer(asp.material("DLC"), COATING)], base=asp.material("bearing steel"))
     result = asp.solve(asp.ContactProblem(surface, disk), asp.MeanPressure(LOAD))
     depths = np.concatenate([np.linspace(0.0, COATING, 24), np.linspace(1.05 * COATING, 4.0 * COATING, 40)])
-    section = asp.stress(result, depths, on=asp.Section(y="max"), friction=FRICTION)
+    section = asp.stress(result, depths, on=asp.stresses.Section(y="max"), friction=FRICTION)
 
     figure = plt.figure(figsize=(12.0, 3.7), layout="constrained")
     axes = figure.subplots(1, 3, width_ratios=(1.0, 1.0, 1.25))

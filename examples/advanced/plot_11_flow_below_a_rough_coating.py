@@ -14,12 +14,12 @@ import asperity as asp
 # %%
 # A film of 200 nm with four times the yield stress of the steel below; 48 x 48 points, 0.2 µm apart.
 film = asp.Elastic(300e9, 0.25, asp.Strength(yield_stress=1.6e9))
-steel = asp.Elastic(200e9, 0.3, asp.Strength(hardening=asp.Swift(400e6, 0.002, 0.2)))
+steel = asp.Elastic(200e9, 0.3, asp.Strength(hardening=asp.plasticity.Swift(400e6, 0.002, 0.2)))
 body = asp.Layered([asp.Layer(film, 200e-9)], steel)
 grid = asp.Grid((48, 48), (0.2e-6, 0.2e-6))
 spectrum = asp.generate.GaussianAutocorrelation(20e-9, 1.2e-6)
 surface = asp.generate.gaussian(grid, spectrum, seed=4)
-law = asp.PlasticFlow([asp.plastic_solid(film), asp.plastic_solid(steel)], cells=16)
+law = asp.PlasticFlow([asp.plasticity.plastic_solid(film), asp.plasticity.plastic_solid(steel)], cells=16)
 
 # %%
 # Two steps to a mean pressure of 150 MPa, then the load is taken off; and the elastic contact beside it.

@@ -39,7 +39,7 @@ for every in (2, 4, 8, 16):
     seen = asp.Surface(fine.heights[::every, ::every], every * fine.dx, periodic=True)
     result = asp.solve(asp.ContactProblem(seen, asp.material("silicon")), asp.MeanPressure(200e6))
     area.append(result.area_fraction_corrected)
-    product.append(area[-1] * asp.rms_slope(seen))
+    product.append(area[-1] * asp.roughness.rms_slope(seen))
 print("area times rms slope:", *(f"{value:.4f}" for value in product))
 
 figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")

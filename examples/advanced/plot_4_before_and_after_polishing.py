@@ -24,7 +24,7 @@ ground = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(20e-9,
 fresh = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(0.5e-9, 0.6e-6), seed=6)
 cut = ground.with_heights(np.minimum(ground.heights, 10e-9 + fresh.heights), "polished")
 for surface, name in ((ground, "before.txt"), (cut, "after.txt")):
-    asp.save_surface(surface, folder / name)
+    asp.files.save_surface(surface, folder / name)
 
 # %%
 # **Compare.** Skewness and peak height tell polishing from a mere reduction of the rms height.

@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity as asp
-from asperity.physics import dynamics as dyn
+from asperity import dynamics as dyn
 from asperity.physics.dynamics.figures import plot_frame, plot_stability
 
 # %%

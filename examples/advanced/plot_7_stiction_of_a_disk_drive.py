@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity as asp
-from asperity.physics import dynamics as dyn
+from asperity import dynamics as dyn
 
 # %%
 # A disk with a film of perfluoropolyether, pressed with the mean pressure of a slider.

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity as asp
-from asperity.physics import dynamics as dyn
+from asperity import dynamics as dyn
 
 # %%
 # A ground surface on steel, loaded up to 30 MPa and unloaded: once elastic, once with the pressure limited by the hardness.
@@ -20,7 +20,7 @@ surface = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(0.5e-
 up = np.geomspace(3e6, 3e7, 8)
 down = up[-2::-1]
 curves = {}
-for name, law in (("elastic", asp.HardWall()), ("plastic", asp.Hardness(2e9))):
+for name, law in (("elastic", asp.plasticity.HardWall()), ("plastic", asp.Hardness(2e9))):
     problem = asp.ContactProblem(surface, asp.material("steel"), law=law)
     history = asp.solve(problem, asp.History([asp.MeanPressure(p) for p in (*up, *down)]))
     curves[name] = np.array([step.approach for step in history.steps])

@@ -34,7 +34,7 @@ rows = "\n".join(" ".join(f"{height:.0f}" for height in line) for line in measur
 # **Prepare.** Every step returns a new surface and is written into its history. The solver repeats the map in both
 # directions; ``periodised`` removes the cliffs that would stand where its borders meet.
 scan = asp.read(folder / "scan.sdf")
-ready = asp.periodised(asp.levelled(asp.line_corrected(scan, "x")))
+ready = asp.periodised(asp.levelled(asp.surfaces.line_corrected(scan, "x")))
 print(*ready.origin.history, sep="\n")
 
 # %%

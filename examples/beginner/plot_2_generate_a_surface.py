@@ -43,7 +43,7 @@ for shortest in (1e-6, 0.5e-6, 0.25e-6):
         amplitude=asp.generate.RmsHeight(10e-9), hurst=0.8, rolloff_wavelength=2e-6, shortest_wavelength=shortest
     )
     rough = asp.generate.gaussian(grid, finer, seed=3, variant="fixed")
-    slopes[shortest] = asp.rms_slope(rough)
-    print(f"waves down to {1e6 * shortest:.2f} µm: rms height {1e9 * asp.rms_height(rough):.2f} nm, "
+    slopes[shortest] = asp.roughness.rms_slope(rough)
+    print(f"waves down to {1e6 * shortest:.2f} µm: rms height {1e9 * asp.roughness.rms_height(rough):.2f} nm, "
           f"rms slope {slopes[shortest]:.3f}")  # fmt: skip
 plt.show()

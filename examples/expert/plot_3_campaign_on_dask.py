@@ -41,11 +41,11 @@ except ImportError:
     print(
         "dask is not installed (pip install 'asperity[dask]'): a worker process of this machine does the work instead."
     )
-    campaign = asp.run_study(study, folder, workers=1)
+    campaign = asp.studies.run_study(study, folder, workers=1)
 else:
     own = {"dashboard_address": "127.0.0.1:0", "worker_dashboard_address": "127.0.0.1:0"}  # pages for this machine only
     with LocalCluster(n_workers=1, processes=False, **own) as cluster:
-        campaign = asp.run_study(study, folder, dask=cluster.scheduler_address)
+        campaign = asp.studies.run_study(study, folder, dask=cluster.scheduler_address)
 
 # %%
 # One labelled dataset in SI units. A stiff coating carries the load on less area, the more the thicker it is.

@@ -27,7 +27,7 @@ def first_yields(body, deepest):
     """Report of first yield for every friction; stresses are linear in the friction, so that two fields give all."""
     problem = asp.ContactProblem(cylinder, body, boundary=asp.FreeLine())
     result = asp.solve(problem, asp.Force(float(hertz.load)), keep=asp.Keep(stiffness=False))
-    depths = asp.depths_through(body, deepest=deepest, per_region=8)
+    depths = asp.stresses.depths_through(body, deepest=deepest, per_region=8)
     none, full = (asp.stress(result, depths, friction=mu) for mu in (0.0, 1.0))
     return [asp.first_yield(replace(none, tensor=none.tensor * (1.0 - mu) + full.tensor * mu)) for mu in friction]
 

@@ -27,7 +27,7 @@ def curve(t):
     body = asp.Layered([asp.Layer(coating, t * a)], steel) if t else steel
     problem = asp.ContactProblem(sphere, body, boundary=asp.Free())
     result = asp.solve(problem, asp.Force(float(hertz.load)), keep=asp.Keep(stiffness=False))
-    return asp.shakedown(result, asp.depths_through(body, (t + 0.9) * a, per_region=6), friction)
+    return asp.stresses.shakedown(result, asp.stresses.depths_through(body, (t + 0.9) * a, per_region=6), friction)
 
 
 # %%
@@ -47,6 +47,6 @@ for mu, low, high, found in zip(
 # the coating sets the limit.
 figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
 plot_shakedown_curve(curves[0], axes[0], per=1e9 / k, label="peak pressure / k, bare steel")
-found = asp.shakedown_map(thickness, curves)
+found = asp.stresses.shakedown_map(thickness, curves)
 plot_shakedown_map(found, axes[1], across="coating thickness / contact radius of bare steel")
 plt.show()

@@ -20,8 +20,8 @@ result = asp.solve(asp.ContactProblem(surface, coated), asp.MeanPressure(200e6))
 # %%
 # A vertical section through the highest pressure. The von Mises stress jumps at the interface, where a stiff solid is bent
 # with a compliant one; the shear stress does not jump, and is what the bond has to hold.
-depths = asp.depths_through(coated, deepest=0.8e-6, per_region=12)
-section = asp.stress(result, depths, on=asp.Section(y="pressure"), friction=0.3)
+depths = asp.stresses.depths_through(coated, deepest=0.8e-6, per_region=12)
+section = asp.stress(result, depths, on=asp.stresses.Section(y="pressure"), friction=0.3)
 figure, axes = plt.subplots(2, 1, figsize=(9, 5.5), layout="constrained")
 section.plot("von_mises", axes[0])
 section.plot("shear_xz", axes[1])

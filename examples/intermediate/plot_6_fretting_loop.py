@@ -22,7 +22,7 @@ problem = asp.ContactProblem(surface, coated, counter_body=coated, friction=asp.
 # %%
 # Press, move to 0.3 nm, back to -0.3 nm and to 0.3 nm again, at constant load.
 load = asp.MeanPressure(100e6)
-history = asp.solve(problem, asp.History(asp.shear_cycles(load, asp.Shift(0.3e-9), cycles=1, steps=8)))
+history = asp.solve(problem, asp.History(asp.friction.shear_cycles(load, asp.Shift(0.3e-9), cycles=1, steps=8)))
 loop = loop_of(history.steps)
 slipping = history.steps[7].stick_slip.slipping.sum() / history.last.contact.sum()
 print(f"at the end of the first shift {100 * slipping:.0f} % of the contact slips")
@@ -49,7 +49,7 @@ history.plot("dissipation", axes[2])
 amplitudes = np.array([0.1e-9, 0.2e-9, 0.4e-9])
 heat = []
 for amplitude in amplitudes:
-    steps = asp.shear_cycles(load, asp.Shift(amplitude), cycles=1, steps=12)
+    steps = asp.friction.shear_cycles(load, asp.Shift(amplitude), cycles=1, steps=12)
     heat.append(loop_of(asp.solve(problem, asp.History(steps)).steps).cycle_energies[0])
 exponents = np.diff(np.log(heat)) / np.diff(np.log(amplitudes))
 print("heat grows with the amplitude to the power", ", ".join(f"{power:.2f}" for power in exponents))

@@ -19,13 +19,13 @@ from asperity.physics.adhesion.stickiness import stickiness
 spectrum = asp.generate.GaussianAutocorrelation(45e-9, 1.2e-6)
 surface = asp.generate.gaussian(asp.Grid((96, 96), (0.07e-6, 0.07e-6)), spectrum, seed=3)
 law = asp.ExponentialAdhesion(work=0.05, range=45e-9)
-cycle = asp.adhesion_cycle(farthest=-200e-9, deepest=60e-9, steps=12)
+cycle = asp.adhesion.adhesion_cycle(farthest=-200e-9, deepest=60e-9, steps=12)
 
 loops, histories = {}, {}
 for name, modulus in (("soft, 7 MPa", 7e6), ("stiff, 70 MPa", 70e6)):
     problem = asp.ContactProblem(surface, asp.Elastic(modulus, 0.49), adhesion=law)
     histories[name] = asp.solve(problem, asp.History(cycle))
-    loops[name] = asp.adhesion_loop(histories[name].steps)
+    loops[name] = asp.adhesion.adhesion_loop(histories[name].steps)
     found, loop = histories[name].last.adhesion, loops[name]
     criteria = stickiness(problem)
     print(f"{name}: {found.pixels_per_length:.1f} pixels in the cohesive length, resolved: {found.resolved}")

@@ -30,7 +30,7 @@ def rollers(body):
 # Creep-force curves: plain rollers, with Carter beside them, and such with half a contact width of a soft layer.
 load, creepages = asp.Force(1e5), np.linspace(0.1, 1.4, 8) * mu * a / R
 soft = asp.Layered([asp.Layer(asp.Elastic(70e9, 0.3), 0.5 * a)], base=steel)
-plain, layered = (asp.creep_curve(rollers(body), load, creepages) for body in (steel, soft))
+plain, layered = (asp.rolling.creep_curve(rollers(body), load, creepages) for body in (steel, soft))
 carter = plain.theory("carter")
 
 # %%
@@ -39,7 +39,7 @@ n, wave = 80, np.arange(3, 20)
 phase = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, wave.size)
 heights = np.sin(2.0 * np.pi * wave * np.arange(n)[:, None] / n + phase) @ wave**-1.3
 rough = asp.Surface(0.1e-6 / heights.std() * heights[:, None], dx, 1.0)
-rolled = asp.roll_rough(rollers(steel), load, asp.Creepage(creepages[2]), rough)
+rolled = asp.rolling.roll_rough(rollers(steel), load, asp.rolling.Creepage(creepages[2]), rough)
 mean, spread = rolled.mean("force_x"), rolled.deviation("force_x")
 share = rolled.mean("contact_area") / (2.0 * a)
 print(f"contact on {100 * share:.0f} % of the width, {mean / plain.longitudinal_force[2]:.3f} of the smooth force")

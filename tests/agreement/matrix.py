@@ -149,8 +149,8 @@ def rough_and_attractive(share: float) -> float:
         amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=96.0, shortest_wavelength=12.0
     )
     surface, body = asp.generate.gaussian(asp.Grid((192, 192), (1.0, 1.0)), spectrum, seed=2), asp.Elastic(0.91, 0.3)
-    unit = asp.ContactProblem(surface, body, adhesion=asp.DugdaleAdhesion(1.0, 0.25, 1.0))
-    law = asp.DugdaleAdhesion(stickiness(unit).share_of_limit / share, 0.25, 1.0)
+    unit = asp.ContactProblem(surface, body, adhesion=asp.adhesion.DugdaleAdhesion(1.0, 0.25, 1.0))
+    law = asp.adhesion.DugdaleAdhesion(stickiness(unit).share_of_limit / share, 0.25, 1.0)
     deepest = 0.7 * float(surface.heights.max() - surface.heights.mean())
     steps = [asp.FixedGrips(float(approach)) for approach in np.linspace(0.0, deepest, 8)]
     found = asp.solve(asp.ContactProblem(surface, body, adhesion=law), asp.History(steps))

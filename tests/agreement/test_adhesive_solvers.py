@@ -177,7 +177,7 @@ def test_attraction_menisci_and_force_add_up(dry, thickness, load):
     """The force wanted is met, and at the approach found the contact held there bears it but for pixels of liquid."""
     film = asp.LiquidFilm(surface_tension=0.0728, thickness=thickness * APPROACH)
     problem = replace(dry, film=film)
-    control = asp.Force(load * FORCE) if load > 0.0 else asp.Pull(-load * FORCE)
+    control = asp.Force(load * FORCE) if load > 0.0 else asp.contact.Pull(-load * FORCE)
     loaded = asp.solve(problem, control)
     pulled = loaded.adhesion.attractive_force + loaded.menisci.meniscus_force
     error = 1e-4 * max(abs(load) * FORCE, loaded.menisci.meniscus_force)
@@ -207,7 +207,7 @@ def test_a_machine_feels_the_menisci():
 def test_a_pull_beyond_attraction_and_menisci_is_refused():
     problem = replace(rough(24, 1, asp.Periodic()), film=asp.LiquidFilm(surface_tension=0.02, thickness=APPROACH))
     with refused(NoSolutionError, "force", f"{-30.0 * FORCE:.6g}"):
-        asp.solve(problem, asp.Pull(30.0 * FORCE))
+        asp.solve(problem, asp.contact.Pull(30.0 * FORCE))
 
 
 def test_stick_and_slip_joins():
@@ -226,18 +226,18 @@ def test_line_contact_pulls_off():
     law = ExponentialAdhesion.of_strength(WORK, 3.0 * (E_STAR**2 * WORK / RADIUS) ** (1.0 / 3.0))
     problem = asp.ContactProblem(surface, BODY, boundary=asp.FreeLine(), adhesion=law)
     jkr = 3.0 * (np.pi * E_STAR * WORK**2 * RADIUS / 16.0) ** (1.0 / 3.0)
-    history = asp.History([asp.Unloaded(), asp.Pull(0.5 * jkr), asp.Pull(0.9 * jkr)])
+    history = asp.History([asp.Unloaded(), asp.contact.Pull(0.5 * jkr), asp.contact.Pull(0.9 * jkr)])
     assert asp.solve(problem, history).converged
     with refused(NoSolutionError, "Step 4 of the history: force"):
-        asp.solve(problem, asp.History([*history, asp.Pull(1.15 * jkr)]))
+        asp.solve(problem, asp.History([*history, asp.contact.Pull(1.15 * jkr)]))
 
 
 def test_what_adhesion_does_not_bear_is_refused():
     problem = sphere(16, 6.0, EXPONENTIAL)
     with refused(NoSolutionError, "force"):
-        asp.solve(problem, asp.Pull(3.0 * FORCE))
+        asp.solve(problem, asp.contact.Pull(3.0 * FORCE))
     dry = sphere(16, 6.0, EXPONENTIAL, adhesion=None)
-    for control in (asp.Pull(FORCE), asp.FixedGrips(APPROACH)):
+    for control in (asp.contact.Pull(FORCE), asp.FixedGrips(APPROACH)):
         with refused(InputError, "control of a problem without adhesion"):
             asp.solve(dry, control)
     with refused(InputError, "law of a contact with the adhesion Lennard-Jones 3-9"):

@@ -17,11 +17,11 @@ from reference_data import FOLDER, reference
 
 import asperity as asp
 from asperity.contact.operators import prepare_operator
-from asperity.contact.solvers import ContactQP, DenseActiveSet, FixedMean, run
 from asperity.contact.solvers.protocol import feasible_start
 from asperity.core.arrays import RealArray
 from asperity.physics.friction.sliding import ShearKernel
 from asperity.physics.menisci.film import wetting
+from asperity.solvers import ContactQP, DenseActiveSet, FixedMean, run
 
 BODY = asp.Elastic(0.91, 0.2)
 MU = 0.8
@@ -36,12 +36,12 @@ def film(base: float, top: float) -> asp.Layered:
 def case(name: str) -> asp.ContactProblem:
     bodies = {"soft film": film(0.8, 0.3), "hard film": film(0.3, 0.6)}
     body = bodies.get(name, BODY)
-    laws = {"path": asp.Hardness(0.4)} | {key: asp.LayeredHardness(found) for key, found in bodies.items()}
+    laws = {"path": asp.Hardness(0.4)} | {key: asp.plasticity.LayeredHardness(found) for key, found in bodies.items()}
     liquid = asp.LiquidFilm(surface_tension=0.02, thickness=0.4, contact_angles=(0.0, 0.0))
     return asp.ContactProblem(
         rough((16, 12), 2),
         body,
-        law=laws.get(name, asp.HardWall()),
+        law=laws.get(name, asp.plasticity.HardWall()),
         film=liquid if name == "menisci" else None,
         friction=asp.Coulomb(MU, 0.3) if name == "sliding" else None,
     )
@@ -61,7 +61,9 @@ class Dense:
 
     def __init__(self, problem: asp.ContactProblem) -> None:
         self.problem, self.profile = problem, problem.profile()
-        self.operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=asp.CpuEngine(1))
+        self.operator = prepare_operator(
+            problem.compliance, problem.grid, problem.boundary, engine=asp.engines.CpuEngine(1)
+        )
 
     def solved(self, mean: float, lift: RealArray | float = 0.0, cap: RealArray | float = np.inf) -> Solved:
         heights = self.profile - lift

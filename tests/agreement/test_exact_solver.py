@@ -10,9 +10,9 @@ from catalogue import EXACT, MODULUS, feasible_start
 
 from asperity import Grid
 from asperity.contact.operators import FreeOperator, PeriodicOperator
-from asperity.contact.solvers import ContactQP, DenseActiveSet, FixedMean, FixedOffset, run
 from asperity.contact.solvers.reference.dense import Lemke, all_at_once, dense_form, one_by_one
 from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import ContactQP, DenseActiveSet, FixedMean, FixedOffset, run
 
 SHAPES = ((1, 4), (2, 3), (5, 1), (2, 4))
 

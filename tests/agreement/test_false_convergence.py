@@ -12,9 +12,9 @@ from catalogue import feasible_start
 import asperity as asp
 from asperity.contact.operators import prepare_operator
 from asperity.contact.solve import doubted
-from asperity.contact.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, FixedOffset, run
 from asperity.core.arrays import RealArray
 from asperity.solids.compliance.halfspace import Compliance, HalfSpace
+from asperity.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, FixedOffset, run
 
 LARGEST_ERROR = 1e-3
 """Of the pressure, relative L2."""
@@ -61,7 +61,7 @@ def problem(seed: int) -> ContactQP:
         layered = asp.Layered([asp.Layer(asp.Elastic(modulus, 0.3), thickness)], base=asp.Elastic(1.0, 0.3))
         compliance = asp.ContactProblem(asp.Surface(np.zeros((2, 2)), 1.0, periodic=True), layered).compliance
     boundary = asp.Free() if rng.random() < 0.5 else asp.Periodic()
-    operator = prepare_operator(compliance, grid, boundary, engine=asp.CpuEngine(1))
+    operator = prepare_operator(compliance, grid, boundary, engine=asp.engines.CpuEngine(1))
     mean = 10.0 ** rng.uniform(-12.0, 0.0)
     scale = float(heights.std()) or float(np.abs(operator.apply(np.full(shape, mean))).max()) or 1.0
     cap = np.inf if rng.random() < 0.6 else mean * 10.0 ** rng.uniform(0.01, 2.0)
@@ -106,7 +106,9 @@ def test_no_problem_of_a_thousand_is_wrongly_called_converged() -> None:
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 @pytest.mark.parametrize(("shape", "height"), [((100, 100), 0.0), ((16, 16), 1e-7), ((60, 45), 1e-7)], ids=str)
 @pytest.mark.parametrize("pressure", [1e-3, 1e3, 1e8])
-def test_flat_bodies_are_solved(boundary: asp.Boundary, shape: tuple[int, int], height: float, pressure: float) -> None:
+def test_flat_bodies_are_solved(
+    boundary: asp.contact.Boundary, shape: tuple[int, int], height: float, pressure: float
+) -> None:
     """Their rms height is nothing but rounding."""
     surface = asp.Surface(np.full(shape, height), 1e-6, periodic=boundary == asp.Periodic())
     result = asp.solve(
@@ -120,7 +122,7 @@ def test_flat_bodies_are_solved(boundary: asp.Boundary, shape: tuple[int, int], 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 @pytest.mark.parametrize("pressure", [1e-3, 0.1, 10.0, 1e5])
-def test_a_plateau_under_a_tiny_load_carries_it_as_a_whole(boundary: asp.Boundary, pressure: float) -> None:
+def test_a_plateau_under_a_tiny_load_carries_it_as_a_whole(boundary: asp.contact.Boundary, pressure: float) -> None:
     heights = np.zeros((16, 16))
     heights[4:12, 4:12] = 1e-6
     surface = asp.Surface(heights, 1e-6, periodic=boundary == asp.Periodic())
@@ -146,7 +148,9 @@ def test_bending_films_under_a_cap_are_solved(shape: tuple[int, int], modulus: f
     """Steps that are clipped to the bounds must let points reach them: shortened as a whole they went on for ever."""
     heights = 1e-3 * np.random.default_rng(shape[0] // 24).standard_normal(shape)
     load = 1.0 if shape[0] == 3 else 0.1
-    operator = prepare_operator(film_of(modulus), asp.Grid(shape, (1.0, 4.0)), asp.Periodic(), engine=asp.CpuEngine(1))
+    operator = prepare_operator(
+        film_of(modulus), asp.Grid(shape, (1.0, 4.0)), asp.Periodic(), engine=asp.engines.CpuEngine(1)
+    )
     qp = ContactQP(operator, heights, load * relative_cap, FixedMean(load), float(heights.std()))
     found, exact = run(ActiveSet(), qp), run(EXACT, qp, feasible_start(qp))
     assert found.status.converged, found.status.message
@@ -157,7 +161,7 @@ def test_bending_films_under_a_cap_are_solved(shape: tuple[int, int], modulus: f
 def test_stiff_films_are_solved_while_the_energy_falls(load: float, relative_cap: float) -> None:
     """Their errors rise above that of the start for many steps, which must not count as stagnation."""
     grid = asp.Grid((64, 64), (1.0, 4.0))
-    operator = prepare_operator(film_of(1000.0), grid, asp.Periodic(), engine=asp.CpuEngine(1))
+    operator = prepare_operator(film_of(1000.0), grid, asp.Periodic(), engine=asp.engines.CpuEngine(1))
     heights = 1e-3 * np.random.default_rng(0).standard_normal(grid.shape)
     qp = ContactQP(operator, heights, load * relative_cap, FixedMean(load), float(heights.std()))
     solution = run(ActiveSet(), qp)
@@ -172,7 +176,9 @@ def test_stiff_films_are_solved_while_the_energy_falls(load: float, relative_cap
 
 def test_the_energy_of_clipped_steps_is_that_of_their_pressure_and_never_rises() -> None:
     rng = np.random.default_rng(3)
-    operator = prepare_operator(film_of(100.0), asp.Grid((24, 20), (1.0, 4.0)), asp.Periodic(), engine=asp.CpuEngine(1))
+    operator = prepare_operator(
+        film_of(100.0), asp.Grid((24, 20), (1.0, 4.0)), asp.Periodic(), engine=asp.engines.CpuEngine(1)
+    )
     heights = 1e-3 * rng.standard_normal((24, 20))
     qp = ContactQP(operator, heights, 1.0, FixedMean(0.1), float(heights.std()))
     solver, energies, right = ActiveSet(precision="double"), [], []
@@ -203,7 +209,9 @@ def test_flat_periodic_bodies_far_above_the_datum_are_solved(
 def test_a_load_just_below_the_cap_is_solved_to_rounding(shape: tuple[int, int], seed: int, load: float) -> None:
     """Only the missing 1e-4 of the load deflects, so that heights count from the level of the last point that bears."""
     heights = np.random.default_rng(seed).standard_normal(shape)
-    operator = prepare_operator(HalfSpace(1.0), asp.Grid(shape, (1.0, 4.0)), asp.Periodic(), engine=asp.CpuEngine(1))
+    operator = prepare_operator(
+        HalfSpace(1.0), asp.Grid(shape, (1.0, 4.0)), asp.Periodic(), engine=asp.engines.CpuEngine(1)
+    )
     qp = ContactQP(operator, heights, 1.0001 * load, FixedMean(load), float(heights.std()))
     solution = run(ActiveSet(tolerance=1e-10), qp)
     assert solution.status.converged, solution.status.message
@@ -211,12 +219,14 @@ def test_a_load_just_below_the_cap_is_solved_to_rounding(shape: tuple[int, int],
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 @pytest.mark.parametrize("film", [1.0, 100.0])
-def test_a_load_equal_to_the_cap_but_for_rounding_puts_all_points_at_it(boundary: asp.Boundary, film: float) -> None:
+def test_a_load_equal_to_the_cap_but_for_rounding_puts_all_points_at_it(
+    boundary: asp.contact.Boundary, film: float
+) -> None:
     wrong = []
     for seed in (*range(20), 153, 263):
         rng = np.random.default_rng([seed, 13])
         grid = asp.Grid((10, 11), (1.0, float(rng.choice([20.0, 0.05]))))
-        operator = prepare_operator(film_of(film), grid, boundary, engine=asp.CpuEngine(1))
+        operator = prepare_operator(film_of(film), grid, boundary, engine=asp.engines.CpuEngine(1))
         cap = 0.03 * (rng.uniform(0.5, 1.5, grid.shape) if seed % 2 else np.ones(grid.shape))
         heights, mean = heights_of(rng, grid.shape), float(cap.mean()) * (1.0 - 1e-16 * rng.integers(0, 50))
         solution = run(ActiveSet(), ContactQP(operator, heights, cap, FixedMean(mean), float(heights.std()) or 1.0))
@@ -226,7 +236,9 @@ def test_a_load_equal_to_the_cap_but_for_rounding_puts_all_points_at_it(boundary
 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
-def test_the_certificate_of_a_light_load_states_the_duality_gap_that_heights_round_away(boundary: asp.Boundary) -> None:
+def test_the_certificate_of_a_light_load_states_the_duality_gap_that_heights_round_away(
+    boundary: asp.contact.Boundary,
+) -> None:
     """Plateaus so that points share a load whose deflection is 1e-11 of the heights."""
     heights = 1e-8 * np.minimum(np.random.default_rng(3).standard_normal((14, 6)), 0.5)
     surface = asp.Surface(heights, 5e-6, periodic=boundary == asp.Periodic())
@@ -272,7 +284,7 @@ SOLVED = ("low", "hard", "hard and low", "soft film")
 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
-def test_extreme_numbers_are_refused_or_solved(boundary: asp.Boundary) -> None:
+def test_extreme_numbers_are_refused_or_solved(boundary: asp.contact.Boundary) -> None:
     """What is called converged is finite, in balance and has a small duality gap."""
     wrong = []
     for name, case in EXTREME.items():
@@ -283,7 +295,9 @@ def test_extreme_numbers_are_refused_or_solved(boundary: asp.Boundary) -> None:
         )
         try:
             surface = asp.Surface(heights, case.get("pixel", 1e-8), periodic=boundary == asp.Periodic())
-            posed = asp.ContactProblem(surface, body(), boundary=boundary, law=case.get("law", asp.HardWall)())
+            posed = asp.ContactProblem(
+                surface, body(), boundary=boundary, law=case.get("law", asp.plasticity.HardWall)()
+            )
             found = asp.solve(posed, control(), on_failure="return")
         except (asp.InputError, asp.NoSolutionError):
             if name in SOLVED:
@@ -303,7 +317,7 @@ def test_a_large_duality_gap_is_a_warning_or_no_convergence() -> None:
     )
     loose = asp.solve(problem, asp.MeanPressure(0.1), solver=asp.solvers.ConjugateGradient(tolerance=0.05))
     assert loose.certificate.duality_gap > 1e-3
-    assert "duality gap" in {finding.criterion for finding in asp.review(loose)}
+    assert "duality gap" in {finding.criterion for finding in asp.contact.review(loose)}
     doubtful = replace(loose.certificate, tolerance=1e-7)
     status = doubted(loose.status, doubtful)
     assert status.outcome == "stagnated"

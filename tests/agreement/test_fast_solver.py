@@ -18,7 +18,12 @@ from contact_cases import elastic, rough
 import asperity as asp
 from asperity.contact.boundary import Boundary
 from asperity.contact.certificate import certify
-from asperity.contact.solvers import (
+from asperity.contact.solvers.protocol import energy, relative_error, scaled_error
+from asperity.core.arrays import RealArray
+from asperity.core.engine import blocks, cpu, spline_levels
+from asperity.core.status import Outcome
+from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import (
     ActiveSet,
     ConjugateGradient,
     ContactQP,
@@ -28,11 +33,6 @@ from asperity.contact.solvers import (
     Solution,
     run,
 )
-from asperity.contact.solvers.protocol import energy, relative_error, scaled_error
-from asperity.core.arrays import RealArray
-from asperity.core.engine import blocks, cpu, spline_levels
-from asperity.core.status import Outcome
-from asperity.solids.compliance.halfspace import HalfSpace
 
 PRECISIONS = ("mixed", "double")
 BOUNDARIES = (asp.Periodic(), asp.Free())
@@ -50,7 +50,7 @@ def posed(
     heights: RealArray, boundary: Boundary, load: float = 0.1, spacing: tuple[float, float] = (1.0, 1.0)
 ) -> ContactQP:
     """Elastic problem with E* = 1 at the mean pressure ``load``."""
-    operator = asp.prepare_operator(HalfSpace(1.0), asp.Grid(heights.shape, spacing), boundary)
+    operator = asp.solvers.prepare_operator(HalfSpace(1.0), asp.Grid(heights.shape, spacing), boundary)
     return ContactQP(operator, heights, np.inf, FixedMean(load), float(heights.std()) or 1.0)
 
 
@@ -333,7 +333,7 @@ def test_the_number_of_threads_changes_rounding_only(
     grid, solver = asp.Grid(heights.shape, (1.0, 1.0)), ActiveSet(tolerance=1e-10, precision="double")
     found = []
     for threads in (1, 2):
-        operator = asp.prepare_operator(HalfSpace(1.0), grid, boundary, engine=asp.CpuEngine(threads))
+        operator = asp.solvers.prepare_operator(HalfSpace(1.0), grid, boundary, engine=asp.engines.CpuEngine(threads))
         found.append(run(solver, replace(posed(heights, boundary, 0.05), operator=operator, cap=cap)))
     one, two = (solution.state.pressure for solution in found)
     assert [s.state.iterations for s in found] == [found[0].state.iterations] * 2
@@ -355,9 +355,9 @@ class Interrupt:
 @each_boundary
 def test_an_interrupted_solve_leaves_everything_as_it_was(boundary: Boundary, cap: float) -> None:
     surface = asp.Surface(rough((72, 66), 15).heights, 1.0, periodic=True)
-    law = asp.HardWall() if cap == np.inf else asp.Hardness(cap)
+    law = asp.plasticity.HardWall() if cap == np.inf else asp.Hardness(cap)
     problem = asp.ContactProblem(surface, elastic(1.0), boundary=boundary, law=law)
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
     state = asp.solve(problem, asp.MeanPressure(0.02), operator=operator).state
     kept = surface.heights.copy(), state.pressure.copy(), state.permanent_indentation.copy()
     undisturbed = asp.solve(problem, asp.MeanPressure(0.05), state=state)

@@ -7,10 +7,10 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
 from asperity.physics.friction.solver.joint import JointProblem
+from asperity.solvers import ActiveSet
 
-TIGHT = {"solver": ActiveSet(tolerance=1e-12), "rounds": asp.Rounds(tolerances={"stick_slip": 1e-9})}
+TIGHT = {"solver": ActiveSet(tolerance=1e-12), "rounds": asp.solvers.Rounds(tolerances={"stick_slip": 1e-9})}
 SOFT = asp.Elastic(1.0, 0.3)
 COATED = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.25), 1.5)], base=SOFT)
 ON_RIGID = asp.Layered([asp.Layer(asp.Elastic(1.0, 0.4), 5.0)], base=asp.RigidBase())
@@ -24,7 +24,7 @@ CASES = {
     "free": ({"boundary": asp.Free()}, asp.MeanPressure(0.05), asp.Shift(0.1, 0.1, twist=0.02)),
     "map": ({"friction": MAP}, asp.MeanPressure(0.1), asp.Shift(0.2, 0.1)),
     "limit": ({"friction": asp.Coulomb(0.5, limit=0.1)}, asp.MeanPressure(0.1), asp.Shift(0.3, 0.1)),
-    "full stick": ({"friction": asp.FullStick()}, asp.MeanPressure(0.1), asp.Shift(0.2, 0.1)),
+    "full stick": ({"friction": asp.friction.FullStick()}, asp.MeanPressure(0.1), asp.Shift(0.2, 0.1)),
     "line": ({"surface": rough((64, 1), 5, power=1.5)}, asp.MeanPressure(0.1), asp.Shift(0.1, 0.1)),
 }
 

@@ -9,10 +9,10 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
 from asperity.contact.solvers.active_set import yielding
 from asperity.contact.solvers.active_set.yielding import Followed
 from asperity.physics.hardness import coupling as hardness
+from asperity.solvers import ActiveSet
 
 LIMIT_TOLERANCE = 1e-5
 BOUNDARIES = pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
@@ -29,7 +29,7 @@ def posed(body: asp.Layered, n: int, seed: int, boundary=asp.Periodic()) -> asp.
     heights = rough((n, n), seed, power=2.3).heights
     slope = np.diff(heights, axis=0).std()
     surface = asp.Surface(heights / slope, 1.0, periodic=isinstance(boundary, asp.Periodic))
-    return asp.ContactProblem(surface, body, boundary=boundary, law=asp.LayeredHardness(body))
+    return asp.ContactProblem(surface, body, boundary=boundary, law=asp.plasticity.LayeredHardness(body))
 
 
 def in_rounds(monkeypatch, problem: asp.ContactProblem, control, tolerance: float) -> asp.ContactResult:
@@ -95,7 +95,7 @@ def test_pairs_of_transforms():
     for seed in (1, 2, 3):
         problem = posed(body, 256, seed)
         found = asp.solve(problem, asp.MeanPressure(0.05), solver=solver)
-        elastic = asp.solve(replace(problem, law=asp.HardWall()), asp.MeanPressure(0.05), solver=solver)
+        elastic = asp.solve(replace(problem, law=asp.plasticity.HardWall()), asp.MeanPressure(0.05), solver=solver)
         assert found.plastic.any()
         pairs.append((found.certificate.fft_pairs, elastic.certificate.fft_pairs))
     layered, plain = np.mean(pairs, axis=0)

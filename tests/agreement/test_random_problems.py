@@ -8,9 +8,9 @@ from catalogue import EXACT, MODULUS, SOLVERS, feasible_start, pair_id
 
 from asperity import Grid
 from asperity.contact.operators import FreeOperator, PeriodicOperator
-from asperity.contact.solvers import ContactQP, FixedMean, FixedOffset, Solver, run
 from asperity.core.status import Outcome
 from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import ContactQP, FixedMean, FixedOffset, Solver, run
 
 SEEDS = range(2, 100)
 

@@ -43,7 +43,7 @@ def test_both_methods_find_the_same_traction(pair, motion):
     """A steady state at a change of 1e-8 a move; the error of the transient method is a hundred times that."""
     body = STEEL if pair == "equal" else COATED
     problem, load = wheel(body=body, counter=asp.Rigid() if pair == UNLIKE else None)
-    creepage = asp.Creepage(motion[0] * UNIT, motion[1] * UNIT, motion[2] * UNIT / A)
+    creepage = asp.rolling.Creepage(motion[0] * UNIT, motion[1] * UNIT, motion[2] * UNIT / A)
     tolerance = 1e-6 if pair == UNLIKE else 1e-8
     direct = asp.roll(problem, load, creepage, tolerance=tolerance)
     moved = asp.roll(problem, load, creepage, method="transient", tolerance=tolerance, start=direct)
@@ -61,7 +61,7 @@ def turned(field, quarter):
 @pytest.mark.parametrize(("direction", "quarter"), [("y", 1), ("-x", 2), ("-y", 3)])
 def test_a_turned_contact_rolls_as_before_in_the_turned_direction(direction, quarter):
     problem, load = wheel((26, 20), body=COATED)
-    creepage = asp.Creepage(0.4 * UNIT, 0.2 * UNIT, UNIT / A)
+    creepage = asp.rolling.Creepage(0.4 * UNIT, 0.2 * UNIT, UNIT / A)
     first = asp.roll(problem, load, creepage)
     heights = turned(problem.surface.heights, quarter)
     dx = problem.grid.spacing[0]
@@ -91,19 +91,21 @@ def test_a_row_of_far_cylinders_rolls_as_one():
             surface = asp.Surface(heights, spacing, 1.0)
             problem = asp.ContactProblem(surface, body, counter_body=body, boundary=boundary, friction=asp.Coulomb(0.3))
             load = asp.Force(np.pi / 4.0 * problem.contact_modulus * A**2 / R)
-            rolled = asp.roll(problem, load, asp.Creepage(0.3 * UNIT))
+            rolled = asp.roll(problem, load, asp.rolling.Creepage(0.3 * UNIT))
             forces.append(rolled.force_x / rolled.friction_limit)
         found.append(forces[0] / forces[1] - 1.0)
     assert abs(found[1]) < 0.4 * abs(found[0]) < 0.02
 
 
-@pytest.mark.parametrize("law", [asp.TrescaFriction(0.005), asp.Coulomb(0.5, limit=0.004), asp.FullStick()], ids=str)
+@pytest.mark.parametrize(
+    "law", [asp.friction.TrescaFriction(0.005), asp.Coulomb(0.5, limit=0.004), asp.friction.FullStick()], ids=str
+)
 def test_other_laws_roll(law):
     problem, load = wheel(law=law)
-    found = asp.roll(problem, load, asp.Creepage(0.3 * UNIT, 0.0, 0.3 * UNIT / A))
+    found = asp.roll(problem, load, asp.rolling.Creepage(0.3 * UNIT, 0.0, 0.3 * UNIT / A))
     bound = law.bound(found.normal.pressure)
     assert np.all(np.hypot(*found.traction) <= bound * (1.0 + 1e-9))
-    if isinstance(law, asp.FullStick):
+    if isinstance(law, asp.friction.FullStick):
         assert not found.slipping.any()
     else:
         assert 0 < found.slipping.sum() < found.normal.contact.sum()
@@ -113,13 +115,13 @@ def test_rolling_is_refused_where_it_makes_no_sense():
     line = asp.Surface(-(np.linspace(-1, 1, 16)[:, None] ** 2), 0.1, 1.0)
     problem = asp.ContactProblem(line, STEEL, boundary=asp.FreeLine(), friction=asp.Coulomb(0.3))
     with refused(asp.InputError, "direction of rolling"):
-        asp.roll(problem, asp.Force(1e-2), asp.Creepage(1e-3), direction="y")
+        asp.roll(problem, asp.Force(1e-2), asp.rolling.Creepage(1e-3), direction="y")
     with refused(asp.InputError, "method of rolling"):
-        asp.roll(problem, asp.Force(1e-2), asp.Creepage(1e-3), method="guess")
+        asp.roll(problem, asp.Force(1e-2), asp.rolling.Creepage(1e-3), method="guess")
     ball, load = wheel()
     with refused(asp.InputError, "spin"):
-        asp.roll(replace(ball, boundary=asp.Periodic()), load, asp.Creepage(0.0, 0.0, 1e-3))
+        asp.roll(replace(ball, boundary=asp.Periodic()), load, asp.rolling.Creepage(0.0, 0.0, 1e-3))
     with refused(asp.InputError, "adhesion of a rolling contact"):
-        asp.roll(replace(ball, adhesion=asp.ExponentialAdhesion(1e-3, 1e-3)), load, asp.Creepage(1e-3))
+        asp.roll(replace(ball, adhesion=asp.ExponentialAdhesion(1e-3, 1e-3)), load, asp.rolling.Creepage(1e-3))
     with refused(asp.InputError, "law of a rolling contact"):
-        asp.roll(replace(ball, law=asp.Hardness(1.0)), load, asp.Creepage(1e-3))
+        asp.roll(replace(ball, law=asp.Hardness(1.0)), load, asp.rolling.Creepage(1e-3))

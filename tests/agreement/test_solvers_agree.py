@@ -27,9 +27,9 @@ from catalogue import (
 from refusals import refused
 
 from asperity import MeanGap
-from asperity.contact.solvers import ContactQP, FixedMean, Solution, Solver, run
 from asperity.contact.solvers.protocol import level, relative_error
 from asperity.core.errors import InputError
+from asperity.solvers import ContactQP, FixedMean, Solution, Solver, run
 
 ROUNDING = 1e-13
 """Relative rounding of sums over these grids."""

@@ -6,12 +6,12 @@ from contact_cases import rough
 from reference_data import reference
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
 from asperity.physics.friction.operator import TangentialOperator
 from asperity.physics.friction.solver.newton import StickSlipNewton
 from asperity.physics.friction.solver.problem import TangentialQP
+from asperity.solvers import ActiveSet
 
-TIGHT = {"solver": ActiveSet(tolerance=1e-14), "rounds": asp.Rounds(tolerances={"stick_slip": 1e-11})}
+TIGHT = {"solver": ActiveSet(tolerance=1e-14), "rounds": asp.solvers.Rounds(tolerances={"stick_slip": 1e-11})}
 
 
 def coated(base, *layers):

@@ -44,8 +44,8 @@ def both(shape: tuple[tuple[int, int], float, float], *, periodic: bool) -> tupl
 
 
 PERIODIC: dict[str, tuple[Callable[[asp.Surface], float], Callable[[Any], float]]] = {
-    "rms height": (asp.rms_height, lambda t: t.rms_height_from_area()),
-    "rms gradient": (asp.rms_slope, lambda t: t.rms_gradient()),
+    "rms height": (asp.roughness.rms_height, lambda t: t.rms_height_from_area()),
+    "rms gradient": (asp.roughness.rms_slope, lambda t: t.rms_gradient()),
     "rms slope along x": (lambda s: r.rms_profile_slope(s, axis="x"), lambda t: t.rms_slope_from_profile()),
     "rms slope along y": (lambda s: r.rms_profile_slope(s, axis="y"), lambda t: t.transpose().rms_slope_from_profile()),
     "rms curvature along x": (

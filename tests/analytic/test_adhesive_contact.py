@@ -108,7 +108,7 @@ def test_without_attraction_the_contact_is_the_elastic_one():
 
 def test_load_and_position_meet_on_the_same_branch():
     problem = sphere(48, 6.0, ExponentialAdhesion(WORK, WORK / strength_of(1.0)))
-    loaded = asp.solve(problem, asp.History([asp.Force(0.5 * FORCE), asp.Unloaded(), asp.Pull(FORCE)])).last
+    loaded = asp.solve(problem, asp.History([asp.Force(0.5 * FORCE), asp.Unloaded(), asp.contact.Pull(FORCE)])).last
     held = asp.solve(problem, asp.History([asp.FixedGrips(APPROACH), asp.FixedGrips(loaded.approach)])).last
     assert held.external_force == pytest.approx(-FORCE, rel=1e-4)
     # a yielding machine whose line meets that point comes to it as well; load control is the least stable

@@ -13,7 +13,7 @@ SPACING = 1e-4
 
 def ball(tabor: float, points: int, *, periodic: bool = False) -> asp.ContactProblem:
     """Lennard-Jones sphere of E* = R = 1 on a square of side 10.4 sqrt(z0 R)."""
-    law = asp.LennardJonesAdhesion((tabor * SPACING) ** 1.5, SPACING)
+    law = asp.adhesion.LennardJonesAdhesion((tabor * SPACING) ** 1.5, SPACING)
     pixel = 10.4 * np.sqrt(SPACING) / points
     x = (np.arange(points) - 0.5 * (points - 1)) * pixel
     surface = asp.Surface(-(x[:, None] ** 2 + x**2) / 2.0, pixel, periodic=periodic)
@@ -74,7 +74,7 @@ def test_every_control_follows_the_branch(kind):
     starts = {"force": asp.Force(2.0 * unit), "approach": asp.Approach(3.0 * z), "mean gap": asp.MeanGap(3.5 * z)}
     make = {
         "force": lambda share: (
-            asp.Pull((3.0 * share - 2.0) * unit) if share > 0.7 else asp.Force((2.0 - 3.0 * share) * unit)
+            asp.contact.Pull((3.0 * share - 2.0) * unit) if share > 0.7 else asp.Force((2.0 - 3.0 * share) * unit)
         ),
         "approach": lambda share: asp.Approach((3.0 - 2.9 * share) * z),
         "mean gap": lambda share: asp.MeanGap((3.5 + 2.0 * share) * z),

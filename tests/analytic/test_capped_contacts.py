@@ -10,7 +10,7 @@ from contact_cases import elastic, square_grid
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 TIGHT = ActiveSet(tolerance=1e-9)
 HARDNESS = 0.5
@@ -59,7 +59,7 @@ def sphere(n: int, hardness: float) -> asp.ContactProblem:
 
 def test_first_yield_of_a_sphere():
     """p0 = H at P = π³ R² H³/(6 E*²); the mean pressure of a pixel is that of its middle to (dx/a)²/8 = 2e-4."""
-    found = asp.plastic_load(sphere(64, 0.1), fraction=0.0, solver=TIGHT)
+    found = asp.plasticity.plastic_load(sphere(64, 0.1), fraction=0.0, solver=TIGHT)
     onset = math.pi**3 * 0.1**3 / 6.0
     assert found.below.plastic_area_fraction == 0.0 < found.above.plastic_area_fraction
     assert found.above.force <= found.force * 1.001
@@ -68,12 +68,15 @@ def test_first_yield_of_a_sphere():
 
 def test_the_two_percent_load_of_spheres_is_similar():
     """Scaling E* and H by a factor scales the load; the load grows with the share asked for."""
-    loads = [asp.plastic_load(sphere(48, 0.1), fraction=share, solver=TIGHT).force for share in (0.0, 0.02, 0.2, 0.6)]
+    loads = [
+        asp.plasticity.plastic_load(sphere(48, 0.1), fraction=share, solver=TIGHT).force
+        for share in (0.0, 0.02, 0.2, 0.6)
+    ]
     assert loads == sorted(loads)
     assert loads[0] < loads[-1]
     stiff = sphere(48, 0.1)
     stiff = asp.ContactProblem(stiff.surface, elastic(7.0), boundary=asp.Free(), law=asp.Hardness(0.7))
-    found = asp.plastic_load(stiff, solver=TIGHT)
+    found = asp.plasticity.plastic_load(stiff, solver=TIGHT)
     assert found.force == pytest.approx(7.0 * loads[1], rel=1e-6)
     assert not found.below.is_plastic
     assert found.above.is_plastic
@@ -83,7 +86,7 @@ def test_the_two_percent_load_of_spheres_is_similar():
 def test_a_smooth_surface_yields_as_a_whole():
     flat = asp.ContactProblem(asp.Surface(np.zeros((8, 8)), 1.0, periodic=True), elastic(1.0), law=asp.Hardness(0.4))
     with refused(asp.NoSolutionError, "plastic share 0.02"):
-        asp.plastic_load(flat)
+        asp.plasticity.plastic_load(flat)
 
 
 def test_the_first_passage_is_found_though_the_share_falls_again():
@@ -91,7 +94,7 @@ def test_the_first_passage_is_found_though_the_share_falls_again():
     pin = np.full((8, 8), -1.0)
     pin[3, 3] = 1.0
     posed = asp.ContactProblem(asp.Surface(pin, 1.0), elastic(1.0), boundary=asp.Free(), law=asp.Hardness(1e-3))
-    found = asp.plastic_load(posed)
+    found = asp.plasticity.plastic_load(posed)
     assert found.above.mean_pressure == pytest.approx(1e-3 / 64, rel=2e-3)
     assert asp.solve(posed, asp.MeanPressure(16e-3 / 64)).plastic_area_fraction < 0.02
 
@@ -99,10 +102,10 @@ def test_the_first_passage_is_found_though_the_share_falls_again():
 def test_a_plastic_load_needs_a_limit():
     posed = asp.ContactProblem(sphere(8, 1.0).surface, elastic(1.0), boundary=asp.Free())
     with refused(asp.InputError, "law of a contact with a plastic load"):
-        asp.plastic_load(posed)
+        asp.plasticity.plastic_load(posed)
 
 
 @pytest.mark.parametrize("share", [-0.1, 1.0, float("nan")])
 def test_the_share_must_be_a_share(share):
     with refused(asp.InputError, "share of the real area"):
-        asp.plastic_load(sphere(8, 1.0), fraction=share)
+        asp.plasticity.plastic_load(sphere(8, 1.0), fraction=share)

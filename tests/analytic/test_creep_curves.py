@@ -52,7 +52,7 @@ def test_curves_begin_with_kalkers_slope_end_at_the_limit_and_lie_beside_fastsim
     share = np.array([0.02, 0.3, 0.6, 1.0, 3.0]) * UNIT
     cases = ({"longitudinal": share}, {"lateral": share}, {"longitudinal": share, "lateral": 0.5 * share})
     for creepages in cases:
-        curve = asp.creep_curve(problem, load, **creepages)
+        curve = asp.rolling.creep_curve(problem, load, **creepages)
         assert curve.theories == ("fastsim", "linear")
         force = np.hypot(curve.longitudinal_force, curve.lateral_force) / curve.friction_limit
         linear, fast = (curve.theory(name) for name in ("linear", "fastsim"))
@@ -62,7 +62,7 @@ def test_curves_begin_with_kalkers_slope_end_at_the_limit_and_lie_beside_fastsim
         assert np.all(np.diff(force) > 0.0)
         beside = np.hypot(fast.force_x, fast.force_y) / curve.friction_limit
         assert np.abs(force / beside - 1.0).max() < 0.10
-    spinning = asp.creep_curve(problem, load, spin=np.array([0.1, 0.5, 1.0]) * UNIT / A)
+    spinning = asp.rolling.creep_curve(problem, load, spin=np.array([0.1, 0.5, 1.0]) * UNIT / A)
     fast = spinning.theory("fastsim")
     assert np.abs(spinning.lateral_force / fast.force_y - 1.0).max() < 0.15
     assert np.all(spinning.torque > 0.0)
@@ -73,7 +73,7 @@ def test_carters_curve():
     errors = []
     for n in (32, 128):
         problem, load = roller(n)
-        curve = asp.creep_curve(problem, load, np.linspace(-1.5, 1.5, 7) * UNIT)
+        curve = asp.rolling.creep_curve(problem, load, np.linspace(-1.5, 1.5, 7) * UNIT)
         assert curve.theories == ("carter",)
         off = curve.longitudinal_force - curve.theory("carter").force_x
         errors.append(float(np.abs(off).max()) / curve.friction_limit)
@@ -87,12 +87,12 @@ def test_carters_curve():
 def test_theories_stand_aside_where_they_do_not_hold():
     coated = asp.Layered([asp.Layer(asp.Elastic(3.0, 0.3), 0.05)], base=STEEL)
     problem, load = ball(16, body=coated)
-    curve = asp.creep_curve(problem, load, 0.3 * UNIT)
+    curve = asp.rolling.creep_curve(problem, load, 0.3 * UNIT)
     assert curve.theories == ()
     with refused(asp.InputError, "theory of a creep-force curve"):
         curve.theory("fastsim")
     with refused(asp.InputError, "longitudinal, lateral and spin"):
-        asp.creep_curve(problem, load, [1e-3, 2e-3], lateral=[1e-3, 2e-3, 3e-3])
+        asp.rolling.creep_curve(problem, load, [1e-3, 2e-3], lateral=[1e-3, 2e-3, 3e-3])
 
 
 def test_layered_rollers_between_their_limits():
@@ -101,7 +101,7 @@ def test_layered_rollers_between_their_limits():
     load = asp.Force(0.4 * roller()[1].value)
 
     def forces(body):
-        return asp.creep_curve(roller(64, body)[0], load, at).longitudinal_force
+        return asp.rolling.creep_curve(roller(64, body)[0], load, at).longitudinal_force
 
     def coated(material, thickness):
         return asp.Layered([asp.Layer(material, thickness)], base=STEEL)
@@ -116,9 +116,9 @@ def test_layered_rollers_between_their_limits():
 
 def test_a_rough_wheel_without_roughness_comes_to_steady_rolling():
     problem, load = roller(48)
-    creepage = asp.Creepage(0.4 * UNIT)
+    creepage = asp.rolling.Creepage(0.4 * UNIT)
     flat = asp.Surface(np.zeros((20, 1)), *problem.grid.spacing)
-    rough = asp.roll_rough(problem, load, creepage, flat, distance=10.0 * A)
+    rough = asp.rolling.roll_rough(problem, load, creepage, flat, distance=10.0 * A)
     steady = asp.roll(problem, load, creepage)
     off = np.abs(rough.force_x / steady.force_x - 1.0)
     at = [np.searchsorted(rough.distance, length) for length in (2.0 * A, 4.0 * A, 8.0 * A)]
@@ -133,8 +133,8 @@ def test_ridges_along_the_rolling_direction_are_steady():
     y = np.arange(26)
     ridges = 2e-4 * np.cos(2.0 * np.pi * 5.0 * y / 26.0)
     rough = asp.Surface(np.repeat(ridges[None, :], 8, axis=0), *problem.grid.spacing)
-    creepage = asp.Creepage(0.4 * UNIT, 0.2 * UNIT, 0.5 * UNIT / A)
-    found = asp.roll_rough(problem, load, creepage, rough, distance=9.0 * A)
+    creepage = asp.rolling.Creepage(0.4 * UNIT, 0.2 * UNIT, 0.5 * UNIT / A)
+    found = asp.rolling.roll_rough(problem, load, creepage, rough, distance=9.0 * A)
     ridged = asp.ContactProblem(
         asp.Surface(problem.surface.heights + ridges, *problem.grid.spacing),
         STEEL,
@@ -150,14 +150,14 @@ def test_ridges_along_the_rolling_direction_are_steady():
 @pytest.mark.slow
 def test_roughness_comes_again_after_its_length_and_rolls_on_from_where_it_was():
     problem, load = roller(40)
-    creepage = asp.Creepage(0.5 * UNIT)
+    creepage = asp.rolling.Creepage(0.5 * UNIT)
     rough = waves(problem, 30)
-    whole = asp.roll_rough(problem, load, creepage, rough, distance=200 * problem.grid.spacing[0])
+    whole = asp.rolling.roll_rough(problem, load, creepage, rough, distance=200 * problem.grid.spacing[0])
     force = whole.force_x
     assert force[-30:] == pytest.approx(force[-60:-30], rel=2e-3)
     assert np.ptp(force[-30:]) > 0.003 * force[-1]  # and it does fluctuate
-    half = asp.roll_rough(problem, load, creepage, rough, distance=100 * problem.grid.spacing[0])
-    rest = asp.roll_rough(problem, load, creepage, rough, distance=100 * problem.grid.spacing[0], start=half)
+    half = asp.rolling.roll_rough(problem, load, creepage, rough, distance=100 * problem.grid.spacing[0])
+    rest = asp.rolling.roll_rough(problem, load, creepage, rough, distance=100 * problem.grid.spacing[0], start=half)
     assert rest.force_x == pytest.approx(force, rel=1e-4)
     assert rest.distance == pytest.approx(whole.distance)
     assert whole.mean("traction_coefficient") < MU
@@ -167,10 +167,10 @@ def test_roughness_comes_again_after_its_length_and_rolls_on_from_where_it_was()
 def test_a_mirrored_rough_wheel_rolls_backwards():
     problem, load = roller(32)
     rough = waves(problem, 24)
-    creepage, distance = asp.Creepage(0.5 * UNIT), 2.0 * A
-    one = asp.roll_rough(problem, load, creepage, rough, distance=distance)
+    creepage, distance = asp.rolling.Creepage(0.5 * UNIT), 2.0 * A
+    one = asp.rolling.roll_rough(problem, load, creepage, rough, distance=distance)
     mirrored = asp.Surface(rough.heights[::-1], *rough.grid.spacing)
-    other = asp.roll_rough(problem, load, creepage, mirrored, distance=distance, direction="-x")
+    other = asp.rolling.roll_rough(problem, load, creepage, mirrored, distance=distance, direction="-x")
     assert other.force_x == pytest.approx(-one.force_x, rel=1e-4)
     assert other.traction_coefficient == pytest.approx(one.traction_coefficient, rel=1e-4)
 
@@ -180,26 +180,30 @@ def test_unlike_rough_rollers_and_periodic_ones():
     unlike = asp.ContactProblem(
         problem.surface, problem.body, boundary=asp.FreeLine(), friction=problem.friction
     )  # on a rigid body
-    found = asp.roll_rough(
-        unlike, asp.Force(2.0 * load.value), asp.Creepage(0.4 * UNIT), waves(unlike, 24), distance=2.0 * A
+    found = asp.rolling.roll_rough(
+        unlike, asp.Force(2.0 * load.value), asp.rolling.Creepage(0.4 * UNIT), waves(unlike, 24), distance=2.0 * A
     )
     assert found.converged
     assert np.all(found.force_x <= found.friction_limit * (1.0 + 1e-9))
     periodic, load = roller(64, reach=3.0, boundary=asp.Periodic())
-    again = asp.roll_rough(periodic, load, asp.Creepage(0.4 * UNIT), waves(periodic, 32), distance=2.0 * A)
+    again = asp.rolling.roll_rough(
+        periodic, load, asp.rolling.Creepage(0.4 * UNIT), waves(periodic, 32), distance=2.0 * A
+    )
     assert np.all(again.contact_area < 2.5 * A)
 
 
 def test_roughness_that_does_not_fit_is_refused():
     problem, load = roller(32)
     spacing = problem.grid.spacing
-    creepage = asp.Creepage(1e-3)
+    creepage = asp.rolling.Creepage(1e-3)
     with refused(asp.InputError, "roughness"):
-        asp.roll_rough(problem, load, creepage, asp.Surface(np.zeros((20, 1)), 2.0 * spacing[0], 1.0))
+        asp.rolling.roll_rough(problem, load, creepage, asp.Surface(np.zeros((20, 1)), 2.0 * spacing[0], 1.0))
     with refused(asp.InputError, "roughness"):
-        asp.roll_rough(problem, load, creepage, asp.Surface(np.zeros((20, 3)), *spacing))
+        asp.rolling.roll_rough(problem, load, creepage, asp.Surface(np.zeros((20, 3)), *spacing))
     with refused(asp.InputError, "roughness"):
-        asp.roll_rough(problem, load, creepage, asp.Surface(np.r_[np.zeros(19), np.nan][:, None], *spacing))
-    short = asp.roll_rough(problem, load, creepage, asp.Surface(np.zeros((20, 1)), *spacing), distance=spacing[0])
+        asp.rolling.roll_rough(problem, load, creepage, asp.Surface(np.r_[np.zeros(19), np.nan][:, None], *spacing))
+    short = asp.rolling.roll_rough(
+        problem, load, creepage, asp.Surface(np.zeros((20, 1)), *spacing), distance=spacing[0]
+    )
     with refused(asp.InputError, "distance of rough rolling"):
         short.mean("force_x")

@@ -48,7 +48,9 @@ def test_sliding_cylinder_against_the_solver(friction):
     problem = asp.ContactProblem(
         asp.Surface(profile, *grid.spacing), BODY, boundary=asp.FreeLine(), friction=asp.Coulomb(friction)
     )
-    result = asp.solve(problem, asp.MeanPressure(load / grid.size[0]), rounds=asp.Rounds(tolerances={"sliding": 1e-6}))
+    result = asp.solve(
+        problem, asp.MeanPressure(load / grid.size[0]), rounds=asp.solvers.Rounds(tolerances={"sliding": 1e-6})
+    )
     answer = theory.at_load(load)
     assert float(answer.radius) == pytest.approx(1.0)
     ends = x[result.contact[:, 0], 0][[0, -1]]
@@ -88,8 +90,8 @@ def test_tractions_of_punches_move_the_surface_as_a_rigid_punch():
     }
     for name, (p, q) in cases.items():
         assert p.sum() * grid.spacing[0] == pytest.approx(1.0, rel=0.02), name  # the edges are singular
-        shear = asp.ShearTraction(q, np.zeros_like(q))
-        loaded = asp.LoadedBody(BODY, asp.Tractions(grid, p, shear, "free line"))
+        shear = asp.stresses.ShearTraction(q, np.zeros_like(q))
+        loaded = asp.stresses.LoadedBody(BODY, asp.stresses.Tractions(grid, p, shear, "free line"))
         moved = asp.stress(loaded, [0.0], displacement=True).displacement
         assert np.ptp(moved.z[0, inside]) < 3e-3, name  # the frictionless punch of this load sinks by about ln 2
         if name == "sticking":
@@ -118,13 +120,13 @@ def test_round_punch_without_slip():
     )
     qx, qy = ((q * part / np.maximum(distance, 1e-9)).mean(axis=(2, 3)) for part in (X, Y))
     p = p.mean(axis=(2, 3)) * np.ones(grid.shape)
-    loaded = asp.LoadedBody(BODY, asp.Tractions(grid, p, asp.ShearTraction(qx, qy), "free"))
+    loaded = asp.stresses.LoadedBody(BODY, asp.stresses.Tractions(grid, p, asp.stresses.ShearTraction(qx, qy), "free"))
     moved = asp.stress(loaded, [0.0], displacement=True).displacement
     inside = np.hypot(x, y) < 0.7
     assert moved.z[0][inside] == pytest.approx(1.0, rel=0.02)
     assert np.abs(moved.x[0][inside]).max() < 0.01
     without = asp.stress(
-        asp.LoadedBody(BODY, asp.Tractions(grid, p, boundary="free")), [0.0], displacement=True
+        asp.stresses.LoadedBody(BODY, asp.stresses.Tractions(grid, p, boundary="free")), [0.0], displacement=True
     ).displacement
     assert np.abs(without.x[0][inside]).max() > 0.05
 

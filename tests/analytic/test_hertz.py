@@ -6,8 +6,8 @@ from contact_cases import TIGHT, elastic, square_grid
 from reference_data import every_row, reference
 
 import asperity as asp
-from asperity.contact.solvers import ConjugateGradient
-from asperity.surfaces import generate
+from asperity import generate
+from asperity.solvers import ConjugateGradient
 from asperity.theories.single.hertz import HertzEllipse, HertzPoint
 
 RADIUS, CONTACT_RADIUS = 1.0, 1.0  # the parabolic profile has no other length: any a / R is as good

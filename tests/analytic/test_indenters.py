@@ -6,8 +6,8 @@ from contact_cases import elastic, square_grid
 from reference_data import every_row, reference
 
 import asperity as asp
-from asperity.contact.solvers import ConjugateGradient
-from asperity.surfaces import generate
+from asperity import generate
+from asperity.solvers import ConjugateGradient
 
 ROWS = reference("axisymmetric_indenters")
 CONES = [row for row in ROWS if row["shape"] == "power" and row["n"] == 1]

@@ -65,7 +65,7 @@ def test_edges_lose_energy_and_never_gain_it():
     solved = parted(sphere(48, SIZE, LAW), [-0.1, 0.1, *np.linspace(0.0, -1.1, 23)])
     lost = np.array([step.adhesion.dissipated for step in solved.steps])
     assert lost.min() > -1e-3 * lost.max()
-    loop = asp.adhesion_loop(solved.steps)
+    loop = asp.adhesion.adhesion_loop(solved.steps)
     assert loop.work[-1] == pytest.approx(loop.hysteresis, rel=1e-9)
     assert loop.jumped[1]
     areas = np.array([step.area_fraction for step in solved.steps])
@@ -157,9 +157,9 @@ def test_step_compliance_is_that_of_a_point_at_a_step(boundary):
 
 def test_loads_and_what_is_refused():
     problem = sphere(48, SIZE, LAW)
-    assert asp.solve(problem, asp.History([asp.Unloaded(), asp.Pull(1.4 * FORCE)])).converged
+    assert asp.solve(problem, asp.History([asp.Unloaded(), asp.contact.Pull(1.4 * FORCE)])).converged
     with refused(NoSolutionError, "Step 2 of the history: force"):
-        asp.solve(problem, asp.History([asp.Unloaded(), asp.Pull(1.9 * FORCE)]))
+        asp.solve(problem, asp.History([asp.Unloaded(), asp.contact.Pull(1.9 * FORCE)]))
     with refused(InputError, "work of adhesion (J/m^2)"):
         asp.JKRAdhesion(0.0)
 

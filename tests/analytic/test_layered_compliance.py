@@ -139,7 +139,7 @@ def test_graded_coating_converges_with_second_order(alpha, limit, known):
     """
     errors = []
     for count in (4, 8, 16, 32, 64, 128):
-        coating = asp.graded(elastic(4.0, 0.3), elastic(1.0, 0.3), 1.0, sublayers=count)
+        coating = asp.solids.graded(elastic(4.0, 0.3), elastic(1.0, 0.3), 1.0, sublayers=count)
         errors.append(abs(float(surface(asp.Layered(coating, elastic(1.0, 0.3)), alpha).zz) / limit - 1.0))
     assert errors == pytest.approx(known, rel=0.05, abs=4e-7 if alpha == 5.0 else 2e-9)
     assert -np.diff(np.log2(errors[2:])) == pytest.approx([2.0] * 3, abs=0.15)
@@ -154,7 +154,9 @@ def test_gibson_soil_deflects_locally():
     np.testing.assert_allclose(2.0 * surface(body, np.array([0.3, 1.0, 3.0])).zz, 1.0, rtol=1e-3)
 
 
-@pytest.mark.parametrize("grading", [asp.LinearGrading(), asp.ExponentialGrading(), asp.PowerGrading(2.0)])
+@pytest.mark.parametrize(
+    "grading", [asp.solids.LinearGrading(), asp.solids.ExponentialGrading(), asp.solids.PowerGrading(2.0)]
+)
 def test_gradings_agree_with_the_differential_equations(grading):
     """(3.2) integrated through the continuous profile, from the base up, for both loads."""
     from scipy.integrate import solve_ivp
@@ -178,7 +180,7 @@ def test_gradings_agree_with_the_differential_equations(grading):
     exact = np.linalg.solve(ends[:, 2:], ends[:, :2])  # rows: unit tau_z, unit tau_L; columns U, W
     errors = []
     for count in (20, 40):
-        found = surface(asp.Layered(asp.graded(top, bottom, h, grading=grading, sublayers=count), base), alpha)
+        found = surface(asp.Layered(asp.solids.graded(top, bottom, h, grading=grading, sublayers=count), base), alpha)
         errors.append(np.abs(np.array([found.Lz, found.zz, found.LL]) - [exact[0, 0], exact[0, 1], exact[1, 0]]).max())
     assert errors[1] < 1e-3 * exact[0, 1]
     assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from reference_data import Row, every_row, reference
 
+from asperity import dynamics as dyn
 from asperity import theories
-from asperity.physics import dynamics as dyn
 
 # Closed forms; the references have 14 digits.
 

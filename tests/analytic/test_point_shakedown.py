@@ -157,7 +157,7 @@ def test_limits_of_a_solved_contact() -> None:
         asp.Layered([asp.Layer(weak, 1e-5)], base=STEEL),
     ):
         result = solved(body)
-        results.append(asp.shakedown(result, [0.0, 1e-5, 1.25e-5, 1.4e-5, 1.6e-5], friction))
+        results.append(asp.stresses.shakedown(result, [0.0, 1e-5, 1.25e-5, 1.4e-5, 1.6e-5], friction))
         np.testing.assert_array_less(results[-1].limit, results[-1].bound * (1.0 + 1e-9))
     peak = result.pressure.max()
     wanted = [theories.sphere_shakedown(mu) for mu in friction]
@@ -168,7 +168,7 @@ def test_limits_of_a_solved_contact() -> None:
     assert np.all(results[2].limit <= results[0].limit * (1.0 + 1e-6))
     assert results[2].region[-1] == 0
     assert results[2].limit[-1] == pytest.approx(0.5 * results[0].limit[-1], rel=1e-6)  # at the surface
-    found = asp.shakedown_map([0.0, 1.0, 2.0], results)
+    found = asp.stresses.shakedown_map([0.0, 1.0, 2.0], results)
     assert found.limit.shape == (3, 3)
     np.testing.assert_array_equal(found.bound[1], results[1].bound)
 
@@ -184,11 +184,11 @@ def test_refusals() -> None:
         theories.ellipse_shakedown(30.0)
     result = solved(asp.Elastic(2e11, 0.3))
     with refused(NoSolutionError, "strength of substrate"):
-        asp.shakedown(result, [1e-5])
+        asp.stresses.shakedown(result, [1e-5])
     with refused(InputError, "friction coefficient", "-0.1"):
-        asp.shakedown(result, [1e-5], -0.1)
+        asp.stresses.shakedown(result, [1e-5], -0.1)
     with refused(InputError, "curves of a shakedown map"):
-        asp.shakedown_map([1.0], [])
+        asp.stresses.shakedown_map([1.0], [])
 
 
 def test_rolling_sphere_by_finite_elements() -> None:

@@ -24,7 +24,7 @@ def sphere(radius: float, at: np.ndarray, *, hardness: float = math.inf) -> asp.
     points = int(2.6 * radius + 8)
     x = np.arange(points) - 0.5 * (points - 1)
     heights = -((x[:, None] - at[0]) ** 2 + (x[None, :] - at[1]) ** 2) / 4000.0
-    law = asp.Hardness(hardness) if math.isfinite(hardness) else asp.HardWall()
+    law = asp.Hardness(hardness) if math.isfinite(hardness) else asp.plasticity.HardWall()
     problem = asp.ContactProblem(asp.Surface(heights, 1.0), asp.Elastic(1e9, 0.0), boundary=asp.Free(), law=law)
     return asp.solve(problem, asp.Force(4.0 / 3.0 * 1e9 * radius**3 / 2000.0))
 
@@ -99,7 +99,7 @@ def test_rough_free_contacts(row: Row) -> None:
     x = ((np.arange(points) + 0.5) / points - 0.5) * SIDE
     heights = rough_heights(4 * points, row, slope=0.06)[2::4, 2::4] - (x[:, None] ** 2 + x[None, :] ** 2) / 12e-6
     hardness = float(row["hardness"])
-    law = asp.Hardness(hardness * UNIT) if math.isfinite(hardness) else asp.HardWall()
+    law = asp.Hardness(hardness * UNIT) if math.isfinite(hardness) else asp.plasticity.HardWall()
     surface = asp.Surface(heights, SIDE / points)
     problem = asp.ContactProblem(surface, asp.Elastic(E_STAR * 0.91, 0.3), boundary=asp.Free(), law=law)
     found = asp.solve(problem, asp.Force(1e-6))

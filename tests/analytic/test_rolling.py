@@ -35,7 +35,7 @@ def test_carters_cylinders(row):
         surface = asp.Surface(-(x[:, None] ** 2) / (2.0 * row["R"]), spacing, 1.0)
         law = asp.Coulomb(row["mu"])
         problem = asp.ContactProblem(surface, body, counter_body=body, boundary=asp.FreeLine(), friction=law)
-        found = asp.roll(problem, asp.Force(row["P"]), asp.Creepage(row["creep"]))
+        found = asp.roll(problem, asp.Force(row["P"]), asp.rolling.Creepage(row["creep"]))
         assert found.converged
         at = np.interp([0.0, 0.9 * row["a"], -0.9 * row["a"]], x, found.traction[0, :, 0])
         expected = np.array([row["q_x0"], row["q_x09a"], row["q_xm09a"]])
@@ -65,9 +65,9 @@ def test_forces_are_odd_bounded_and_balance_the_heat():
     body, mu = asp.Elastic(1.0, 0.3), 0.3
     problem = ball(40, body, asp.Coulomb(mu))
     load = load_of(problem)
-    motion = asp.Creepage(3e-3, -2e-3, 0.02)
+    motion = asp.rolling.Creepage(3e-3, -2e-3, 0.02)
     found = asp.roll(problem, load, motion)
-    back = asp.roll(problem, load, asp.Creepage(-3e-3, 2e-3, -0.02))
+    back = asp.roll(problem, load, asp.rolling.Creepage(-3e-3, 2e-3, -0.02))
     scale = np.abs(found.traction).max()
     assert np.abs(found.traction + back.traction).max() <= 1e-3 * scale
     assert np.all(np.hypot(*found.traction) <= mu * found.normal.pressure * (1.0 + 1e-9))
@@ -79,7 +79,7 @@ def test_forces_are_odd_bounded_and_balance_the_heat():
         assert result.power_density.min() >= 0.0
         missing.append(1.0 - heat / result.dissipated)
     assert 0.0 < missing[1] < 0.6 * missing[0]
-    sliding = asp.roll(problem, load, asp.Creepage(5.0))
+    sliding = asp.roll(problem, load, asp.rolling.Creepage(5.0))
     assert sliding.force_x == pytest.approx(mu * sliding.normal.force, rel=1e-4)
 
 
@@ -87,7 +87,7 @@ def test_thick_layers_roll_as_their_material_and_unlike_bodies_shift_the_pressur
     body, law = asp.Elastic(1.0, 0.3), asp.Coulomb(0.3)
     thick = asp.Layered([asp.Layer(body, 1e4 * A)], base=asp.Elastic(3.0, 0.2))
     plain, coated = ball(24, body, law), ball(24, thick, law)
-    motion = asp.Creepage(2e-3)
+    motion = asp.rolling.Creepage(2e-3)
     first, second = (asp.roll(problem, load_of(plain), motion) for problem in (plain, coated))
     assert np.abs(first.traction - second.traction).max() <= 2e-3 * np.abs(first.traction).max()
     unlike = ball(24, body, law, counter=asp.Rigid())
@@ -113,9 +113,9 @@ def test_what_cannot_roll_is_refused(options):
         surface, asp.Elastic(1e9, 0.3), **{"boundary": asp.Free(), "friction": asp.Coulomb(0.3), **options}
     )
     with pytest.raises(asp.InputError):
-        asp.roll(problem, asp.Force(1e-9), asp.Creepage(1e-3))
+        asp.roll(problem, asp.Force(1e-9), asp.rolling.Creepage(1e-3))
 
 
 def test_creepages_must_be_finite():
     with pytest.raises(asp.InputError):
-        asp.Creepage(math.nan)
+        asp.rolling.Creepage(math.nan)

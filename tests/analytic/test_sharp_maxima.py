@@ -147,14 +147,14 @@ def test_every_place_quotes_the_same_maxima(tmp_path: Path) -> None:
     )  # the edge is free of other tractions
     assert found.whole["principal_tensile"].value == pytest.approx(peak.value, rel=1e-12)
     assert found.whole["shear_xz"].value == pytest.approx(np.abs(field.shear_xz).max(), rel=1e-12)
-    first, inside = asp.fracture_indicators(field, tensile=p0)
+    first, inside = asp.stresses.fracture_indicators(field, tensile=p0)
     assert first.peak == inside.peak == peak
     assert first.ratio == peak.value / p0
-    planes = asp.stress_planes(result, found.depths, friction=0.5)
+    planes = asp.stresses.stress_planes(result, found.depths, friction=0.5)
     for criterion, name, factor in (
-        (asp.VonMises(), "von_mises", 1.0),
-        (asp.Tresca(), "shear", 2.0),
-        (asp.MaxPrincipal(1e6), "tension", 1.0),
+        (asp.stresses.VonMises(), "von_mises", 1.0),
+        (asp.stresses.Tresca(), "shear", 2.0),
+        (asp.stresses.MaxPrincipal(1e6), "tension", 1.0),
     ):
         largest = field.largest(name)
         for report in (
@@ -167,7 +167,7 @@ def test_every_place_quotes_the_same_maxima(tmp_path: Path) -> None:
     assert asp.first_yield(planes).load_factor == asp.first_yield(field).load_factor
     (part,) = found.maxima
     assert (part.tension.value, part.tension.error) == pytest.approx((peak.value, peak.error), rel=1e-12)
-    asp.export_csv(found, tmp_path / "s.csv")
+    asp.files.export_csv(found, tmp_path / "s.csv")
     row = next(line for line in (tmp_path / "s.csv").read_text().splitlines() if "max_principal" in line).split(",")
     assert float(row[-2]) == pytest.approx(peak.error, rel=1e-12)
     assert maxima_table(found).cells[2][2] == f"{show(peak.value, 'Pa')} ± {show(peak.error, 'Pa', 2)}"

@@ -110,7 +110,7 @@ def test_grid_meets_jkr_on_a_soft_coating():
     strength = float(np.sqrt(modulus * work / (4.0 * pixel)))
     x = (np.arange(n) - 0.5 * (n - 1)) * pixel
     heights = -0.5 * (x[:, None] ** 2 + x[None, :] ** 2)
-    law = asp.DugdaleAdhesion(work, work / strength, 0.3)
+    law = asp.adhesion.DugdaleAdhesion(work, work / strength, 0.3)
     problem = asp.ContactProblem(asp.Surface(heights, pixel), body, boundary=asp.Free(), adhesion=law)
     steps = row["delta_at_pulloff"] + np.array([0.1, 0.02, 0.0, -0.02, -0.04, -0.06])
     found = asp.solve(problem, asp.History([asp.FixedGrips(float(step)) for step in steps]))

@@ -30,7 +30,7 @@ def work_of(tabor: float) -> float:
     return math.sqrt(tabor**3 * SPACING**3)
 
 
-def sphere(attraction: asp.contact.laws.Adhesion, points: int, half: float, **more: object) -> asp.ContactProblem:
+def sphere(attraction: asp.adhesion.Adhesion, points: int, half: float, **more: object) -> asp.ContactProblem:
     size = 2.0 * half * math.sqrt(SPACING)
     x = (np.arange(points) - 0.5 * (points - 1)) * size / points
     surface = asp.Surface(-(x[:, None] ** 2 + x[None, :] ** 2) / 2.0, size / points)
@@ -38,7 +38,7 @@ def sphere(attraction: asp.contact.laws.Adhesion, points: int, half: float, **mo
     return asp.ContactProblem(surface, **settings)  # type: ignore[arg-type]
 
 
-def beyond(law: asp.contact.laws.Adhesion, half: float, approach: float) -> float:
+def beyond(law: asp.adhesion.Adhesion, half: float, approach: float) -> float:
     """Force of the attraction outside the square, where the sphere hardly deforms, over πwR."""
     angle = (np.arange(200) + 0.5) / 200.0 * 0.25 * math.pi
     border = half * math.sqrt(SPACING) / np.cos(angle)
@@ -51,7 +51,7 @@ def beyond(law: asp.contact.laws.Adhesion, half: float, approach: float) -> floa
 def test_pull_off_of_lennard_jones_spheres(row):
     tabor = row["tabor_mu"]
     points, half = GRIDS[tabor]
-    law = asp.LennardJonesAdhesion(work_of(tabor), SPACING)
+    law = asp.adhesion.LennardJonesAdhesion(work_of(tabor), SPACING)
     problem = sphere(law, points, half)
     start = {0.2: 0.0, 0.3: 0.0, 1.0: -0.5, 2.0: -0.5}[tabor]
     approaches = SPACING * np.concatenate(
@@ -70,7 +70,7 @@ def test_pull_off_of_lennard_jones_spheres(row):
 
 def test_sphere_jumps_in_and_off_where_the_reference_says():
     row = next(row for row in ROWS if row["tabor_mu"] == 1.0)
-    problem = sphere(asp.LennardJonesAdhesion(work_of(1.0), SPACING), 96, 5.0)
+    problem = sphere(asp.adhesion.LennardJonesAdhesion(work_of(1.0), SPACING), 96, 5.0)
     for ends, event in (((-1.72, -1.54), "delta_jump_in_over_z0"), ((-1.65, -1.83), "delta_jump_off_over_z0")):
         first = [-2.2] if ends[1] > ends[0] else [-1.0]
         way = np.array([*first, *np.linspace(*ends, 19)])
@@ -83,7 +83,7 @@ def test_sphere_jumps_in_and_off_where_the_reference_says():
 
 
 def test_rigid_sphere_pulls_as_bradley():
-    law = asp.LennardJonesAdhesion(work_of(0.2), SPACING)
+    law = asp.adhesion.LennardJonesAdhesion(work_of(0.2), SPACING)
     half = 10.0
     found = asp.solve(sphere(law, 96, half, body=asp.Elastic(1e5, 0.3)), asp.FixedGrips(-0.5 * SPACING))
     nearest = 0.25 * (2.0 * half * math.sqrt(SPACING) / 96) ** 2  # the highest points lie that much below the apex
@@ -94,7 +94,7 @@ def test_rigid_sphere_pulls_as_bradley():
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()], ids=["free", "periodic"])
 def test_dense_quasi_newton_finds_the_same_gap(boundary):
-    law = asp.LennardJonesAdhesion(work_of(0.8), SPACING)
+    law = asp.adhesion.LennardJonesAdhesion(work_of(0.8), SPACING)
     n = 12
     x = np.arange(n) / n
     generator = np.random.default_rng(4)
@@ -126,7 +126,7 @@ def test_dense_quasi_newton_finds_the_same_gap(boundary):
 
 def test_two_flats_lose_their_stability_at_the_longest_wave():
     n, pixel = 16, 1e-3
-    law = asp.LennardJonesAdhesion(work_of(1.0), SPACING)
+    law = asp.adhesion.LennardJonesAdhesion(work_of(1.0), SPACING)
     problem = asp.ContactProblem(asp.Surface(np.zeros((n, n)), pixel), BODY, adhesion=law)
     for gap in (1.5, 2.0):
         found = asp.solve(problem, asp.FixedGrips((1.0 - gap) * SPACING))
@@ -137,12 +137,12 @@ def test_two_flats_lose_their_stability_at_the_longest_wave():
         assert found.adhesion.margin == pytest.approx(1.0 - eigenvalue, abs=1e-4)
 
 
-def own(law: asp.LennardJonesAdhesion) -> asp.CustomAdhesion:
-    return asp.CustomAdhesion(law.attraction, law.energy, law.slope, far=30.0 * SPACING, equilibrium=SPACING)
+def own(law: asp.adhesion.LennardJonesAdhesion) -> asp.adhesion.CustomAdhesion:
+    return asp.adhesion.CustomAdhesion(law.attraction, law.energy, law.slope, far=30.0 * SPACING, equilibrium=SPACING)
 
 
 def test_own_law_with_a_core_does_the_same():
-    law = asp.LennardJonesAdhesion(work_of(1.0), SPACING)
+    law = asp.adhesion.LennardJonesAdhesion(work_of(1.0), SPACING)
     mine = own(law)
     assert mine.peak == pytest.approx(law.peak, rel=1e-9)
     assert mine.strength == pytest.approx(law.strength, rel=1e-12)
@@ -152,19 +152,21 @@ def test_own_law_with_a_core_does_the_same():
     forces = [asp.solve(sphere(each, 32, 6.0), loads).last for each in (law, mine)]
     assert forces[0].approach == pytest.approx(forces[1].approach, rel=1e-9)
     with refused(InputError, "attraction of an adhesion law with a core"):
-        asp.CustomAdhesion(law.attraction, law.energy, law.slope, far=30.0 * SPACING, equilibrium=1.1 * SPACING)
+        asp.adhesion.CustomAdhesion(
+            law.attraction, law.energy, law.slope, far=30.0 * SPACING, equilibrium=1.1 * SPACING
+        )
     with refused(InputError, "energy of an adhesion law"):
-        asp.CustomAdhesion(
+        asp.adhesion.CustomAdhesion(
             law.attraction, lambda g: 1.1 * law.energy(g), law.slope, far=30.0 * SPACING, equilibrium=SPACING
         )
     with refused(InputError, "far gap of the adhesion (m)"):
-        asp.CustomAdhesion(law.attraction, law.energy, law.slope, far=SPACING, equilibrium=SPACING)
+        asp.adhesion.CustomAdhesion(law.attraction, law.energy, law.slope, far=SPACING, equilibrium=SPACING)
 
 
 def test_load_position_and_machine_meet_on_one_branch():
-    law = asp.LennardJonesAdhesion(work_of(1.0), SPACING)
+    law = asp.adhesion.LennardJonesAdhesion(work_of(1.0), SPACING)
     problem, unit = sphere(law, 48, 6.0), math.pi * law.work
-    pulled = asp.solve(problem, asp.History([asp.Unloaded(), asp.Pull(1.5 * unit)])).last
+    pulled = asp.solve(problem, asp.History([asp.Unloaded(), asp.contact.Pull(1.5 * unit)])).last
     held = asp.solve(problem, asp.FixedGrips(pulled.approach), state=pulled.state)
     assert held.external_force == pytest.approx(-1.5 * unit, rel=1e-4)
     assert pulled.adhesion.margin < held.adhesion.margin
@@ -175,14 +177,14 @@ def test_load_position_and_machine_meet_on_one_branch():
     gap = asp.solve(problem, asp.MeanGap(held.mean_gap), state=held.state)
     assert gap.external_force == pytest.approx(-1.5 * unit, rel=1e-3)
     with refused(NoSolutionError, "force"):
-        asp.solve(problem, asp.Pull(1.75 * unit), state=pulled.state)
+        asp.solve(problem, asp.contact.Pull(1.75 * unit), state=pulled.state)
     with refused(InputError, "law of a contact with the adhesion Lennard-Jones 3-9"):
         sphere(law, 16, 6.0, law=asp.Hardness(0.1))
 
 
 def test_deep_contact_and_states_that_go_on(tmp_path):
     """An approach of hundred spacings at once; friction joins; saved and loaded."""
-    law = asp.LennardJonesAdhesion(work_of(1.0), SPACING)
+    law = asp.adhesion.LennardJonesAdhesion(work_of(1.0), SPACING)
     problem = sphere(law, 48, 20.0, friction=asp.Coulomb(0.3, coupled=True))
     deep = asp.solve(problem, asp.FixedGrips(100.0 * SPACING))
     hertz = 4.0 / 3.0 * (100.0 * SPACING) ** 1.5
@@ -201,7 +203,7 @@ def test_rough_surfaces_that_are_pressed_together_have_an_equilibrium(pressure):
     for seed in range(12):
         heights = np.random.default_rng(seed).standard_normal((6, 6))
         for pixels in (2.0, 3.0, 6.0):
-            law = asp.LennardJonesAdhesion(9.0 * math.sqrt(3.0) / 16.0 / pixels, 1.0)
+            law = asp.adhesion.LennardJonesAdhesion(9.0 * math.sqrt(3.0) / 16.0 / pixels, 1.0)
             problem = asp.ContactProblem(
                 asp.Surface(heights, 3.0), asp.Elastic(1.0, 0.0), boundary=asp.Free(), adhesion=law
             )

@@ -156,7 +156,7 @@ def test_load_that_reaches_a_position() -> None:
             "friction and plastic_flow of steady sliding",
         ),
         (lambda: asp.slide(sticky(32, asp.JKRAdhesion(1e-4)), LIGHT, 1.0), "adhesion of viscoelastic bodies"),
-        (lambda: asp.slide(sticky(32, None), asp.Pull(1e-4), 1.0), "control of a problem without adhesion"),
+        (lambda: asp.slide(sticky(32, None), asp.contact.Pull(1e-4), 1.0), "control of a problem without adhesion"),
         (
             lambda: asp.slide(sticky(32), LIGHT, 1.0, after=asp.slide(sticky(16), LIGHT, 1.0)),
             "permanent indentation of the state",
@@ -177,7 +177,10 @@ STICKY = asp.ExponentialAdhesion(2e-4, 2e-3)
 
 
 def sticky(
-    points: int, adhesion: asp.Adhesion | None = STICKY, body: asp.Elastic = SLS, film: asp.LiquidFilm | None = None
+    points: int,
+    adhesion: asp.adhesion.Adhesion | None = STICKY,
+    body: asp.Elastic = SLS,
+    film: asp.LiquidFilm | None = None,
 ) -> asp.ContactProblem:
     return asp.ContactProblem(wave(points, 0.01, 1.0), asp.Rigid(), counter_body=body, adhesion=adhesion, film=film)
 
@@ -186,7 +189,7 @@ def sticky(
 def test_adhesive_sliding_is_where_the_motion_in_time_ends() -> None:
     """Friction to the error of the steps of time (5e-3 at two steps a pixel); the two ways to it, work of pressure and attraction, by a pixel at the edges."""
     steady, dry = asp.slide(sticky(64), LIGHT, 0.1), asp.slide(sticky(64, None), LIGHT, 0.1)
-    found = asp.slide_in_time(sticky(64), LIGHT, 0.1, 3.0)
+    found = asp.viscoelasticity.slide_in_time(sticky(64), LIGHT, 0.1, 3.0)
     assert found.mean_friction(1.0) == pytest.approx(steady.friction, rel=0.02)
     assert found.last.area_fraction == pytest.approx(steady.normal.area_fraction, abs=1.5 / 64)
     fine = asp.slide(sticky(256), LIGHT, 0.1)
@@ -226,13 +229,13 @@ def test_adhesive_sliding_stays_on_its_branch() -> None:
     assert touched.normal.area_fraction < 0.5
     assert held.normal.area_fraction == 1.0
     assert held.friction > touched.friction
-    pulled = asp.slide(steep, asp.Pull(1e-3), 1e-3, after=held)
+    pulled = asp.slide(steep, asp.contact.Pull(1e-3), 1e-3, after=held)
     assert pulled.normal.area_fraction == 1.0
     assert pulled.normal.external_force == pytest.approx(-1e-3, rel=1e-9)
     assert pulled.friction_stress == pytest.approx(held.friction_stress, rel=1e-6)
     assert np.isnan(pulled.friction)
     with refused(asp.NoSolutionError, "force"):
-        asp.slide(steep, asp.Pull(1.0), 1e-3, after=held)
+        asp.slide(steep, asp.contact.Pull(1.0), 1e-3, after=held)
 
 
 @pytest.mark.slow
@@ -248,7 +251,7 @@ def test_machine_that_gives_way_while_it_slides() -> None:
 
 
 @pytest.mark.parametrize("adhesion", [None, STICKY])
-def test_menisci_press_a_sliding_surface(adhesion: asp.Adhesion | None) -> None:
+def test_menisci_press_a_sliding_surface(adhesion: asp.adhesion.Adhesion | None) -> None:
     """The contact is that under the load and the force of the menisci together, and the coefficient is over the load."""
     film = asp.LiquidFilm(surface_tension=2.5e-6, thickness=1e-3)
     load = 0.1 * np.pi * 0.01

@@ -47,7 +47,7 @@ def value_of(surface: asp.Surface, quantity: str, given_: dict) -> float:
     if quantity in heights:
         return getattr(r.height_parameters(surface), heights[quantity])
     if quantity == "Sq after poly1":
-        return asp.rms_height(asp.levelled(surface, "plane"))
+        return asp.roughness.rms_height(asp.levelled(surface, "plane"))
     if quantity.startswith("sum8"):
         mean = r.summit_statistics(r.summits(surface))
         names = {
@@ -82,7 +82,7 @@ def value_of(surface: asp.Surface, quantity: str, given_: dict) -> float:
 
 
 def difference_of(surface: asp.Surface, quantity: str) -> float:
-    m0 = asp.rms_height(surface) ** 2
+    m0 = asp.roughness.rms_height(surface) ** 2
     if quantity == "m0":
         return m0
     squares = {
@@ -143,7 +143,9 @@ def test_mean_absolute_height_of_gaussian_heights():
 
     surface = asp.Surface(ndtri((np.arange(400_000) + 0.5) / 400_000).reshape(400, 1000), 1.0)
     (expected,) = (row["continuum_value"] for row in ROWS if row["case"] == "AN9" and row["quantity"] == "Sa")
-    assert asp.mean_absolute_height(surface) == pytest.approx(expected * asp.rms_height(surface), rel=1e-5)
+    assert asp.roughness.mean_absolute_height(surface) == pytest.approx(
+        expected * asp.roughness.rms_height(surface), rel=1e-5
+    )
 
 
 @every_row([row for row in ROWS if row["case"] == "AN10"], label=lambda row: row["parameters"])
@@ -152,7 +154,7 @@ def test_developed_area_of_gaussian_slopes(row):
         amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=64.0, shortest_wavelength=16.0
     )
     surface = asp.generate.gaussian(asp.Grid((1024, 1024), (1.0, 1.0)), spectrum, seed=9)
-    scale = math.sqrt(json.loads(row["parameters"])["Sdq2"]) / asp.rms_slope(surface)
+    scale = math.sqrt(json.loads(row["parameters"])["Sdq2"]) / asp.roughness.rms_slope(surface)
     scaled = asp.Surface(scale * surface.heights, 1.0, periodic=True)
     # some 4000 independent slopes leave the fourth moment uncertain by 2 %, which enters Sdr with a quarter of Sdq²
     slope2 = json.loads(row["parameters"])["Sdq2"]

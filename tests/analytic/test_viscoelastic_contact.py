@@ -388,9 +388,9 @@ def test_harmonic_stiffness_of_a_coated_contact(name: str, boundary: asp.Free | 
     surface = asp.Surface(sphere(0.5, 24).heights / 5.0, 1.0 / 24)
     problem = asp.ContactProblem(surface, body, boundary=boundary)
     found = asp.solve(problem, asp.Force(0.01))
-    fast, slow, middle = (asp.harmonic(found, f) for f in (1e5, 1e-7, 0.1))
+    fast, slow, middle = (asp.viscoelasticity.harmonic(found, f) for f in (1e5, 1e-7, 0.1))
     assert fast.stiffness.real == pytest.approx(found.normal_stiffness, rel=1e-3)
-    operator = asp.prepare_operator(asp.ContactProblem(surface, relaxed).compliance, problem.grid, boundary)
+    operator = asp.solvers.prepare_operator(asp.ContactProblem(surface, relaxed).compliance, problem.grid, boundary)
     assert slow.stiffness.real == pytest.approx(normal_stiffness(operator, found.contact), rel=2e-3)
     assert slow.stiffness.real < middle.stiffness.real < fast.stiffness.real
     assert middle.loss_tangent > 0.02 > fast.loss_tangent
@@ -398,12 +398,12 @@ def test_harmonic_stiffness_of_a_coated_contact(name: str, boundary: asp.Free | 
 
 def test_harmonic_stiffness_of_a_half_space_is_the_complex_modulus() -> None:
     found = asp.solve(free(sphere(0.3, 24), solid("prony3")), asp.Force(0.02))
-    response = asp.harmonic(found, 0.2)
+    response = asp.viscoelasticity.harmonic(found, 0.2)
     modulus = solid("prony3").complex_modulus(2.0 * np.pi * 0.2)
     assert response.stiffness == pytest.approx(found.normal_stiffness * modulus / 28.0, rel=1e-9)
     assert response.heat(1e-3) == pytest.approx(np.pi * response.stiffness.imag * 1e-6 * 0.36, rel=1e-9)
     with refused(asp.InputError, "contact that oscillates"):
-        asp.harmonic(asp.solve(free(sphere(0.3, 24), asp.Elastic(1.0, 0.3)), asp.Force(0.02)), 1.0)
+        asp.viscoelasticity.harmonic(asp.solve(free(sphere(0.3, 24), asp.Elastic(1.0, 0.3)), asp.Force(0.02)), 1.0)
 
 
 def test_stresses_only_where_they_do_not_depend_on_the_past() -> None:

@@ -140,7 +140,7 @@ def test_adhesion_of_a_viscoelastic_coating(boundary: asp.Free | asp.Periodic) -
 
 def test_adhesion_with_a_core_beside_creep() -> None:
     """Lennard-Jones' law, which has no wall: after a long hold attraction and contact are those of the relaxed body."""
-    load, law = asp.Force(1e-5), asp.LennardJonesAdhesion(0.05, 0.25e-6)
+    load, law = asp.Force(1e-5), asp.adhesion.LennardJonesAdhesion(0.05, 0.25e-6)
     soft, relaxed = (replace(sphere(body), adhesion=law) for body in (RUBBER, asp.Elastic(RELAXED, 0.5)))
     held = asp.solve(soft, asp.History([load, asp.Step(load, duration=500.0)]), time_steps=COARSE).last
     end = asp.solve(relaxed, load)
@@ -215,7 +215,7 @@ def test_hardness_of_layers_with_menisci_beside_creep(boundary: asp.Free | asp.P
     soft = asp.Viscoelastic(16e6, 0.3, strength=asp.Strength(hardness=1.5e6), spectrum=SOFT.spectrum)
     body = asp.Layered([asp.Layer(soft, 2e-6)], asp.Elastic(1e8, 0.3, strength=asp.Strength(hardness=1e7)))
     film = asp.LiquidFilm(surface_tension=0.02, thickness=2e-8, meniscus_height=5e-8)
-    problem = asp.ContactProblem(GROUND, body, boundary=boundary, law=asp.LayeredHardness(body), film=film)
+    problem = asp.ContactProblem(GROUND, body, boundary=boundary, law=asp.plasticity.LayeredHardness(body), film=film)
     found = asp.solve(problem, HOLD)
     assert found.steps[0].total_plastic_work > 0.0
     assert found.last.total_plastic_work >= found.steps[0].total_plastic_work

@@ -28,11 +28,11 @@ def ball(points: int = 24, radius: float = 20e-6) -> asp.Surface:
     return asp.Surface(-(x[:, None] ** 2 + x**2) / (2.0 * radius), 12.8e-6 / points)
 
 
-def problem(body: Body, boundary: asp.Boundary = asp.Free(), **more: object) -> asp.ContactProblem:
+def problem(body: Body, boundary: asp.contact.Boundary = asp.Free(), **more: object) -> asp.ContactProblem:
     return asp.ContactProblem(ball(), body, boundary=boundary, **more)  # type: ignore[arg-type]
 
 
-def held(control: asp.Control, *durations: float) -> asp.History:
+def held(control: asp.contact.Control, *durations: float) -> asp.History:
     """Pressed at once, and held."""
     return asp.History([control, *(asp.Step(control, duration=duration) for duration in durations)])
 
@@ -72,7 +72,7 @@ def test_force_of_a_long_hold_is_that_of_the_relaxed_body(duration: float) -> No
 
 @pytest.mark.parametrize("control", [DEPTH, asp.MeanGap(4e-7)])
 @pytest.mark.parametrize("coating", [False, True])
-def test_long_hold_of_layers_and_at_a_mean_gap(control: asp.Control, coating: bool) -> None:
+def test_long_hold_of_layers_and_at_a_mean_gap(control: asp.contact.Control, coating: bool) -> None:
     """The relaxed contact, within the error of the series of a coating (1e-3)."""
     boundary = asp.Periodic() if isinstance(control, asp.MeanGap) else asp.Free()
     bodies = STANDARD, asp.Elastic(RELAXED, 0.5)
@@ -85,7 +85,7 @@ def test_long_hold_of_layers_and_at_a_mean_gap(control: asp.Control, coating: bo
 def test_sheared_contact_held_in_place_relaxes() -> None:
     """Where surfaces stick, force and tangential force of a position held go to those of the relaxed body."""
     place = asp.Step(DEPTH, asp.Shift(20e-9))
-    both = [problem(body, friction=asp.FullStick()) for body in (STANDARD, asp.Elastic(RELAXED, 0.5))]
+    both = [problem(body, friction=asp.friction.FullStick()) for body in (STANDARD, asp.Elastic(RELAXED, 0.5))]
     found = asp.solve(both[0], asp.History([place, replace(place, duration=0.2)]))
     end = asp.solve(both[1], place)
     assert found.last.force == pytest.approx(end.force, rel=1e-4)
@@ -97,7 +97,7 @@ def test_sheared_coating_held_in_place_stays_in_touch() -> None:
     """Points that touch later stick elsewhere than in the relaxed contact: the same forces for other lengths of the steps, and energies that balance."""
     place = asp.Step(DEPTH, asp.Shift(20e-9))
     course = asp.History([place, replace(place, duration=0.2)])
-    sheared = problem(coated(STANDARD), friction=asp.FullStick())
+    sheared = problem(coated(STANDARD), friction=asp.friction.FullStick())
     coarse, fine = (asp.solve(sheared, course, time_steps=asp.TimeSteps(each)) for each in (1e-2, 1e-3))
     creep = coarse.last.creep
     assert creep is not None
@@ -213,7 +213,7 @@ def test_heat_of_a_long_hold_under_a_load(duration: float) -> None:
 
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
-def test_energies_of_sliding_surfaces_that_creep(boundary: asp.Boundary) -> None:
+def test_energies_of_sliding_surfaces_that_creep(boundary: asp.contact.Boundary) -> None:
     """The work of the displacement by shear is that of pressures linear in time: energies balance over long and short holds."""
     solid = asp.Viscoelastic.standard_linear(RELAXED, 4.0 * RELAXED, TIME, 0.2)
     sliding = problem(solid, boundary, friction=asp.Coulomb(0.8))
@@ -229,7 +229,7 @@ def test_history_of_a_dented_surface_begins_at_its_touch() -> None:
     law = {"law": asp.Hardness(20e6)}
     dented = asp.solve(problem(asp.Elastic(FIRST, 0.5), **law), asp.History([DEPTH, asp.Unloaded()])).state
     assert dented is not None
-    state = asp.InterfaceState.dented(dented.permanent_indentation, np.zeros((24, 24)), dented.plastic_work)
+    state = asp.solvers.InterfaceState.dented(dented.permanent_indentation, np.zeros((24, 24)), dented.plastic_work)
     found = asp.solve(problem(STANDARD, **law), asp.History([asp.Step(DEPTH, duration=TIME)]), state=state)
     creep = found.last.creep
     assert creep is not None
@@ -242,7 +242,7 @@ def test_state_after_sliding_in_time_goes_on_with_a_new_account() -> None:
     """The work of a surface that moves is not that of the force over the approach; what follows is counted from its end."""
     wave = asp.Surface(1e-7 * np.cos(2.0 * np.pi * np.arange(24) / 24)[:, None] * np.ones(4), 1e-6, periodic=True)
     moving = asp.ContactProblem(wave, asp.Rigid(), counter_body=MILD)
-    moved = asp.slide_in_time(moving, asp.MeanPressure(1e4), 1e-3, 12e-6)
+    moved = asp.viscoelasticity.slide_in_time(moving, asp.MeanPressure(1e4), 1e-3, 12e-6)
     after = asp.solve(moved.last.problem, asp.Step(asp.MeanPressure(1e4), duration=1.0), state=moved.last.state)
     assert after.converged
     assert after.creep is not None

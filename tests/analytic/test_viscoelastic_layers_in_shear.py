@@ -95,7 +95,9 @@ def memory_of(problem: asp.ContactProblem) -> LayeredShear:
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("pair", PAIRS)
-def test_operators_of_the_first_instant_and_of_long_times(pair: tuple[Body, Body], boundary: asp.Boundary) -> None:
+def test_operators_of_the_first_instant_and_of_long_times(
+    pair: tuple[Body, Body], boundary: asp.contact.Boundary
+) -> None:
     """Those of the elastic bodies that both are at once and after all relaxation, coupling included, and on coarser grids."""
     memory = memory_of(sphere(pair[0], 12, counter_body=pair[1], boundary=boundary))
     rng = np.random.default_rng(1)
@@ -171,7 +173,7 @@ def stuck(stack: asp.Layered, times: RealArray, steps: asp.TimeSteps) -> RealArr
     """Amplitudes of shear traction and pressure of a wavy surface pressed flat at once, and held without slip for these ``times`` (s)."""
     x = 2.0 * np.pi * np.arange(16) / 16
     surface = asp.Surface(WAVE * np.cos(x)[:, None] * np.ones(4), 1.0 / 16)
-    problem = asp.ContactProblem(surface, stack, counter_body=asp.Rigid(), friction=asp.FullStick())
+    problem = asp.ContactProblem(surface, stack, counter_body=asp.Rigid(), friction=asp.friction.FullStick())
     load = asp.MeanPressure(0.2)
     held = [asp.Step(load, asp.Shift(), duration=float(dt)) for dt in np.diff([0.0, *times])]
     found = asp.solve(problem, asp.History([asp.Step(load, asp.Shift()), *held]), time_steps=steps)
@@ -234,7 +236,7 @@ def forces(found: asp.HistoryResult) -> RealArray:
 @pytest.mark.slow
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("body", [COATED, FILM])
-def test_fast_and_slow_shear_are_elastic(body: asp.Layered, boundary: asp.Boundary) -> None:
+def test_fast_and_slow_shear_are_elastic(body: asp.Layered, boundary: asp.contact.Boundary) -> None:
     """Steps far shorter than all relaxation see the layers of the first instant, far longer ones the relaxed layers."""
     number, shift = 6, 0.004
     for duration, relaxed, allowed in ((1e-7, 0.0, 2e-5), (1e7, 1.0, 1e-3)):
@@ -270,7 +272,7 @@ def test_layers_of_one_material_are_that_material(solid: asp.Viscoelastic) -> No
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("body", [COATED, FILM, PAD])
-def test_work_is_stored_or_heat_of_slip_or_of_the_layers(body: asp.Layered, boundary: asp.Boundary) -> None:
+def test_work_is_stored_or_heat_of_slip_or_of_the_layers(body: asp.Layered, boundary: asp.contact.Boundary) -> None:
     """The balance of a loop with coupling between shear and pressure closes as the steps of time get shorter."""
     left, whole = left_of_a_loop(sphere(body, 16, boundary=boundary), 0.004)
     assert left[1] < 1e-3 * whole
@@ -310,7 +312,7 @@ def test_tresca_and_a_force_along_y_on_a_line() -> None:
     x = (np.arange(48) - 23.5) * 0.05
     surface = asp.Surface(-(x[:, None] ** 2) / 20.0, 0.05)
     problem = asp.ContactProblem(
-        surface, COATED, boundary=asp.FreeLine(), counter_body=asp.Rigid(), friction=asp.TrescaFriction(0.05)
+        surface, COATED, boundary=asp.FreeLine(), counter_body=asp.Rigid(), friction=asp.friction.TrescaFriction(0.05)
     )
     load, force = asp.Force(0.02), asp.TangentialForce(1.8e-3, 1.8e-3)
     course = [
@@ -359,7 +361,7 @@ SLIDING: tuple[tuple[Body, Body], ...] = (
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("pair", SLIDING)
-def test_shear_of_sliding_creeps_with_the_pressure(pair: tuple[Body, Body], boundary: asp.Boundary) -> None:
+def test_shear_of_sliding_creeps_with_the_pressure(pair: tuple[Body, Body], boundary: asp.contact.Boundary) -> None:
     """Coupled friction, by a map of coefficients too: at once as the first elastic bodies, after a long hold as the relaxed ones."""
     coefficients = 0.4 + 0.4 * (np.arange(24)[:, None] > 12) * np.ones(24)
     course = asp.History([LOAD, asp.Step(LOAD, duration=0.5), asp.Step(LOAD, duration=1e4)])

@@ -109,10 +109,10 @@ def test_measured_moduli_are_fitted_with_their_error() -> None:
     """A broad spectrum is met within 1 %; noise of 5 % gives an error of that size and a smooth solid."""
     series, f = power_law_series(1e6, 0.3, shortest=1e-6, longest=1e3), np.geomspace(1e-2, 1e4, 40)
     E = series.complex_modulus(2 * np.pi * f)
-    fit = asp.fitted_solid(f, E.real, E.imag, poisson_ratio=0.49, per_decade=2)
+    fit = asp.viscoelasticity.fitted_solid(f, E.real, E.imag, poisson_ratio=0.49, per_decade=2)
     assert fit.largest_error < 0.01
     noisy = E * (1.0 + 0.05 * np.random.default_rng(1).standard_normal(f.size))
-    rough = asp.fitted_solid(f, noisy.real, noisy.imag, poisson_ratio=0.49, per_decade=2)
+    rough = asp.viscoelasticity.fitted_solid(f, noisy.real, noisy.imag, poisson_ratio=0.49, per_decade=2)
     assert 0.02 < rough.rms_error < 0.08
     np.testing.assert_allclose(rough.fitted, E, rtol=0.1)
     assert rough.errors.shape == f.shape
@@ -128,7 +128,7 @@ def test_terms_halfway_between_others_are_converted() -> None:
 
 
 def test_temperature_shifts_all_times() -> None:
-    wlf = asp.WilliamsLandelFerry(300.0, 17.44, 51.6)
+    wlf = asp.viscoelasticity.WilliamsLandelFerry(300.0, 17.44, 51.6)
     solid = asp.Viscoelastic.standard_linear(1e6, 1e9, 1.0, 0.4, shift=wlf)
     warm = solid.at_temperature(320.0)
     assert warm.spectrum[0][1] == pytest.approx(solid.spectrum[0][1] * 10 ** (-17.44 * 20 / 71.6), rel=1e-12)
@@ -136,7 +136,9 @@ def test_temperature_shifts_all_times() -> None:
     assert there_and_back.spectrum[0][1] == pytest.approx(solid.spectrum[0][1], rel=1e-12)
     two_steps = warm.at_temperature(340.0).spectrum[0][1]
     assert two_steps == pytest.approx(solid.at_temperature(340.0).spectrum[0][1], rel=1e-10)
-    hot = asp.Viscoelastic.maxwell(1e6, 1.0, 0.5, shift=asp.Arrhenius(300.0, 50e3)).at_temperature(330.0)
+    hot = asp.Viscoelastic.maxwell(1e6, 1.0, 0.5, shift=asp.viscoelasticity.Arrhenius(300.0, 50e3)).at_temperature(
+        330.0
+    )
     assert hot.spectrum[0][1] == pytest.approx(math.exp(50e3 / 8.31446261815324 * (1 / 330 - 1 / 300)))
     assert hot.at_temperature(300.0).spectrum[0][1] == pytest.approx(1.0)
     assert {"Williams1955", "Ferry1980"} <= set(solid.citation_keys)
@@ -147,7 +149,7 @@ def test_it_is_the_elastic_solid_of_the_first_instant() -> None:
     assert solid.instantaneous == asp.Elastic(1e9, 0.4, name="rubber")
     assert asp.contact_modulus(solid) == pytest.approx(1e9 / (1 - 0.16))
     assert "relaxes to 0.1 %" in repr(solid)
-    strong = replace(solid, strength=asp.Strength(1e8, 3e7), shift=asp.Arrhenius(300.0, 5e4))
+    strong = replace(solid, strength=asp.Strength(1e8, 3e7), shift=asp.viscoelasticity.Arrhenius(300.0, 5e4))
     assert rebuild(describe(strong)) == strong
     assert alike((solid, solid.with_times(1.0)))
     assert not alike((solid, solid.with_times(2.0)))
@@ -171,16 +173,22 @@ def test_it_is_the_elastic_solid_of_the_first_instant() -> None:
         ),
         (lambda: asp.Viscoelastic(1e6, 0.5, shift=3), "shift of a viscoelastic solid"),  # type: ignore[arg-type]
         (lambda: asp.Viscoelastic.maxwell(1e6, 1.0, 0.5).at_temperature(300.0), "viscoelastic solid without a name"),
-        (lambda: asp.WilliamsLandelFerry(300.0, 17.0, 51.6).factor(240.0), "temperature (K)"),
-        (lambda: asp.Arrhenius(300.0, 1e5).factor(1.0), "temperature of a viscoelastic solid"),
+        (lambda: asp.viscoelasticity.WilliamsLandelFerry(300.0, 17.0, 51.6).factor(240.0), "temperature (K)"),
+        (lambda: asp.viscoelasticity.Arrhenius(300.0, 1e5).factor(1.0), "temperature of a viscoelastic solid"),
         (lambda: power_law_series(1.0, 1.2, shortest=1.0, longest=2.0), "exponent of a power law"),
         (lambda: power_law_series(1.0, 0.2, shortest=2.0, longest=1.0), "longest time of a power law (s)"),
-        (lambda: asp.fitted_solid([1.0, 2.0], [1.0], [1.0], poisson_ratio=0.3), "frequency, storage and loss modulus"),
         (
-            lambda: asp.fitted_solid([1.0, 1.0], [1.0, 1.0], [1.0, 1.0], poisson_ratio=0.3),
+            lambda: asp.viscoelasticity.fitted_solid([1.0, 2.0], [1.0], [1.0], poisson_ratio=0.3),
+            "frequency, storage and loss modulus",
+        ),
+        (
+            lambda: asp.viscoelasticity.fitted_solid([1.0, 1.0], [1.0, 1.0], [1.0, 1.0], poisson_ratio=0.3),
             "frequencies (Hz) of a viscoelastic solid",
         ),
-        (lambda: asp.fitted_solid([1.0, 2.0], [1.0, -1.0], [1.0, 1.0], poisson_ratio=0.3), "storage moduli (Pa)"),
+        (
+            lambda: asp.viscoelasticity.fitted_solid([1.0, 2.0], [1.0, -1.0], [1.0, 1.0], poisson_ratio=0.3),
+            "storage moduli (Pa)",
+        ),
         (lambda: Relaxation(0.0), "modulus of a relaxation"),
     ],
 )

@@ -74,7 +74,7 @@ def test_force_of_a_shift_held_relaxes_with_the_modulus() -> None:
     place, shift, times = asp.Approach(0.02), asp.Shift(1e-3), (0.2, 0.8, 4.0)
     held = [asp.Step(place, shift, duration=time) for time in times]
     history = asp.History([asp.Step(place, asp.Shift()), asp.Step(place, shift), *held])
-    found = asp.solve(sphere(solid, friction=asp.FullStick()), history, time_steps=asp.TimeSteps(2e-5))
+    found = asp.solve(sphere(solid, friction=asp.friction.FullStick()), history, time_steps=asp.TimeSteps(2e-5))
     wanted = solid.relaxation.at(np.concatenate([[0.0], np.cumsum(times)])) / 4.0
     np.testing.assert_allclose(forces(found)[1:] / forces(found)[1], wanted, rtol=2e-3)
 

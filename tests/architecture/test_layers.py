@@ -35,8 +35,9 @@ NAMED = {
 """Modules that may import upwards, each with its reason."""
 
 LAYER_OF = {folder: layer for layer, folders in LAYERS.items() for folder in folders} | dict.fromkeys(DATA_FOLDERS, -1)
-TOP_LEVEL = {"", "__main__"}
 MODULES = library()
+TOP_LEVEL = {"", *(module.folder for module in MODULES if module.name.count(".") == 1 and not module.is_package)}
+"""The package itself and the files beside it, which stand above all layers: the public modules of names from several folders, and the command."""
 
 
 def violations(module: Module) -> list[str]:

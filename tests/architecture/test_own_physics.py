@@ -155,4 +155,4 @@ def test_it_goes_with_other_physics() -> None:
 
 def test_it_does_not_roll_unless_it_says_so() -> None:
     with refused(InputError, "physics of a rolling contact"):
-        asp.roll(problem(GLUE, friction=asp.Coulomb(0.3)), LOADS[0], asp.Creepage(1e-3))
+        asp.roll(problem(GLUE, friction=asp.Coulomb(0.3)), LOADS[0], asp.rolling.Creepage(1e-3))

@@ -1,12 +1,16 @@
-"""What ``import asperity`` gives: the names, their documentation, and a quick start."""
+"""What ``import asperity`` gives: the names and the public modules, their documentation, and a quick start."""
 
 from __future__ import annotations
 
 import ast
 import inspect
 import json
+import pydoc
+import re
 import subprocess
 import sys
+from collections import Counter
+from itertools import chain
 from pathlib import Path
 from types import ModuleType
 
@@ -14,36 +18,71 @@ import pytest
 from heavy_imports import HEAVY
 
 import asperity
+from asperity.core.late import LateModule
 
 NAMES_FILE = Path(__file__).with_name("public_names.txt")
-PUBLIC = list(getattr(asperity, "__all__", ()))
-DEFINITIONS = [n for n in PUBLIC if inspect.isfunction(getattr(asperity, n)) or inspect.isclass(getattr(asperity, n))]
+MODULES: dict[str, ModuleType] = {name: getattr(asperity, name) for name in asperity.__all__}
+NAMES = {name: list(module.__all__) for name, module in MODULES.items()}
+"""Names by public module."""
+
+TOP = [name for name in dir(asperity) if name in asperity._HOME]
+PAIRS = [(module, name) for module, names in NAMES.items() for name in names]
+MOST = 80
+"""Names at the top, modules and the version included."""
+
+SCREEN = 45
+"""Lines of one screen, of 100 columns."""
 
 
 def test_public_names_are_those_of_the_list() -> None:
-    listed = NAMES_FILE.read_text(encoding="utf-8").split()
-    assert sorted(PUBLIC) == listed, (
+    sections = {"asperity": [*TOP, "__version__"]} | {f"asperity.{module}": names for module, names in NAMES.items()}
+    made = "\n\n".join("\n".join([f"[{section}]", *sorted(names)]) for section, names in sections.items()) + "\n"
+    assert made == NAMES_FILE.read_text(encoding="utf-8"), (
         f"the public names changed; if that is meant, edit {NAMES_FILE.name} to say the same"
     )
 
 
+def test_few_names_stand_at_the_top_and_each_in_a_module_too() -> None:
+    assert len(TOP) + 1 <= MOST
+    lonely = [
+        name
+        for name in sorted({*TOP} - {*MODULES})
+        if not any(
+            name in names and vars_of(module, name) is getattr(asperity, name) for module, names in NAMES.items()
+        )
+    ]
+    assert lonely == ["cite"]
+
+
+def vars_of(module: str, name: str) -> object:
+    return getattr(MODULES[module], name)
+
+
+def test_each_thing_has_one_public_module() -> None:
+    defined = Counter(id(vars_of(*pair)) for pair in PAIRS if callable(vars_of(*pair)))
+    assert [pair for pair in PAIRS if defined[id(vars_of(*pair))] > 1] == []
+
+
 def test_public_names_are_distinct_and_not_private() -> None:
-    assert len(set(PUBLIC)) == len(PUBLIC)
-    assert [name for name in PUBLIC if name.startswith("_") and name != "__version__"] == []
+    for names in (TOP, *NAMES.values()):
+        assert len(set(names)) == len(names)
+        assert [name for name in names if name.startswith("_")] == []
 
 
-def test_public_definitions_are_documented() -> None:
-    assert [breach for name in DEFINITIONS for breach in documentation_breaches(name)] == []
+@pytest.mark.parametrize("module", MODULES)
+def test_public_definitions_are_documented(module: str) -> None:
+    items = {f"{module}.{name}": vars_of(module, name) for name in NAMES[module]}
+    made = {name: item for name, item in items.items() if inspect.isfunction(item) or inspect.isclass(item)}
+    assert list(chain.from_iterable(documentation_breaches(name, item) for name, item in made.items())) == []
 
 
-def documentation_breaches(name: str) -> list[str]:
-    """What is wrong with the docstring of the public ``name`` and of its public methods."""
-    item = getattr(asperity, name)
+def documentation_breaches(name: str, item: object) -> list[str]:
+    """What is wrong with the docstring of the public ``item`` and of its public methods."""
     text = inspect.cleandoc(item.__doc__ or "")
     found = []
     if len(text) < 20:
         found.append(f"{name} needs a docstring")
-    elif text.startswith(f"{name}("):
+    elif text.startswith(f"{name.rpartition('.')[2]}("):
         found.append(f"{name} has only the docstring that dataclass writes")
     elif text.splitlines()[0].rstrip()[-1] not in ".:;?!)`":
         found.append(f"the first line of the docstring of {name} is not a sentence")
@@ -55,16 +94,16 @@ def documentation_breaches(name: str) -> list[str]:
     ]
 
 
-def test_import_is_light() -> None:
-    code = f"import sys, json, asperity; print(json.dumps([m for m in {HEAVY!r} if m in sys.modules]))"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
-    assert json.loads(run.stdout) == [], "import these inside the functions that need them"
-
-
 def printed(code: str) -> object:
     """What a fresh Python prints as JSON."""
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
     return json.loads(run.stdout)
+
+
+@pytest.mark.parametrize("module", ["asperity", *(f"asperity.{module}" for module in MODULES)])
+def test_import_is_light(module: str) -> None:
+    found = printed(f"import sys, json, {module}; print(json.dumps([m for m in {HEAVY!r} if m in sys.modules]))")
+    assert found == [], "import these inside the functions that need them"
 
 
 def test_import_takes_nothing_of_the_library_but_the_table_of_names() -> None:
@@ -79,33 +118,76 @@ def test_a_name_brings_its_module_and_what_that_needs() -> None:
 
 
 @pytest.mark.parametrize(
-    "first",
-    ["asperity.physics.stress.survey", "asperity.physics.stress", "asperity.contact.solve", "asperity.report.write"],
+    ("first", "name"),
+    [
+        ("asperity.physics.stress.survey", "stress"),
+        ("asperity.contact.solve", "contact.solve"),
+        ("asperity.surfaces.read", "surfaces.read"),
+        ("asperity.studies.compare", "studies.compare"),
+        ("asperity.run.document", "run"),
+        ("asperity.report.write", "run"),
+    ],
 )
-def test_stress_is_the_function_whatever_is_imported_first(first: str) -> None:
-    code = (
-        f"import json, {first}; from asperity import stress; print(json.dumps([stress.__module__, callable(stress)]))"
-    )
-    assert printed(code) == ["asperity.physics.stress.compute", True]
-    again = f"import json, asperity; asperity.stress; import {first}; print(json.dumps(callable(asperity.stress)))"
+def test_a_function_is_the_function_whatever_is_imported_first(first: str, name: str) -> None:
+    assert printed(f"import json, {first}; import asperity; print(json.dumps(callable(asperity.{name})))") is True
+    again = f"import json, asperity; asperity.{name}; import {first}; print(json.dumps(callable(asperity.{name})))"
     assert printed(again) is True
 
 
-def test_all_names_are_listed_and_found_and_others_are_not() -> None:
-    assert set(PUBLIC) <= set(dir(asperity))
+@pytest.mark.parametrize("module", MODULES)
+def test_modules_give_all_their_names_and_no_others(module: str) -> None:
+    found: dict[str, object] = {}
+    exec(f"from asperity.{module} import *", found)  # noqa: S102 - the statement itself is under test
+    assert set(NAMES[module]) <= set(found) & set(dir(MODULES[module]))
+    assert all(found[name] is vars_of(module, name) for name in NAMES[module])
+    assert not hasattr(MODULES[module], "phlogiston")
+
+
+def test_a_star_gives_the_modules() -> None:
     found: dict[str, object] = {}
     exec("from asperity import *", found)  # noqa: S102 - the statement itself is under test
-    assert set(PUBLIC) <= set(found)
-    assert all(found[name] is getattr(asperity, name) for name in PUBLIC)
-    with pytest.raises(AttributeError, match="phlogiston"):
-        asperity.phlogiston  # type: ignore[attr-defined]  # noqa: B018 - reading the attribute is the test
+    assert set(found) - {"__builtins__"} == set(MODULES)
+    assert not hasattr(asperity, "phlogiston")
+    with pytest.raises(ImportError):
+        exec("from asperity import phlogiston")  # noqa: S102 - the statement itself is under test
 
 
-@pytest.mark.parametrize("package", [asperity, asperity.theories], ids=lambda package: package.__name__)
-def test_the_stub_names_the_same_in_the_same_modules(package: ModuleType) -> None:
-    tree = ast.parse(Path(str(package.__file__)).with_suffix(".pyi").read_text(encoding="utf-8"))
+def test_a_name_that_moved_raises_with_its_new_place() -> None:
+    for module, name in PAIRS:
+        if name in TOP or inspect.ismodule(getattr(asperity, name, None)):  # a quantity called like a folder
+            continue
+        with pytest.raises(AttributeError) as missing:
+            getattr(asperity, name)
+        with pytest.raises(ImportError) as lost:
+            exec(f"from asperity import {name}")  # noqa: S102 - the statement itself is under test
+        assert str(missing.value) == str(lost.value)
+        assert f"asperity.{module}.{name} " in str(lost.value)
+    assert not hasattr(asperity, "Swift")
+
+
+def test_help_is_a_table_of_contents_of_one_screen() -> None:
+    lines = pydoc.render_doc(asperity, renderer=pydoc.plaintext).splitlines()
+    files = lines.index("PACKAGE CONTENTS")
+    assert files <= SCREEN
+    assert max(map(len, lines[:files])) <= 100
+    # pydoc lists the files of every package, the list of names, version and place, and is not to be told otherwise
+    rest = [line for line in lines[files:] if line and not line.startswith(" ")]
+    assert rest == ["PACKAGE CONTENTS", "DATA", "VERSION", "FILE"]
+    assert sum(" = " in line for line in lines) == 1
+
+
+def test_the_table_of_contents_says_of_each_module_what_the_module_says() -> None:
+    rows = re.findall(r"^    (\w+) +(.+)$", asperity.__doc__ or "", re.MULTILINE)
+    first = {name: (module.__doc__ or "").splitlines()[0] for name, module in MODULES.items()}
+    assert dict(rows) == {name: line.partition(": ")[2].rstrip(".") for name, line in first.items()}
+    assert [name for name, _ in rows] == sorted(MODULES)
+
+
+@pytest.mark.parametrize("module", [asperity, *MODULES.values()], ids=lambda module: module.__name__)
+def test_the_stub_names_the_same_in_the_same_modules(module: LateModule) -> None:
+    tree = ast.parse(Path(str(module.__file__)).with_suffix(".pyi").read_text(encoding="utf-8"))
     statements = [node for node in tree.body if isinstance(node, ast.ImportFrom)]
-    stub = {alias.name: node.module or "" for node in statements for alias in node.names}
+    stub = {alias.name: "." * (node.level - 1) + (node.module or "") for node in statements for alias in node.names}
     (names,) = (ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign))
-    assert stub == dict(package._HOME)
-    assert sorted(names) == package.__all__
+    assert stub == dict(module._names.home)
+    assert sorted(names) == module.__all__

@@ -44,9 +44,9 @@ def test_the_loop_of_a_command_is_that_of_python(run: Runner, tmp_path: Path) ->
     outcome = load_outcome(out / "result.nc")
     law = asp.ExponentialAdhesion.of_strength(0.05, 60e3)
     assert outcome.result.adhesion.law == law
-    controls = asp.adhesion_cycle(-0.6e-6, 0.3e-6, steps=3)
+    controls = asp.adhesion.adhesion_cycle(-0.6e-6, 0.3e-6, steps=3)
     again = asp.solve(outcome.result.problem, asp.History(controls))
-    loop = asp.adhesion_loop(again.steps)
+    loop = asp.adhesion.adhesion_loop(again.steps)
     assert outcome.values["pull_off_force"] == loop.pull_off_force
     assert outcome.values["hysteresis"] == loop.hysteresis
     assert outcome.values["hysteresis_error"] == loop.hysteresis_error
@@ -64,7 +64,7 @@ def test_options_make_the_same_document(run: Runner, tmp_path: Path) -> None:
     done = run("contact", "--from", document, *options, "--out", out)
     assert done.exit_code == 0, done.output
     outcome = load_outcome(out / "result.nc")
-    assert outcome.result.adhesion.law == asp.LinearAdhesion.of_strength(0.05, 60e3)
+    assert outcome.result.adhesion.law == asp.adhesion.LinearAdhesion.of_strength(0.05, 60e3)
     assert outcome.result.approach == pytest.approx(0.3e-6)
     assert math.isnan(outcome.values["pull_off_force"])
 
@@ -169,7 +169,7 @@ def test_lennard_jones_in_documents() -> None:
     table = {"work": "50 mJ/m**2", "strength": "60 kPa", "law": "lennard-jones"}
     outcome = asp.run(PROBLEM | {"adhesion": table, "control": {"force": "10 uN"}})
     law = outcome.result.adhesion.law
-    assert isinstance(law, asp.LennardJonesAdhesion)
+    assert isinstance(law, asp.adhesion.LennardJonesAdhesion)
     assert law.strength == pytest.approx(60e3, rel=1e-12)
     assert outcome.result.external_force == pytest.approx(10e-6, rel=1e-6)
     assert outcome.values["stability_margin"] > 0.0
@@ -190,7 +190,7 @@ def test_work_of_adhesion_of_a_pair(run: Runner, tmp_path: Path) -> None:
         out,
     )
     assert done.exit_code == 0, done.output
-    outcome, pair = load_outcome(out / "result.nc"), asp.work_of_adhesion("polystyrene", "paraffin wax")
+    outcome, pair = load_outcome(out / "result.nc"), asp.adhesion.work_of_adhesion("polystyrene", "paraffin wax")
     assert outcome.result.adhesion.law == asp.ExponentialAdhesion.of_strength(pair.work, 60e3)
     (words,) = (words for part, words in outcome.sections if part.name == "adhesion")
     assert dict(words.rows)["work of adhesion from"] == "; ".join(pair.sources)

@@ -28,7 +28,7 @@ def test_a_comparison_is_printed_and_written(run: Runner, matrix: Path, tmp_path
     assert {path.name for path in out.iterdir()} == FILES
     plots = sorted(path.name for path in (out / "plots").iterdir())
     assert plots == ["area.png", "deviation.png", "gap.png", "kappa.png", "local_slope.png"]
-    data = asp.open_tree(out / "comparison.nc").to_dataset()
+    data = asp.files.open_tree(out / "comparison.nc").to_dataset()
     np.testing.assert_allclose(data["pressure"], [1e6, 1e7, 1e8])
     assert list(data["theory"].values) == ["persson", "kogut-etsion"]
     assert list(json.loads(data.attrs["left_out"])) == ["jackson-green"]
@@ -52,7 +52,7 @@ def test_theories_alone_are_quick_and_have_no_numerical_curve(run: Runner, matri
     words = ("--no-numerical", "--pressures", "1MPa,5MPa", "--work", "50mJ/m^2", "--theories", "fuller-tabor,mccool")
     result = run("compare", matrix, *SCALE, *BODY, *words, "--out", out)
     assert result.exit_code == 0, result.stderr
-    data = asp.open_tree(out / "comparison.nc").to_dataset()
+    data = asp.files.open_tree(out / "comparison.nc").to_dataset()
     assert "numerical_area_fraction" not in data
     assert set(data["theory"].values) <= {"fuller-tabor", "mccool"}
     assert not (out / "plots" / "deviation.png").exists()

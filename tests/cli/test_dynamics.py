@@ -13,9 +13,9 @@ from cli.conftest import LOAD, SCALE, Runner
 from refusals import refused, subject_of
 
 import asperity as asp
+from asperity import dynamics as dyn
 from asperity.core.errors import InputError
 from asperity.core.settings import COMMAND_LINE
-from asperity.physics import dynamics as dyn
 from asperity.physics.dynamics.motion import Motion
 from asperity.run.document import checked
 from asperity.run.stored import load_outcome

@@ -52,7 +52,7 @@ def test_interrupt_in_process(run: Runner, monkeypatch: pytest.MonkeyPatch, tmp_
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("asperity.contact.solvers.ActiveSet.step", interrupted)
+    monkeypatch.setattr("asperity.solvers.ActiveSet.step", interrupted)
     result = run("demo", "--out", tmp_path / "run")
     assert result.exit_code == INTERRUPTED
     assert len(result.stderr.splitlines()) == 1

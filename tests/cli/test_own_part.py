@@ -189,7 +189,7 @@ def test_run_takes_parts_that_no_package_adds(tmp_path: Path) -> None:
     assert [part.name for part, _ in found.sections][-1] == "hot"
     assert [figure.name for figure in found.figures["hot"]] == ["hot_map"]
     save_outcome(found, tmp_path / "result.nc")
-    assert float(asp.open_tree(tmp_path / "result.nc")["hot/hot_share"]) == found.values["hot_share"]
+    assert float(asp.files.open_tree(tmp_path / "result.nc")["hot/hot_share"]) == found.values["hot_share"]
     assert "hot_share" not in asp.run(PROBLEM, parts=[Hot]).values  # known, not asked for
     twice = asp.run({**PROBLEM, "hot": {}}, parts=[Hot()]).values["hot_share"]
     assert twice >= found.values["hot_share"]

@@ -31,12 +31,12 @@ PROBLEM: dict[str, Any] = {
 COARSE = {"count": 1, "radius": "10 mm", "elements": 5, "steps": 8}
 
 
-def passed(peak: float, body: Any = STEEL, **table: Any) -> asp.Outcome:
+def passed(peak: float, body: Any = STEEL, **table: Any) -> asp.studies.Outcome:
     """Passes at Hertz's pressure of ``peak`` times the yield stress in shear."""
     return asp.run(PROBLEM | {"body": body, "passes": COARSE | {"peak_pressure": f"{peak * K!r} Pa"} | table})
 
 
-def said(outcome: asp.Outcome) -> Any:
+def said(outcome: asp.studies.Outcome) -> Any:
     (words,) = (words for part, words in outcome.sections if part.name == "passes")
     return words
 
@@ -91,14 +91,14 @@ def test_pressed_in_place_again_and_again() -> None:
 
 
 @pytest.fixture(scope="module")
-def coated() -> asp.Outcome:
+def coated() -> asp.studies.Outcome:
     """A hard film on steel with kinematic hardening, dragged over to and fro."""
     body = "E=400GPa,nu=0.25,Y=4GPa,name=film:40um/E=200GPa,nu=0.3,Y=400MPa,kinematic=10GPa,name=base"
     return passed(4.2, body, count=2, friction=0.2, motion="to and fro")
 
 
 @pytest.mark.slow
-def test_to_and_fro_over_a_film(coated: asp.Outcome) -> None:
+def test_to_and_fro_over_a_film(coated: asp.studies.Outcome) -> None:
     """The surface follows the friction and comes back; the film is in tension and does not flow; the work lost is less than that of the friction."""
     values, each = coated.values, coated.found["passes"].values
     assert each["passes_forward"][0] > 0.0 > each["passes_forward"][1]
@@ -115,7 +115,7 @@ def test_to_and_fro_over_a_film(coated: asp.Outcome) -> None:
     assert depth[int(np.argmin(along))] > 40e-6
 
 
-def test_files_give_the_same_words_and_pictures(coated: asp.Outcome, tmp_path: Path) -> None:
+def test_files_give_the_same_words_and_pictures(coated: asp.studies.Outcome, tmp_path: Path) -> None:
     save_outcome(coated, tmp_path / "o.nc")
     again = load_outcome(tmp_path / "o.nc")
     assert [f.picture for f in again.figures["passes"]] == [f.picture for f in coated.figures["passes"]]
@@ -188,7 +188,7 @@ def test_a_study_of_thickness_and_hardness_ratio(tmp_path: Path) -> None:
     }
     path = tmp_path / "study.toml"
     path.write_text(tomli_w.dumps(study), encoding="utf-8")
-    data = asp.run_study(path, tmp_path / "out").dataset()
+    data = asp.studies.run_study(path, tmp_path / "out").dataset()
     base_strain, layer_strain = (np.asarray(data[name]) for name in ("pass_base_strain", "pass_layer_strain"))
     assert base_strain[1, 1] < base_strain[0, 1]
     assert (layer_strain[:, 1] == 0.0).all()

@@ -33,7 +33,7 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
     assert document.control.path.mean_pressure == (30e6, "0", 40e6, "0")
     assert document.control.path.steps == 3
 
-    data = asp.open_tree(out / "result.nc")["path"].to_dataset()
+    data = asp.files.open_tree(out / "result.nc")["path"].to_dataset()
     assert data.sizes["step"] == 12
     np.testing.assert_allclose(data["mean_pressure"][[2, 5, 8, 11]], [30e6, 0.0, 40e6, 0.0], rtol=1e-9)
     assert float(data["plastic_work"].sum()) > 0.0
@@ -44,7 +44,7 @@ def test_a_path_is_printed_and_written(run: Runner, matrix: Path, tmp_path: Path
 
     again = run("contact", "--from", out / "problem.toml", "--out", tmp_path / "again")
     assert again.exit_code == 0, again.stderr
-    other = asp.open_tree(tmp_path / "again" / "result.nc")["path"].to_dataset()
+    other = asp.files.open_tree(tmp_path / "again" / "result.nc")["path"].to_dataset()
     np.testing.assert_array_equal(other["pressure"], data["pressure"])
 
 
@@ -57,7 +57,7 @@ def test_a_path_of_approaches_and_of_forces(
     command = ("contact", matrix, *SCALE, *COATED, "--boundary", "free", "--path", path, "--out", tmp_path / "run")
     result = run(*command)
     assert result.exit_code == 0, result.stderr
-    assert asp.open_tree(tmp_path / "run" / "result.nc")["path"].to_dataset().sizes["step"] == 20
+    assert asp.files.open_tree(tmp_path / "run" / "result.nc")["path"].to_dataset().sizes["step"] == 20
     control = asp.load(tmp_path / "run" / "result.nc").control
     assert type(control) is type(last)
     assert vars(control) == pytest.approx(vars(last), rel=1e-15)

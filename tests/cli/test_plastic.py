@@ -36,7 +36,7 @@ PROBLEM: dict[str, Any] = {
 FLOW = {"steps": 2, "cells": 12}
 
 
-def outcome(**tables: Any) -> asp.Outcome:
+def outcome(**tables: Any) -> asp.studies.Outcome:
     return asp.run(PROBLEM | tables)
 
 
@@ -68,7 +68,7 @@ def test_a_document_is_what_python_computes() -> None:
         asp.Elastic(300e9, 0.25, asp.Strength(yield_stress=5e9)),
         asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=4e8)),
     )
-    laws = [asp.plastic_solid(film), asp.plastic_solid(steel)]
+    laws = [asp.plasticity.plastic_solid(film), asp.plasticity.plastic_solid(steel)]
     problem = asp.ContactProblem(
         found.result.problem.surface,
         asp.Layered([asp.Layer(film, 500e-9)], steel),
@@ -170,7 +170,7 @@ def test_a_study_of_thickness_and_yield_stress(tmp_path: Path) -> None:
 
     path = tmp_path / "study.toml"
     path.write_text(tomli_w.dumps(study), encoding="utf-8")
-    data = asp.run_study(path, tmp_path / "out").dataset()
+    data = asp.studies.run_study(path, tmp_path / "out").dataset()
     strain = np.asarray(data["flow_base_strain"])
     assert strain.shape == (2, 2)
     assert (strain[1] < strain[0]).all(), "under a thicker film the steel flows less"
@@ -215,7 +215,7 @@ def test_an_animation_needs_a_history(run: Runner, matrix: Path, tmp_path: Path)
     )
     assert subject_of(plain) == "outcome of an animation"
     with refused(InputError, "path of the animation", "a.mp4"):
-        asp.save_plastic_animation(outcome(plastic_flow=FLOW), tmp_path / "a.mp4")
+        asp.report.save_plastic_animation(outcome(plastic_flow=FLOW), tmp_path / "a.mp4")
 
 
 # Indentation.
@@ -227,7 +227,7 @@ DEPTH_Y = RADIUS * (math.pi * P_YIELD / (2.0 * E_STAR)) ** 2
 FORCE_Y = math.pi**3 * RADIUS**2 / (6.0 * E_STAR**2) * P_YIELD**3
 
 
-def indented(depth: float, body: Any = STEEL, **more: Any) -> asp.Outcome:
+def indented(depth: float, body: Any = STEEL, **more: Any) -> asp.studies.Outcome:
     """Indentation by a ball of ``RADIUS`` to ``depth`` over that of first yield."""
     table = {
         "depth": f"{depth * DEPTH_Y!r} m",
@@ -317,7 +317,7 @@ def test_a_hard_film_takes_more_and_is_in_tension(tmp_path: Path) -> None:
     assert texts[0] == texts[1]
     assert len(plastic_cuts(coated)) == 1 + 8 + 8
     with refused(InputError, "outcome of an animation"):
-        asp.save_plastic_animation(again, tmp_path / "again.gif")
+        asp.report.save_plastic_animation(again, tmp_path / "again.gif")
 
 
 def test_the_radius_of_the_summits() -> None:

@@ -80,7 +80,7 @@ def test_the_pictures_are_drawn_again(folder: Path, run: Runner, tmp_path: Path)
 
 
 def test_the_tree_is_labelled(folder: Path) -> None:
-    tree = asp.open_tree(folder / "result.nc")
+    tree = asp.files.open_tree(folder / "result.nc")
     for group in tree.subtree:
         data = group.to_dataset(inherit=False)
         assert all({"units", "long_name"} <= set(data[name].attrs) for name in data.variables), group.path

@@ -47,7 +47,7 @@ OPTIONS = (
 @pytest.fixture
 def wheel(tmp_path: Path) -> Path:
     path = tmp_path / "wheel.nc"
-    asp.save_surface(build(checked(WHEEL)).problem.surface, path)
+    asp.files.save_surface(build(checked(WHEEL)).problem.surface, path)
     return path
 
 
@@ -64,13 +64,13 @@ def test_a_wheel_and_its_files(run: Runner, wheel: Path, tmp_path: Path) -> None
     rolls = asp.ContactProblem(
         problem.surface, problem.body, counter_body=problem.counter_body, boundary=asp.Free(), friction=law
     )
-    found = asp.roll(rolls, asp.Force(500.0), asp.Creepage(1e-3, 0.0, 0.3))
+    found = asp.roll(rolls, asp.Force(500.0), asp.rolling.Creepage(1e-3, 0.0, 0.3))
     values = outcome.values
     assert values["rolling_longitudinal_force"] == pytest.approx(found.longitudinal_force, rel=1e-6)
     assert values["rolling_heat"] == pytest.approx(found.dissipated, rel=1e-6)
     assert values["fastsim_longitudinal_force"] == pytest.approx(found.longitudinal_force, rel=0.1)
     assert np.isnan(values["carter_longitudinal_force"])
-    tree = asp.open_tree(out / "result.nc")
+    tree = asp.files.open_tree(out / "result.nc")
     for item in (*SCALARS, *FIELDS):
         assert tree[f"rolling/{item.name}"].attrs["units"] == item.unit
     largest = np.abs(found.traction).max()
@@ -95,7 +95,7 @@ def test_a_rough_wheel(run: Runner, tmp_path: Path) -> None:
     rng = np.random.default_rng(2)
     spacing = problem.grid.spacing
     heights = 2e-8 * rng.normal(size=(10, 24))
-    asp.save_surface(asp.Surface(heights, *spacing), tmp_path / "rough.nc")
+    asp.files.save_surface(asp.Surface(heights, *spacing), tmp_path / "rough.nc")
     pixel = float(spacing[0])
     table = {"longitudinal": 0.001, "roughness_file": "rough.nc", "distance": f"{60 * pixel} m"}
     outcome = asp.run(WHEEL | {"rolling": table}, tmp_path)

@@ -143,7 +143,7 @@ def _by_study(
     (folder / "study.json").write_text(json.dumps(study), encoding="utf-8")
     done = run("run", folder / "study.json", "--out", folder / "study")
     assert done.exit_code == 0, done.output
-    data = asp.open_study(folder / "study").dataset()
+    data = asp.studies.open_study(folder / "study").dataset()
     return {quantity: float(data[quantity][0]) for quantity in wanted}
 
 

@@ -51,7 +51,7 @@ def test_a_fretting_loop_and_its_files(run: Runner, matrix: Path, tmp_path: Path
     assert outcome.path is not None
     last = outcome.result
     steps = [asp.Step(last.control, asp.Shift())]
-    steps += asp.shear_cycles(last.control, asp.Shift(last.stick_slip.shift_x), cycles=1, steps=1)
+    steps += asp.friction.shear_cycles(last.control, asp.Shift(last.stick_slip.shift_x), cycles=1, steps=1)
     again = asp.solve(last.problem, asp.History(steps))
     np.testing.assert_array_equal(last.stick_slip.traction, again.last.stick_slip.traction)
     assert {"stick_slip", "loop", "dissipation"} <= {path.stem for path in (out / "plots").iterdir()}
@@ -62,7 +62,7 @@ def test_a_fretting_loop_and_its_files(run: Runner, matrix: Path, tmp_path: Path
         rows = list(csv.DictReader(file))
     forces = [step.stick_slip.force_x for step in again.steps]
     assert [float(row["force_x (N)"]) for row in rows] == forces
-    tree = asp.open_tree(out / "result.nc")
+    tree = asp.files.open_tree(out / "result.nc")
     for item in SHEAR_SCALARS:
         assert tree[f"stick_slip/{item.name}"].attrs == item.attributes
     assert float(tree["stick_slip/cycle_dissipation"]) == sum(s.stick_slip.dissipated for s in again.steps[2:])
@@ -75,7 +75,7 @@ def test_steps_of_a_document() -> None:
     assert course() == [pressed, asp.Step(load, asp.Shift(unit))]
     assert course(shear={}) == [pressed]
     cycle = course(shear={"shift": "0.4 nm", "cycles": 1})
-    wanted = asp.shear_cycles(load, asp.Shift(unit))
+    wanted = asp.friction.shear_cycles(load, asp.Shift(unit))
     assert [s.tangential.x for s in cycle[1:]] == pytest.approx([s.tangential.x for s in wanted], abs=1e-12 * unit)
     turned = course(
         shear={"shift": ["2 nm", "-1 nm"], "steps": 2}, friction={"coefficient": 0.3, "direction": "90 deg"}
@@ -103,8 +103,8 @@ def test_steps_of_a_document() -> None:
 def test_laws_of_a_document() -> None:
     laws = {
         "coulomb": ({"coefficient": 0.3, "limit": "50 MPa"}, asp.Coulomb(0.3, limit=50e6)),
-        "tresca": ({"law": "tresca", "strength": "20 MPa"}, asp.TrescaFriction(20e6)),
-        "full stick": ({"law": "full stick"}, asp.FullStick()),
+        "tresca": ({"law": "tresca", "strength": "20 MPa"}, asp.friction.TrescaFriction(20e6)),
+        "full stick": ({"law": "full stick"}, asp.friction.FullStick()),
     }
     pressure = np.array([[0.0, 1e8, 1e9]])
     for table, law in laws.values():
@@ -115,7 +115,9 @@ def test_laws_of_a_document() -> None:
         assert loads(dumps(document)) == document
     alone = {key: value for key, value in PROBLEM.items() if key != "shear"}
     assert build(checked(alone)).problem.friction is None
-    assert isinstance(build(checked(alone | {"friction": {"law": "full stick"}})).problem.friction, asp.FullStick)
+    assert isinstance(
+        build(checked(alone | {"friction": {"law": "full stick"}})).problem.friction, asp.friction.FullStick
+    )
 
 
 REFUSED = {

@@ -32,7 +32,7 @@ def rough(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, asp.Surface]:
     )
     surface = asp.generate.gaussian(asp.Grid((64, 64), (4e-8, 4e-8)), spectrum, seed=1)
     path = tmp_path_factory.mktemp("rough") / "rough.nc"
-    asp.save_surface(surface, path)
+    asp.files.save_surface(surface, path)
     return path, surface
 
 

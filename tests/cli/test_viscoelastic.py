@@ -82,7 +82,7 @@ def in_python() -> asp.HistoryResult:
 
 
 @functools.cache
-def of_start() -> asp.Outcome:
+def of_start() -> asp.studies.Outcome:
     """Outcome of the document ``START``, which several tests compare with others."""
     return asp.run(START)
 
@@ -90,7 +90,7 @@ def of_start() -> asp.Outcome:
 @pytest.mark.slow
 def test_a_coated_ball_in_time_and_its_files(run: Runner, tmp_path: Path) -> None:
     """Options give the numbers of Python; the file holds them, gives words and pictures again, and a restart from every step."""
-    asp.save_surface(build(checked(BALL)).problem.surface, tmp_path / "ball.nc")
+    asp.files.save_surface(build(checked(BALL)).problem.surface, tmp_path / "ball.nc")
     out = tmp_path / "out"
     done = run("contact", tmp_path / "ball.nc", *OPTIONS, "--path", "2mN,1mN", *IN_TIME, "--out", out)
     assert done.exit_code == 0, done.output
@@ -107,7 +107,7 @@ def test_a_coated_ball_in_time_and_its_files(run: Runner, tmp_path: Path) -> Non
     np.testing.assert_allclose(columns["moment_approach"][ends], found.approach, rtol=1e-6)
     np.testing.assert_allclose(columns["moment_time"][ends], columns["step_end"])
     assert (np.diff(columns["moment_dissipated"]) >= 0.0).all()
-    tree = asp.open_tree(out / "result.nc")
+    tree = asp.files.open_tree(out / "result.nc")
     for item in (*SCALARS, *STEPS):
         assert tree[f"viscoelastic/{item.name}"].attrs["units"] == item.unit
     for item in COLUMNS:
@@ -185,7 +185,7 @@ def test_steps_of_approach_and_parting_take_the_time_of_the_ramp() -> None:
 def test_oscillation_is_the_shortcut_of_python() -> None:
     table = BALL | {"control": {"force": "2 mN"}, "viscoelastic": {"frequency": "1 Hz", "amplitude": "1 nm"}}
     outcome = asp.run(table)
-    response = asp.harmonic(outcome.result, 1.0)
+    response = asp.viscoelasticity.harmonic(outcome.result, 1.0)
     assert outcome.values["storage_stiffness"] == pytest.approx(response.stiffness.real, rel=1e-9)
     assert outcome.values["loss_tangent"] == pytest.approx(response.loss_tangent, rel=1e-9)
     assert outcome.values["oscillation_heat"] == pytest.approx(response.heat(1e-9), rel=1e-9)
@@ -196,7 +196,7 @@ def test_oscillation_is_the_shortcut_of_python() -> None:
 
 def test_temperature_moves_all_times() -> None:
     """A load held at a temperature is the same held shorter or longer by the shift at the reference."""
-    factor = asp.WilliamsLandelFerry(298.0, 8.86, 101.6).factor(310.0)
+    factor = asp.viscoelasticity.WilliamsLandelFerry(298.0, 8.86, 101.6).factor(310.0)
     base = GROUND | {"hysteresis": None, "control": {"mean_pressure": "0.1 MPa"}}
     base = {key: value for key, value in base.items() if value is not None}
     warm = asp.run(base | {"viscoelastic": {"hold": "10 ms", "temperature": "310 K", "steps": 4}})
@@ -237,7 +237,7 @@ def test_rubber_on_rough_ground_and_its_files(run: Runner, tmp_path: Path) -> No
     np.testing.assert_allclose(columns["by_speed_speed"], [1e-3, 1e-2, 0.1])
     assert columns["by_speed_friction"][1] == pytest.approx(found.friction, rel=1e-6)
     assert (np.diff(columns["by_speed_area_fraction"]) < 0.0).all()
-    tree = asp.open_tree(tmp_path / "out" / "result.nc")
+    tree = asp.files.open_tree(tmp_path / "out" / "result.nc")
     for item in (*SLIDING, *SPEED_COLUMNS):
         assert tree[f"hysteresis/{item.name}"].attrs["units"] == item.unit
     np.testing.assert_allclose(tree["hysteresis/sliding_pressure"], found.normal.pressure, atol=1e-6 * found.normal.max_pressure)  # fmt: skip
@@ -258,7 +258,9 @@ START: dict[str, Any] = GROUND | {
 def test_start_of_sliding_and_its_files(tmp_path: Path) -> None:
     """Friction and area along the way are those of Python, in the outcome and its file, with figures and words."""
     outcome = of_start()
-    found = asp.slide_in_time(build(checked(START)).problem, asp.MeanPressure(0.2e6), 0.01, 1e-3, steps_per_pixel=1)
+    found = asp.viscoelasticity.slide_in_time(
+        build(checked(START)).problem, asp.MeanPressure(0.2e6), 0.01, 1e-3, steps_per_pixel=1
+    )
     values = outcome.found["sliding_start"].values
     for item in WAY:
         np.testing.assert_array_equal(values[f"way_{item.name}"], found.column(item.name))
@@ -297,7 +299,10 @@ def test_sliding_of_surfaces_that_attract_each_other(kind: str, tmp_path: Path) 
     dry, outcome = of_start(), asp.run(START | table)
     problem = replace(build(checked(START)).problem, **physics)
     load = asp.MeanPressure(0.2e6)
-    steady, start = asp.slide(problem, load, 0.01), asp.slide_in_time(problem, load, 0.01, 1e-3, steps_per_pixel=1)
+    steady, start = (
+        asp.slide(problem, load, 0.01),
+        asp.viscoelasticity.slide_in_time(problem, load, 0.01, 1e-3, steps_per_pixel=1),
+    )
     assert outcome.values["hysteresis_friction"] == pytest.approx(steady.friction, rel=1e-9)
     assert outcome.values["start_last_friction"] == pytest.approx(start.mean_friction(0.25e-3), rel=1e-9)
     assert outcome.values["hysteresis_friction"] > dry.values["hysteresis_friction"]
@@ -351,7 +356,7 @@ def test_long_steps_of_time_and_steep_slopes_are_findings() -> None:
 
 def test_energies_that_miss_are_said_on_the_command_line(run: Runner, tmp_path: Path) -> None:
     """Equal steps of time that part a ball held in place: exit code 1 and the words, in files too; with steps by their error 0."""
-    asp.save_surface(build(checked(BALL)).problem.surface, tmp_path / "ball.nc")
+    asp.files.save_surface(build(checked(BALL)).problem.surface, tmp_path / "ball.nc")
     body = ("--level", "none", "--body", "E=3MPa+297MPa@1ms,nu=0.5", "--boundary", "free", "--approach", "0.3um")
     words = ("contact", tmp_path / "ball.nc", *body, "--hold", "60ms")
     bad = run(*words, "--time-steps", "16", "--out", tmp_path / "bad")

@@ -27,7 +27,7 @@ def scan(tmp_path: Path) -> Path:
         amplitude=asp.generate.RmsHeight(2.0 * NM), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=100 * NM
     )
     surface = asp.generate.gaussian(asp.Grid((48, 48), (40 * NM, 40 * NM)), spectrum, seed=5)
-    asp.save_surface(surface, tmp_path / "scan.nc")
+    asp.files.save_surface(surface, tmp_path / "scan.nc")
     return tmp_path / "scan.nc"
 
 
@@ -63,7 +63,7 @@ def test_a_run_with_menisci(run: Runner, scan: Path, tmp_path: Path) -> None:
 
 def test_without_summits_it_is_said_why_there_is_no_theory(run: Runner, tmp_path: Path) -> None:
     ball = asp.generate.sphere(asp.Grid((32, 32), (6.0 * NM, 6.0 * NM)), radius=1e-6)
-    asp.save_surface(ball, tmp_path / "ball.nc")
+    asp.files.save_surface(ball, tmp_path / "ball.nc")
     loaded = ("--body", "E=100GPa,nu=0.3", "--pressure", "25MPa", "--boundary", "free")
     found = run("contact", tmp_path / "ball.nc", *loaded, "--liquid", "PFPE", "--film", "1nm")
     assert found.exit_code == 0, found.stderr

@@ -88,7 +88,7 @@ def test_warm_rubber_has_the_friction_of_cold_rubber_at_higher_speed(tmp_path):
     found = finished("rubber_friction", tmp_path).dataset()
     friction, area = (np.asarray(found[name]) for name in ("hysteresis_friction", "sliding_area_fraction"))
     speed, temperature = np.asarray(found["speed"]), np.asarray(found["temperature"])
-    shift = asp.WilliamsLandelFerry(298.0, 8.86, 101.6)
+    shift = asp.viscoelasticity.WilliamsLandelFerry(298.0, 8.86, 101.6)
     for column, T in enumerate(temperature):
         seen = speed * shift.factor(T)
         inside = (seen >= speed[0]) & (seen <= speed[-1])

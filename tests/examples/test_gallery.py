@@ -96,7 +96,7 @@ def test_scan_to_report():
     assert left.scan.heights == pytest.approx(left.measured, abs=0.51e-12, rel=0.0)  # the file counts in pm
     assert left.scan.size == pytest.approx(left.grid.size, rel=1e-12)
     # slopes of a plane and of lines are gone: what is left is the roughness, but for what lines and plane took of it
-    assert asp.rms_height(left.ready) == pytest.approx(left.rough.std(), rel=0.1)
+    assert asp.roughness.rms_height(left.ready) == pytest.approx(left.rough.std(), rel=0.1)
     slope = asp.roughness_of(left.ready).rms_gradient
     kappa = left.result.area_fraction_corrected * left.problem.contact_modulus * slope / left.result.mean_pressure
     assert LIGHT[0] < kappa < LIGHT[1]
@@ -110,7 +110,7 @@ def test_generated_surface():
     assert math.sqrt(expected) == pytest.approx(0.1, rel=1e-12)
     moments = left.found.moments.spectral
     assert moments.m20 + moments.m02 == pytest.approx(0.01, rel=4.0 * deviation)
-    assert asp.rms_height(left.rough) == pytest.approx(10e-9, rel=1e-9)
+    assert asp.roughness.rms_height(left.rough) == pytest.approx(10e-9, rel=1e-9)
     assert sorted(left.slopes.values()) == [left.slopes[wave] for wave in (1e-6, 0.5e-6, 0.25e-6)]
 
 

@@ -357,7 +357,7 @@ def documents() -> dict[str, Any]:
 
 def surface(folder: Path) -> dict[str, bytes]:
     """A surface as this package writes it."""
-    asp.save_surface(asp.Surface(1e-9 * heights().T, 5e-7), folder / "map.nc")
+    asp.files.save_surface(asp.Surface(1e-9 * heights().T, 5e-7), folder / "map.nc")
     return {"map.nc": (folder / "map.nc").read_bytes()}
 
 

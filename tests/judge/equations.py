@@ -20,7 +20,7 @@ from asperity.physics.friction.operator import TangentialOperator
 def equations(case: Case, found: Solved) -> list[Check]:
     """Checks of every step of a ``case`` that was solved."""
     problem = case.problem
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=asp.CpuEngine(1))
+    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=asp.engines.CpuEngine(1))
     if case.rolled is not None:
         return _rolled(case, found, operator)
     if case.kind == "in time":

@@ -164,7 +164,9 @@ def _shear(result: asp.ContactResult, pressure: RealArray) -> RealArray | None:
     return np.asarray(way[:, None, None] * friction.bound(pressure))
 
 
-def _mapped(flow: asp.PlasticBody, deviator: RealArray, after: PlasticState, start: PlasticState) -> RealArray:
+def _mapped(
+    flow: asp.plasticity.PlasticBody, deviator: RealArray, after: PlasticState, start: PlasticState
+) -> RealArray:
     """Plastic strain (cells, nx, ny, 6) that the laws return from ``start`` to under the ``deviator`` of the stress with the strain ``after``."""
     found = after.plastic_strain.copy()
     regions = DepthCells(flow.body, flow.flowed.edges).regions
@@ -177,7 +179,7 @@ def _mapped(flow: asp.PlasticBody, deviator: RealArray, after: PlasticState, sta
     return found
 
 
-def _state(flow: asp.PlasticBody) -> PlasticState:
+def _state(flow: asp.plasticity.PlasticBody) -> PlasticState:
     """Fields (cells, nx, ny, …) of the body."""
     strain = np.moveaxis(flow.plastic_strain, 1, -1)
     back = np.zeros_like(strain)
@@ -186,7 +188,7 @@ def _state(flow: asp.PlasticBody) -> PlasticState:
     return PlasticState(strain, back, flow.accumulated)
 
 
-def _aligned(before: asp.PlasticBody | None, now: asp.PlasticBody) -> PlasticState:
+def _aligned(before: asp.plasticity.PlasticBody | None, now: asp.plasticity.PlasticBody) -> PlasticState:
     """State before a step in the depth cells after it, of which there may be more."""
     shape = now.accumulated.shape
     found = PlasticState.virgin(shape)

@@ -170,7 +170,7 @@ def _held(of: Pressed, control: object, force: float) -> list[Check]:
         size = max(abs(control.value), abs(result.approach), float(of.depth.max()))
         stated = _slack(of) + 1e-7 * size
         return [Check("position", abs(result.approach - wanted), stated)]
-    wanted = -control.value if isinstance(control, asp.Pull) else 0.0
+    wanted = -control.value if isinstance(control, asp.contact.Pull) else 0.0
     if isinstance(control, asp.MeanPressure | asp.Force):
         wanted = mean_pressure(control, grid) * grid.area
     size = max(

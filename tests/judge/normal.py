@@ -59,7 +59,7 @@ class Pressed:
     def cap(self) -> float | RealArray:
         """Largest pressure that each point bears at the indentation reached."""
         law = self.result.problem.law
-        if isinstance(law, asp.LayeredHardness):
+        if isinstance(law, asp.plasticity.LayeredHardness):
             return law.cap_at(self.indentation)
         return law.pressure_cap()
 
@@ -235,7 +235,7 @@ def yielding(of: Pressed) -> list[Check]:
     below = float(np.where(added > 0.0, 1.0 - p / cap, 0.0).max())
     healed = over(float(np.maximum(-added, 0.0).max()), float(np.max(of.indentation)))
     law, pixel = result.problem.law, result.problem.grid.pixel_area
-    if isinstance(law, asp.LayeredHardness):
+    if isinstance(law, asp.plasticity.LayeredHardness):
         done = law.work_at(of.indentation) - law.work_at(np.broadcast_to(of.before, p.shape))
     else:
         done = cap * added

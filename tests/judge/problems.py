@@ -34,7 +34,7 @@ DECADES = (-13.0, 1.0)
 class Rolled:
     """What rolls: creepage, direction, method."""
 
-    creepage: asp.Creepage
+    creepage: asp.rolling.Creepage
     direction: Rolling = "x"
     method: Any = "direct"
 
@@ -167,7 +167,7 @@ def layered_body(rng: np.random.Generator, pixel: float, *, least: float = -2.5)
         asp.Layer(
             asp.Elastic(modulus * _log(rng, least, 2.5), float(rng.uniform(0.0, 0.49))),
             pixel * _log(rng, -1.5, 2.0),
-            asp.Frictionless() if rng.random() < 0.1 else asp.Bonded(),
+            asp.Frictionless() if rng.random() < 0.1 else asp.solids.Bonded(),
         )
         for _ in range(rng.integers(1, 4))
     ]
@@ -208,9 +208,9 @@ def _hardness(seed: int, rng: np.random.Generator) -> Case:
             hard * _log(rng, -0.3, 0.3),
         )
         body = asp.Layered([asp.Layer(film, thickness)], _strong(body, hard))
-        law = asp.LayeredHardness(body)
+        law = asp.plasticity.LayeredHardness(body)
     bearable = float(np.mean(law.pressure_cap()))
-    if isinstance(law, asp.LayeredHardness):
+    if isinstance(law, asp.plasticity.LayeredHardness):
         bearable = min(bearable, law.base_hardness)
     posed = asp.ContactProblem(surface, body, boundary=boundary, law=law)
     if rng.random() < 0.2 and not _is_flat(surface):
@@ -262,15 +262,15 @@ def adhesion_law(rng: np.random.Generator, modulus: float, pixel: float, slope: 
     work = strength * reach
     laws: tuple[Callable[[], Any], ...] = (
         lambda: asp.ExponentialAdhesion(work, reach),
-        lambda: asp.LinearAdhesion(work, reach),
-        lambda: asp.DugdaleAdhesion(work, reach),
-        lambda: asp.DugdaleAdhesion(work, reach, smoothing=1.0),
-        lambda: asp.DugdaleAdhesion(work, reach, smoothing=0.0),
-        lambda: asp.VanDerWaalsAdhesion(work, 2.0 * reach, reach=8.0 * reach),
-        lambda: asp.VanDerWaalsAdhesion(work, 2.0 * reach),
-        lambda: asp.LennardJonesAdhesion(work, reach),
+        lambda: asp.adhesion.LinearAdhesion(work, reach),
+        lambda: asp.adhesion.DugdaleAdhesion(work, reach),
+        lambda: asp.adhesion.DugdaleAdhesion(work, reach, smoothing=1.0),
+        lambda: asp.adhesion.DugdaleAdhesion(work, reach, smoothing=0.0),
+        lambda: asp.adhesion.VanDerWaalsAdhesion(work, 2.0 * reach, reach=8.0 * reach),
+        lambda: asp.adhesion.VanDerWaalsAdhesion(work, 2.0 * reach),
+        lambda: asp.adhesion.LennardJonesAdhesion(work, reach),
         lambda: asp.JKRAdhesion(work),
-        lambda: asp.CustomAdhesion(
+        lambda: asp.adhesion.CustomAdhesion(
             of_gap=lambda g: strength * np.exp(-g / reach),
             energy_of_gap=lambda g: -work * np.exp(-g / reach),
             slope_of_gap=lambda g: -strength / reach * np.exp(-g / reach),
@@ -288,7 +288,7 @@ def _adhesive(seed: int, rng: np.random.Generator) -> Case:
     boundary = _boundary(rng, shape, body)
     modulus, slope, grid = asp.ContactProblem(surface, body).contact_modulus, slope_of(surface), surface.grid
     law = adhesion_law(rng, modulus, max(grid.pixels), slope)
-    wall: Any = asp.HardWall()
+    wall: Any = asp.plasticity.HardWall()
     if law.spacing == 0.0 and not isinstance(law, asp.JKRAdhesion) and rng.random() < 0.2:
         wall = asp.Hardness(max(modulus * slope, 2.0 * law.strength) * _log(rng, 0.0, 1.0))
     posed = asp.ContactProblem(surface, body, boundary=boundary, adhesion=law, law=wall)
@@ -310,7 +310,7 @@ def _adhesive(seed: int, rng: np.random.Generator) -> Case:
         controls += [_load(rng, size * _log(rng, -6.0, -0.3), grid) for _ in range(rng.integers(1, 4))]
         if rng.random() < 0.3:
             point = min(law.strength, math.sqrt(law.work * modulus / max(grid.pixels))) * grid.pixel_area
-            controls.append(asp.Pull(1e-2 * point) if rng.random() < 0.5 else asp.Unloaded())
+            controls.append(asp.contact.Pull(1e-2 * point) if rng.random() < 0.5 else asp.Unloaded())
     return Case(seed, "adhesive", posed, tuple(map(asp.Step, controls)))
 
 
@@ -325,8 +325,8 @@ def friction_law(rng: np.random.Generator, mean: float, shape: tuple[int, int]) 
         lambda: asp.Coulomb(mu),
         lambda: asp.Coulomb(mu * rng.uniform(0.5, 1.5, shape)),
         lambda: asp.Coulomb(mu, limit=mean * _log(rng, -0.5, 1.0)),
-        lambda: asp.TrescaFriction(mean * _log(rng, -1.0, 0.5)),
-        asp.FullStick,
+        lambda: asp.friction.TrescaFriction(mean * _log(rng, -1.0, 0.5)),
+        asp.friction.FullStick,
     )
     return _chosen(rng, laws)()
 
@@ -352,7 +352,7 @@ def _stick_slip(seed: int, rng: np.random.Generator) -> Case:
     slope = slope_of(surface)
     mean = bare.contact_modulus * slope * _log(rng, -6.0, -0.5)
     law = friction_law(rng, mean, shape)
-    if isinstance(law, asp.TrescaFriction | asp.FullStick) and bodies[1] != bodies[0]:
+    if isinstance(law, asp.friction.TrescaFriction | asp.friction.FullStick) and bodies[1] != bodies[0]:
         bodies = (
             bodies[0],
             bodies[0],
@@ -400,12 +400,12 @@ def _rolling(seed: int, rng: np.random.Generator) -> Case:
     bare = asp.ContactProblem(surface, bodies[0], counter_body=bodies[1], boundary=boundary)
     modulus = bare.contact_modulus
     mean = modulus * half / radius * 0.2
-    law: Any = asp.Coulomb(mu) if rng.random() < 0.8 else asp.TrescaFriction(mu * modulus * half / radius)
-    if isinstance(law, asp.TrescaFriction):
+    law: Any = asp.Coulomb(mu) if rng.random() < 0.8 else asp.friction.TrescaFriction(mu * modulus * half / radius)
+    if isinstance(law, asp.friction.TrescaFriction):
         bodies = bodies[0], bodies[0]
     posed = asp.ContactProblem(surface, bodies[0], counter_body=bodies[1], boundary=boundary, friction=law)
     size = mu * half / radius
-    creepage = asp.Creepage(
+    creepage = asp.rolling.Creepage(
         size * float(rng.uniform(-3.0, 3.0)),
         size * float(rng.uniform(-3.0, 3.0)),
         0.0 if line or rng.random() < 0.5 else size / half * float(rng.uniform(-2.0, 2.0)),
@@ -462,17 +462,19 @@ def _plastic_flow(seed: int, rng: np.random.Generator) -> Case:
     solid = _elastic(rng, most=0.45)
     size = asp.ContactProblem(surface, solid).contact_modulus * slope_of(surface)
     yield_stress = size * _log(rng, -1.5, 0.0)
-    hardening: Any = asp.LinearHardening(yield_stress, solid.youngs_modulus * rng.uniform(0.01, 0.3))
+    hardening: Any = asp.plasticity.LinearHardening(yield_stress, solid.youngs_modulus * rng.uniform(0.01, 0.3))
     if rng.random() < 0.3:
-        hardening = asp.Voce(yield_stress, yield_stress * rng.uniform(0.2, 1.0), float(rng.uniform(5.0, 50.0)))
+        hardening = asp.plasticity.Voce(
+            yield_stress, yield_stress * rng.uniform(0.2, 1.0), float(rng.uniform(5.0, 50.0))
+        )
     kinematic = solid.youngs_modulus * float(rng.uniform(0.01, 0.1)) if rng.random() < 0.3 else 0.0
-    law = asp.J2(solid, hardening, kinematic)
+    law = asp.plasticity.J2(solid, hardening, kinematic)
     body: Body = solid
     laws: Any = law
     if rng.random() < 0.3:
         film = asp.Elastic(solid.youngs_modulus * _log(rng, -0.5, 0.7), 0.3)
         body = asp.Layered([asp.Layer(film, max(surface.grid.spacing) * _log(rng, -0.5, 0.7))], solid)
-        own = asp.J2(film, asp.LinearHardening(2.0 * yield_stress, 0.1 * film.youngs_modulus))
+        own = asp.plasticity.J2(film, asp.plasticity.LinearHardening(2.0 * yield_stress, 0.1 * film.youngs_modulus))
         laws = (own if rng.random() < 0.5 else None, law)
     flow = asp.PlasticFlow(laws, cells=8)
     friction = asp.Coulomb(float(rng.uniform(0.05, 0.3)), coupled=False) if rng.random() < 0.2 else None

@@ -31,7 +31,7 @@ TRANSIENT = 100.0
 def operator_of(problem: asp.ContactProblem) -> TangentialOperator:
     """Tangential compliance of the bodies of ``problem``."""
     return TangentialOperator(
-        problem.grid, (problem.body, problem.counter_body), problem.boundary, engine=asp.CpuEngine(1)
+        problem.grid, (problem.body, problem.counter_body), problem.boundary, engine=asp.engines.CpuEngine(1)
     )
 
 
@@ -132,7 +132,7 @@ def sliding(operator: TangentialOperator, result: asp.ContactResult) -> tuple[Re
     return lift, [Check("lift by shear", over(norm(lift - stated), norm(lift)), SLIDING)]
 
 
-def rolling(operator: TangentialOperator, found: asp.RollingContact, *, transient: bool) -> list[Check]:
+def rolling(operator: TangentialOperator, found: asp.rolling.RollingContact, *, transient: bool) -> list[Check]:
     """Steady traction: what material slips while it moves by a pixel is along the traction where that is at its bound, and nothing elsewhere."""
     grid, pressure = found.normal.problem.grid, np.asarray(found.normal.pressure, dtype=float)
     direction = DIRECTIONS[found.direction]

@@ -15,7 +15,7 @@ class Solved:
     """Results of the steps that were solved, or why there are none: ``cause`` of a refusal or of no convergence."""
 
     results: tuple[asp.ContactResult, ...] = ()
-    rolling: asp.RollingContact | None = None
+    rolling: asp.rolling.RollingContact | None = None
     refused: str = ""
     not_converged: str = ""
 
@@ -27,7 +27,7 @@ class Solved:
 
 def solved(case: Case) -> Solved:
     """What comes of ``case``."""
-    engine = asp.CpuEngine(threads=1)
+    engine = asp.engines.CpuEngine(threads=1)
     try:
         if case.rolled is not None:
             rolled = case.rolled

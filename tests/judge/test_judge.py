@@ -138,7 +138,7 @@ def test_all_controls_boundaries_and_laws_come_up() -> None:
     cases = [problem(seed) for seed in range(1000)]
     controls = {type(step.normal) for case in cases for step in case.steps}
     assert controls == {
-        *(asp.MeanPressure, asp.Force, asp.Approach, asp.MeanGap, asp.Unloaded, asp.Pull, asp.FixedGrips)
+        *(asp.MeanPressure, asp.Force, asp.Approach, asp.MeanGap, asp.Unloaded, asp.contact.Pull, asp.FixedGrips)
     }
     assert {type(step.tangential) for case in cases for step in case.steps} == {
         *(type(None), asp.Shift, asp.TangentialForce)
@@ -146,7 +146,7 @@ def test_all_controls_boundaries_and_laws_come_up() -> None:
     assert {type(case.problem.boundary) for case in cases} == {asp.Periodic, asp.Free, asp.FreeLine}
     assert len({type(case.problem.adhesion) for case in cases}) == 8
     assert {type(case.problem.friction) for case in cases} == {
-        *(type(None), asp.Coulomb, asp.TrescaFriction, asp.FullStick)
+        *(type(None), asp.Coulomb, asp.friction.TrescaFriction, asp.friction.FullStick)
     }
     loads = [
         step.normal.value / case.problem.contact_modulus

@@ -15,11 +15,11 @@ from hypothesis import strategies as st
 
 import asperity as asp
 from asperity.contact.certificate import Certificate, certify
-from asperity.contact.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, Solution, run
 from asperity.contact.solvers.protocol import SolverState, best_level, duality_gap, relative_error, scaled_to_load
 from asperity.core.arrays import RealArray
 from asperity.core.status import Outcome, Status
 from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import ActiveSet, ContactQP, DenseActiveSet, FixedMean, Solution, run
 
 few = settings(max_examples=40)
 SEEDS = st.integers(0, 10**6)
@@ -33,7 +33,7 @@ problems = given(SEEDS, SHAPES, BOUNDARIES, LOADS, CAPS)
 def posed(seed: int, shape: tuple[int, int], boundary: object, load: float, cap: str) -> ContactQP:
     """Random problem at prescribed load, E* = 1, heights of unit rms, cap of a few times the load."""
     rng = np.random.default_rng(seed)
-    operator = asp.prepare_operator(HalfSpace(1.0), asp.Grid(shape, (1.0, 1.3)), boundary)  # type: ignore[arg-type]
+    operator = asp.solvers.prepare_operator(HalfSpace(1.0), asp.Grid(shape, (1.0, 1.3)), boundary)  # type: ignore[arg-type]
     heights = rough(shape, seed).heights
     caps = {"none": np.inf, "scalar": load * rng.uniform(1.1, 9.0), "map": load * rng.uniform(1.1, 9.0, shape)}
     return ContactQP(operator, heights, caps[cap], FixedMean(load), float(heights.std()))

@@ -33,10 +33,10 @@ def coated(film: float, base: float) -> asp.Layered:
 
 SOFT, HARD = coated(0.7e9, 2e9), coated(2e9, 1e9)
 LAWS = {
-    "elastic": (BODY, asp.HardWall()),
+    "elastic": (BODY, asp.plasticity.HardWall()),
     "hardness": (BODY, asp.Hardness(1e9)),
-    "soft film": (SOFT, asp.LayeredHardness(SOFT)),
-    "hard film": (HARD, asp.LayeredHardness(HARD)),
+    "soft film": (SOFT, asp.plasticity.LayeredHardness(SOFT)),
+    "hard film": (HARD, asp.plasticity.LayeredHardness(HARD)),
 }
 
 
@@ -129,7 +129,7 @@ def test_the_order_of_couplings_does_not_matter(surface):
 def test_a_history_goes_on_from_its_state_as_if_there_were_no_break(surface, law):
     """In the middle of a leg too, for which the state keeps both last pressures: the same numbers to the bit."""
     posed = problem(surface, law, film=FILM, friction=FRICTION)
-    course = asp.ramps(asp.MeanPressure, [20e6, 4e6], steps=3)
+    course = asp.contact.ramps(asp.MeanPressure, [20e6, 4e6], steps=3)
     whole = asp.solve(posed, asp.History(course))
     assert whole.converged
     for cut in (1, 2, 4):
@@ -245,7 +245,7 @@ def test_what_does_not_settle_is_said_in_the_words_of_the_worst(surface):
     with pytest.raises(asp.ConvergenceError) as caught:
         asp.solve(posed, LOAD)
     assert caught.value.result.status == found.status
-    hasty = asp.solve(problem(surface, film=FILM), LOAD, rounds=asp.Rounds(most=2), on_failure="return")
+    hasty = asp.solve(problem(surface, film=FILM), LOAD, rounds=asp.solvers.Rounds(most=2), on_failure="return")
     assert hasty.status.outcome == "iteration limit"
     assert "meniscus force still changes" in hasty.status.message
 

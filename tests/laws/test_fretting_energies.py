@@ -15,7 +15,10 @@ LOAD = asp.MeanPressure(0.02)
 def cycle(counter: object, steps: int) -> asp.HistoryResult:
     """One closed cycle at constant load, after pressing and the first shift to the amplitude."""
     problem = asp.ContactProblem(rough((20, 20), 4), COATED, counter_body=counter, friction=asp.Coulomb(0.3))  # type: ignore[arg-type]
-    course = (asp.Step(LOAD, asp.Shift()), *asp.shear_cycles(LOAD, asp.Shift(6e-3, 4e-3), cycles=1, steps=steps))
+    course = (
+        asp.Step(LOAD, asp.Shift()),
+        *asp.friction.shear_cycles(LOAD, asp.Shift(6e-3, 4e-3), cycles=1, steps=steps),
+    )
     before = asp.solve(problem, asp.History(course[:steps]))
     return asp.solve(problem, asp.History(course[steps:]), state=before.state)
 

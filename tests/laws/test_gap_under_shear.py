@@ -31,14 +31,14 @@ def equation(result: asp.ContactResult) -> tuple[float, float]:
 
 
 def rolling(control: Control, method: str = "direct") -> asp.ContactResult:
-    return asp.roll(pressed(), control, asp.Creepage(5e-3), method=method, tolerance=1e-3).normal  # type: ignore[arg-type]
+    return asp.roll(pressed(), control, asp.rolling.Creepage(5e-3), method=method, tolerance=1e-3).normal  # type: ignore[arg-type]
 
 
 def rough_rolling() -> asp.ContactResult:
     line = asp.Surface(BALL.heights[:, 12:13].copy(), 1e-6, 1e-6)
     wheel = asp.ContactProblem(line, UNLIKE, boundary=asp.FreeLine(), friction=MU)
     ripple = asp.Surface(2e-8 * np.cos(np.arange(12)[:, None] * np.pi / 6.0), 1e-6, 1e-6)
-    return asp.roll_rough(wheel, asp.Force(5e-5), asp.Creepage(5e-3), ripple, distance=4e-6).last.normal
+    return asp.rolling.roll_rough(wheel, asp.Force(5e-5), asp.rolling.Creepage(5e-3), ripple, distance=4e-6).last.normal
 
 
 CASES: dict[str, Callable[[], asp.ContactResult]] = {
@@ -56,7 +56,7 @@ CASES: dict[str, Callable[[], asp.ContactResult]] = {
     "stick and slip at an approach": lambda: asp.solve(pressed(), asp.Step(asp.Approach(2e-7), asp.Shift(1e-7))),
     "hardness and stick": lambda: asp.solve(pressed(law=asp.Hardness(3e7)), asp.Step(LOAD, asp.Shift(1e-7))),
     "steady sliding": lambda: asp.slide(waved(), asp.MeanPressure(0.01), 0.3).normal,
-    "transient sliding": lambda: asp.slide_in_time(waved(), asp.MeanPressure(0.01), 0.3, 0.2).last,
+    "transient sliding": lambda: asp.viscoelasticity.slide_in_time(waved(), asp.MeanPressure(0.01), 0.3, 0.2).last,
 }
 
 
@@ -91,7 +91,7 @@ def test_numbers_of_rolling_unlike_bodies_are_those_of_its_fields(control: Contr
 def test_rolling_goes_to_the_contact_of_stick_and_slip_at_an_approach() -> None:
     """Both count the approach from first touch without shear: under a creepage at which all slips rolling is gross sliding along x."""
     problem, control = pressed(), asp.Approach(2e-7)
-    rolls = asp.roll(problem, control, asp.Creepage(10.0), tolerance=1e-5).normal
+    rolls = asp.roll(problem, control, asp.rolling.Creepage(10.0), tolerance=1e-5).normal
     slides = asp.solve(problem, control)
     assert rolls.force == pytest.approx(slides.force, rel=1e-4)
 

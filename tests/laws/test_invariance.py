@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import asperity as asp
-from asperity.contact.solvers import ConjugateGradient
+from asperity.solvers import ConjugateGradient
 
 SHAPES = st.sampled_from([(16, 16), (12, 18), (15, 11), (32, 4)])
 SEEDS = st.integers(0, 10**6)
@@ -23,7 +23,9 @@ CLOSE = 1e-4
 
 
 def solved(surface, load, boundary, law=None, body=None, **more):
-    problem = asp.ContactProblem(surface, body or elastic(1.0), boundary=boundary, law=law or asp.HardWall(), **more)
+    problem = asp.ContactProblem(
+        surface, body or elastic(1.0), boundary=boundary, law=law or asp.plasticity.HardWall(), **more
+    )
     return asp.solve(problem, asp.MeanPressure(load), solver=TIGHT)
 
 
@@ -123,7 +125,7 @@ def test_a_more_compliant_solid_has_no_less_area(shape, seed, boundary, load, ra
 @given(SHAPES, SEEDS, BOUNDARIES, LOADS, st.sampled_from([np.inf, 4.0, 1.5]))
 def test_contact_conditions_and_balance(shape, seed, boundary, load, cap_over_load):
     """The solution itself: p >= 0, p <= H, gap >= 0, p gap = 0, load carried, gap identity, certificate honest."""
-    law = asp.HardWall() if cap_over_load == np.inf else asp.Hardness(cap_over_load * load)
+    law = asp.plasticity.HardWall() if cap_over_load == np.inf else asp.Hardness(cap_over_load * load)
     result = solved(rough(shape, seed), load, boundary, law)
     assert result.pressure.min() >= 0.0
     assert result.max_pressure <= cap_over_load * load
@@ -152,7 +154,9 @@ def test_free_approach_and_gap_controls_find_the_same_state(shape, seed, boundar
 def test_thread_count_changes_nothing_but_rounding():
     surface = rough((64, 64), 3)
     problem = asp.ContactProblem(surface, elastic(1.0))
-    one, two = (asp.solve(problem, asp.MeanPressure(0.05), solver=TIGHT, engine=asp.CpuEngine(t)) for t in (1, 2))
+    one, two = (
+        asp.solve(problem, asp.MeanPressure(0.05), solver=TIGHT, engine=asp.engines.CpuEngine(t)) for t in (1, 2)
+    )
     np.testing.assert_allclose(two.pressure, one.pressure, rtol=0, atol=1e-9 * one.max_pressure)
 
 

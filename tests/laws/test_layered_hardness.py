@@ -11,7 +11,7 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.law import LimitByDepth
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 SOLVER = ActiveSet(tolerance=1e-10)
 FILMS = pytest.mark.parametrize(("film", "base"), [(0.3, 0.6), (0.6, 0.3), (0.25, 1.0)])
@@ -24,7 +24,7 @@ def coated(film: float, base: float, *thicknesses: float) -> asp.Layered:
 
 
 def solved(body, load=0.2, law=None, **options):
-    problem = asp.ContactProblem(rough((24, 20), 3), body, law=law or asp.LayeredHardness(body))
+    problem = asp.ContactProblem(rough((24, 20), 3), body, law=law or asp.plasticity.LayeredHardness(body))
     return asp.solve(problem, asp.MeanPressure(load), solver=SOLVER, **options)
 
 
@@ -33,7 +33,7 @@ def solved(body, load=0.2, law=None, **options):
 def test_limit_and_indentation_agree(film, base, thickness):
     body = coated(film, base, thickness)
     result = solved(body)
-    limit = asp.LayeredHardness(body).cap_at(result.permanent_indentation)
+    limit = asp.plasticity.LayeredHardness(body).cap_at(result.permanent_indentation)
     assert result.plastic.any()
     np.testing.assert_allclose(result.pressure[result.plastic], limit[result.plastic], rtol=1.01e-5)
     assert (result.pressure <= limit * (1.0 + 1.01e-5)).all()
@@ -78,7 +78,7 @@ def test_soft_films_of_any_thickness_settle():
         film = rng.uniform(0.05, 0.5)
         base, thickness = film * rng.uniform(1.2, 10.0), 10.0 ** rng.uniform(-4.0, 0.5)
         body = coated(film, base, thickness)
-        problem = asp.ContactProblem(rough((24, 20), seed), body, law=asp.LayeredHardness(body))
+        problem = asp.ContactProblem(rough((24, 20), seed), body, law=asp.plasticity.LayeredHardness(body))
         result = asp.solve(problem, asp.MeanPressure(rng.uniform(0.05, 0.8) * min(base, 0.5)))
         limit = problem.law.cap_at(result.permanent_indentation)
         yields = result.indented
@@ -126,8 +126,8 @@ def test_more_film_is_softer_or_harder_as_the_film_is():
 def test_one_step_ends_where_many_do(film, base, thickness):
     """Limit and depth agree after a step of any size; what little differs are points that yielded on the way."""
     body = coated(film, base, thickness)
-    problem = asp.ContactProblem(rough((24, 20), 3), body, law=asp.LayeredHardness(body))
-    many = asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [0.2], steps=8)), solver=SOLVER).steps[-1]
+    problem = asp.ContactProblem(rough((24, 20), 3), body, law=asp.plasticity.LayeredHardness(body))
+    many = asp.solve(problem, asp.History(asp.contact.ramps(asp.MeanPressure, [0.2], steps=8)), solver=SOLVER).steps[-1]
     one = solved(body)
     assert one.approach == pytest.approx(many.approach, rel=2e-3)
     assert one.area_fraction == pytest.approx(many.area_fraction, abs=1.1 / 480)
@@ -138,7 +138,7 @@ def test_one_step_ends_where_many_do(film, base, thickness):
 @pytest.mark.parametrize("kind", [asp.Approach, asp.MeanGap])
 def test_prescribed_positions(boundary, kind):
     body = coated(0.3, 0.6, 0.5)
-    problem = asp.ContactProblem(rough((24, 20), 3), body, boundary=boundary, law=asp.LayeredHardness(body))
+    problem = asp.ContactProblem(rough((24, 20), 3), body, boundary=boundary, law=asp.plasticity.LayeredHardness(body))
     aim = asp.solve(problem, asp.MeanPressure(0.15), solver=SOLVER)
     found = asp.solve(problem, kind(aim.approach if kind is asp.Approach else aim.mean_gap), solver=SOLVER)
     assert found.mean_pressure == pytest.approx(0.15, rel=1e-3)
@@ -175,7 +175,7 @@ def test_rounds_that_do_not_agree_are_flagged():
 def test_yield_stresses_enter_where_both_are_known():
     known = asp.Strength(0.6, 0.1), asp.Strength(0.3, 0.12)
     solids = [asp.Elastic(0.91, 0.3, s) for s in known]
-    law = asp.LayeredHardness(asp.Layered([asp.Layer(solids[0], 1.0)], solids[1]))
+    law = asp.plasticity.LayeredHardness(asp.Layered([asp.Layer(solids[0], 1.0)], solids[1]))
     ratio = 0.1 / 0.12
     expected = 0.3 + 0.3 * math.exp(-(0.6 / 0.3) / ratio * 0.5)
     assert float(law.cap_at(np.array([[0.5]]))[0, 0]) == pytest.approx(expected, rel=1e-12)
@@ -186,10 +186,10 @@ def test_every_material_needs_a_hardness():
     soft = asp.Elastic(1.0, 0.3, name="soft")
     hard = asp.Elastic(1.0, 0.3, asp.Strength(hardness=1.0))
     with refused(asp.InputError, "hardness of soft in layer 1"):
-        asp.LayeredHardness(asp.Layered([asp.Layer(soft, 1.0)], hard))
+        asp.plasticity.LayeredHardness(asp.Layered([asp.Layer(soft, 1.0)], hard))
     with refused(asp.InputError, "hardness of soft in the base"):
-        asp.LayeredHardness(asp.Layered([asp.Layer(hard, 1.0)], soft))
+        asp.plasticity.LayeredHardness(asp.Layered([asp.Layer(hard, 1.0)], soft))
     with refused(asp.InputError, "base of a body with an effective hardness"):
-        asp.LayeredHardness(asp.Layered([asp.Layer(hard, 1.0)], asp.RigidBase()))
+        asp.plasticity.LayeredHardness(asp.Layered([asp.Layer(hard, 1.0)], asp.RigidBase()))
     with refused(asp.InputError, "body of an effective hardness"):
-        asp.LayeredHardness(hard)  # type: ignore[arg-type]
+        asp.plasticity.LayeredHardness(hard)  # type: ignore[arg-type]

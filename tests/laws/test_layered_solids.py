@@ -21,7 +21,7 @@ from asperity.solids.compliance.tensor import surface_tensor
 
 WAVENUMBERS = np.geomspace(1e-6, 1e4, 21)
 many = settings(max_examples=100)
-BONDED = st.just(asp.Bonded())
+BONDED = st.just(asp.solids.Bonded())
 COMPONENTS = ("LL", "zz", "Lz", "T")
 
 
@@ -180,7 +180,7 @@ def test_energy_balance_of_a_layer(body, load, exponent):
     ground = below.displacement(under)
     size = float(np.abs(face.L).max() + np.abs(face.z).max())
     np.testing.assert_allclose(face.z, ground.z, rtol=0, atol=1e-9 * size)
-    if isinstance(layer.interface, asp.Bonded):
+    if isinstance(layer.interface, asp.solids.Bonded):
         np.testing.assert_allclose(face.L, ground.L, rtol=0, atol=1e-9 * size)
         np.testing.assert_allclose(face.T, ground.T, rtol=1e-9)
     else:

@@ -11,7 +11,7 @@ from contact_cases import elastic, rough
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 SOLVER = ActiveSet(tolerance=1e-10)
 BOUNDARIES = pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
@@ -27,7 +27,7 @@ def posed(law: str = "constant", boundary: asp.Periodic | asp.Free = asp.Periodi
     if law == "constant":
         return asp.ContactProblem(rough((24, 20), 3), elastic(1.0), boundary=boundary, law=asp.Hardness(0.4))
     body = coated(0.3, 0.6, 0.3) if law == "soft film" else coated(0.6, 0.3, 0.5)
-    return asp.ContactProblem(rough((24, 20), 3), body, boundary=boundary, law=asp.LayeredHardness(body))
+    return asp.ContactProblem(rough((24, 20), 3), body, boundary=boundary, law=asp.plasticity.LayeredHardness(body))
 
 
 @pytest.mark.slow
@@ -47,7 +47,7 @@ def test_work_goes_into_elastic_energy_and_plastic_work(boundary, law):
     errors = []
     for steps in (4, 8, 16):
         path = asp.solve(
-            problem, asp.History(asp.ramps(asp.MeanPressure, [0.2, 0.0, 0.24, 0.0], steps=steps)), solver=SOLVER
+            problem, asp.History(asp.contact.ramps(asp.MeanPressure, [0.2, 0.0, 0.24, 0.0], steps=steps)), solver=SOLVER
         )
         balance = path.energies
         assert path.converged
@@ -64,7 +64,7 @@ def test_the_balance_is_of_second_order_in_the_step_of_the_approach():
     problem = posed("constant", asp.Free())
     errors = []
     for steps in (4, 8, 16, 32):
-        path = asp.solve(problem, asp.History(asp.ramps(asp.Approach, [2.0], steps=steps)), solver=SOLVER)
+        path = asp.solve(problem, asp.History(asp.contact.ramps(asp.Approach, [2.0], steps=steps)), solver=SOLVER)
         errors.append(path.energies.relative_error)
     assert path.plastic_work.sum() > 0.1 * path.elastic_energy[-1]
     assert math.log2(errors[0] / errors[-1]) / 3.0 > 1.7
@@ -72,9 +72,12 @@ def test_the_balance_is_of_second_order_in_the_step_of_the_approach():
 
 def test_a_path_that_goes_on_is_balanced_from_its_first_step():
     problem = posed()
-    whole = asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [0.2], steps=8)), solver=SOLVER)
+    whole = asp.solve(problem, asp.History(asp.contact.ramps(asp.MeanPressure, [0.2], steps=8)), solver=SOLVER)
     rest = asp.solve(
-        problem, asp.History(asp.ramps(asp.MeanPressure, [0.2], steps=8)[4:]), solver=SOLVER, state=whole.steps[3].state
+        problem,
+        asp.History(asp.contact.ramps(asp.MeanPressure, [0.2], steps=8)[4:]),
+        solver=SOLVER,
+        state=whole.steps[3].state,
     )
     parts, total = rest.energies, whole.energies
     for name in ("external_work", "elastic_energy", "plastic_work"):
@@ -88,10 +91,10 @@ def test_a_path_that_goes_on_is_balanced_from_its_first_step():
 @BOUNDARIES
 def test_a_lower_load_than_before_is_elastic_and_reversible(boundary, law):
     problem = posed(law, boundary)
-    first = asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [0.2, 0.0], steps=4)), solver=SOLVER)
+    first = asp.solve(problem, asp.History(asp.contact.ramps(asp.MeanPressure, [0.2, 0.0], steps=4)), solver=SOLVER)
     again = asp.solve(
         problem,
-        asp.History(asp.ramps(asp.MeanPressure, [0.15, 0.0], steps=3)),
+        asp.History(asp.contact.ramps(asp.MeanPressure, [0.15, 0.0], steps=3)),
         solver=SOLVER,
         state=first.steps[-1].state,
     )
@@ -157,7 +160,9 @@ def test_unloaded_bodies_just_touch(boundary):
 
 def test_plastic_work_adds_up():
     problem = posed()
-    path = asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [0.2, 0.0, 0.25], steps=3)), solver=SOLVER)
+    path = asp.solve(
+        problem, asp.History(asp.contact.ramps(asp.MeanPressure, [0.2, 0.0, 0.25], steps=3)), solver=SOLVER
+    )
     last = path.steps[-1]
     assert last.total_plastic_work == pytest.approx(path.plastic_work.sum(), rel=1e-12)
     assert last.total_plastic_work == pytest.approx(0.4 * last.plastic_volume, rel=1e-12)
@@ -168,4 +173,4 @@ def test_plastic_work_adds_up():
 def test_a_state_must_have_dissipated_something_positive():
     none = np.zeros((4, 4))
     with refused(asp.InputError, "plastic work (J) of an interface state"):
-        asp.InterfaceState.dented(none, none, -1.0)
+        asp.solvers.InterfaceState.dented(none, none, -1.0)

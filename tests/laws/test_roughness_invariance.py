@@ -196,7 +196,7 @@ def test_tilt_is_levelled_away(surface, tilt, form):
 def test_parseval(surface, window):
     spectrum = r.power_spectrum(surface, window)
     if window == "none":
-        assert spectrum.mean_square == pytest.approx(asp.rms_height(surface) ** 2, rel=1e-12)
+        assert spectrum.mean_square == pytest.approx(asp.roughness.rms_height(surface) ** 2, rel=1e-12)
         for axis in "xy":
             lines = r.profile_spectrum(surface, axis=axis, window="none")
             number = "xy".index(axis)

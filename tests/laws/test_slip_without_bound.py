@@ -17,13 +17,16 @@ LOAD = asp.MeanPressure(0.1)
 HALF = np.where(np.arange(24)[:, None] < 12, 0.0, 0.4) + np.zeros((24, 24))
 BARE = {
     "Coulomb 0": asp.Coulomb(0.0),
-    "Tresca 0": asp.TrescaFriction(0.0),
+    "Tresca 0": asp.friction.TrescaFriction(0.0),
     "half without friction": asp.Coulomb(HALF),
-    "half without strength": asp.TrescaFriction(0.02 * (HALF > 0.0)),
+    "half without strength": asp.friction.TrescaFriction(0.02 * (HALF > 0.0)),
 }
 
 
-TIGHT = {"solver": asp.solvers.ActiveSet(tolerance=1e-12), "rounds": asp.Rounds(tolerances={"stick_slip": 1e-9})}
+TIGHT = {
+    "solver": asp.solvers.ActiveSet(tolerance=1e-12),
+    "rounds": asp.solvers.Rounds(tolerances={"stick_slip": 1e-9}),
+}
 
 
 def posed(friction, body=SOFT, counter=SOFT, **options):
@@ -66,7 +69,7 @@ def test_zero_friction_is_the_limit_of_little_friction():
 
 def test_linearisation_leaves_out_what_bears_nothing():
     result = asp.solve(posed(asp.Coulomb(HALF), counter=STIFF), asp.Step(LOAD, asp.Shift(1e-3)))
-    assert asp.tangential_stiffness(result).along(1.0, 0.0) > 0.0
+    assert asp.friction.tangential_stiffness(result).along(1.0, 0.0) > 0.0
 
 
 @pytest.mark.parametrize("rough_wheel", [False, True])
@@ -75,7 +78,7 @@ def test_rolling_without_friction_slips_by_the_creepage(rough_wheel):
     problem = asp.ContactProblem(line, SOFT, counter_body=SOFT, boundary=asp.FreeLine(), friction=asp.Coulomb(0.0))
     if rough_wheel:
         ripple = asp.Surface(0.01 * np.cos(np.arange(12)[:, None] * np.pi / 6.0), 1.0, 1.0)
-        found = asp.roll_rough(problem, asp.Force(0.02), Creepage(1e-3), ripple, distance=3.0).last
+        found = asp.rolling.roll_rough(problem, asp.Force(0.02), Creepage(1e-3), ripple, distance=3.0).last
     else:
         found = asp.roll(problem, asp.Force(0.02), Creepage(1e-3))
     touching = found.normal.contact
@@ -84,7 +87,7 @@ def test_rolling_without_friction_slips_by_the_creepage(rough_wheel):
     assert found.dissipated == 0.0
 
 
-@pytest.mark.parametrize("law", [asp.Coulomb(0.0), asp.TrescaFriction(0.0)], ids=str)
+@pytest.mark.parametrize("law", [asp.Coulomb(0.0), asp.friction.TrescaFriction(0.0)], ids=str)
 def test_force_without_friction_has_no_solution(law):
     with refused(asp.NoSolutionError, "tangential force", "2 N"):
         asp.solve(posed(law), asp.Step(LOAD, asp.TangentialForce(2.0)))

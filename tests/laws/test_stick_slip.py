@@ -9,13 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
 from asperity.physics.friction.operator import TangentialOperator
 from asperity.physics.friction.solver.newton import StickSlipNewton
 from asperity.physics.friction.solver.problem import TangentialQP
 from asperity.physics.friction.stick_slip import SERVES
+from asperity.solvers import ActiveSet
 
-TIGHT = {"solver": ActiveSet(tolerance=1e-12), "rounds": asp.Rounds(tolerances={"stick_slip": 1e-9})}
+TIGHT = {"solver": ActiveSet(tolerance=1e-12), "rounds": asp.solvers.Rounds(tolerances={"stick_slip": 1e-9})}
 SOFT = asp.Elastic(1.0, 0.3)
 COATED = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.25), 1.5)], base=asp.Elastic(1.0, 0.3))
 LOAD = asp.MeanPressure(0.1)
@@ -50,7 +50,7 @@ def test_small_friction_leaves_the_frictionless_contact_and_large_friction_stick
     bare = asp.solve(posed(friction=None), LOAD, solver=ActiveSet(tolerance=1e-12))
     slippery = solved(posed(friction=asp.Coulomb(1e-7)), SHIFTED).last
     assert np.linalg.norm(slippery.pressure - bare.pressure) <= 1e-6 * np.linalg.norm(bare.pressure)
-    rough_, stuck = (solved(posed(friction=law), SHIFTED).last for law in (asp.Coulomb(1e6), asp.FullStick()))
+    rough_, stuck = (solved(posed(friction=law), SHIFTED).last for law in (asp.Coulomb(1e6), asp.friction.FullStick()))
     assert not stuck.stick_slip.slipping.any()
     difference = rough_.stick_slip.traction - stuck.stick_slip.traction
     assert np.linalg.norm(difference) <= 1e-5 * np.linalg.norm(stuck.stick_slip.traction)
@@ -147,7 +147,7 @@ def test_histories_go_on_from_a_state_and_do_not_depend_on_threads():
     second = solved(problem, steps[2], state=first.state).last
     assert np.array_equal(whole.stick_slip.traction, second.stick_slip.traction)
     assert np.array_equal(whole.pressure, second.pressure)
-    two = solved(problem, *steps, engine=asp.CpuEngine(threads=2)).last
+    two = solved(problem, *steps, engine=asp.engines.CpuEngine(threads=2)).last
     scale = np.abs(whole.stick_slip.traction).max()
     assert np.abs(whole.stick_slip.traction - two.stick_slip.traction).max() <= 1e-9 * scale
 
@@ -196,9 +196,9 @@ def test_forces_just_below_the_limit_settle(seed, points):
 
 def test_a_strength_that_begins_at_once_may_leave_no_solution():
     """Unlike bodies pressed and shifted at once: most settle; where a point opens under its own shear, the message says so."""
-    settles = posed(friction=asp.TrescaFriction(0.03))
+    settles = posed(friction=asp.friction.TrescaFriction(0.03))
     assert asp.solve(settles, asp.Step(LOAD, asp.Shift(2.0))).converged
-    has_none = posed(friction=asp.TrescaFriction(0.05))
+    has_none = posed(friction=asp.friction.TrescaFriction(0.05))
     result = asp.solve(has_none, asp.Step(LOAD, asp.Shift()), on_failure="return")
     assert not result.converged
     assert "1 point" in result.status.message
@@ -214,7 +214,7 @@ def test_a_map_of_friction_and_a_limit_bound_the_traction():
     limited = solved(posed(friction=asp.Coulomb(MU, limit=0.02)), SLID).last
     expected = np.minimum(MU * limited.pressure, 0.02)
     assert limited.stick_slip.traction_magnitude == pytest.approx(expected, rel=1e-9, abs=1e-15)
-    tresca = solved(posed(friction=asp.TrescaFriction(0.02)), SLID).last
+    tresca = solved(posed(friction=asp.friction.TrescaFriction(0.02)), SLID).last
     assert tresca.stick_slip.traction_magnitude[tresca.contact] == pytest.approx(0.02, rel=1e-9)
 
 
@@ -282,7 +282,7 @@ def test_random_problems_converge():
     assert failed == []
 
 
-def pressed(law: asp.Coulomb | asp.FullStick, points: int = 24) -> asp.HistoryResult:
+def pressed(law: asp.Coulomb | asp.friction.FullStick, points: int = 24) -> asp.HistoryResult:
     """A rigid sphere of unit radius pressed in twelve steps on a body of Poisson's ratio zero, whose shear lifts the edge most."""
     places = (np.arange(points) - (points - 1) / 2) * 0.24 / points
     sphere = asp.Surface(-(places[:, None] ** 2 + places**2) / 2, 0.24 / points, periodic=False)
@@ -294,7 +294,7 @@ def pressed(law: asp.Coulomb | asp.FullStick, points: int = 24) -> asp.HistoryRe
 def test_full_stick_without_solution_names_the_friction_that_serves():
     """Points at the edge open by the shear that they would bear: the error says so and which Coulomb's law stands for it."""
     with pytest.raises(asp.ConvergenceError) as caught:
-        pressed(asp.FullStick())
+        pressed(asp.friction.FullStick())
     assert f"Coulomb({SERVES:g})" in str(caught.value)
     last = pressed(asp.Coulomb(SERVES)).last
     assert last.converged

@@ -53,7 +53,7 @@ def random_case(number: int, *, fine: bool = False) -> tuple[asp.ContactProblem,
         asp.Surface(rms * heights, pixel, periodic=True),
         elastic(modulus),
         boundary=asp.Free() if not fine and number % 3 == 0 else asp.Periodic(),
-        law=asp.Hardness(0.1 * modulus) if number % 5 == 0 else asp.HardWall(),
+        law=asp.Hardness(0.1 * modulus) if number % 5 == 0 else asp.plasticity.HardWall(),
         film=film,
     )
     return problem, asp.MeanPressure(10.0 ** rng.uniform(3.0, 6.0))
@@ -78,7 +78,7 @@ def test_a_plateau_whose_last_pixels_are_in_contact_and_liquid_in_part():
     less, more = (asp.solve(dry, asp.Force(factor * found.force)) for factor in (0.999, 1.001))
     assert not less.contact[partly].any()
     assert more.contact[partly].all()
-    (said,) = (item for item in asp.review(found) if item.criterion == "jump of the meniscus force")
+    (said,) = (item for item in asp.contact.review(found) if item.criterion == "jump of the meniscus force")
     assert said.message.startswith("The forces balance where the meniscus force jumps: 4 pixels")
 
 
@@ -141,7 +141,7 @@ FIXED = asp.generate.gaussian(
 def test_every_control_is_in_balance(body, boundary, hardness):
     """Load and mean pressure are the same; at the position they come to the same external force is found, but for pixels in part under liquid."""
     film = asp.LiquidFilm(surface_tension=0.07, thickness=1e-8, meniscus_height=1.4e-8, contact_angles=(0.4, 0.0))
-    law = asp.HardWall() if np.isinf(hardness) else asp.Hardness(hardness)
+    law = asp.plasticity.HardWall() if np.isinf(hardness) else asp.Hardness(hardness)
     problem = asp.ContactProblem(FIXED, BODIES[body], boundary=boundary, law=law, film=film)
     loaded = asp.solve(problem, asp.MeanPressure(3e5))
     assert loaded.menisci.meniscus_force > 0.1 * loaded.external_force
@@ -165,7 +165,7 @@ def test_the_imbalance_is_that_of_the_whole_interface():
         asp.ContactProblem(FIXED, BODIES["elastic"]),
         asp.MeanPressure(3e5),
         film,
-        rounds=asp.Rounds(most=2),
+        rounds=asp.solvers.Rounds(most=2),
         on_failure="return",
     )
     assert not early.converged
@@ -176,7 +176,7 @@ def test_the_imbalance_is_that_of_the_whole_interface():
 def test_no_tolerance_makes_an_imbalance_converged():
     """Rounds with a loose tolerance of the menisci end out of balance, and are not called converged."""
     film = asp.LiquidFilm(surface_tension=0.07, thickness=1e-8)
-    options = {"rounds": asp.Rounds(tolerances={"menisci": 0.5}), "on_failure": "return"}
+    options = {"rounds": asp.solvers.Rounds(tolerances={"menisci": 0.5}), "on_failure": "return"}
     loose = wetted(asp.ContactProblem(FIXED, BODIES["elastic"]), asp.MeanPressure(3e5), film, **options)
     assert loose.certificate.load_imbalance > BALANCED
     assert not loose.converged

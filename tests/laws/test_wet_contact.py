@@ -81,7 +81,7 @@ def test_the_steady_force_is_the_balance(problem):
 def test_stiffness_is_that_of_the_last_contact(problem):
     """Rounds leave it out; that of the contact at its end is the one of the same dry contact under load and menisci."""
     wet = wetted(problem, LOAD, lubricant(1.0 * NM))
-    direct = asp.solve(problem, asp.Force(wet.force), state=asp.InterfaceState(wet.pressure))
+    direct = asp.solve(problem, asp.Force(wet.force), state=asp.solvers.InterfaceState(wet.pressure))
     assert wet.normal_stiffness == pytest.approx(direct.normal_stiffness, rel=1e-4)
 
 
@@ -120,12 +120,12 @@ def test_menisci_that_exceed_the_hardness_are_an_error(problem):
 
 
 def test_too_few_rounds_are_told(problem):
-    wet = wetted(problem, LOAD, lubricant(2.0 * NM), rounds=asp.Rounds(most=2), on_failure="return")
+    wet = wetted(problem, LOAD, lubricant(2.0 * NM), rounds=asp.solvers.Rounds(most=2), on_failure="return")
     assert not wet.converged
     assert "still changes by" in wet.status.message
     assert wet.status.remedy
     with pytest.raises(asp.ConvergenceError) as caught:
-        wetted(problem, LOAD, lubricant(2.0 * NM), rounds=asp.Rounds(most=2))
+        wetted(problem, LOAD, lubricant(2.0 * NM), rounds=asp.solvers.Rounds(most=2))
     assert caught.value.result.status == wet.status
 
 

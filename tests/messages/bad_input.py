@@ -275,7 +275,7 @@ def _read(name: str, content: str, **scales: object) -> asp.Surface:
 
 def _materials(content: str) -> object:
     Path("own.toml").write_text(content)
-    return asp.materials(Path("own.toml"))
+    return asp.solids.materials(Path("own.toml"))
 
 
 def _axis(path: str, values: list[object]) -> dict[str, object]:
@@ -323,7 +323,7 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "an operator of another grid": lambda: asp.solve(
         _problem(),
         asp.MeanPressure(0.1),
-        operator=asp.prepare_operator(_problem().compliance, asp.Grid((8, 8), (1.0, 1.0)), asp.Periodic()),
+        operator=asp.solvers.prepare_operator(_problem().compliance, asp.Grid((8, 8), (1.0, 1.0)), asp.Periodic()),
     ),
     "a pressure above the hardness": lambda: asp.solve(_problem(law=asp.Hardness(1.0)), asp.MeanPressure(2.0)),
     "tolerance -1": lambda: asp.solvers.ActiveSet(tolerance=-1.0),
@@ -332,9 +332,9 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a history of a control": lambda: asp.History(asp.MeanPressure(0.1)),  # type: ignore[arg-type]
     "a history of a number": lambda: asp.History(0.1),  # type: ignore[arg-type]
     "a number in a history": lambda: asp.History([asp.MeanPressure(0.1), 0.2]),  # type: ignore[list-item]
-    "ramps to nowhere": lambda: asp.ramps(asp.Force, [0.0]),
-    "a ramp that stands": lambda: asp.ramps(asp.Force, [1.0, 1.0]),
-    "a ramp of no control": lambda: asp.ramps("force", [1.0]),  # type: ignore[arg-type]
+    "ramps to nowhere": lambda: asp.contact.ramps(asp.Force, [0.0]),
+    "a ramp that stands": lambda: asp.contact.ramps(asp.Force, [1.0, 1.0]),
+    "a ramp of no control": lambda: asp.contact.ramps("force", [1.0]),  # type: ignore[arg-type]
     "two iterations": lambda: asp.solve(
         _problem(surface=rough((32, 32))),
         asp.MeanPressure(0.05),
@@ -352,7 +352,7 @@ CALLS: Mapping[str, Callable[[], object]] = {
         ),
         asp.MeanGap(1e-18),
     ),
-    "a flat that yields as a whole": lambda: asp.plastic_load(
+    "a flat that yields as a whole": lambda: asp.plasticity.plastic_load(
         _problem(surface=asp.Surface(np.zeros((8, 8)), 1.0, periodic=True), law=asp.Hardness(0.4))
     ),
     "a film of no thickness": lambda: asp.LiquidFilm(thickness=0.0, surface_tension=0.03),
@@ -365,15 +365,15 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "an interface of text": lambda: asp.Layer(elastic(1.0), 1.0, "bonded"),  # type: ignore[arg-type]
     "a layer for a list": lambda: asp.Layered(asp.Layer(elastic(1.0), 1.0), elastic(1.0)),  # type: ignore[arg-type]
     "a rigid base": lambda: asp.Layered([], asp.Rigid()),  # type: ignore[arg-type]
-    "a grading of text": lambda: asp.graded(elastic(1.0), elastic(2.0), 1.0, grading="linear"),  # type: ignore[arg-type]
+    "a grading of text": lambda: asp.solids.graded(elastic(1.0), elastic(2.0), 1.0, grading="linear"),  # type: ignore[arg-type]
     "no depths": lambda: asp.stress(_solved(), []),
     "a depth above the surface": lambda: asp.stress(_solved(), [-1.0]),
     "stresses in a rigid body": lambda: asp.stress(_solved(), [0.0], of="counter_body"),
     "stresses in a third body": lambda: asp.stress(_solved(), [0.0], of="third"),
     "stresses on text": lambda: asp.stress(_solved(), [0.0], on="x"),  # type: ignore[arg-type]
     "sliding in no direction": lambda: asp.stress(_solved(), [0.0], friction=0.3, direction=(0.0, 0.0)),
-    "a section beyond the surface": lambda: asp.stress(_solved(), [0.0], on=asp.Section(y=1e3)),
-    "no strength": lambda: asp.load_at_yield(
+    "a section beyond the surface": lambda: asp.stress(_solved(), [0.0], on=asp.stresses.Section(y=1e3)),
+    "no strength": lambda: asp.stresses.load_at_yield(
         lambda load: asp.stress(asp.solve(_problem(), asp.MeanPressure(load)), [0.0]), 0.1
     ),
     "a theory by another name": lambda: asp.theories.theory("herz"),
@@ -400,16 +400,16 @@ CALLS: Mapping[str, Callable[[], object]] = {
     ),
     "a spectrum in descending order": lambda: asp.generate.TabulatedSpectrum([2.0, 1.0], [1.0, 2.0]),
     "a spectrum of a plane": lambda: asp.generate.spectrum_of(asp.Surface(np.zeros((8, 8)), 1.0)),
-    "no cut-off": lambda: asp.filtered(rough((32, 32))),
-    "a cut-off of three pixels": lambda: asp.filtered(rough((32, 32)), short=3.0),
-    "a cut-off in the wrong unit": lambda: asp.filtered(rough((32, 32)), long=1e3),
-    "cut-offs in disorder": lambda: asp.filtered(rough((32, 32)), short=20.0, long=10.0),
+    "no cut-off": lambda: asp.surfaces.filtered(rough((32, 32))),
+    "a cut-off of three pixels": lambda: asp.surfaces.filtered(rough((32, 32)), short=3.0),
+    "a cut-off in the wrong unit": lambda: asp.surfaces.filtered(rough((32, 32)), long=1e3),
+    "cut-offs in disorder": lambda: asp.surfaces.filtered(rough((32, 32)), short=20.0, long=10.0),
     "a plane through a line": lambda: asp.levelled(asp.Surface(np.ones((1, 8)), 1.0)),
-    "a crop that ends before its start": lambda: asp.cropped(rough((8, 8)), x=(2.0, 1.0)),
-    "a crop beyond the surface": lambda: asp.cropped(rough((8, 8)), x=(0.0, 99.0)),
-    "a line in both directions": lambda: asp.sliced(rough((8, 8)), x=0.0, y=0.0),
-    "an even window": lambda: asp.despiked(rough((8, 8)), window=4),
-    "surfaces that do not overlap": lambda: asp.on_common_grid(
+    "a crop that ends before its start": lambda: asp.surfaces.cropped(rough((8, 8)), x=(2.0, 1.0)),
+    "a crop beyond the surface": lambda: asp.surfaces.cropped(rough((8, 8)), x=(0.0, 99.0)),
+    "a line in both directions": lambda: asp.surfaces.sliced(rough((8, 8)), x=0.0, y=0.0),
+    "an even window": lambda: asp.surfaces.despiked(rough((8, 8)), window=4),
+    "surfaces that do not overlap": lambda: asp.surfaces.on_common_grid(
         asp.Surface(np.eye(8), 1.0), asp.Surface(np.eye(8), 1.0), shift=(25.0, 0.0)
     ),
     "a theory to compare by another name": lambda: asp.compare(rough((8, 8)), elastic(1.0), 1e-3, theories=["gw"]),

@@ -101,7 +101,7 @@ def raised(name: str) -> str:
     """What the library raises, as the name of the exception and its message."""
     try:
         CALLS[name]()
-    except asp.AsperityError as error:
+    except asp.errors.AsperityError as error:
         return f"{type(error).__name__}: {error}"
     raise AssertionError(f"{name} raises nothing")
 

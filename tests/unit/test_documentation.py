@@ -149,7 +149,7 @@ def test_the_examples_of_generation(tmp_path, monkeypatch, capsys):
     printed = capsys.readouterr().out
     assert "must be at least 2.799" in printed
     assert "Jacobs" in printed
-    assert asp.rms_height(names["grooved"]) == pytest.approx(1e-9, rel=0.01)
+    assert asp.roughness.rms_height(names["grooved"]) == pytest.approx(1e-9, rel=0.01)
     (text,) = blocks(ROOT / "docs/how-to/generate.md", "toml")
     rest = '\n[body]\nmaterial = "DLC"\n[control]\nmean_pressure = "1 MPa"\n'
     assert loads("version = 1\n" + text + rest).surface.kind == "rough"
@@ -196,8 +196,8 @@ def test_the_examples_of_comparing(scan, tmp_path, monkeypatch, capsys):
     assert "fuller-tabor left out: It needs the work of adhesion" in printed
     assert "greenwood-williamson - height deviation" in printed
     assert [curve.name for curve in names["mine"].curves] == ["persson", "bush-gibson-thomas"]
-    assert asp.open_tree("comparison.nc").to_dataset().sizes["pressure"] == 5
-    asp.save_surface(scan, "scan.nc")
+    assert asp.files.open_tree("comparison.nc").to_dataset().sizes["pressure"] == 5
+    asp.files.save_surface(scan, "scan.nc")
     (console,) = blocks(page, "console")
     lines = [line.removeprefix("$ ").split("  #")[0] for line in console.splitlines()]
     assert len(lines) == 3
@@ -226,7 +226,7 @@ def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
         amplitude=asp.generate.RmsHeight(2e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=0.1e-6
     )
     scan = asp.generate.gaussian(asp.Grid((48, 48), (40e-9, 40e-9)), waves, seed=5)
-    asp.save_surface(scan, "scan.nc")
+    asp.files.save_surface(scan, "scan.nc")
     page = ROOT / "docs/how-to/wet-contact.md"
     names = {"scan": scan}
     for number, code in enumerate(blocks(page, "python")):
@@ -253,7 +253,7 @@ def test_the_examples_of_stick_and_slip(tmp_path, monkeypatch, capsys):
         amplitude=asp.generate.RmsHeight(2e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=0.2e-6
     )
     scan = asp.generate.gaussian(asp.Grid((24, 24), (40e-9, 40e-9)), waves, seed=5)
-    asp.save_surface(scan, "scan.nc")
+    asp.files.save_surface(scan, "scan.nc")
     page, names = ROOT / "docs/how-to/stick-slip.md", {"scan": scan}
     (code,) = blocks(page, "python")
     exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
@@ -262,7 +262,7 @@ def test_the_examples_of_stick_and_slip(tmp_path, monkeypatch, capsys):
     for line in commands(page):
         result = CliRunner().invoke(app, shlex.split(line.replace("scan.di", "scan.nc"))[1:])
         assert result.exit_code == 0, result.output
-    saved = asp.open_tree("fretting/result.nc")["stick_slip"]
+    saved = asp.files.open_tree("fretting/result.nc")["stick_slip"]
     heat = names["loop_of"](names["history"].steps).cycle_energies[0]
     assert float(saved["cycle_dissipation"]) == pytest.approx(heat, rel=1e-3)
     (steps,) = blocks(page, "toml")
@@ -287,7 +287,7 @@ def test_the_examples_of_rolling(tmp_path, monkeypatch, capsys):
         shorter = line.replace("--points 64", "--points 32").replace("--creep-points 8", "--creep-points 2")
         result = CliRunner().invoke(app, shlex.split(shorter.removeprefix("$ "))[1:])
         assert result.exit_code == 0, result.output
-    saved = asp.open_tree("run/result.nc")["rolling"]
+    saved = asp.files.open_tree("run/result.nc")["rolling"]
     assert float(saved["fastsim_longitudinal_force"]) == pytest.approx(
         float(saved["rolling_longitudinal_force"]), rel=0.1
     )
@@ -313,8 +313,8 @@ def test_the_commands_and_documents_of_viscoelastic_bodies(tmp_path, monkeypatch
         more = ["--speed-points", "2"] if "--slowest" in shorter else []
         result = CliRunner().invoke(app, [*shlex.split(shorter)[1:], *more])
         assert result.exit_code == 0, result.output
-    assert float(asp.open_tree("run/result.nc")["viscoelastic/viscoelastic_time"]) == pytest.approx(121.0)
-    sliding = asp.open_tree("sliding/result.nc")["hysteresis"]
+    assert float(asp.files.open_tree("run/result.nc")["viscoelastic/viscoelastic_time"]) == pytest.approx(121.0)
+    sliding = asp.files.open_tree("sliding/result.nc")["hysteresis"]
     assert float(sliding["hysteresis_friction"]) == pytest.approx(float(sliding["hysteresis_slope_friction"]), rel=0.1)
     head = 'version = 2\nsurface = { kind = "flat", points = [8, 8], size = "1 um" }\n'
     body, times, speeds = blocks(page, "toml")
@@ -370,7 +370,7 @@ def commands(path: Path) -> list[str]:
 )
 def test_the_commands_on_a_scan(scan, tmp_path, monkeypatch, page):
     monkeypatch.chdir(tmp_path)
-    asp.save_surface(scan, "scan.nc")
+    asp.files.save_surface(scan, "scan.nc")
     found = commands(ROOT / page)
     assert found
     for line in found:
@@ -392,7 +392,7 @@ def test_the_document_of_the_coated_contact(tmp_path):
 def test_the_options_of_stresses_and_their_keys_mean_the_same(scan, tmp_path, monkeypatch):
     """Every row of the table in the guide, as option and as key."""
     monkeypatch.chdir(tmp_path)
-    asp.save_surface(scan, "scan.nc")
+    asp.files.save_surface(scan, "scan.nc")
     page = (ROOT / "docs/how-to/coated-contact.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| `(--[a-z-]+[^`]*)` \| `([^`]+)` \|", page, re.MULTILINE)
     assert len(rows) > 8

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import os
 import re
 from fnmatch import fnmatch
@@ -118,10 +117,17 @@ def test_other_lines_are_no_formulas(line):
 
 def test_every_public_name_stands_on_one_page(pages):
     shown = re.findall(
-        r"^\.\. auto(?:class|function|exception):: asperity\.(\w+)$", "\n".join(pages.values()), re.MULTILINE
+        r"^\.\. auto(?:class|function|exception):: asperity\.([\w.]+)$", "\n".join(pages.values()), re.MULTILINE
     )
-    wanted = [n for n in asperity.__all__ if not n.startswith("_") and not inspect.ismodule(getattr(asperity, n))]
-    assert sorted(shown) == sorted(wanted)
+    modules = {name: getattr(asperity, name) for name in asperity.__all__}
+    wanted = [
+        f"{name}.{one}" for name, module in modules.items() for one in module.__all__ if callable(getattr(module, one))
+    ]
+    assert sorted(shown) == sorted([*wanted, "cite"])
+    index = pages["reference/api/index.md"]
+    assert set(re.findall(r"^\| `(\w+)` \|", index, re.MULTILINE)) == {
+        n for n in dir(asperity) if asperity._HOME.get(n)
+    }
 
 
 def test_every_command_and_every_key_of_the_document_is_listed(pages):

@@ -31,7 +31,7 @@ def run_here(study, folder):
 @cache
 def page_of(name):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(asp, "run_study", run_here)
+        patch.setattr(asp.studies, "run_study", run_here)
         return RUNS[name]()
 
 

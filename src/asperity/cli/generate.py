@@ -22,7 +22,7 @@ from ..plots.contact import save_surface_plot
 from ..run.build import build_generated, build_part, large_grid, stated_points, table_grid
 from ..surfaces.characterise.heights import height_parameters
 from ..surfaces.characterise.slopes import rms_slope
-from ..surfaces.generate import endless
+from ..surfaces.generate.digital_filter import endless
 from ..surfaces.generate.gaussian import Spectrum
 from ..surfaces.generate.non_gaussian import Marginal
 from ..surfaces.surface import Surface

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from pathlib import Path
-from types import MappingProxyType
+from types import MappingProxyType, ModuleType
 from typing import TYPE_CHECKING, Any, ClassVar
 
 if TYPE_CHECKING:
@@ -16,10 +16,9 @@ if TYPE_CHECKING:
 
 
 class LateNames:
-    """Names of ``package`` by the module below it that defines them, or that they are modules of.
+    """Names of ``package`` by the module below it that defines them; an empty module stands for the package itself, whose names are modules.
 
-    Module and names read like ``from .module import names``, so that ``.module`` is one beside the package; an empty module stands for the
-    package itself, whose names are then modules. To be used as ``__getattr__`` of the package, with a stub beside for type checkers.
+    Module and names read like ``from .module import names``, so that ``.module`` is one beside the package.
     """
 
     def __init__(self, package: str, by_module: Mapping[str, tuple[str, ...]]) -> None:
@@ -27,39 +26,51 @@ class LateNames:
         self.home = MappingProxyType({name: module for module, names in by_module.items() for name in names})
 
     def __call__(self, name: str) -> Any:
-        """What ``name`` stands for.
-
-        Raises
-        ------
-        AttributeError
-            If the package has no such name.
-        """
-        if name not in self.home:
-            raise AttributeError(f"module {self._package!r} has no attribute {name!r}")
-        where = f".{self.home[name]}"
-        if where != ".":
-            module = import_module(where, self._package)
-            if hasattr(module, name):
-                return getattr(module, name)
-        return import_module(f"{where}{name}" if where == "." else f"{where}.{name}", self._package)
+        """What ``name``, which is one of them, stands for."""
+        where = self.home[name]
+        return (
+            getattr(import_module(f".{where}", self._package), name)
+            if where
+            else import_module(f".{name}", self._package)
+        )
 
 
 def names_of_stub(stub: Path) -> dict[str, tuple[str, ...]]:
-    """Public names of a package by module, from the lines ``from .module import names`` of its ``stub``."""
+    """Public names of a module by the module that defines them, from the lines ``from .module import names`` of its ``stub``."""
     lines = re.findall(r"^from \.(\S*) import (?:\(([^)]*)\)|(.*))$", stub.read_text(encoding="utf-8"), re.MULTILINE)
-    return {module: tuple(re.findall(r"\w+", several or one)) for module, several, one in lines}
+    found: dict[str, tuple[str, ...]] = {}
+    for module, several, one in lines:
+        found[module] = (*found.get(module, ()), *re.findall(r"(\w+)(?: as \w+)?", several or one))
+    return found
 
 
-def late_package(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], Mapping[str, str]]:
-    """``__getattr__``, ``__dir__`` and modules by name of a ``package`` whose names stand in the stub beside its ``file``; a name found is kept."""
-    find = LateNames(package, names_of_stub(Path(file).with_suffix(".pyi")))
-    known = vars(sys.modules[package])
+class LateModule(ModuleType):
+    """A module each of whose names is imported at its first use, and then kept."""
 
-    def found(name: str) -> Any:
-        value = known[name] = find(name)
+    _names: LateNames
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in self._names.home:
+            raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}", name=name, obj=self)
+        value = vars(self)[name] = self._names(name)
         return value
 
-    return found, lambda: [*known, *find.home], find.home
+    def __setattr__(self, name: str, value: object) -> None:
+        """Set an attribute; a module that is imported does not take the place of the public name that it is called like."""
+        if not (isinstance(value, ModuleType) and self._names.home.get(name)):
+            super().__setattr__(name, value)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*vars(self), *self._names.home})
+
+
+def late_names(name: str, file: str) -> Mapping[str, str]:
+    """Give the module ``name`` the names in the stub beside its ``file``, as its ``__all__`` too, and return where each is; they are imported at first use."""
+    module = sys.modules[name]
+    names = LateNames(str(module.__package__), names_of_stub(Path(file).with_suffix(".pyi")))
+    vars(module).update(_names=names, __all__=sorted(names.home))
+    module.__class__ = LateModule
+    return names.home
 
 
 class Shown:

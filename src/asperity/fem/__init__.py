@@ -1,11 +1,9 @@
-"""Finite elements: plastic flow beneath contacts of layered solids. A module is imported on first use of one of its names.
+"""Finite elements: plastic flow beneath indenters and rolling passes on layered solids.
 
-The stub beside this file lists the names and their modules, for type checkers too.
+``indentation`` presses an indenter (``Sphere``, ``Cone``, ``Paraboloid``, ``FlatPunch``) into a solid, ``hertz_pass``
+and ``sliding_pass`` move a load over it; meshes, elements and histories have names of their own.
 """
 
-from __future__ import annotations
+from ..core.late import late_names
 
-from ..core.late import late_package
-
-__getattr__, __dir__, _HOME = late_package(__name__, __file__)
-__all__ = sorted(_HOME)
+late_names(__name__, __file__)

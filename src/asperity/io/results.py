@@ -54,7 +54,7 @@ def save(
 
     The file has one group for each part of the result, units and long names on every variable; ``load`` gives an equal result.
 
-    Of a path that is longer than the memory give the steps as they are solved, ``save(asperity.contact.solve.steps(problem, history), "path.nc")``, and the
+    Of a path that is longer than the memory give the steps as they are solved, ``save(asperity.contact.steps(problem, history), "path.nc")``, and the
     interface that they ``start`` from: they are written and forgotten. Such a file is that of the ``HistoryResult`` without the energies, which ``load`` computes when they are read.
 
     Raises

@@ -17,7 +17,7 @@ from ..core.grid import Grid
 from ..core.spectral import complex_lines, line_transform, real_lines, thread_count
 from ..core.status import NoProgress, Progress
 from ..surfaces.formats import write_netcdf
-from ..surfaces.generate import EndlessSurface
+from ..surfaces.generate.digital_filter import EndlessSurface
 from ..surfaces.generate.gaussian import Spectrum, noise_rows
 from ..surfaces.generate.spectra import Columns, column_slices, spectrum_columns
 from ..surfaces.surface import Surface

@@ -1,11 +1,10 @@
-"""Layer 3: figures of surfaces and contacts; functions (data, ax) -> ax, and the standard set as files. A module is imported on first use of one of its names.
+"""Plots: figures of surfaces, contacts, stresses and campaigns, on axes or as files.
 
-The stub beside this file lists the names and their modules, for type checkers too.
+Functions ``plot_…`` take data and axes and give the axes; ``save_plots``, ``save_path_plots``, ``save_surface_plot``
+and ``save_roughness_plots`` save the standard sets ``PLOTS``, ``PATH_PLOTS``, ``PLASTIC_PLOTS`` and
+``SURFACE_PLOTS``.
 """
 
-from __future__ import annotations
+from ..core.late import late_names
 
-from ..core.late import late_package
-
-__getattr__, __dir__, _HOME = late_package(__name__, __file__)
-__all__ = sorted(_HOME)
+late_names(__name__, __file__)

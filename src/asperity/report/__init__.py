@@ -1,6 +1,9 @@
-"""Layer 6: self-contained HTML reports of results and of surfaces."""
+"""Reports: self-contained pages of results, surfaces and comparisons, and animations.
 
-from .roughness import write_roughness_report
-from .write import write_report
+``write_report`` is for outcomes and results, ``write_roughness_report`` for surfaces, ``write_comparison_report`` for
+theories beside a solution; ``save_plastic_animation`` moves through the steps of plastic flow.
+"""
 
-__all__ = ["write_report", "write_roughness_report"]
+from ..core.late import late_names
+
+late_names(__name__, __file__)

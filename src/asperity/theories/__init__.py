@@ -1,11 +1,10 @@
-"""Closed-form theories: they take and return numbers. A module is imported on first use of one of its names.
+"""Theories: closed forms of contact, which take and return numbers.
 
-The stub beside this file lists the names and their modules, for type checkers too.
+``theory`` finds one by name, ``evaluate`` asks it along an axis, and ``THEORIES`` and ``FAMILIES`` list all. Single
+contacts, rough contacts, adhesion, friction, hardness, wet contacts, stresses below the surface and dynamics have
+classes of their own.
 """
 
-from __future__ import annotations
+from ..core.late import late_names
 
-from ..core.late import late_package
-
-__getattr__, __dir__, _HOME = late_package(__name__, __file__)
-__all__ = sorted(_HOME)
+late_names(__name__, __file__)

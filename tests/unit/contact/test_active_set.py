@@ -14,7 +14,6 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.operators.convolution import coarse_grid, restricted
 from asperity.contact.solve import default_solver
-from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
 from asperity.contact.solvers.active_set import bounds, first_guess, linear_system, spline_model
 from asperity.contact.solvers.active_set import solver as solver_module
 from asperity.contact.solvers.active_set.first_guess import COARSEST, coarsened, highest_points, nested_start
@@ -22,12 +21,13 @@ from asperity.contact.solvers.active_set.linear_system import Stopping
 from asperity.contact.solvers.protocol import relative_error
 from asperity.core.engine import SQUARE_SIDE, cpu
 from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import ActiveSet, ContactQP, FixedMean, FixedOffset, run
 
 BOUNDARIES = pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 
 
 def posed(shape: tuple[int, int], boundary: Any = None, load: float = 0.05) -> ContactQP:
-    operator = asp.prepare_operator(HalfSpace(1.0), asp.Grid(shape, (1.0, 1.0)), boundary or asp.Periodic())
+    operator = asp.solvers.prepare_operator(HalfSpace(1.0), asp.Grid(shape, (1.0, 1.0)), boundary or asp.Periodic())
     heights = rough(shape, 21).heights
     return ContactQP(operator, heights, np.inf, FixedMean(load), float(heights.std()))
 
@@ -225,13 +225,13 @@ def test_closer_solutions_spare_clipped_steps_on_very_stiff_films(
 def guess(body: asp.Layered, engine: Any) -> linear_system.Workspace:
     """A start prolonged from the coarser grid, and its deflection, on 128 x 128 points at a mean pressure of 0.2."""
     problem = asp.ContactProblem(smooth(128, 2), body)
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     heights = np.asarray(problem.surface.heights, dtype=float)
     qp = ContactQP(operator, heights, np.inf, FixedMean(0.2), float(heights.std()))
     return linear_system.Workspace.of(qp.resident, "mixed", nested_start(qp.resident, ActiveSet()).pressure)
 
 
-@pytest.mark.parametrize("engine", [asp.CpuEngine(1), asp.ArrayEngine(np)], ids=["cpu", "arrays"])
+@pytest.mark.parametrize("engine", [asp.engines.CpuEngine(1), asp.engines.ArrayEngine(np)], ids=["cpu", "arrays"])
 @pytest.mark.parametrize("rounds", [1, 2, 3])
 def test_narrowing_keeps_load_and_bounds_and_tells_its_change(engine: Any, rounds: int) -> None:
     """Points leave with the pressure they have lost; the change, told on the set before, is that of the pressure in single precision."""
@@ -263,7 +263,7 @@ def test_a_second_narrowing_lets_points_go_that_will_not_touch_and_few_others() 
     answer = asp.solve(asp.ContactProblem(smooth(128, 2), body), asp.MeanPressure(0.2)).pressure > 0.0
     lacking, excess = {}, {}
     for rounds in (0, 1, 2):
-        work = guess(body, asp.CpuEngine(1))
+        work = guess(body, asp.engines.CpuEngine(1))
         qp, survey = work.qp, work.survey()
         level = bounds.plane_level(qp, survey.totals)
         free = bounds.free_set(survey, level, qp.height_scale, work.scaled.dtype, wide=rounds > 0)
@@ -283,7 +283,7 @@ def test_stiff_films_take_few_products() -> None:
     assert max(pairs_on(film(100.0, 2.0), 0.4, 512, (1, 2))) <= 10.0
 
 
-@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(0.3)], ids=["elastic", "capped"])
+@pytest.mark.parametrize("law", [asp.plasticity.HardWall(), asp.Hardness(0.3)], ids=["elastic", "capped"])
 def test_a_result_takes_no_product_beyond_those_of_the_solver(law: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     products, apply = [0], cpu._Convolution.apply
 
@@ -298,7 +298,7 @@ def test_a_result_takes_no_product_beyond_those_of_the_solver(law: Any, monkeypa
 
 def test_a_cap_costs_at_most_a_fifth_more_pairs() -> None:
     """Mean of two surfaces at the loads of the table in ``benchmarks``, where a third of the contact yields."""
-    pairs = dict.fromkeys((asp.HardWall(), asp.Hardness(0.3)), 0.0)
+    pairs = dict.fromkeys((asp.plasticity.HardWall(), asp.Hardness(0.3)), 0.0)
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=64.0, shortest_wavelength=8.0
     )
@@ -344,7 +344,9 @@ def test_the_coarsest_guess_loads_about_as_many_of_the_highest_points_as_will_to
     assert qp.profile[loaded > 0.0].min() >= qp.profile[loaded == 0.0].max()
     assert 0.6 <= loaded.sum() / np.count_nonzero(run(ActiveSet(), qp).state.pressure) <= 1.6
     small = replace(qp.operator.grid, spacing=(2e-9, 2e-9))  # all lengths, and so moduli over a length
-    tiny = replace(qp, operator=asp.prepare_operator(HalfSpace(1.0), small, asp.Periodic()), profile=2e-9 * qp.profile)
+    tiny = replace(
+        qp, operator=asp.solvers.prepare_operator(HalfSpace(1.0), small, asp.Periodic()), profile=2e-9 * qp.profile
+    )
     np.testing.assert_array_equal(highest_points(tiny), loaded)
 
 
@@ -355,7 +357,7 @@ def test_without_slope_or_load_all_points_are_the_guess_on_the_coarsest_grid() -
     assert highest_points(posed((12, 10), load=1e6)).all()  # type: ignore[union-attr]
 
 
-@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(0.3)], ids=("elastic", "capped"))
+@pytest.mark.parametrize("law", [asp.plasticity.HardWall(), asp.Hardness(0.3)], ids=("elastic", "capped"))
 def test_the_product_that_ends_a_solve_serves_a_last_step(law: Any, monkeypatch: Any) -> None:
     """With and without such steps the pressures agree to the tolerance, the load and the bounds are kept; with them products are fewer."""
     surfaces = [rough((128, 128), seed) for seed in (1, 2, 3, 4)]

@@ -22,24 +22,24 @@ def criteria(advice):
 
 def before(surface, control=None, **more):
     problem = asp.ContactProblem(surface, elastic(1e9), **more)
-    return asp.advise(problem, control or asp.MeanPressure(1e6))
+    return asp.contact.advise(problem, control or asp.MeanPressure(1e6))
 
 
 def after(surface, pressure, **more):
     body = more.pop("body", elastic(1.0))
-    return asp.review(asp.solve(asp.ContactProblem(surface, body, **more), asp.MeanPressure(pressure)))
+    return asp.contact.review(asp.solve(asp.ContactProblem(surface, body, **more), asp.MeanPressure(pressure)))
 
 
 def test_a_sound_case_gets_no_warning():
     assert before(SMOOTH) == ()
     problem = asp.ContactProblem(SMOOTH, elastic(1e9))
-    assert asp.review(asp.solve(problem, asp.MeanPressure(1e7))) == ()
+    assert asp.contact.review(asp.solve(problem, asp.MeanPressure(1e7))) == ()
 
 
 def test_steep():
     steep = asp.Surface(20.0 * SMOOTH.heights, 1e-6, periodic=True)
     assert criteria(before(steep)) == {"slope"}
-    slope = asp.rms_slope(steep)
+    slope = asp.roughness.rms_slope(steep)
     assert f"rms slope is {slope:.2g}" in before(steep)[0].message
 
 
@@ -135,7 +135,7 @@ def test_pressure_above_the_known_hardness():
     assert len(found) == 1
     assert "butter" in found[0].message
     top = replace(asp.solve(asp.ContactProblem(rough((32, 32)), soft), asp.MeanPressure(0.005)), max_pressure=0.01003)
-    (slightly,) = [item for item in asp.review(top) if item.criterion == "hardness"]
+    (slightly,) = [item for item in asp.contact.review(top) if item.criterion == "hardness"]
     assert "0.3 % above" in slightly.message
     assert "hardness" not in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.01)))
     assert "hardness" in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.02)))
@@ -146,8 +146,8 @@ def test_a_soft_coating_pressed_through_is_not_above_its_hardness():
     film, base = (asp.Elastic(1.0, 0.3, asp.Strength(hardness=h)) for h in (0.02, 0.5))
     coated = asp.Layered([asp.Layer(film, 0.5)], base)
     result = asp.solve(
-        asp.ContactProblem(rough((32, 32)), coated, law=asp.LayeredHardness(coated)), asp.MeanPressure(0.01)
+        asp.ContactProblem(rough((32, 32)), coated, law=asp.plasticity.LayeredHardness(coated)), asp.MeanPressure(0.01)
     )
     assert result.max_pressure > 0.021
-    assert "hardness" not in criteria(asp.review(result))
-    assert "softer layers below" not in criteria(asp.advise(result.problem, result.control))
+    assert "hardness" not in criteria(asp.contact.review(result))
+    assert "softer layers below" not in criteria(asp.contact.advise(result.problem, result.control))

@@ -10,7 +10,7 @@ import pytest
 from contact_cases import elastic, rough
 
 import asperity as asp
-from asperity.contact.solvers import ActiveSet
+from asperity.solvers import ActiveSet
 
 SOLVER = ActiveSet(tolerance=1e-9)
 LOADS = (0.02, 0.03, 0.045, 0.06)
@@ -29,9 +29,9 @@ def along(problem: asp.ContactProblem, loads=LOADS, **options) -> list[asp.Conta
     return list(asp.solve(problem, asp.History(controls), solver=SOLVER, **options).steps)
 
 
-def forgotten(state: asp.InterfaceState) -> asp.InterfaceState:
+def forgotten(state: asp.solvers.InterfaceState) -> asp.solvers.InterfaceState:
     """The same as from a file, with arrays of its own."""
-    return asp.InterfaceState(state.pressure.copy(), state.memory, state.earlier.copy())
+    return asp.solvers.InterfaceState(state.pressure.copy(), state.memory, state.earlier.copy())
 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
@@ -51,7 +51,7 @@ def test_answers_are_those_of_cold_solves(boundary, loads):
 
 def along_displacement(problem: asp.ContactProblem, result: asp.ContactResult) -> np.ndarray:
     """Displacement by the pressure, from scratch."""
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
     out = np.empty_like(result.pressure)
     return operator.convolution("float64").apply(result.pressure, out)
 

@@ -28,7 +28,7 @@ CASES: dict[str, tuple[dict[str, Any], Any]] = {
     "history": ({}, asp.History([asp.MeanPressure(p) for p in (0.5e9, 1e9, 0.7e9)])),
     "hardness": ({"law": asp.Hardness(8e9)}, asp.History([asp.MeanPressure(p) for p in (0.5e9, 1e9, 0.3e9)])),
     "light load under a hardness": ({"law": asp.Hardness(1e7)}, asp.MeanPressure(1e6)),
-    "hardness of layers": ({"body": COATED, "law": asp.LayeredHardness(COATED)}, LOAD),
+    "hardness of layers": ({"body": COATED, "law": asp.plasticity.LayeredHardness(COATED)}, LOAD),
     "adhesion": ({"adhesion": asp.ExponentialAdhesion(0.5, 10e-9)}, LOAD),
     "pull": ({"adhesion": asp.ExponentialAdhesion(0.5, 10e-9)}, asp.Unloaded()),
     "sliding": ({"friction": asp.Coulomb(0.3)}, LOAD),
@@ -52,7 +52,7 @@ def test_contacts_on_a_gpu_are_those_of_the_cpu(case: str) -> None:
     heights = 100e-9 * rough((66, 70), seed=5).heights
     problem = asp.ContactProblem(asp.Surface(heights, 0.3e-6, 0.25e-6, periodic=True), **{"body": STEEL, **own})
     results = []
-    for engine in (asp.CpuEngine(1), EmulatedGpu()):
+    for engine in (asp.engines.CpuEngine(1), EmulatedGpu()):
         found = asp.solve(problem, control, solver=asp.solvers.ActiveSet(tolerance=1e-10), engine=engine)
         results.append(found.last if isinstance(found, asp.HistoryResult) else found)
     wanted, found = results

@@ -9,7 +9,7 @@ import asperity as asp
 
 def found(body, *, counter=asp.Rigid(), boundary=asp.Periodic(), pressure=1e-6):
     problem = asp.ContactProblem(rough((32, 32), power=3.0), body, counter_body=counter, boundary=boundary)
-    return {a.criterion: a for a in asp.advise(problem, asp.MeanPressure(pressure)) if "layer" in a.criterion}
+    return {a.criterion: a for a in asp.contact.advise(problem, asp.MeanPressure(pressure)) if "layer" in a.criterion}
 
 
 def test_layers_that_suit_the_grid_get_no_advice():
@@ -30,9 +30,9 @@ def test_layer_thinner_than_a_pixel():
 
 def test_a_row_has_pixels_along_x_only():
     """The length along y, 1 m of a line contact, is no pixel."""
-    row = asp.sliced(rough((32, 32), power=3.0), y="middle")
+    row = asp.surfaces.sliced(rough((32, 32), power=3.0), y="middle")
     problem = asp.ContactProblem(row, on_half_space(2.0, 4.0), boundary=asp.FreeLine())
-    assert not [a for a in asp.advise(problem, asp.MeanPressure(1e-6)) if a.criterion == "layer against pixel"]
+    assert not [a for a in asp.contact.advise(problem, asp.MeanPressure(1e-6)) if a.criterion == "layer against pixel"]
 
 
 def test_layers_too_thick_for_the_period():
@@ -47,7 +47,7 @@ def test_load_is_measured_by_the_softest_material():
     """A soft layer under a stiff one is strained by the mean pressure, whatever the surface material."""
     soft = asp.Layered([asp.Layer(elastic(1e3, 0.3), 2.0), asp.Layer(elastic(1e-3, 0.3), 2.0)], elastic(1e3, 0.3))
     problem = asp.ContactProblem(rough((32, 32), power=3.0), soft)
-    advice = {a.criterion: a for a in asp.advise(problem, asp.MeanPressure(1e-3))}
+    advice = {a.criterion: a for a in asp.contact.advise(problem, asp.MeanPressure(1e-3))}
     assert "load" in advice
     assert np.isclose(problem.contact_modulus, 1e3 / 0.91)
 
@@ -58,7 +58,7 @@ def test_hardness_is_that_of_the_surface_material():
     for layers, base, warned in (([weak], strong, True), ([strong], weak, False)):
         body = asp.Layered([asp.Layer(m, 2.0) for m in layers], base)
         result = asp.solve(asp.ContactProblem(rough((16, 16), power=3.0), body), asp.MeanPressure(0.01))
-        advice = {a.criterion: a for a in asp.review(result)}
+        advice = {a.criterion: a for a in asp.contact.review(result)}
         assert ("hardness" in advice) == warned
         if warned:
             assert "varnish" in advice["hardness"].message
@@ -70,9 +70,9 @@ def test_softer_material_under_a_pressure_limit():
     def told(hardnesses, limit):
         top, *middle, bottom = (asp.Elastic(1.0, 0.3, asp.Strength(hardness=h)) for h in hardnesses)
         body = asp.Layered([asp.Layer(top, 2.0), *(asp.Layer(m, 2.0) for m in middle)], bottom)
-        law = asp.HardWall() if limit is None else asp.Hardness(limit)
+        law = asp.plasticity.HardWall() if limit is None else asp.Hardness(limit)
         problem = asp.ContactProblem(rough((16, 16), power=3.0), body, law=law)
-        found = [a for a in asp.advise(problem, asp.MeanPressure(1e-6)) if a.criterion == "softer layers below"]
+        found = [a for a in asp.contact.advise(problem, asp.MeanPressure(1e-6)) if a.criterion == "softer layers below"]
         return [a.message for a in found]
 
     (message,) = told((15e9, 2e9), 15e9)

@@ -113,7 +113,7 @@ def test_long_rows_of_rectangles_become_a_line_contact():
 def test_periodic_line_is_plane_strain_already():
     """Waves along x on a cell of one point along y: the same c(q) as in three dimensions."""
     problem = asp.ContactProblem(rough((64, 1), seed=4), LAYERED)
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
     x = problem.grid.coordinates()[0]
     q = 2.0 * np.pi * 3.0 / 64.0
     expected = np.cos(q * x) * interface_compliances(LAYERED, q)[0].zz
@@ -125,7 +125,7 @@ def test_periodic_line_is_plane_strain_already():
 def test_operator_is_symmetric_and_positive(n, step, layered):
     """A datum not nearer than the grid is long keeps the logarithm positive."""
     compliance = LayerStack(LAYERED) if layered else HalfSpace(1.0)
-    operator = asp.prepare_operator(compliance, strips(n, step), asp.FreeLine())
+    operator = asp.solvers.prepare_operator(compliance, strips(n, step), asp.FreeLine())
     dense = operator.matrix()
     p = np.random.default_rng(n).standard_normal((n, 1))
     np.testing.assert_allclose(dense @ p.ravel(), operator.apply(p).ravel(), rtol=0, atol=1e-13 * n * dense.max())
@@ -162,8 +162,8 @@ def test_perimeter_and_border_of_a_line():
     result = asp.solve(problem, asp.MeanPressure(1e-3))
     assert result.contact.all()
     assert result.contact_perimeter == 2 * 5.0
-    assert "contact at the border" in {a.criterion for a in asp.review(result)}
+    assert "contact at the border" in {a.criterion for a in asp.contact.review(result)}
     hill = asp.Surface(-((np.arange(33) - 16.0) ** 2)[:, None] / 500.0, 1.0, 5.0)
     inside = asp.solve(asp.ContactProblem(hill, elastic(1.0), boundary=asp.FreeLine()), asp.Force(1.0))
-    assert "contact at the border" not in {a.criterion for a in asp.review(inside)}
-    assert "periodic edges" not in {a.criterion for a in asp.advise(inside.problem, asp.Force(1.0))}
+    assert "contact at the border" not in {a.criterion for a in asp.contact.review(inside)}
+    assert "periodic edges" not in {a.criterion for a in asp.contact.advise(inside.problem, asp.Force(1.0))}

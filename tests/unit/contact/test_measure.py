@@ -106,7 +106,7 @@ def test_stiffness_is_the_exact_derivative_on_a_fixed_contact(boundary):
     """Against the dense matrix: ones . K_CC^-1 . ones over the number of points."""
     problem = asp.ContactProblem(rough((12, 10), 3), elastic(1.0), boundary=boundary)
     result = asp.solve(problem, asp.MeanPressure(0.05))
-    operator = asp.prepare_operator(problem.compliance, problem.grid, boundary)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, boundary)
     c = result.contact.ravel()
     dense = operator.matrix()[np.ix_(c, c)]
     exact = np.linalg.solve(dense, np.ones(c.sum())).sum() / c.size
@@ -121,7 +121,7 @@ def test_stiffness_of_nothing_is_zero_and_can_be_left_out():
     assert np.isnan(left_out.normal_stiffness)
 
 
-@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(0.2)], ids=["elastic", "capped"])
+@pytest.mark.parametrize("law", [asp.plasticity.HardWall(), asp.Hardness(0.2)], ids=["elastic", "capped"])
 def test_stiffness_takes_its_linear_solve_when_it_is_first_read(law, monkeypatch):
     solved: list[int] = []
     solve = measure.conjugate_gradients
@@ -135,7 +135,7 @@ def test_stiffness_takes_its_linear_solve_when_it_is_first_read(law, monkeypatch
     result = asp.solve(problem, asp.MeanPressure(0.1))
     assert solved == []
     moving = result.contact & ~result.plastic
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
     wanted = measure.normal_stiffness(operator, moving)
     copied = copy.copy(replace(result, citation_keys=()))
     for _ in range(2):

@@ -15,7 +15,7 @@ few = settings(max_examples=40)
 
 
 def prepared(shape, boundary, spacing=(1.0, 1.4)):
-    return asp.prepare_operator(HalfSpace(2.0), asp.Grid(shape, spacing), boundary)
+    return asp.solvers.prepare_operator(HalfSpace(2.0), asp.Grid(shape, spacing), boundary)
 
 
 @few
@@ -62,7 +62,7 @@ def test_periodic_wave_gives_its_displacement(nx, ny, k):
 def test_coarse_kernel_is_part_of_the_fine_one(shape):
     """Every wave of the coarse grid is one of the fine grid, for even and odd numbers of points."""
     coarse = prepared(shape, asp.Periodic()).coarsened
-    expected = asp.prepare_operator(coarse.compliance, coarse.grid, asp.Periodic())
+    expected = asp.solvers.prepare_operator(coarse.compliance, coarse.grid, asp.Periodic())
     np.testing.assert_allclose(coarse.kernel, expected.kernel, rtol=1e-13)
 
 
@@ -93,7 +93,7 @@ def test_octaves_are_computed_once_for_all_grids_and_boundaries():
 
     body = Counted(2.0)
     for boundary, computed in ((asp.Periodic(), 1), (asp.Free(), 0)):
-        operator = asp.prepare_operator(body, asp.Grid((64, 48), (0.3, 0.3)), boundary)
+        operator = asp.solvers.prepare_operator(body, asp.Grid((64, 48), (0.3, 0.3)), boundary)
         coarser = operator.coarsened
         assert coarser.octaves is operator.octaves
         asked.clear()

@@ -19,10 +19,10 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.operators import Operator
 from asperity.contact.solve import steps
-from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean
 from asperity.contact.solvers.protocol import SolverState
 from asperity.core.arrays import RealArray
 from asperity.core.engine import CpuEngine
+from asperity.solvers import ActiveSet, ContactQP, FixedMean
 
 SOLVER = ActiveSet(tolerance=1e-10)
 LOADS = (0.05, 0.1, 0.15)
@@ -30,7 +30,7 @@ LOADS = (0.05, 0.1, 0.15)
 
 def problem(law: Any = None, shape: tuple[int, int] = (24, 20), boundary: Any = None) -> asp.ContactProblem:
     return asp.ContactProblem(
-        rough(shape, 3), elastic(1.0), law=law or asp.HardWall(), boundary=boundary or asp.Periodic()
+        rough(shape, 3), elastic(1.0), law=law or asp.plasticity.HardWall(), boundary=boundary or asp.Periodic()
     )
 
 
@@ -43,7 +43,7 @@ def energy_distance(a: asp.ContactResult, b: asp.ContactResult, extra: float = 0
 
     Each lies within sqrt(G) of the exact solution, G = field error times load times rms height (times the pixel area).
     """
-    operator = asp.prepare_operator(a.problem.compliance, a.problem.grid, a.problem.boundary)
+    operator = asp.solvers.prepare_operator(a.problem.compliance, a.problem.grid, a.problem.boundary)
     difference = a.pressure - b.pressure
     scale = float(a.problem.profile().std()) * max(a.pressure.sum(), b.pressure.sum())
     parts = (math.sqrt((r.certificate.field_error + 1e-13) * scale) for r in (a, b))
@@ -113,7 +113,7 @@ def test_twenty_steps_equal_twenty_solves_and_cost_less() -> None:
     posed, solver = benchmark(128), ActiveSet(tolerance=1e-6)
     controls = pressures(tuple(np.linspace(0.01, 0.2, 20)))
     path = asp.solve(posed, asp.History(controls), solver=solver)
-    operator = asp.prepare_operator(posed.compliance, posed.grid, posed.boundary)
+    operator = asp.solvers.prepare_operator(posed.compliance, posed.grid, posed.boundary)
     keep = asp.Keep(stiffness=False)
     cold = [asp.solve(posed, control, solver=solver, operator=operator, keep=keep) for control in controls]
     for warm, alone in zip(path.steps, cold, strict=True):
@@ -145,7 +145,7 @@ class Counting:
 
 def test_the_given_operator_serves_every_step(monkeypatch: pytest.MonkeyPatch) -> None:
     posed = problem()
-    counting = Counting(asp.prepare_operator(posed.compliance, posed.grid, posed.boundary))
+    counting = Counting(asp.solvers.prepare_operator(posed.compliance, posed.grid, posed.boundary))
 
     def never(*_: object, **__: object) -> None:
         raise AssertionError("a second operator was prepared")
@@ -162,10 +162,10 @@ def test_without_operator_one_is_prepared(monkeypatch: pytest.MonkeyPatch) -> No
 
     def counted(*arguments: Any, **options: Any) -> Operator:
         made.append(options)
-        return asp.prepare_operator(*arguments, **options)
+        return asp.solvers.prepare_operator(*arguments, **options)
 
     monkeypatch.setattr("asperity.contact.solve.prepare_operator", counted)
-    engine = asp.CpuEngine(1)
+    engine = asp.engines.CpuEngine(1)
     asp.solve(problem(), asp.History(pressures(LOADS)), engine=engine)
     assert made == [{"engine": engine}]
 

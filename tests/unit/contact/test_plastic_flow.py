@@ -181,7 +181,7 @@ def test_a_prescribed_depth_that_is_too_small_is_told() -> None:
 
 
 def test_number_of_threads_does_not_matter() -> None:
-    one, two = (asp.solve(problem(), asp.MeanPressure(0.2e9), engine=asp.CpuEngine(threads=n)) for n in (1, 2))
+    one, two = (asp.solve(problem(), asp.MeanPressure(0.2e9), engine=asp.engines.CpuEngine(threads=n)) for n in (1, 2))
     assert np.array_equal(one.pressure, two.pressure)
     assert np.array_equal(one.plastic_flow.displacement, two.plastic_flow.displacement)
 
@@ -191,7 +191,7 @@ def test_number_of_threads_does_not_matter() -> None:
     [
         ({"law": asp.Hardness(2e9)}, "law of a contact with plastic flow"),
         ({"adhesion": asp.ExponentialAdhesion(0.05, 1e-9)}, "adhesion of a contact with plastic flow"),
-        ({"friction": asp.FullStick()}, "friction of a contact with plastic flow"),
+        ({"friction": asp.friction.FullStick()}, "friction of a contact with plastic flow"),
         ({"body": STEEL}, "plasticity of a PlasticFlow"),
         ({"plastic_flow": asp.PlasticFlow((SOFT, SOFT))}, "elastic constants of a J2 law"),
     ],
@@ -250,13 +250,16 @@ def test_laws_follow_from_the_strength_of_the_materials() -> None:
     """What ``plastic_parts`` makes of a body fits it; a part without a known strength stays elastic, as does a rigid base."""
     base = asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=0.8e9))
     body = asp.Layered([asp.Layer(FILM, 60e-9)], base)
-    flow = asp.PlasticFlow(asp.plastic_parts(body, unknown_is_elastic=True))
+    flow = asp.PlasticFlow(asp.plasticity.plastic_parts(body, unknown_is_elastic=True))
     film, law = flow.laws(body)
     assert film is None
     assert law is not None
     assert law.hardening.yield_stress(np.zeros(1)) == pytest.approx(0.8e9)
     on_rigid = asp.Layered([asp.Layer(base, 60e-9)], asp.RigidBase())
-    assert [part is None for part in asp.PlasticFlow(asp.plastic_parts(on_rigid)).laws(on_rigid)] == [False, True]
+    assert [part is None for part in asp.PlasticFlow(asp.plasticity.plastic_parts(on_rigid)).laws(on_rigid)] == [
+        False,
+        True,
+    ]
 
 
 def test_a_result_without_it() -> None:
@@ -272,7 +275,7 @@ def test_one_coupling_is_prepared() -> None:
 
 
 def criteria(result: asp.ContactResult) -> set[str]:
-    return {item.criterion for item in asp.review(result)}
+    return {item.criterion for item in asp.contact.review(result)}
 
 
 def test_findings_of_the_review() -> None:
@@ -285,7 +288,9 @@ def test_findings_of_the_review() -> None:
     film, base = flow.zones
     large = replace(flow, zones=(film, replace(base, largest_strain=0.123)))
     found = [
-        item for item in asp.review(replace(course().last, couplings={"plastic_flow": large})) if item.criterion in mine
+        item
+        for item in asp.contact.review(replace(course().last, couplings={"plastic_flow": large}))
+        if item.criterion in mine
     ]
     assert [item.criterion for item in found] == ["small strain"]
     assert percent(0.123) in found[0].message
@@ -329,7 +334,7 @@ def test_flow_that_is_not_settled_is_told() -> None:
     result = course().last
     broken = replace(result.certificate, couplings=(replace(check, residual=3e-3),))
     unsettled = replace(result, certificate=broken)
-    found = next(item for item in asp.review(unsettled) if item.criterion == "plastic flow")
+    found = next(item for item in asp.contact.review(unsettled) if item.criterion == "plastic flow")
     assert "3.0e-03" in found.message
 
 
@@ -398,7 +403,7 @@ def test_a_step_that_does_not_settle_is_cut(control: Any, monkeypatch: pytest.Mo
     begun = asp.solve(problem(), asp.MeanPressure(0.05e9))
     whole = asp.solve(problem(), control, state=begun.state)
     monkeypatch.setattr(plastic_flow, "_MOST", 7)
-    found = asp.solve(problem(), control, state=begun.state, rounds=asp.Rounds(2))
+    found = asp.solve(problem(), control, state=begun.state, rounds=asp.solvers.Rounds(2))
     assert found.converged
     assert "parts" in found.status.message
     assert "parts" not in whole.status.message

@@ -95,7 +95,7 @@ def test_unconverged_is_an_exception_that_holds_the_result_or_a_flag():
 @pytest.mark.parametrize("shape", [(1, 1), (1, 7), (7, 1), (2, 3)])
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()])
 @pytest.mark.parametrize("method", list(asp.solvers.SOLVERS))
-@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(1.0)], ids=["elastic", "hardness"])
+@pytest.mark.parametrize("law", [asp.plasticity.HardWall(), asp.Hardness(1.0)], ids=["elastic", "hardness"])
 def test_tiny_grids(shape, boundary, method, law):
     heights = np.arange(shape[0] * shape[1], dtype=float).reshape(shape)
     problem = asp.ContactProblem(asp.Surface(heights, 1.0), elastic(1.0), boundary=boundary, law=law)
@@ -115,10 +115,10 @@ def test_flat_on_flat():
 
 def test_prepared_operator_is_reused_and_checked():
     problem = asp.ContactProblem(rough((16, 16)), elastic(1.0))
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
     a, b = (asp.solve(problem, asp.MeanPressure(0.05), operator=o) for o in (operator, None))
     np.testing.assert_array_equal(a.pressure, b.pressure)
-    other = asp.prepare_operator(problem.compliance, asp.Grid((8, 8), (1.0, 1.0)), problem.boundary)
+    other = asp.solvers.prepare_operator(problem.compliance, asp.Grid((8, 8), (1.0, 1.0)), problem.boundary)
     with refused(asp.InputError, "operator"):
         asp.solve(problem, asp.MeanPressure(0.05), operator=other)
     stiffer = asp.ContactProblem(rough((16, 16)), elastic(2.0))
@@ -127,7 +127,7 @@ def test_prepared_operator_is_reused_and_checked():
         with refused(asp.InputError, "operator", what):
             asp.solve(wrong, asp.MeanPressure(0.05), operator=operator)
     with refused(asp.InputError, "boundary of an operator", "'periodic'"):
-        asp.prepare_operator(problem.compliance, problem.grid, "periodic")
+        asp.solvers.prepare_operator(problem.compliance, problem.grid, "periodic")
 
 
 def test_an_approach_above_the_dented_surface_has_no_solution():
@@ -181,9 +181,9 @@ def test_solvers_check_their_settings(method, settings):
 def test_impossible_state_is_refused(bad):
     sound, broken = np.zeros((4, 4)), np.full((4, 4), bad)
     with refused(asp.InputError, "permanent indentation (m) of an interface state"):
-        asp.InterfaceState.dented(broken, sound)
+        asp.solvers.InterfaceState.dented(broken, sound)
     with refused(asp.InputError, "pressure (Pa) of an interface state"):
-        asp.InterfaceState.dented(sound, broken)
+        asp.solvers.InterfaceState.dented(sound, broken)
 
 
 @pytest.mark.parametrize("bad", ["1 GPa", True])

@@ -158,7 +158,7 @@ def test_progress_counts_the_iterations_of_all_rounds():
             heard.append((iteration, error, tolerance))
 
     problem = asp.ContactProblem(rough(), COMPRESSIBLE)
-    engine = asp.CpuEngine(threads=1)
+    engine = asp.engines.CpuEngine(threads=1)
     slid = solve_sliding(problem, asp.MeanPressure(1e8), 0.5, progress=Heard(), engine=engine)
     iterations, errors, tolerances = map(np.array, zip(*heard, strict=True))
     assert np.all(np.diff(iterations) >= 0)

@@ -16,8 +16,13 @@ from refusals import refused
 import asperity as asp
 from asperity import Grid, InputError, NoSolutionError
 from asperity.contact.operators import PeriodicOperator
-from asperity.contact.solvers import SOLVERS as CLASSES
-from asperity.contact.solvers import (
+from asperity.contact.solvers.protocol import best_level, duality_gap, relative_error, scaled_to_load
+from asperity.contact.solvers.reference import nnls
+from asperity.contact.solvers.reference.steepest_descent import shifted_to_load
+from asperity.core.status import Outcome
+from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.solvers import SOLVERS as CLASSES
+from asperity.solvers import (
     ActiveSet,
     ContactQP,
     FixedMean,
@@ -30,11 +35,6 @@ from asperity.contact.solvers import (
     run,
     solver_by_name,
 )
-from asperity.contact.solvers.protocol import best_level, duality_gap, relative_error, scaled_to_load
-from asperity.contact.solvers.reference import nnls
-from asperity.contact.solvers.reference.steepest_descent import shifted_to_load
-from asperity.core.status import Outcome
-from asperity.solids.compliance.halfspace import HalfSpace
 
 BY_NAME = {case.name: case for case in CASES}
 SOME = [
@@ -299,7 +299,7 @@ def test_nnls_from_a_coarser_grid_gives_the_same_answer(boundary, cap, monkeypat
     """Spikes of one pixel lie outside the coarse contact at first; the answer is that of all points at once."""
     heights = 1e-9 * np.random.default_rng(3).standard_normal((16, 20))
     heights[::7, ::5] += 4e-9
-    law = asp.HardWall() if np.isinf(cap) else asp.Hardness(cap)
+    law = asp.plasticity.HardWall() if np.isinf(cap) else asp.Hardness(cap)
     problem = asp.ContactProblem(asp.Surface(heights, 1e-7), asp.Elastic(1e10, 0.3), boundary=boundary, law=law)
     sizes: list[int] = []
     least_squares = nnls._least_squares
@@ -318,8 +318,8 @@ def test_nnls_from_a_coarser_grid_gives_the_same_answer(boundary, cap, monkeypat
     np.testing.assert_allclose(found[40].pressure, found[10**6].pressure, rtol=1e-9, atol=1e-9 * 1e8)
 
 
-@pytest.mark.parametrize("law", [asp.HardWall(), asp.Hardness(5e9)])
-def test_fields_of_a_contact_go_with_it(law: asp.HardWall | asp.Hardness) -> None:
+@pytest.mark.parametrize("law", [asp.plasticity.HardWall(), asp.Hardness(5e9)])
+def test_fields_of_a_contact_go_with_it(law: asp.plasticity.HardWall | asp.Hardness) -> None:
     """Large arrays do not wait for the search for garbage, which may be long in coming."""
     surface = asp.Surface(1e-9 * rough((66, 70), 3).heights / rough((66, 70), 3).heights.std(), 1e-8, periodic=True)
     gc.collect()

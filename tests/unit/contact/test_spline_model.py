@@ -50,11 +50,13 @@ def rough_set(shape: tuple[int, int], share: float, seed: int) -> RealArray:
 def on_set(
     inside: RealArray,
     compliance: Compliance = BODY,
-    boundary: asp.Boundary | None = None,
+    boundary: asp.contact.Boundary | None = None,
     engine: Engine | None = None,
     spacing: tuple[float, float] = (1.0, 1.0),
 ) -> tuple[ScaledOperator, FreeSet]:
-    operator = asp.prepare_operator(compliance, grid(inside.shape, spacing), boundary or asp.Periodic(), engine=engine)
+    operator = asp.solvers.prepare_operator(
+        compliance, grid(inside.shape, spacing), boundary or asp.Periodic(), engine=engine
+    )
     scaled = ScaledOperator.of(operator, "float64", 1.0)
     zero = np.zeros(inside.shape)
     return scaled, free_set(operator.engine.survey(inside, zero, zero, None), 0.0, 1.0, "float64")
@@ -96,7 +98,7 @@ CASES = {
 @pytest.mark.parametrize("share", [0.1, 0.35, 0.8, 1.0])
 @pytest.mark.parametrize("case", CASES.values(), ids=list(CASES))
 def test_the_model_is_near_the_compliance_on_any_set(
-    case: tuple[Compliance, tuple[int, int], tuple[float, float], asp.Boundary], share: float
+    case: tuple[Compliance, tuple[int, int], tuple[float, float], asp.contact.Boundary], share: float
 ) -> None:
     """Deflections are within a factor 1.2 of those of the model, whatever the load, on square pixels of an even number or with a free boundary; near the seam
     of an odd number, on lines, oblong pixels and stiff films within 1.7 (the worst is 0.61 to 1.31). The inverse is positive definite, symmetric but for a tenth where
@@ -125,7 +127,7 @@ def test_the_model_is_near_the_compliance_on_any_set(
 @pytest.mark.parametrize("compliance", [BODY, film(10.0, 2.0), film(10.0, 40.0), film(0.1, 2.0)])
 def test_the_steepness_is_the_rise_of_the_compliance_to_waves_of_sixteen_points(compliance: Compliance) -> None:
     """The largest q c(q) down to these waves over that of the shortest: 1 for a half-space, a thick film and a soft one."""
-    operator = asp.prepare_operator(compliance, grid((64, 64)), asp.Periodic())
+    operator = asp.solvers.prepare_operator(compliance, grid((64, 64)), asp.Periodic())
     q = np.pi / np.array([1.0, 2.0, 4.0, 8.0])
     rise = q * compliance.spectral(q)
     assert spline_compliance(operator, 1.0).steepness == pytest.approx(float(np.maximum(rise / rise[0], 1.0).max()))
@@ -133,8 +135,8 @@ def test_the_steepness_is_the_rise_of_the_compliance_to_waves_of_sixteen_points(
 
 def test_the_model_scales_with_the_compliance() -> None:
     """All moduli by a factor, all lengths by another, the scale by a third."""
-    one = spline_compliance(asp.prepare_operator(BODY, grid((32, 48)), asp.Periodic()), 1.0).model
-    tiny = asp.prepare_operator(HalfSpace(2e9), grid((32, 48), (1e-8, 1e-8)), asp.Periodic())
+    one = spline_compliance(asp.solvers.prepare_operator(BODY, grid((32, 48)), asp.Periodic()), 1.0).model
+    tiny = asp.solvers.prepare_operator(HalfSpace(2e9), grid((32, 48), (1e-8, 1e-8)), asp.Periodic())
     other = spline_compliance(tiny, 5.0).model
     factor = 1e-8 / 1e9 / 5.0
     np.testing.assert_allclose(other.weights, factor * np.array(one.weights), rtol=1e-9)
@@ -151,7 +153,7 @@ def test_a_model_is_fitted_once_for_a_body_and_keeps_no_operator() -> None:
         fitted = spline_model._fit.cache_info().misses
         surface = asp.Surface(rough_set((128, 128), 0.5, 1), 1.0, periodic=True)
         problem = asp.ContactProblem(surface, asp.Elastic(modulus, 0.0))
-        operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+        operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
         asp.solve(problem, asp.MeanPressure(0.01), operator=operator)
         assert spline_model._fit.cache_info().misses == fitted + new
         models.append(spline_compliance(operator, operator.largest).model)
@@ -178,7 +180,7 @@ def test_cells_are_as_square_as_the_pixels_allow(spacing: tuple[float, float]) -
 
 
 def steps_to(
-    inside: RealArray, reduction: float, compliance: Compliance = BODY, boundary: asp.Boundary | None = None
+    inside: RealArray, reduction: float, compliance: Compliance = BODY, boundary: asp.contact.Boundary | None = None
 ) -> float:
     """Products to reduce the residual of a rough right side."""
     scaled, free = on_set(inside, compliance, boundary)
@@ -205,7 +207,7 @@ def test_lines_and_other_boundaries_converge_as_well(shape: tuple[int, int]) -> 
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=["periodic", "free"])
 @pytest.mark.parametrize(("ratio", "thickness"), [(0.1, 4.0), (2.0, 4.0), (10.0, 4.0), (10.0, 10.0)])
-def test_layers_converge_as_well(ratio: float, thickness: float, boundary: asp.Boundary) -> None:
+def test_layers_converge_as_well(ratio: float, thickness: float, boundary: asp.contact.Boundary) -> None:
     """A factor 0.21 a step at worst, 1e-6 in 9 steps."""
     assert steps_to(rough_set((128, 128), 0.2, 7), 1e-6, film(ratio, thickness), boundary) <= 9.0
 
@@ -233,7 +235,7 @@ def test_products_with_the_model_do_not_depend_on_the_number_of_threads(monkeypa
     inside = rough_set((516, 508), 0.3, 5)  # of a layout of its own
     r, found = np.random.default_rng(6).standard_normal(inside.shape), []
     for threads in (1, 2, 3):
-        scaled, free = on_set(inside, film(10.0), engine=asp.CpuEngine(threads))
+        scaled, free = on_set(inside, film(10.0), engine=asp.engines.CpuEngine(threads))
         picked, _ = free.gather(r)
         scaled.splines.factorise(free)
         solved = scaled.splines.solve(free, picked, picked, free.zeros())
@@ -290,7 +292,7 @@ def test_on_a_periodic_grid_the_hierarchies_lie_a_third_of_a_cell_apart() -> Non
 def test_weights_are_the_energies_of_haar_functions() -> None:
     """Mean over the three Haar functions of a cell of side H under c = 2/(E' q), on a grid much larger than the cell."""
     n, side = 512, 16
-    operator = asp.prepare_operator(BODY, grid((n, n)), asp.Periodic())
+    operator = asp.solvers.prepare_operator(BODY, grid((n, n)), asp.Periodic())
     energies = []
     for signs in ([[1, 1], [-1, -1]], [[1, -1], [1, -1]], [[1, -1], [-1, 1]]):
         field = np.zeros((n, n))

@@ -23,7 +23,7 @@ def film(height: float) -> asp.LiquidFilm:
 @pytest.mark.parametrize(("pixels", "few"), [(24, True), (96, False)])
 def test_menisci_of_few_pixels(pixels, few):
     """Radius sqrt(2 R h_m) = 63 nm at a height of 2 nm: 3.8 pixels of 17 nm, 15 of 4 nm, and a little more under load."""
-    found = asp.review(wetted(bump(pixels), asp.Force(1e-8), film(2e-9)))
+    found = asp.contact.review(wetted(bump(pixels), asp.Force(1e-8), film(2e-9)))
     said = [item for item in found if item.criterion == "meniscus pixels"]
     assert bool(said) == few
     if few:
@@ -33,12 +33,12 @@ def test_menisci_of_few_pixels(pixels, few):
 
 @pytest.mark.parametrize(("height", "small"), [(1.5e-9, True), (3e-9, False)])
 def test_menisci_of_few_molecules(height, small):
-    found = asp.review(wetted(bump(96), asp.Force(1e-8), film(height)))
+    found = asp.contact.review(wetted(bump(96), asp.Force(1e-8), film(height)))
     assert any(item.criterion == "molecules" for item in found) == small
 
 
 def test_nothing_is_said_of_a_dry_contact():
     dry = asp.LiquidFilm(surface_tension=0.07, thickness=1e-12)
-    found = asp.review(wetted(bump(24), asp.Force(1e-8), dry))
+    found = asp.contact.review(wetted(bump(24), asp.Force(1e-8), dry))
     wet = [item.criterion for item in found if item.criterion in ("meniscus pixels", "molecules")]
     assert wet == ["molecules"], "the film is thinner than a molecule"

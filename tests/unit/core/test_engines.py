@@ -26,12 +26,12 @@ from asperity.core.arrays import RealArray
 from asperity.core.engine import SQUARE_SIDE, Engine, Load, SplineModel, blocks, cpu
 from asperity.core.engine import gpu as gpu_engine
 
-REFERENCE = asp.CpuEngine(1)
+REFERENCE = asp.engines.CpuEngine(1)
 OTHERS: dict[str, Engine] = {
-    "cpu with two threads": asp.CpuEngine(2),
-    "numpy": asp.ArrayEngine(np),
-    "array_api_strict": asp.ArrayEngine(array_api_strict),
-    "second device": asp.ArrayEngine(array_api_strict, device=array_api_strict.Device("device1")),
+    "cpu with two threads": asp.engines.CpuEngine(2),
+    "numpy": asp.engines.ArrayEngine(np),
+    "array_api_strict": asp.engines.ArrayEngine(array_api_strict),
+    "second device": asp.engines.ArrayEngine(array_api_strict, device=array_api_strict.Device("device1")),
     "emulated gpu": EmulatedGpu(),
 }
 SHAPES = [(1, 1), (1, 9), (7, 1), (5, 8), (12, 7), (33, 33)]
@@ -338,7 +338,7 @@ def test_the_loaded_points_of_a_free_set(engine: Engine, dtype: str, load: float
     free.put(after, p)
     np.testing.assert_allclose(engine.numpy(p), wanted, atol=rounding)
     np.testing.assert_allclose(change, (engine.numpy(p) - case.p) / 3.0, atol=rounding)
-    spread = engine.field(shape, dtype) if isinstance(engine, asp.CpuEngine) else engine.zeros(shape, dtype)
+    spread = engine.field(shape, dtype) if isinstance(engine, asp.engines.CpuEngine) else engine.zeros(shape, dtype)
     left.scatter_add(vector, 2.0, spread)
     np.testing.assert_array_equal(engine.numpy(spread), np.where(inside, 2.0 * ramp, 0.0))
 
@@ -755,7 +755,7 @@ def test_passes_do_not_depend_on_the_number_of_threads(cap: str, monkeypatch: py
     for module in (blocks, cpu):
         monkeypatch.setattr(module, "SERIAL_BELOW", 1 << 17)
     case = iterate((700, 701), cap)  # enough for three threads, on the free set too
-    one, three = asp.CpuEngine(1), asp.CpuEngine(3)
+    one, three = asp.engines.CpuEngine(1), asp.engines.CpuEngine(3)
     first, second = (values_of(e.survey(*case.on(e)).totals) for e in (one, three))
     assert first == second
     if cap != "none":
@@ -768,15 +768,15 @@ def test_passes_do_not_depend_on_the_number_of_threads(cap: str, monkeypatch: py
 
 
 def test_an_engine_has_a_name() -> None:
-    assert asp.ArrayEngine(np).name == "numpy (cpu)"
-    assert asp.ArrayEngine(array_api_strict).name.startswith("array_api_strict (")
-    assert asp.CpuEngine(2).name.endswith("2 threads)")
+    assert asp.engines.ArrayEngine(np).name == "numpy (cpu)"
+    assert asp.engines.ArrayEngine(array_api_strict).name.startswith("array_api_strict (")
+    assert asp.engines.CpuEngine(2).name.endswith("2 threads)")
     assert EmulatedGpu().name == "gpu (emulated)"
 
 
 def test_what_is_no_array_library_is_refused() -> None:
     with refused(asp.InputError, "namespace of ArrayEngine"):
-        asp.ArrayEngine("cupy")
+        asp.engines.ArrayEngine("cupy")
 
 
 def test_libraries_without_transforms_or_writable_arrays_are_refused() -> None:
@@ -790,16 +790,16 @@ def test_libraries_without_transforms_or_writable_arrays_are_refused() -> None:
     bare: Any = ModuleType("bare")
     bare.zeros = lambda n: Frozen()
     with refused(asp.InputError, "namespace of ArrayEngine"):
-        asp.ArrayEngine(bare)
+        asp.engines.ArrayEngine(bare)
     bare.fft = ModuleType("fft")
     with refused(asp.InputError, "namespace of ArrayEngine"):
-        asp.ArrayEngine(bare)
+        asp.engines.ArrayEngine(bare)
 
 
 TOLERANCE = 1e-9
 MODULUS = 100.0
 LOADS: dict[str, Control] = {"load": asp.MeanPressure(8.0), "approach": asp.Approach(2.0)}
-LAWS: dict[str, InterfaceLaw] = {"elastic": asp.HardWall(), "hardness": asp.Hardness(60.0)}
+LAWS: dict[str, InterfaceLaw] = {"elastic": asp.plasticity.HardWall(), "hardness": asp.Hardness(60.0)}
 BOUNDARIES = {"periodic": asp.Periodic(), "free": asp.Free()}
 
 
@@ -823,7 +823,7 @@ def test_solutions_agree(engine: Engine, boundary: str, law: str, control: str, 
     found = solution(engine, boundary, law, control, precision)
     wanted = reference_solution(boundary, law, control, precision)
     p, q, problem = found.pressure, wanted.pressure, wanted.problem
-    operator = asp.prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
     bound = 2.0 * TOLERANCE * problem.profile().std() * max(p.sum(), q.sum())
     assert ((p - q) * operator.apply(p - q)).sum() <= bound
     eigenvalues = operator.kernel.ravel()[1 if operator.zero_mean_mode else 0 :]
@@ -865,7 +865,7 @@ def test_large_levels_of_a_gpu_have_kernels_of_their_own(
 def gpu() -> Engine:
     """Engine of the GPU, if there is one."""
     try:
-        return asp.GpuEngine()
+        return asp.engines.GpuEngine()
     except asp.InputError as error:
         pytest.skip(f"needs a GPU: {error}")
 
@@ -901,13 +901,15 @@ def test_solutions_on_a_gpu(boundary: str, law: str, control: str, precision: st
 
 def test_solutions_by_array_operations_on_a_gpu() -> None:
     gpu()
-    test_solutions_agree(asp.ArrayEngine(importlib.import_module("cupy")), "periodic", "elastic", "load", "double")
+    test_solutions_agree(
+        asp.engines.ArrayEngine(importlib.import_module("cupy")), "periodic", "elastic", "load", "double"
+    )
 
 
 def test_without_cupy_or_a_gpu_the_engine_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "cupy", None)
     with refused(asp.InputError, "library of GpuEngine", "pip install cupy-cuda12x"):
-        asp.GpuEngine()
+        asp.engines.GpuEngine()
 
     def none() -> int:
         raise RuntimeError("no CUDA-capable device is detected")
@@ -915,4 +917,4 @@ def test_without_cupy_or_a_gpu_the_engine_says_so(monkeypatch: pytest.MonkeyPatc
     runtime = SimpleNamespace(getDeviceCount=none, CUDARuntimeError=RuntimeError)
     monkeypatch.setitem(sys.modules, "cupy", SimpleNamespace(cuda=SimpleNamespace(runtime=runtime)))
     with refused(asp.InputError, "machine of GpuEngine", "no CUDA-capable device is detected"):
-        asp.GpuEngine()
+        asp.engines.GpuEngine()

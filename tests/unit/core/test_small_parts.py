@@ -58,7 +58,7 @@ def test_every_key_that_is_used_has_a_reference():
     surface = asp.generate.gaussian(GRID, EXPONENTIAL, seed=1)
     problem = asp.ContactProblem(surface, asp.Elastic(1.0, 0.3), law=asp.Hardness(1.0))
     objects = [surface, problem, asp.solve(problem, asp.MeanPressure(0.1))]
-    objects += [asp.Periodic(), asp.Free(), asp.HardWall(), *(cls() for cls in asp.solvers.SOLVERS.values())]
+    objects += [asp.Periodic(), asp.Free(), asp.plasticity.HardWall(), *(cls() for cls in asp.solvers.SOLVERS.values())]
     assert set(citation_keys(*objects)) <= set(REFERENCES)
     text = asp.cite(*objects)
     assert text.count("\n") == len(citation_keys(*objects)) - 1
@@ -72,11 +72,11 @@ def test_a_surface_cites_its_generator_and_its_preparation():
     by_spectrum = asp.generate.gaussian(GRID, SELF_AFFINE, seed=1)
     assert by_correlation.citation_keys == ("Dietrich1997", "PengBhushan2001")
     assert by_spectrum.citation_keys == ("Jacobs2017",)
-    part = asp.cropped(by_spectrum, x=(0.0, 16.0))
-    steps = asp.levelled(asp.resampled(asp.periodised(asp.levelled(part)), (20, 20)))
+    part = asp.surfaces.cropped(by_spectrum, x=(0.0, 16.0))
+    steps = asp.levelled(asp.surfaces.resampled(asp.periodised(asp.levelled(part)), (20, 20)))
     assert steps.citation_keys == ("Jacobs2017", "Moisan2011")
     assert asp.periodised(asp.Surface(steps.heights, 1.0, origin=steps.origin)).citation_keys == steps.citation_keys
-    pair = asp.composite(by_correlation, by_spectrum)
+    pair = asp.surfaces.composite(by_correlation, by_spectrum)
     assert pair.citation_keys == ("Dietrich1997", "PengBhushan2001", "Jacobs2017", "Peng2001")
     assert "circulant embedding" in asp.cite(pair)
 
@@ -93,13 +93,13 @@ def test_every_reference_is_named_by_the_code():
     ("error", "also"),
     [
         (asp.InputError, ValueError),
-        (asp.UnitError, asp.InputError),
-        (asp.FileFormatError, asp.InputError),
+        (asp.errors.UnitError, asp.InputError),
+        (asp.errors.FileFormatError, asp.InputError),
         (asp.NoSolutionError, asp.InputError),
-        (asp.OutputError, OSError),
+        (asp.errors.OutputError, OSError),
         (asp.ConvergenceError, RuntimeError),
     ],
 )
 def test_every_error_can_be_caught_as_what_it_is(error, also):
-    assert issubclass(error, asp.AsperityError)
+    assert issubclass(error, asp.errors.AsperityError)
     assert issubclass(error, also)

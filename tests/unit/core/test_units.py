@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refused
 
-from asperity import UnitError
 from asperity.core import units
+from asperity.errors import UnitError
 
 
 @pytest.mark.parametrize(

@@ -66,7 +66,7 @@ def test_cells_of_vectors_are_inverted_exactly(shape, periodic):
 def test_all_three_components_at_once(boundary, dtype):
     body = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.25), 1.5)], base=asp.Elastic(1.0, 0.3))
     problem = asp.ContactProblem(rough((18, 20), 1), body, boundary=boundary)
-    normal = asp.prepare_operator(problem.compliance, problem.grid, boundary)
+    normal = asp.solvers.prepare_operator(problem.compliance, problem.grid, boundary)
     shear = TangentialOperator(problem.grid, (body, asp.Rigid()), boundary)
     rng = np.random.default_rng(0)
     q, p = rng.standard_normal((2, 18, 20)), rng.standard_normal((18, 20))

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from refusals import refused
 
 import asperity as asp
+from asperity import dynamics as dyn
 from asperity.core.errors import InputError
-from asperity.physics import dynamics as dyn
 
 
 @given(st.floats(1.0, 5.0), st.floats(1e5, 1e25), st.floats(1e-9, 1e-5))

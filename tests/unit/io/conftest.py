@@ -34,7 +34,7 @@ def make(kind: str) -> asp.ContactResult:
         )
         return asp.solve(problem, asp.Approach(3e-9), keep=asp.Keep(stiffness=False))
     if kind == "not converged":
-        from asperity.contact.solvers import ConjugateGradient
+        from asperity.solvers import ConjugateGradient
 
         problem = asp.ContactProblem(rough((16, 16), 5), asp.Elastic(1e11, 0.3))
         solver = ConjugateGradient(max_iterations=2)

@@ -71,7 +71,7 @@ def test_every_changed_array_is_refused(group: str, tmp_path: Path) -> None:
             place = tuple(np.argwhere(np.isfinite(values[...]))[0])
             value = values[place] + 1 if values.dtype.kind in "iu" else np.nextafter(values[place], np.inf)
         bad = edited(tmp_path / "whole.nc", tmp_path / "bad.nc", group, name, place, value, forged=False)
-        with refused(asp.FileFormatError, "result file", repr(name), str(bad)):
+        with refused(asp.errors.FileFormatError, "result file", repr(name), str(bad)):
             asp.load(bad)
 
 
@@ -83,7 +83,7 @@ def test_fields_that_cannot_be(name: str, value: float, stored: dict[str, Path],
     if name == "displacement" and np.isfinite(value):
         asp.load(bad)
         return
-    with refused(asp.FileFormatError, "result file", str(bad)):
+    with refused(asp.errors.FileFormatError, "result file", str(bad)):
         asp.load(bad)
 
 
@@ -95,7 +95,7 @@ def test_scalars_that_contradict_their_fields(name: str, value: float, stored: d
     if name == "approach" and np.isfinite(value):
         return  # follows from no field of the file
     bad = edited(stored["contact"], tmp_path / "bad.nc", "contact", name, (), value * now)
-    with refused(asp.FileFormatError, "result file", name):
+    with refused(asp.errors.FileFormatError, "result file", name):
         asp.load(bad)
 
 
@@ -103,7 +103,7 @@ def test_scalars_that_contradict_their_fields(name: str, value: float, stored: d
 def test_every_step_of_a_path(step: int, stored: dict[str, Path], tmp_path: Path) -> None:
     before = sum(int(each.contact.sum()) for each in path().steps[:step])
     bad = edited(stored["path"], tmp_path / "bad.nc", "path", "pressure", before, 1e12)
-    with refused(asp.FileFormatError, "result file", "force"):
+    with refused(asp.errors.FileFormatError, "result file", "force"):
         asp.load(bad)
 
 
@@ -113,7 +113,7 @@ def test_a_mean_gap_that_is_not_that_of_the_pressures(stored: dict[str, Path], t
         now = float(file["path"]["mean_gap"][1])
     bad = asp.load(edited(stored["path"], tmp_path / "bad.nc", "path", "mean_gap", 1, 1.0001 * now))
     assert bad.steps[0].gap.mean() == pytest.approx(bad.steps[0].mean_gap, rel=1e-12)
-    with refused(asp.FileFormatError, "mean gap of a step in a result file"):
+    with refused(asp.errors.FileFormatError, "mean gap of a step in a result file"):
         _ = bad.steps[1].gap
 
 

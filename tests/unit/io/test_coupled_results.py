@@ -49,7 +49,7 @@ def test_a_wet_sliding_contact(problem: asp.ContactProblem, tmp_path: Path) -> N
     result = asp.solve(problem, asp.MeanPressure(2e8))
     asp.save(result, tmp_path / "r.nc")
     same(asp.load(tmp_path / "r.nc"), result)
-    tree = asp.open_tree(tmp_path / "r.nc")
+    tree = asp.files.open_tree(tmp_path / "r.nc")
     assert tree["contact/couplings/menisci/meniscus_force"].attrs == {"units": "N", "long_name": "meniscus force"}
     assert tree["contact/couplings/sliding/shear_displacement"].dims == ("x", "y")
     assert tree.groups == result.to_xarray().groups
@@ -66,7 +66,7 @@ def test_a_history(problem: asp.ContactProblem, tmp_path: Path) -> None:
         if result.earlier is not None:
             np.testing.assert_array_equal(found.earlier, result.earlier)
     np.testing.assert_array_equal(again.energies.residual, history.energies.residual)
-    tree = asp.open_tree(tmp_path / "h.nc")
+    tree = asp.files.open_tree(tmp_path / "h.nc")
     np.testing.assert_array_equal(
         tree["path/couplings/menisci/meniscus_force"], [s.menisci.meniscus_force for s in history.steps]
     )

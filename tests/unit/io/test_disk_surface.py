@@ -10,8 +10,7 @@ from refusals import refused
 
 from asperity.core.errors import InputError, OutputError
 from asperity.core.grid import Grid
-from asperity.io.surface_files import BYTES_PER_MODE, save_gaussian
-from asperity.surfaces.generate import (
+from asperity.generate import (
     ExponentialAutocorrelation,
     PlateauPSD,
     RmsHeight,
@@ -21,6 +20,7 @@ from asperity.surfaces.generate import (
     TwoSlopes,
     gaussian,
 )
+from asperity.io.surface_files import BYTES_PER_MODE, save_gaussian
 
 WITHOUT_ROLLOFF = SelfAffine(
     amplitude=RmsHeight(2.0), hurst=0.8, rolloff_wavelength=90.0, shortest_wavelength=4.0, longest_wavelength=90.0

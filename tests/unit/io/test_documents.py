@@ -13,7 +13,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from refusals import refused
 
-from asperity import FileFormatError, InputError, OutputError
+from asperity import InputError
+from asperity.errors import FileFormatError, OutputError
 from asperity.io.schemas.bodies import body_from_text
 from asperity.run.document import (
     ProblemDocument,

@@ -15,38 +15,34 @@ import asperity as asp
 from asperity import (
     Approach,
     Elastic,
-    ExponentialGrading,
     Force,
     Free,
     FreeLine,
     Frictionless,
     Hardness,
-    HardWall,
     InputError,
     Layer,
     Layered,
-    LayeredHardness,
-    LinearGrading,
     MeanGap,
     MeanPressure,
     Periodic,
-    PowerGrading,
     Rigid,
     RigidBase,
     Strength,
     Surface,
-    Tresca,
     Unloaded,
-    graded,
+    generate,
     material,
 )
-from asperity.contact.solvers import ActiveSet
 from asperity.core import units
 from asperity.io.schemas.surfaces import SURFACE_TABLES, SURFACES
 from asperity.physics.stress.survey import StressRequest, WantedProfile, WantedSection
+from asperity.plasticity import HardWall, LayeredHardness
 from asperity.run.build import build, build_control, build_part, build_surface
 from asperity.run.document import checked, relocated
-from asperity.surfaces import generate
+from asperity.solids import ExponentialGrading, LinearGrading, PowerGrading, graded
+from asperity.solvers import ActiveSet
+from asperity.stresses import Tresca
 
 GRID = {"points": [16, 12], "size": "8 um x 6 um"}
 EXPONENTIAL = {"kind": "exponential", "rms_height": "1 nm", "correlation_length": "0.5 um"}
@@ -479,13 +475,13 @@ def test_files_start_at_the_folder_of_the_document(tmp_path: Path) -> None:
     ("step", "expected"),
     [
         ({"step": "level", "degree": 4, "robust": True}, lambda s: asp.levelled(s, 4, robust=True)),
-        ({"step": "despike", "threshold": 3.0, "window": 3}, lambda s: asp.despiked(s, 3.0, window=3)),
-        ({"step": "line_correct", "axis": "y"}, lambda s: asp.line_corrected(s, "y")),
+        ({"step": "despike", "threshold": 3.0, "window": 3}, lambda s: asp.surfaces.despiked(s, 3.0, window=3)),
+        ({"step": "line_correct", "axis": "y"}, lambda s: asp.surfaces.line_corrected(s, "y")),
         (
             {"step": "filter", "short": "1 um", "short_y": "1.5 um", "long": "3 um", "kind": "robust", "order": 1},
-            lambda s: asp.filtered(s, short=(1e-6, 1.5e-6), long=3e-6, kind="robust", order=1),
+            lambda s: asp.surfaces.filtered(s, short=(1e-6, 1.5e-6), long=3e-6, kind="robust", order=1),
         ),
-        ({"step": "tip_limit", "radius": "30 um"}, lambda s: asp.tip_limited(s, 30e-6)),
+        ({"step": "tip_limit", "radius": "30 um"}, lambda s: asp.surfaces.tip_limited(s, 30e-6)),
     ],
 )
 def test_steps_do_what_the_functions_do(tmp_path: Path, step: dict[str, Any], expected: Any) -> None:
@@ -519,7 +515,7 @@ def test_counter_surface_is_placed_on_a_common_grid(tmp_path: Path) -> None:
     place = {"shift": ["1 um", "-0.5 um"], "angle": "20 deg"}
     problem = build(checked(table(surface=surface, counter_surface=counter | {"place": place})), tmp_path).problem
     assert isinstance(problem.counter_surface, Surface)
-    expected = asp.on_common_grid(
+    expected = asp.surfaces.on_common_grid(
         asp.read(tmp_path / "a.npy", size=(8e-6, 6e-6), height_unit="nm"),
         asp.read(tmp_path / "b.npy", size=(8e-6, 6e-6), height_unit="nm"),
         shift=(1e-6, -0.5e-6),

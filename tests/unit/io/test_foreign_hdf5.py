@@ -82,6 +82,6 @@ def test_a_surface_holds_its_data_itself(
         file["heights"] = np.ones((4, 4))
     with h5py.File(path, "w", userblock_size=block) as file:
         foreign(file.create_group("deep"), other)
-    for read in (asp.read, asp.channels):
+    for read in (asp.read, asp.surfaces.channels):
         with refused(FileFormatError, f"file {path}", "hold its data itself", "'more'"):
             read(path)

@@ -26,6 +26,6 @@ def test_every_type_of_result(name: str) -> None:
 
 
 def test_labels_and_document() -> None:
-    tree = asp.open_tree(FOLDER / "wet.nc")
+    tree = asp.files.open_tree(FOLDER / "wet.nc")
     assert tree.attrs["document"] == "# a document"
     assert tree["path/pressure"].dims == ("step", "x", "y")

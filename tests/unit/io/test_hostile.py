@@ -134,7 +134,7 @@ def test_results_are_not_followed_elsewhere(tmp_path: Path) -> None:
         with h5py.File(tmp_path / "r.nc", "w") as file:
             file.attrs["asperity_format"] = 2
             make(file)
-        for read in (asp.load, asp.open_tree, load_outcome):
+        for read in (asp.load, asp.files.open_tree, load_outcome):
             with refused(FileFormatError, "result file", shown):
                 read(tmp_path / "r.nc")
 
@@ -191,7 +191,7 @@ def test_damaged_results_leave_no_tail(stored: Path, tmp_path: Path) -> None:
     code = (
         "import sys, asperity as asp\nfrom asperity.core.errors import AsperityError\n"
         "for name in sys.argv[1:]:\n"
-        "    for read in (asp.load, asp.open_tree):\n"
+        "    for read in (asp.load, asp.files.open_tree):\n"
         "        try:\n            read(name)\n"
         "        except AsperityError:\n            pass\n"
     )

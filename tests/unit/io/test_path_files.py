@@ -33,15 +33,15 @@ def path() -> asp.HistoryResult:
     surface = asp.Surface(heights, 2e-8, 1e-8, periodic=True)
     strong, soft = (asp.Elastic(1e11, 0.3, asp.Strength(hardness=h)) for h in (6e9, 3e9))
     body = asp.Layered([asp.Layer(strong, 2e-9)], soft)
-    problem = asp.ContactProblem(surface, body, law=asp.LayeredHardness(body))
+    problem = asp.ContactProblem(surface, body, law=asp.plasticity.LayeredHardness(body))
     return asp.solve(problem, asp.History.ramps(asp.MeanPressure, [8e8, 0.0], steps=3))
 
 
 def test_every_step_is_in_the_file(path: asp.HistoryResult, tmp_path: Path) -> None:
     asp.save(path, tmp_path / "path.nc", document="version = 1")
-    data = asp.open_tree(tmp_path / "path.nc")["path"].to_dataset()
+    data = asp.files.open_tree(tmp_path / "path.nc")["path"].to_dataset()
     assert {dim: data.sizes[dim] for dim in ("step", "x", "y")} == {"step": 6, "x": 16, "y": 12}
-    assert asp.open_tree(tmp_path / "path.nc").attrs["document"] == "version = 1"
+    assert asp.files.open_tree(tmp_path / "path.nc").attrs["document"] == "version = 1"
     for item in FIELDS:
         if item.name in BACK:
             assert item.name not in data
@@ -92,7 +92,7 @@ def test_displacement_and_gap_come_back_within_the_stated_rounding(precision: st
         solver = asp.solvers.ActiveSet(precision=precision)
         path = asp.solve(problem, asp.History(loads), solver=solver)
         asp.save(path, tmp_path / "path.nc", overwrite=True)
-        stated = asp.open_tree(tmp_path / "path.nc")["path/rounding"].values
+        stated = asp.files.open_tree(tmp_path / "path.nc")["path/rounding"].values
         for found, result, bound in zip(asp.load(tmp_path / "path.nc"), path, stated, strict=True):
             for name in BACK:
                 assert getattr(found, name).dtype == getattr(result, name).dtype
@@ -121,8 +121,10 @@ def test_steps_are_written_while_they_are_solved(
     asp.save(path, tmp_path / "path.nc")
     assert told(asp.load(tmp_path / "steps.nc")) == told(asp.load(tmp_path / "path.nc"))
     np.testing.assert_array_equal(asp.load(tmp_path / "steps.nc").energies.residual, path.energies.residual)
-    kept = {name for name in asp.open_tree(tmp_path / "path.nc")["path"].data_vars if not name.startswith("path_")}
-    assert set(asp.open_tree(tmp_path / "steps.nc")["path"].data_vars) == kept
+    kept = {
+        name for name in asp.files.open_tree(tmp_path / "path.nc")["path"].data_vars if not name.startswith("path_")
+    }
+    assert set(asp.files.open_tree(tmp_path / "steps.nc")["path"].data_vars) == kept
     begin = path.steps[0].state
     rest = steps(path.last.problem, [step.control for step in path.steps[1:]], state=begin)
     asp.save(rest, tmp_path / "rest.nc", start=begin)
@@ -133,7 +135,7 @@ def test_steps_are_written_while_they_are_solved(
 
 
 def test_the_table_has_a_row_for_each_step(path: asp.HistoryResult, tmp_path: Path) -> None:
-    asp.export_csv(path, tmp_path / "path.csv")
+    asp.files.export_csv(path, tmp_path / "path.csv")
     with (tmp_path / "path.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [row["step"] for row in rows] == ["1", "2", "3", "4", "5", "6"]
@@ -156,11 +158,11 @@ def test_a_result_of_a_path_is_read_back(path: asp.HistoryResult, tmp_path: Path
 def test_adhesive_paths_say_what_pulls(tmp_path: Path) -> None:
     """In the table of the steps and in the file: external force, attraction, grips, margin and jumps of every step."""
     path = CASES["adhesive"]()
-    asp.export_csv(path, tmp_path / "path.csv")
+    asp.files.export_csv(path, tmp_path / "path.csv")
     asp.save(path, tmp_path / "path.nc")
     with (tmp_path / "path.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    group = asp.open_tree(tmp_path / "path.nc")["path/couplings/adhesion"]
+    group = asp.files.open_tree(tmp_path / "path.nc")["path/couplings/adhesion"]
     units = {"external_force": "N", "attractive_force": "N", "grips": "m", "margin": "1", "jumps": "1"}
     for name, unit in units.items():
         wanted = [getattr(step.adhesion, name) for step in path]
@@ -175,7 +177,7 @@ def test_a_name_that_two_couplings_have_stands_twice_in_the_table(tmp_path: Path
     law = asp.ExponentialAdhesion(0.01, 1e-9)
     both = asp.ContactProblem(wet.last.problem.surface, asp.Elastic(1e11, 0.3), film=FILM, adhesion=law)
     path = asp.solve(both, asp.History([asp.MeanPressure(1e8), asp.MeanPressure(5e7)]))
-    asp.export_csv(path, tmp_path / "path.csv")
+    asp.files.export_csv(path, tmp_path / "path.csv")
     with (tmp_path / "path.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     for row, step in zip(rows, path, strict=True):

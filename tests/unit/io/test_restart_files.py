@@ -94,7 +94,7 @@ def test_damaged_states_are_refused(tmp_path: Path) -> None:
 def test_a_rolling_contact(law: Any, tmp_path: Path) -> None:
     surface = asp.generate.sphere(asp.Grid((24, 20), (5e-6, 5e-6)), radius=10e-3)
     problem = asp.ContactProblem(surface, SOLID, boundary=asp.Free(), friction=law)
-    rolled = asp.roll(problem, asp.Force(2.0), asp.Creepage(1e-4, 5e-5, 0.2), direction="-x")
+    rolled = asp.roll(problem, asp.Force(2.0), asp.rolling.Creepage(1e-4, 5e-5, 0.2), direction="-x")
     asp.save(rolled, tmp_path / "rolling.nc")
     again = asp.load(tmp_path / "rolling.nc")
     for item in fields(rolled):
@@ -104,5 +104,5 @@ def test_a_rolling_contact(law: Any, tmp_path: Path) -> None:
     np.testing.assert_array_equal(again.normal.pressure, rolled.normal.pressure)
     assert again.longitudinal_force == rolled.longitudinal_force
     assert again.slip_area_fraction == rolled.slip_area_fraction
-    further = asp.roll(problem, asp.Force(2.0), asp.Creepage(1.2e-4, 5e-5, 0.2), direction="-x", start=again)
+    further = asp.roll(problem, asp.Force(2.0), asp.rolling.Creepage(1.2e-4, 5e-5, 0.2), direction="-x", start=again)
     assert further.converged

@@ -222,7 +222,7 @@ for room in map(int, sys.argv[2:]):
     resource.setrlimit(resource.RLIMIT_FSIZE, (room, resource.RLIM_INFINITY))
     try:
         asp.save(result, sys.argv[1])
-    except asp.OutputError as error:
+    except asp.errors.OutputError as error:
         print(room, "refused:", error)
 """
 

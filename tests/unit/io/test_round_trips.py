@@ -168,8 +168,8 @@ def test_two_physics_of_ones_own_stand_beside_each_other(tmp_path: Path) -> None
     assert again.last.problem.physics == problem.physics
     back = ("displacement", "gap")  # of pressures alone, to a rounding: test_path_files
     assert without(told(again), *back) == without(told(path), *back)
-    assert asp.open_tree(tmp_path / "r.nc")["path/couplings/tape/force"].values.tolist() == [2e-7, 2e-7]
-    code = "import sys, asperity as asp\ntry:\n    asp.load(sys.argv[1])\nexcept asp.FileFormatError as error:\n    print(error)\n"
+    assert asp.files.open_tree(tmp_path / "r.nc")["path/couplings/tape/force"].values.tolist() == [2e-7, 2e-7]
+    code = "import sys, asperity as asp\ntry:\n    asp.load(sys.argv[1])\nexcept asp.errors.FileFormatError as error:\n    print(error)\n"
     there = {**os.environ, "PYTHONPATH": str(Path(asp.__file__).parents[1])}
     asked = [sys.executable, "-c", code, str(tmp_path / "r.nc")]
     told_by = subprocess.run(asked, capture_output=True, text=True, check=True, env=there)

@@ -25,8 +25,8 @@ STEPS = (
 LAWS = {
     "coulomb": asp.Coulomb(0.3, limit=0.1),
     "map": asp.Coulomb(np.linspace(0.1, 0.5, 256).reshape(16, 16)),
-    "full stick": asp.FullStick(),
-    "tresca": asp.TrescaFriction(np.full((16, 16), 0.02)),
+    "full stick": asp.friction.FullStick(),
+    "tresca": asp.friction.TrescaFriction(np.full((16, 16), 0.02)),
 }
 
 
@@ -60,7 +60,7 @@ def test_a_step(name: str, tmp_path: Path) -> None:
     same(again, result)
     law = again.problem.friction
     np.testing.assert_array_equal(law.bound(result.pressure), LAWS[name].bound(result.pressure))  # type: ignore[attr-defined]
-    group = asp.open_tree(tmp_path / "r.nc")["contact/couplings/stick_slip"]
+    group = asp.files.open_tree(tmp_path / "r.nc")["contact/couplings/stick_slip"]
     measured = [item for item in stored_quantities(StickSlip) if item.unit]
     assert {"traction", "shift_x", "dissipation_density"} <= {item.name for item in measured}
     for item in measured:
@@ -80,7 +80,7 @@ def test_a_history_and_the_same_bits_after_a_break(tmp_path: Path) -> None:
     outcome = load_outcome(tmp_path / "whole.nc")
     assert outcome.values["total_dissipated"] == whole.last.stick_slip.total_dissipated
     assert "stick_slip" in {part.name for part, _ in outcome.sections}
-    column = asp.open_tree(tmp_path / "whole.nc")["path/couplings/stick_slip/traction"]
+    column = asp.files.open_tree(tmp_path / "whole.nc")["path/couplings/stick_slip/traction"]
     assert column.dims == ("step", "component", "x", "y")
     assert column.attrs["units"] == "Pa"
     asp.save(asp.solve(case, asp.History(STEPS[:2])), tmp_path / "half.nc")

@@ -45,9 +45,9 @@ def read_vtr(path: Path) -> tuple[dict[str, np.ndarray], tuple[int, ...]]:
 @pytest.mark.parametrize("streamed", [False, True])
 def test_netcdf_holds_the_field(contact, tmp_path, streamed):
     field = asp.stress(contact, DEPTHS, friction=0.3, displacement=True)
-    source = asp.stress_planes(contact, DEPTHS, friction=0.3, displacement=True) if streamed else field
-    asp.save_stress(source, tmp_path / "s.nc")
-    data = asp.open_tree(tmp_path / "s.nc")["field"].to_dataset()
+    source = asp.stresses.stress_planes(contact, DEPTHS, friction=0.3, displacement=True) if streamed else field
+    asp.files.save_stress(source, tmp_path / "s.nc")
+    data = asp.files.open_tree(tmp_path / "s.nc")["field"].to_dataset()
     assert data.xx.dims == ("plane", "x", "y")
     for name in STRESSES:
         np.testing.assert_array_equal(data[name], getattr(field.tensor, name))
@@ -62,7 +62,7 @@ def test_netcdf_holds_the_field(contact, tmp_path, streamed):
     names = [json.loads(text)["name"] for text in data.region_description.values]
     assert names == [plane.region.name for plane in field.planes]
     assert data.attrs["citation_keys"].split() == list(field.citation_keys)
-    root = asp.open_tree(tmp_path / "s.nc")
+    root = asp.files.open_tree(tmp_path / "s.nc")
     assert json.loads(root.attrs["provenance"])["software"]["asperity"] == asp.__version__
     again = asp.load(tmp_path / "s.nc")
     assert str(again.planes) == str(field.planes)  # nan is not nan
@@ -72,16 +72,16 @@ def test_netcdf_holds_the_field(contact, tmp_path, streamed):
 
 
 def test_netcdf_of_a_section_and_a_profile(contact, tmp_path):
-    section = asp.stress(contact, DEPTHS, on=asp.Section(y="max"), dtype="float32")
-    asp.save_stress(section, tmp_path / "section.nc")
-    data = asp.open_tree(tmp_path / "section.nc")["field"].to_dataset()
+    section = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"), dtype="float32")
+    asp.files.save_stress(section, tmp_path / "section.nc")
+    data = asp.files.open_tree(tmp_path / "section.nc")["field"].to_dataset()
     assert data.xz.dims == ("plane", "x")
     assert data.xz.dtype == np.float32
     assert data.attrs["at_y"] == section.y
     np.testing.assert_array_equal(data.xz, section.shear_xz)
-    profile = asp.stress(contact, DEPTHS, on=asp.DepthProfile())
-    asp.save_stress(profile, tmp_path / "profile.nc")
-    data = asp.open_tree(tmp_path / "profile.nc")["field"].to_dataset()
+    profile = asp.stress(contact, DEPTHS, on=asp.stresses.DepthProfile())
+    asp.files.save_stress(profile, tmp_path / "profile.nc")
+    data = asp.files.open_tree(tmp_path / "profile.nc")["field"].to_dataset()
     assert data.zz.dims == ("plane",)
     np.testing.assert_array_equal(data.zz, profile.normal_zz)
 
@@ -90,8 +90,8 @@ def test_netcdf_of_a_section_and_a_profile(contact, tmp_path):
 @pytest.mark.parametrize("dtype", ["float64", "float32"])
 def test_vtk_holds_the_field(contact, tmp_path, streamed, dtype):
     field = asp.stress(contact, DEPTHS, friction=0.3, dtype=dtype)
-    source = asp.stress_planes(contact, DEPTHS, friction=0.3, dtype=dtype) if streamed else field
-    asp.export_stress_vtk(source, tmp_path / "s.vtr")
+    source = asp.stresses.stress_planes(contact, DEPTHS, friction=0.3, dtype=dtype) if streamed else field
+    asp.files.export_stress_vtk(source, tmp_path / "s.vtr")
     arrays, sizes = read_vtr(tmp_path / "s.vtr")
     assert sizes == (*contact.problem.grid.shape, len(field.planes))
     for axis, line in (("x", field.x), ("y", field.y), ("z", field.depth)):
@@ -105,8 +105,8 @@ def test_vtk_holds_the_field(contact, tmp_path, streamed, dtype):
 
 
 def test_vtk_of_a_section(contact, tmp_path):
-    field = asp.stress(contact, DEPTHS, on=asp.Section(x="max"))
-    asp.export_stress_vtk(field, tmp_path / "s.vtr")
+    field = asp.stress(contact, DEPTHS, on=asp.stresses.Section(x="max"))
+    asp.files.export_stress_vtk(field, tmp_path / "s.vtr")
     arrays, sizes = read_vtr(tmp_path / "s.vtr")
     assert sizes == (1, contact.problem.grid.shape[1], len(field.planes))
     np.testing.assert_array_equal(arrays["yz"].reshape(sizes[2], sizes[1]), field.shear_yz)
@@ -115,14 +115,14 @@ def test_vtk_of_a_section(contact, tmp_path):
 
 def test_refusals(contact, tmp_path):
     with refused(asp.InputError, "stress field to write"):
-        asp.save_stress(iter(()), tmp_path / "s.nc")
+        asp.files.save_stress(iter(()), tmp_path / "s.nc")
     with refused(asp.InputError, "stress field for VTK"):
-        asp.export_stress_vtk(asp.stress(contact, [0.0], on=asp.DepthProfile()), tmp_path / "s.vtr")
+        asp.files.export_stress_vtk(asp.stress(contact, [0.0], on=asp.stresses.DepthProfile()), tmp_path / "s.vtr")
     field = asp.stress(contact, [0.0])
-    asp.save_stress(field, tmp_path / "s.nc")
-    with refused(asp.OutputError, "output file"):
-        asp.save_stress(field, tmp_path / "s.nc")
-    asp.save_stress(field, tmp_path / "s.nc", overwrite=True)
+    asp.files.save_stress(field, tmp_path / "s.nc")
+    with refused(asp.errors.OutputError, "output file"):
+        asp.files.save_stress(field, tmp_path / "s.nc")
+    asp.files.save_stress(field, tmp_path / "s.nc", overwrite=True)
 
 
 def test_a_failing_stream_leaves_no_file(contact, tmp_path):
@@ -130,7 +130,7 @@ def test_a_failing_stream_leaves_no_file(contact, tmp_path):
         yield asp.stress(contact, [0.0])
         raise RuntimeError("interrupted")
 
-    for write, name in ((asp.save_stress, "s.nc"), (asp.export_stress_vtk, "s.vtr")):
+    for write, name in ((asp.files.save_stress, "s.nc"), (asp.files.export_stress_vtk, "s.vtr")):
         with pytest.raises(RuntimeError, match="interrupted"):
             write(broken(), tmp_path / name)
     assert list(tmp_path.iterdir()) == []

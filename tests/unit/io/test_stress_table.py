@@ -57,5 +57,5 @@ def test_table_of_maxima(tmp_path: Path) -> None:
     assert values["base", "max_shear"]["bottom"] == "inf"
     assert values["soft", "load_factor_to_yield"]["value"] == "nan"
     assert values["film", "yielded_volume"]["unit"] == "m**3"
-    with pytest.raises(asp.OutputError):
+    with pytest.raises(asp.errors.OutputError):
         export_csv(found, tmp_path / "s.csv")

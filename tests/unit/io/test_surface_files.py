@@ -30,12 +30,12 @@ def surface(dtype: type = np.float64, missing: bool = True, periodic: bool = Tru
 @pytest.mark.parametrize("periodic", [True, False])
 def test_netcdf_comes_back_equal(tmp_path: Path, dtype: type, missing: bool, periodic: bool) -> None:
     before = surface(dtype, missing, periodic)
-    asp.save_surface(before, tmp_path / "a.nc")
+    asp.files.save_surface(before, tmp_path / "a.nc")
     after = asp.read(tmp_path / "a.nc")
     np.testing.assert_array_equal(after.heights, before.heights)
     assert after.heights.dtype == before.heights.dtype
     assert (after.dx, after.dy, after.periodic, after.origin) == (before.dx, before.dy, periodic, before.origin)
-    (channel,) = asp.channels(tmp_path / "a.nc")
+    (channel,) = asp.surfaces.channels(tmp_path / "a.nc")
     assert (channel.shape, channel.unit) == ((12, 9), "m")
 
 
@@ -44,7 +44,7 @@ def test_netcdf_is_that_of_the_reader_library(tmp_path: Path) -> None:
         warnings.simplefilter("ignore")  # the library warns where MPI is missing
         from SurfaceTopography import read_topography
     before = surface()
-    asp.save_surface(before, tmp_path / "a.nc")
+    asp.files.save_surface(before, tmp_path / "a.nc")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         theirs = read_topography(str(tmp_path / "a.nc"))
@@ -59,7 +59,7 @@ def test_netcdf_opens_in_xarray(tmp_path: Path) -> None:
     import xarray
 
     before = surface(missing=False)
-    asp.save_surface(before, tmp_path / "a.nc")
+    asp.files.save_surface(before, tmp_path / "a.nc")
     data = xarray.load_dataset(tmp_path / "a.nc", engine="scipy")
     np.testing.assert_array_equal(data["heights"].values, before.heights)
     assert data["heights"].attrs["units"] == "m"
@@ -70,7 +70,7 @@ def test_netcdf_opens_in_xarray(tmp_path: Path) -> None:
 @pytest.mark.parametrize("ending", ["txt", "asc"])
 def test_text_comes_back_with_size_and_unit(tmp_path: Path, ending: str) -> None:
     before = surface()
-    asp.save_surface(before, tmp_path / f"a.{ending}")
+    asp.files.save_surface(before, tmp_path / f"a.{ending}")
     after = asp.read(tmp_path / f"a.{ending}")
     np.testing.assert_array_equal(after.mask, before.mask)
     np.testing.assert_allclose(after.heights, before.heights, rtol=1e-9)  # ten digits are written
@@ -79,7 +79,7 @@ def test_text_comes_back_with_size_and_unit(tmp_path: Path, ending: str) -> None
 
 def test_array_is_bare(tmp_path: Path) -> None:
     before = surface()
-    asp.save_surface(before, tmp_path / "a.npy")
+    asp.files.save_surface(before, tmp_path / "a.npy")
     np.testing.assert_array_equal(np.load(tmp_path / "a.npy"), before.heights)
     after = asp.read(tmp_path / "a.npy", size=before.size, height_unit="m")
     np.testing.assert_array_equal(after.heights, before.heights)
@@ -87,19 +87,19 @@ def test_array_is_bare(tmp_path: Path) -> None:
 
 def test_refusals(tmp_path: Path) -> None:
     before = surface()
-    with refused(asp.OutputError, "file of a surface"):
-        asp.save_surface(before, tmp_path / "a.csv")
-    asp.save_surface(before, tmp_path / "a.nc")
-    with refused(asp.OutputError, "output file"):
-        asp.save_surface(before, tmp_path / "a.nc")
-    asp.save_surface(before, tmp_path / "a.nc", overwrite=True)
-    with refused(asp.FileFormatError, f"size and unit of file {tmp_path / 'a.nc'}"):
+    with refused(asp.errors.OutputError, "file of a surface"):
+        asp.files.save_surface(before, tmp_path / "a.csv")
+    asp.files.save_surface(before, tmp_path / "a.nc")
+    with refused(asp.errors.OutputError, "output file"):
+        asp.files.save_surface(before, tmp_path / "a.nc")
+    asp.files.save_surface(before, tmp_path / "a.nc", overwrite=True)
+    with refused(asp.errors.FileFormatError, f"size and unit of file {tmp_path / 'a.nc'}"):
         asp.read(tmp_path / "a.nc", size=(1.0, 1.0))
-    with refused(asp.FileFormatError, f"channel of file {tmp_path / 'a.nc'}", "'phase'"):
+    with refused(asp.errors.FileFormatError, f"channel of file {tmp_path / 'a.nc'}", "'phase'"):
         asp.read(tmp_path / "a.nc", channel="phase")
     whole = (tmp_path / "a.nc").read_bytes()
     (tmp_path / "cut.nc").write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(asp.FileFormatError):
+    with pytest.raises(asp.errors.FileFormatError):
         asp.read(tmp_path / "cut.nc")
 
 
@@ -142,7 +142,7 @@ def test_tile_refusals(tmp_path: Path) -> None:
         save_endless(ENDLESS, (4000, 4000), tmp_path / "a.npy", memory=BYTES_PER_NODE * 1000.0)
     with refused(asp.InputError, "precision of the heights"):
         save_endless(ENDLESS, (40, 40), tmp_path / "a.npy", precision="half")
-    with refused(asp.OutputError, "file of a surface"):
+    with refused(asp.errors.OutputError, "file of a surface"):
         save_endless(ENDLESS, (40, 40), tmp_path / "a.nc")
     with refused(asp.InputError, "number of points along x"):
         save_endless(ENDLESS, (0, 40), tmp_path / "a.npy")

@@ -33,7 +33,7 @@ def test_a_table_is_read_back(tmp_path: Path) -> None:
     read = list(csv.reader(io.StringIO((tmp_path / "table.csv").read_text("utf-8"))))
     assert read == [["name", "'=x"], ['\'-a, "b"', "-1.25"], ["c", "1e-300"]]
     assert list(csv.reader(io.StringIO(table_text(rows)))) == read
-    with refused(asp.OutputError, "output file", str(tmp_path / "table.csv")):
+    with refused(asp.errors.OutputError, "output file", str(tmp_path / "table.csv")):
         write_table(rows, tmp_path / "table.csv")
 
 
@@ -43,7 +43,7 @@ def test_names_of_layers_in_tables_of_stresses(tmp_path: Path) -> None:
     problem = asp.ContactProblem(
         asp.Surface(heights, 1e-8, periodic=True), asp.Layered([layer], asp.Elastic(2e11, 0.3))
     )
-    asp.export_csv(survey(StressRequest(), asp.solve(problem, asp.MeanPressure(1e7))), tmp_path / "stress.csv")
+    asp.files.export_csv(survey(StressRequest(), asp.solve(problem, asp.MeanPressure(1e7))), tmp_path / "stress.csv")
     read = list(csv.reader(io.StringIO((tmp_path / "stress.csv").read_text("utf-8"))))
     names = {row[1] for row in read[1:]}
     assert "'=HYPERLINK(1)" in names

@@ -85,7 +85,7 @@ def test_refusals(tmp_path, change, subject):
     (tmp_path / "text.npy").write_text("no array")
     made = document(PATCH)
     made["tractions"] = {key: value for key, value in {**made["tractions"], **change}.items() if value is not None}
-    with refused(asp.AsperityError, subject):
+    with refused(asp.errors.AsperityError, subject):
         asp.run(made, tmp_path)
 
 
@@ -107,13 +107,13 @@ def test_the_command_gives_the_same_numbers_and_a_folder_that_runs_again(tmp_pat
         app(["stress", str(tmp_path / "loads.json"), "--criterion", "tresca", "--out", str(out)])
     assert ended.value.code == 0
     assert {"report.html", "result.nc", "stress.csv", "problem.toml", "plots"} == {path.name for path in out.iterdir()}
-    again, tree = asp.run(out / "problem.toml"), asp.open_tree(out / "result.nc")
+    again, tree = asp.run(out / "problem.toml"), asp.files.open_tree(out / "result.nc")
     assert float(tree["stress/max_von_mises"]) == again.values["max_von_mises"]
     assert float(tree["yielding/yield_load_factor"]) == again.values["yield_load_factor"]
     np.testing.assert_array_equal(tree["tractions/pressure"].values, np.load(tmp_path / "p.npy"))
     page = (out / "report.html").read_text(encoding="utf-8")
     assert page.count("<img") == len(list((out / "plots").iterdir())) > 0
-    with refused(asp.FileFormatError, "result file"):
+    with refused(asp.errors.FileFormatError, "result file"):
         asp.load(out / "result.nc")
 
 

@@ -11,7 +11,8 @@ import pytest
 from refusals import refused
 
 import asperity as asp
-from asperity import FileFormatError, InputError, UnitError
+from asperity import InputError
+from asperity.errors import FileFormatError, UnitError
 from asperity.io.description import describe, rebuild
 from asperity.io.schemas.bodies import BodyTable, body_from_text
 from asperity.run.build import body_of_text, build_body
@@ -67,7 +68,9 @@ WAYS: tuple[tuple[str, dict[str, Any], asp.Viscoelastic], ...] = (
             "times": ["10 ms"],
             "shift": {"kind": "wlf", "reference": "298 K", "c1": 8.86, "c2": "101.6 K"},
         },
-        asp.Viscoelastic.prony(3e6, ((10e6, 1e-2),), 0.5, shift=asp.WilliamsLandelFerry(298.0, 8.86, 101.6), **OWN),
+        asp.Viscoelastic.prony(
+            3e6, ((10e6, 1e-2),), 0.5, shift=asp.viscoelasticity.WilliamsLandelFerry(298.0, 8.86, 101.6), **OWN
+        ),
     ),
     (
         "E=3MPa+10MPa@10ms,nu=0.5,Arrhenius=298K;80kJ/mol",
@@ -78,7 +81,7 @@ WAYS: tuple[tuple[str, dict[str, Any], asp.Viscoelastic], ...] = (
             "times": ["10 ms"],
             "shift": {"kind": "arrhenius", "reference": "298 K", "activation_energy": "80 kJ/mol"},
         },
-        asp.Viscoelastic.prony(3e6, ((10e6, 1e-2),), 0.5, shift=asp.Arrhenius(298.0, 80e3), **OWN),
+        asp.Viscoelastic.prony(3e6, ((10e6, 1e-2),), 0.5, shift=asp.viscoelasticity.Arrhenius(298.0, 80e3), **OWN),
     ),
 )
 
@@ -187,7 +190,7 @@ def test_measured_moduli_are_fitted_from_their_file(tmp_path: Path, head: str, s
     table = BodyTable.model_validate(body_from_text("moduli=moduli.csv,nu=0.5"))
     solid = build_body(table, tmp_path)
     assert isinstance(solid, asp.Viscoelastic)
-    assert solid.spectrum == asp.fitted_solid(f, storage, loss, poisson_ratio=0.5).solid.spectrum
+    assert solid.spectrum == asp.viscoelasticity.fitted_solid(f, storage, loss, poisson_ratio=0.5).solid.spectrum
     assert solid.complex_modulus(2.0 * np.pi * f) == pytest.approx(wanted, rel=0.02)
     assert any("moduli.csv" in source for source in solid.sources)
 
@@ -233,7 +236,7 @@ def test_own_library_has_viscoelastic_materials(tmp_path: Path) -> None:
     file = tmp_path / "own.toml"
     file.write_text(OWN_FILE, encoding="utf-8")
     found = material("my rubber", library=file)
-    shift = asp.WilliamsLandelFerry(298.0, 8.86, 101.6)
+    shift = asp.viscoelasticity.WilliamsLandelFerry(298.0, 8.86, 101.6)
     sources = ("youngs_modulus: own test", "poisson_ratio: user", "shift: handbook")
     same(found, asp.Viscoelastic.prony(3e6, TERMS, 0.45, name="my rubber", sources=sources, elastic_bulk=True, shift=shift))  # fmt: skip
     table = BodyTable.model_validate({**body_from_text("my rubber"), "materials_file": "own.toml"})
@@ -265,7 +268,7 @@ def test_bad_entries_of_a_library_are_refused(tmp_path: Path, line: str, kind: t
 def test_graded_layers_of_what_relaxes_are_refused() -> None:
     rubber, steel = asp.Viscoelastic.maxwell(1e6, 1.0, 0.4), asp.Elastic(200e9, 0.3)
     with refused(InputError, "materials of a graded layer"):
-        asp.graded(rubber, steel, 1e-6)
+        asp.solids.graded(rubber, steel, 1e-6)
 
 
 def test_series_of_too_many_terms_are_refused() -> None:
@@ -274,6 +277,6 @@ def test_series_of_too_many_terms_are_refused() -> None:
         asp.Viscoelastic.power_law(1e9, 0.1, 0.3, shortest=1e-300, longest=1e300)
     wide = np.geomspace(1e-150, 1e150, 5)
     with refused(InputError, "number of terms of a fitted series"):
-        asp.fitted_solid(wide, np.ones(5), np.ones(5), poisson_ratio=0.3)
+        asp.viscoelasticity.fitted_solid(wide, np.ones(5), np.ones(5), poisson_ratio=0.3)
     with refused(InputError, "number of terms of a fitted series", "100000 a decade"):
-        asp.fitted_solid([1.0, 10.0], [1.0, 2.0], [0.1, 0.1], poisson_ratio=0.3, per_decade=100000)
+        asp.viscoelasticity.fitted_solid([1.0, 10.0], [1.0, 2.0], [0.1, 0.1], poisson_ratio=0.3, per_decade=100000)

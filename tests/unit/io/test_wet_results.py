@@ -34,7 +34,7 @@ def test_a_wet_contact_is_read_back_whole(wet: asp.ContactResult, tmp_path: Path
     assert (found.control, found.status, found.certificate) == (wet.control, wet.status, wet.certificate)
     assert found.state.memory["menisci"] == wet.state.memory["menisci"]
     assert found.citation_keys == wet.citation_keys
-    data = asp.open_tree(tmp_path / "wet.nc")["contact/couplings/menisci"].to_dataset()
+    data = asp.files.open_tree(tmp_path / "wet.nc")["contact/couplings/menisci"].to_dataset()
     for item in WET_SCALARS:
         assert data[item.name] == getattr(wet.menisci, item.name), item.name
     assert data["wetting_menisci"].dims == ("x", "y")
@@ -66,7 +66,7 @@ def test_pixels_wet_in_part_are_read_back(tmp_path: Path) -> None:
             np.testing.assert_array_equal(back.menisci.wetting.filled, was.menisci.wetting.filled)
             assert back.menisci.wetting.regime == was.menisci.wetting.regime
             assert back.menisci.meniscus_area_fraction == was.menisci.meniscus_area_fraction
-            assert asp.review(back) == asp.review(was)
+            assert asp.contact.review(back) == asp.contact.review(was)
 
 
 @pytest.mark.parametrize("share", [1.5, -0.1, float("nan")])
@@ -74,7 +74,7 @@ def test_shares_that_no_point_can_have_are_refused(share: float, tmp_path: Path)
     asp.save(asp.solve(*corners_wet_in_part()), tmp_path / "bad.nc")
     with h5py.File(tmp_path / "bad.nc", "r+") as file:
         file["contact/couplings/menisci/wetting_filled"][0, 0] = share
-    with refused(asp.FileFormatError, "result file"):
+    with refused(asp.errors.FileFormatError, "result file"):
         asp.load(tmp_path / "bad.nc")
 
 

@@ -14,7 +14,7 @@ def contact(shape: tuple[int, int], *, hardness: float | None = None, dx: float 
     noise = np.random.default_rng(7).standard_normal(shape)
     heights = sum(np.roll(noise, (i, j), (0, 1)) for i in range(3) for j in range(3)) * 1e-9
     surface = asp.Surface(heights, dx, 1e-8, periodic=True)
-    law = asp.HardWall() if hardness is None else asp.Hardness(hardness)
+    law = asp.plasticity.HardWall() if hardness is None else asp.Hardness(hardness)
     problem = asp.ContactProblem(surface, asp.Elastic(1e11, 0.3), law=law)
     return asp.solve(problem, asp.MeanPressure(4e8))
 

@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 from refusals import refused
 
+from asperity import dynamics as dyn
 from asperity.core.errors import InputError, OutputError
-from asperity.physics import dynamics as dyn
 from asperity.physics.dynamics.figures import save_animation
 
 

@@ -28,16 +28,16 @@ def result() -> asp.ContactResult:
 
 
 @pytest.fixture(scope="module")
-def field(result: asp.ContactResult) -> asp.StressField:
+def field(result: asp.ContactResult) -> asp.stresses.StressField:
     return asp.stress(result, [0.0, 2e-8, 5e-8, 2e-7])
 
 
-def things(result: asp.ContactResult, field: asp.StressField) -> list[object]:
+def things(result: asp.ContactResult, field: asp.stresses.StressField) -> list[object]:
     return [
         result.problem.surface,
         result,
         field,
-        asp.stress(result, asp.depths_through(result.problem.body, 2e-7), on=asp.Section(y="max")),
+        asp.stress(result, asp.stresses.depths_through(result.problem.body, 2e-7), on=asp.stresses.Section(y="max")),
     ]
 
 
@@ -64,7 +64,7 @@ def test_small_things_show_themselves_in_one_line(result, field):
     )
     film = asp.LiquidFilm.of(asp.liquid("water"), 5e-10)
     wet = asp.solve(asp.ContactProblem(result.problem.surface, asp.material("DLC"), film=film), asp.MeanPressure(1e8))
-    unknown = asp.stress(asp.LoadedBody(asp.Elastic(1e9, 0.3), _tractions()), [1e-8])
+    unknown = asp.stress(asp.stresses.LoadedBody(asp.Elastic(1e9, 0.3), _tractions()), [1e-8])
     for thing in (
         wet.menisci,
         asp.first_yield(field),
@@ -78,9 +78,9 @@ def test_small_things_show_themselves_in_one_line(result, field):
     assert f"load factor {asp.first_yield(field).load_factor:.3g}" in repr(asp.first_yield(field))
 
 
-def _tractions() -> asp.Tractions:
+def _tractions() -> asp.stresses.Tractions:
     grid = asp.Grid((8, 8), (1e-8, 1e-8))
-    return asp.Tractions(grid, np.full(grid.shape, 1e6))
+    return asp.stresses.Tractions(grid, np.full(grid.shape, 1e6))
 
 
 def test_roughness_has_figures_and_a_card(result):
@@ -129,7 +129,7 @@ def test_surfaces_and_fields_draw_on_given_axes(result, field):
 
 def test_load_paths_and_profiles_draw_on_given_axes(result):
     path = asp.solve(result.problem, asp.History([asp.MeanPressure(5e7), asp.MeanPressure(1e8)]))
-    profile = asp.stress(result, asp.depths_through(result.problem.body, 2e-7), on=asp.DepthProfile())
+    profile = asp.stress(result, asp.stresses.depths_through(result.problem.body, 2e-7), on=asp.stresses.DepthProfile())
     for thing in (path, profile):
         ax = Figure().add_subplot()
         assert thing.plot(ax=ax) is ax

@@ -19,7 +19,7 @@ def path() -> asp.HistoryResult:
     problem = asp.ContactProblem(
         asp.Surface(heights, 2e-8, 1e-8, periodic=True), asp.Elastic(1e11, 0.3), law=asp.Hardness(3e9)
     )
-    return asp.solve(problem, asp.History(asp.ramps(asp.MeanPressure, [4e8, 0.0, 5e8], steps=3)))
+    return asp.solve(problem, asp.History(asp.contact.ramps(asp.MeanPressure, [4e8, 0.0, 5e8], steps=3)))
 
 
 def axes():
@@ -82,12 +82,12 @@ def test_plastic_zone_and_residual_surface(path):
 def test_only_indented_results_have_figures_of_it(path, elastic, tmp_path: Path, monkeypatch):
     monkeypatch.setattr("asperity.plots.picture.png", lambda *_, **__: b"")
     names = {plot.name for plot in plots.PLASTIC_PLOTS}
-    plastic = {file.stem for file in asp.save_plots(path.steps[-1], tmp_path / "a")}
+    plastic = {file.stem for file in asp.plots.save_plots(path.steps[-1], tmp_path / "a")}
     assert names <= plastic
-    assert {file.stem for file in asp.save_plots(elastic, tmp_path / "b")} == plastic - names
+    assert {file.stem for file in asp.plots.save_plots(elastic, tmp_path / "b")} == plastic - names
 
 
 def test_files_of_a_path(path, tmp_path: Path):
-    files = asp.save_path_plots(path, tmp_path)
+    files = asp.plots.save_path_plots(path, tmp_path)
     assert [file.stem for file in files] == [plot.name for plot in plots.PATH_PLOTS]
     assert all(file.read_bytes().startswith(b"\x89PNG") for file in files)

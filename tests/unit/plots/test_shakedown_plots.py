@@ -18,9 +18,9 @@ def ax() -> Axes:
     return Figure().add_subplot()
 
 
-def curve(factor: float, gap: float, region: tuple[int, int, int]) -> asp.ShakedownCurve:
+def curve(factor: float, gap: float, region: tuple[int, int, int]) -> asp.stresses.ShakedownCurve:
     limit = factor * np.array([4.0, 3.0, 2.0])
-    return asp.ShakedownCurve(FRICTION, limit, limit * (1.0 + gap), np.zeros(3), np.array(region))
+    return asp.stresses.ShakedownCurve(FRICTION, limit, limit * (1.0 + gap), np.zeros(3), np.array(region))
 
 
 @pytest.mark.parametrize(("gap", "lines"), [(0.1, 2), (0.0, 1)])
@@ -33,7 +33,7 @@ def test_curve(ax: Axes, gap: float, lines: int) -> None:
 
 
 def test_map(ax: Axes) -> None:
-    found = asp.shakedown_map([0.0, 1e-6], [curve(1.0, 0.1, (0, 0, 0)), curve(1.5, 0.1, (1, 1, 0))])
+    found = asp.stresses.shakedown_map([0.0, 1e-6], [curve(1.0, 0.1, (0, 0, 0)), curve(1.5, 0.1, (1, 1, 0))])
     plots.plot_shakedown_map(found, ax)
     (dots,) = ax.lines
     np.testing.assert_array_equal(dots.get_xydata(), [[0.0, 1e-6], [0.2, 1e-6]])
@@ -41,6 +41,6 @@ def test_map(ax: Axes) -> None:
 
 
 def test_map_of_one_value(ax: Axes) -> None:
-    shown = asp.ShakedownCurve(FRICTION, np.ones(3), np.ones(3), np.zeros(3), np.zeros(3))
-    plots.plot_shakedown_map(asp.shakedown_map([0.0, 1.0], [shown, shown]), ax)
+    shown = asp.stresses.ShakedownCurve(FRICTION, np.ones(3), np.ones(3), np.zeros(3), np.zeros(3))
+    plots.plot_shakedown_map(asp.stresses.shakedown_map([0.0, 1.0], [shown, shown]), ax)
     assert not ax.lines

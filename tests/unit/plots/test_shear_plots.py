@@ -17,7 +17,7 @@ def history() -> asp.HistoryResult:
     body = asp.Elastic(2.0, 0.3)
     problem = asp.ContactProblem(rough((24, 20), 3), body, counter_body=body, friction=asp.Coulomb(0.3))
     load = asp.MeanPressure(0.05)
-    steps = asp.shear_cycles(load, asp.Shift(0.06, 0.08), cycles=2, steps=3)
+    steps = asp.friction.shear_cycles(load, asp.Shift(0.06, 0.08), cycles=2, steps=3)
     return asp.solve(problem, asp.History([asp.Step(load, asp.Shift()), *steps]))
 
 

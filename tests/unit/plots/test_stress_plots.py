@@ -32,11 +32,13 @@ def ax() -> Axes:
     return figure.add_subplot()
 
 
-DEPTHS = asp.depths_through(BODY, 200e-9, per_region=5)
+DEPTHS = asp.stresses.depths_through(BODY, 200e-9, per_region=5)
 
 
-@pytest.fixture(scope="module", params=[asp.Section(y="max"), asp.Section(x="max")], ids=["along x", "along y"])
-def section(request, contact) -> asp.StressField:
+@pytest.fixture(
+    scope="module", params=[asp.stresses.Section(y="max"), asp.stresses.Section(x="max")], ids=["along x", "along y"]
+)
+def section(request, contact) -> asp.stresses.StressField:
     return asp.stress(contact, DEPTHS, on=request.param, friction=0.3)
 
 
@@ -66,7 +68,7 @@ def test_every_quantity_of_a_section(section, ax, quantity):
 
 
 def test_the_cross_is_at_the_largest_value(contact, ax):
-    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
+    field = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"))
     plots.plot_stress_section(field, ax, "normal_zz")
     (cross,) = [line for line in ax.lines if line.get_marker() == "x"]
     column = int(np.argmin(field.normal_zz[0]))
@@ -75,7 +77,7 @@ def test_the_cross_is_at_the_largest_value(contact, ax):
 
 
 def test_the_cross_of_a_principal_stress_is_at_the_largest_tension(contact, ax):
-    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"), friction=0.5)
+    field = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"), friction=0.5)
     plots.plot_stress_section(field, ax, "principal_tensile")
     (cross,) = [line for line in ax.lines if line.get_marker() == "x"]
     plane, column = np.unravel_index(field.principal_tensile.argmax(), field.principal_tensile.shape)
@@ -85,7 +87,7 @@ def test_the_cross_of_a_principal_stress_is_at_the_largest_tension(contact, ax):
 
 def test_signed_stresses_are_white_about_zero(contact, ax):
     """No contour at zero, whose line would follow rounding; colours of either sign are mirror images."""
-    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"), friction=0.5)
+    field = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"), friction=0.5)
     plots.plot_stress_section(field, ax, "shear_xz")
     levels = ax.collections[0].levels
     assert np.abs(levels).min() > 0.01 * levels.max()
@@ -97,7 +99,7 @@ def test_signed_stresses_are_white_about_zero(contact, ax):
 
 
 def test_compression_does_not_drown_the_tension(contact, ax):
-    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"), friction=0.5)
+    field = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"), friction=0.5)
     assert -field.principal_tensile.min() > 1.5 * field.principal_tensile.max()
     plots.plot_stress_section(field, ax, "principal_tensile")
     filled = ax.collections[0]
@@ -109,12 +111,12 @@ def test_compression_does_not_drown_the_tension(contact, ax):
 
 
 def test_a_line_has_no_place_along_y(ax):
-    profile = asp.Surface(asp.sliced(oblong(), y="middle").heights, 1e-7, 1.0)
+    profile = asp.Surface(asp.surfaces.sliced(oblong(), y="middle").heights, 1e-7, 1.0)
     result = asp.solve(asp.ContactProblem(profile, BODY, boundary=asp.FreeLine()), asp.Force(1.0))
-    plots.plot_stress_section(asp.stress(result, DEPTHS, on=asp.Section(y="max")), ax)
+    plots.plot_stress_section(asp.stress(result, DEPTHS, on=asp.stresses.Section(y="max")), ax)
     assert "at y" not in ax.get_xlabel()
     ax.clear()
-    plots.plot_stress_profile(asp.stress(result, DEPTHS, on=asp.DepthProfile()), ax)
+    plots.plot_stress_profile(asp.stress(result, DEPTHS, on=asp.stresses.DepthProfile()), ax)
     assert "at x = " in ax.get_xlabel()
     assert "y =" not in ax.get_xlabel()
     ax.clear()
@@ -127,7 +129,7 @@ def test_a_line_has_no_place_along_y(ax):
 
 def test_logarithmic_steps_of_signed_stresses(contact, ax):
     """Equal factors on both sides of zero, which is white; small stresses of either sign are told apart."""
-    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"), friction=0.5)
+    field = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"), friction=0.5)
     plots.plot_stress_section(field, ax, "shear_xz", log=True)
     filled = ax.collections[0]
     half = filled.levels[filled.levels > 0.0]
@@ -140,7 +142,7 @@ def test_logarithmic_steps_of_signed_stresses(contact, ax):
 
 
 def test_logarithmic_steps(contact, ax):
-    field = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
+    field = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"))
     plots.plot_stress_section(field, ax, "sqrt_J2", log=True)
     ax.figure.canvas.draw()
     low, high = ax.child_axes[0].get_ylim()
@@ -155,13 +157,13 @@ def test_sections_as_deep_as_long_are_to_scale(ax):
     x, y = grid.centred_coordinates()
     sphere = asp.Surface(-(x**2 + y**2) / 2e-3, 1e-6, 1e-6)
     result = asp.solve(asp.ContactProblem(sphere, asp.Elastic(200e9, 0.3), boundary=asp.Free()), asp.Force(0.5))
-    plots.plot_stress_section(asp.stress(result, np.linspace(0, 2e-5, 9), on=asp.Section(y="max")), ax)
+    plots.plot_stress_section(asp.stress(result, np.linspace(0, 2e-5, 9), on=asp.stresses.Section(y="max")), ax)
     assert ax.get_aspect() == pytest.approx(1.0)
     assert not ax.texts  # one region needs no name
 
 
 def test_profiles_break_at_interfaces(contact, ax):
-    field = asp.stress(contact, DEPTHS, on=asp.DepthProfile(), friction=0.3)
+    field = asp.stress(contact, DEPTHS, on=asp.stresses.DepthProfile(), friction=0.3)
     assert plots.plot_stress_profile(field, ax, ("normal_xx", "von_mises")) is ax
     ax.figure.canvas.draw()
     assert ax.yaxis_inverted()
@@ -193,9 +195,11 @@ def test_maps_of_planes(contact, ax, plane, words):
 def test_layers_of_one_name_are_one_and_names_of_thin_layers_stay_apart(ax):
     film, base = asp.Elastic(280e9, 0.25, name="film"), asp.Elastic(70e9, 0.33, name="base")
     thin = [asp.Layer(asp.Elastic(300e9, 0.2, name=name), 1e-9) for name in ("a", "b", "c")]
-    body = asp.Layered([*thin, *asp.graded(film, base, 40e-9, sublayers=6)], base)
+    body = asp.Layered([*thin, *asp.solids.graded(film, base, 40e-9, sublayers=6)], base)
     result = asp.solve(asp.ContactProblem(oblong(), body), asp.MeanPressure(2e8))
-    field = asp.stress(result, asp.depths_through(body, 100e-9, per_region=1), on=asp.Section(y="max"))
+    field = asp.stress(
+        result, asp.stresses.depths_through(body, 100e-9, per_region=1), on=asp.stresses.Section(y="max")
+    )
     plots.plot_stress_section(field, ax, "von_mises")
     ax.figure.canvas.draw()
     *texts, exaggeration = ax.texts
@@ -219,14 +223,14 @@ def test_layers_of_one_name_are_one_and_names_of_thin_layers_stay_apart(ax):
 
 
 def test_refusals(contact, ax):
-    section = asp.stress(contact, DEPTHS, on=asp.Section(y="max"))
-    whole, profile = asp.stress(contact, [0.0]), asp.stress(contact, DEPTHS, on=asp.DepthProfile())
+    section = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"))
+    whole, profile = asp.stress(contact, [0.0]), asp.stress(contact, DEPTHS, on=asp.stresses.DepthProfile())
     with refused(asp.InputError, "stress to draw"):
         plots.plot_stress_section(section, ax, "colour")
     with refused(asp.InputError, "field of a stress section"):
         plots.plot_stress_section(whole, ax)
     with refused(asp.InputError, "field of a stress section"):
-        plots.plot_stress_section(asp.stress(contact, [0.0, 50e-9], on=asp.Section(y="max")), ax)
+        plots.plot_stress_section(asp.stress(contact, [0.0, 50e-9], on=asp.stresses.Section(y="max")), ax)
     with refused(asp.InputError, "field of a stress profile"):
         plots.plot_stress_profile(section, ax)
     with refused(asp.InputError, "field of a stress map"):

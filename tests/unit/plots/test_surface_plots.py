@@ -54,12 +54,12 @@ MAKERS = {
 
 
 @pytest.fixture(scope="module", params=MAKERS)
-def found(request: pytest.FixtureRequest) -> tuple[str, asp.Characterisation]:
+def found(request: pytest.FixtureRequest) -> tuple[str, asp.roughness.Characterisation]:
     return request.param, asp.characterise(MAKERS[request.param]())
 
 
 @pytest.fixture(scope="module")
-def measured() -> asp.Characterisation:
+def measured() -> asp.roughness.Characterisation:
     return asp.characterise(rough())
 
 

@@ -39,7 +39,7 @@ def first_warning(text: str) -> int:
 
 
 def test_on_a_page(doubtful: asp.ContactResult, tmp_path: Path) -> None:
-    asp.write_report(doubtful, tmp_path / "r.html", advice=(asp.review(doubtful)[0],))
+    asp.write_report(doubtful, tmp_path / "r.html", advice=(asp.contact.review(doubtful)[0],))
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     place = page[: page.index("</div>", page.index('role="status"')) + 200].find("Warning: duality gap")
     assert 0 < place < page.index('<dl class="cards">')

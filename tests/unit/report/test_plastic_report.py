@@ -19,7 +19,7 @@ from asperity.run.execute import analysed
 pytestmark = pytest.mark.usefixtures("unrendered")
 
 
-def posed(law: asp.Hardness | asp.HardWall) -> asp.ContactProblem:
+def posed(law: asp.Hardness | asp.plasticity.HardWall) -> asp.ContactProblem:
     noise = np.random.default_rng(7).standard_normal((24, 16))
     heights = sum(np.roll(noise, (i, j), (0, 1)) for i in range(3) for j in range(3)) * 1e-9
     return asp.ContactProblem(asp.Surface(heights, 2e-8, 1e-8, periodic=True), asp.Elastic(1e11, 0.3), law=law)
@@ -27,10 +27,10 @@ def posed(law: asp.Hardness | asp.HardWall) -> asp.ContactProblem:
 
 @pytest.fixture(scope="module")
 def path() -> asp.HistoryResult:
-    return asp.solve(posed(asp.Hardness(3e9)), asp.History(asp.ramps(asp.MeanPressure, [4e8, 0.0], steps=4)))
+    return asp.solve(posed(asp.Hardness(3e9)), asp.History(asp.contact.ramps(asp.MeanPressure, [4e8, 0.0], steps=4)))
 
 
-def page(tmp_path: Path, answer: asp.ContactResult | asp.Outcome) -> str:
+def page(tmp_path: Path, answer: asp.ContactResult | asp.studies.Outcome) -> str:
     asp.write_report(answer, tmp_path / "report.html")
     return (tmp_path / "report.html").read_text(encoding="utf-8")
 
@@ -50,7 +50,7 @@ def test_a_path_is_reported(path: asp.HistoryResult, tmp_path: Path) -> None:
 
 
 def test_an_elastic_contact_has_no_such_part(tmp_path: Path) -> None:
-    text = page(tmp_path, asp.solve(posed(asp.HardWall()), asp.MeanPressure(4e8)))
+    text = page(tmp_path, asp.solve(posed(asp.plasticity.HardWall()), asp.MeanPressure(4e8)))
     assert "Plastic deformation" not in text
     assert "Load path" not in text
 
@@ -88,7 +88,7 @@ def test_steps_that_failed_are_named(path: asp.HistoryResult) -> None:
 
 def test_the_plastic_load_is_reported(path: asp.HistoryResult, tmp_path: Path) -> None:
     result = path.steps[0]
-    found = asp.plastic_load(result.problem)
+    found = asp.plasticity.plastic_load(result.problem)
     label, text = plastic_load_row(found)
     assert label == "first load at which 2 % of the real area is plastic"
     assert "mean pressure" in text

@@ -17,7 +17,6 @@ from refusals import refused
 
 import asperity as asp
 from asperity.contact.result import SCALARS
-from asperity.contact.solvers import ConjugateGradient
 from asperity.core.arrays import array_digest
 from asperity.core.citations import reference
 from asperity.core.errors import OutputError
@@ -25,6 +24,7 @@ from asperity.io.words import body_rows, body_text, scalar_text, surface_rows
 from asperity.plots import PLASTIC_PLOTS, PLOTS
 from asperity.report import write_report
 from asperity.report.page import prose, script
+from asperity.solvers import ConjugateGradient
 from asperity.surfaces.surface import Origin
 
 pytestmark = pytest.mark.usefixtures("unrendered")
@@ -81,8 +81,8 @@ def result() -> asp.ContactResult:
 def html(result: asp.ContactResult, tmp_path_factory: pytest.TempPathFactory) -> str:
     path = tmp_path_factory.mktemp("report") / "report.html"
     advice = (
-        asp.Advice("warning", "pixel <size>", "Refine to 5 nm & repeat."),
-        asp.Advice("note", "regime", "Contact fraction 18 %."),
+        asp.contact.Advice("warning", "pixel <size>", "Refine to 5 nm & repeat."),
+        asp.contact.Advice("note", "regime", "Contact fraction 18 %."),
     )
     write_report(result, path, advice=advice, document="format = 1\nname = '<b>'\n")
     assert [entry.name for entry in path.parent.iterdir()] == ["report.html"]
@@ -262,7 +262,7 @@ def test_layered_bodies_are_listed_from_the_surface_down() -> None:
 
 def test_graded_coatings_take_one_row() -> None:
     top, bottom = asp.Elastic(4e11, 0.25, name="TiN"), asp.Elastic(2e11, 0.3, name="steel")
-    body = asp.Layered([asp.Layer(top, 1e-8), *asp.graded(top, bottom, 1e-6, sublayers=4)], bottom)
+    body = asp.Layered([asp.Layer(top, 1e-8), *asp.solids.graded(top, bottom, 1e-6, sublayers=4)], bottom)
     assert body_text(body) == "TiN 10 nm / graded TiN - steel 1 µm in 4 layers / steel"
     rows = dict(body_rows(body))
     assert rows["layers 2 to 5"].startswith("1 µm of graded TiN - steel in 4 layers: E = 366.8 GPa … 218.1 GPa;")

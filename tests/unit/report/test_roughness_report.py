@@ -22,7 +22,7 @@ from asperity.report.roughness import (
     summit_comparison,
     write_roughness_report,
 )
-from asperity.surfaces.roughness import QUANTITIES
+from asperity.roughness import QUANTITIES
 
 pytestmark = pytest.mark.usefixtures("unrendered")
 
@@ -37,7 +37,7 @@ def generated(hurst: float = 0.8, *, rolloff: float = 2e-7, size: int = 128) -> 
 
 
 @pytest.fixture(scope="module")
-def found() -> asp.Characterisation:
+def found() -> asp.roughness.Characterisation:
     return asp.characterise(generated())
 
 
@@ -135,5 +135,5 @@ def test_comparison_where_there_is_nothing_to_compare():
 
 def test_public_functions(found, tmp_path: Path, monkeypatch):
     monkeypatch.setattr("asperity.plots.picture.png", lambda *a, **k: b"")
-    asp.write_roughness_report(found, tmp_path / "page.html")
-    assert len(asp.save_roughness_plots(found, tmp_path / "pictures")) == 8
+    asp.report.write_roughness_report(found, tmp_path / "page.html")
+    assert len(asp.plots.save_roughness_plots(found, tmp_path / "pictures")) == 8

@@ -80,16 +80,18 @@ def test_a_block_is_its_extreme_or_mean_and_blank_where_all_is_blank(how: str, o
                 assert found[i, j] == pytest.approx(of(block), rel=1e-12)  # type: ignore[operator]
 
 
-def posed(n: int = 32, law: asp.HardWall | asp.Hardness | None = None) -> asp.ContactProblem:
+def posed(n: int = 32, law: asp.plasticity.HardWall | asp.Hardness | None = None) -> asp.ContactProblem:
     noise = np.random.default_rng(7).standard_normal((n, n // 2))
     heights = sum(np.roll(noise, (i, j), (0, 1)) for i in range(3) for j in range(3)) * 1e-9
     surface = asp.Surface(heights, 2e-8, 1e-8, periodic=True)
-    return asp.ContactProblem(surface, asp.Elastic(1e11, 0.3), law=law or asp.HardWall())
+    return asp.ContactProblem(surface, asp.Elastic(1e11, 0.3), law=law or asp.plasticity.HardWall())
 
 
 @pytest.fixture(scope="module")
 def path() -> asp.HistoryResult:
-    return asp.solve(posed(law=asp.Hardness(3e9)), asp.History(asp.ramps(asp.MeanPressure, [4e8, 0.0], steps=3)))
+    return asp.solve(
+        posed(law=asp.Hardness(3e9)), asp.History(asp.contact.ramps(asp.MeanPressure, [4e8, 0.0], steps=3))
+    )
 
 
 def test_a_scene_holds_the_maps_of_the_result() -> None:
@@ -201,7 +203,7 @@ def test_tractions_and_surfaces_have_maps_too(tmp_path: Path) -> None:
     assert made["maps"][0]["shown"]
     assert len(made["sections"]) > 0
     found = asp.characterise(asp.Surface(np.random.default_rng(2).standard_normal((32, 32)) * 1e-9, 1e-8))
-    asp.write_roughness_report(found, tmp_path / "r.html")
+    asp.report.write_roughness_report(found, tmp_path / "r.html")
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert page.count("<div data-viewer>") == 1
     assert page.count('class="av-instead"') == 1

@@ -103,7 +103,7 @@ def test_settings(found: StressSurvey) -> None:
 
 def test_layers_of_a_graded_coating_are_one() -> None:
     surface = asp.Surface(rough((12, 12), 3).heights * 1e-9, 1e-7, periodic=True)
-    body = asp.Layered(asp.graded(FILM, BASE, 1e-6, sublayers=5), BASE)
+    body = asp.Layered(asp.solids.graded(FILM, BASE, 1e-6, sublayers=5), BASE)
     result = asp.solve(asp.ContactProblem(surface, body), asp.MeanPressure(2e8))
     found = survey(StressRequest(), result)
     assert len(found.maxima) == 6

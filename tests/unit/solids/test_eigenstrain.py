@@ -142,9 +142,9 @@ def test_tractions_give_the_stress_of_the_package() -> None:
     """Means over the cells of the stress field that the package computes by other means."""
     grid = Grid((15, 17), GRID.spacing)
     smooth, shear = spot(grid)
-    made, sheared = operator(STACK, grid), asp.ShearTraction(*shear)
+    made, sheared = operator(STACK, grid), asp.stresses.ShearTraction(*shear)
     found, _ = made.stress(None, smooth, shear)
-    loaded = asp.LoadedBody(STACK, asp.Tractions(grid, smooth, sheared, "periodic"))
+    loaded = asp.stresses.LoadedBody(STACK, asp.stresses.Tractions(grid, smooth, sheared, "periodic"))
     nodes, weights = np.polynomial.legendre.leggauss(8)
     for number in (1, made.cells.count // 2, made.cells.count - 1):
         low, high = made.cells.edges[number : number + 2]

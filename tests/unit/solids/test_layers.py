@@ -25,12 +25,12 @@ HARD, SOFT, BASE = elastic(400e9, 0.2), elastic(3e9, 0.4), elastic(200e9, 0.3)
         (lambda: asp.Layered(asp.Layer(HARD, 1.0), BASE), "layers of a Layered body", "[layer]"),
         (lambda: asp.Layered([HARD], BASE), "each layer of a Layered body", "Elastic E ="),
         (lambda: asp.Layered([], asp.Rigid()), "base of a Layered body", "Rigid"),
-        (lambda: asp.graded(HARD, "steel", 1.0), "material at the bottom of a graded layer", "'steel'"),
-        (lambda: asp.graded(HARD, SOFT, 0.0), "thickness of a graded layer (m)", "0.0"),
-        (lambda: asp.graded(HARD, SOFT, math.inf), "thickness of a graded layer (m)", "inf"),
-        (lambda: asp.graded(HARD, SOFT, 1.0, sublayers=0), "number of sublayers of a graded layer", "0"),
-        (lambda: asp.graded(HARD, SOFT, 1.0, grading="linear"), "grading", "str"),
-        (lambda: asp.PowerGrading(-1.0), "exponent of a graded layer", "-1.0"),
+        (lambda: asp.solids.graded(HARD, "steel", 1.0), "material at the bottom of a graded layer", "'steel'"),
+        (lambda: asp.solids.graded(HARD, SOFT, 0.0), "thickness of a graded layer (m)", "0.0"),
+        (lambda: asp.solids.graded(HARD, SOFT, math.inf), "thickness of a graded layer (m)", "inf"),
+        (lambda: asp.solids.graded(HARD, SOFT, 1.0, sublayers=0), "number of sublayers of a graded layer", "0"),
+        (lambda: asp.solids.graded(HARD, SOFT, 1.0, grading="linear"), "grading", "str"),
+        (lambda: asp.solids.PowerGrading(-1.0), "exponent of a graded layer", "-1.0"),
     ],
 )
 def test_refusals(make, subject, shown):
@@ -112,23 +112,27 @@ def test_sum_of_compliances():
 
 
 def test_grading():
-    coating = asp.graded(HARD, SOFT, 8e-9, grading=asp.LinearGrading(), sublayers=4, interface=asp.Frictionless())
+    coating = asp.solids.graded(
+        HARD, SOFT, 8e-9, grading=asp.solids.LinearGrading(), sublayers=4, interface=asp.Frictionless()
+    )
     assert [layer.thickness for layer in coating] == [2e-9] * 4
-    assert [layer.interface for layer in coating] == [asp.Bonded()] * 3 + [asp.Frictionless()]
+    assert [layer.interface for layer in coating] == [asp.solids.Bonded()] * 3 + [asp.Frictionless()]
     shares = (0.125, 0.375, 0.625, 0.875)
     for layer, share in zip(coating, shares, strict=True):
         assert layer.material.youngs_modulus == pytest.approx(400e9 - 397e9 * share, rel=1e-14)
         assert layer.material.poisson_ratio == pytest.approx(0.2 + 0.2 * share, rel=1e-14)
-    first = asp.graded(HARD, SOFT, 1e-9, sublayers=1)[0].material.youngs_modulus
+    first = asp.solids.graded(HARD, SOFT, 1e-9, sublayers=1)[0].material.youngs_modulus
     assert first == pytest.approx(math.sqrt(400e9 * 3e9), rel=1e-14)
-    cubed = asp.graded(HARD, SOFT, 1e-9, grading=asp.PowerGrading(3.0), sublayers=1)[0].material.youngs_modulus
+    cubed = asp.solids.graded(HARD, SOFT, 1e-9, grading=asp.solids.PowerGrading(3.0), sublayers=1)[
+        0
+    ].material.youngs_modulus
     assert cubed == pytest.approx(400e9 - 397e9 / 8.0, rel=1e-14)
 
 
 def test_strength_of_a_graded_coating_where_both_ends_are_known():
     hard = asp.Elastic(4e11, 0.2, asp.Strength(hardness=30e9), name="DLC")
     soft = asp.Elastic(2e11, 0.3, asp.Strength(hardness=10e9, yield_stress=3e9), name="steel")
-    middle = asp.graded(hard, soft, 1e-9, sublayers=1)[0].material
+    middle = asp.solids.graded(hard, soft, 1e-9, sublayers=1)[0].material
     assert middle.strength.hardness == pytest.approx(20e9, rel=1e-14)
     assert math.isnan(middle.strength.yield_stress)
     assert middle.name == "graded DLC - steel"

@@ -11,7 +11,7 @@ import asperity as asp
 
 
 def test_every_value_has_a_source():
-    for record in asp.liquids():
+    for record in asp.menisci.liquids():
         assert record.note, record.name
         for key, item in record.values.items():
             assert len(item.source) > 10, (record.name, key)
@@ -45,15 +45,15 @@ def test_own_liquids(tmp_path):
     file.write_text(
         '[liquid."ours"]\nsurface_tension = "30 mN/m"\ntemperature = "300 K"\naliases = ["PFPE"]\n', "utf-8"
     )
-    assert asp.liquid("PFPE", library=file) == asp.Liquid(
+    assert asp.liquid("PFPE", library=file) == asp.menisci.Liquid(
         0.030, 300.0, name="ours", sources=("surface_tension: user", "temperature: user")
     )
-    assert len(asp.liquids(file)) == len(asp.liquids()) + 1
+    assert len(asp.menisci.liquids(file)) == len(asp.menisci.liquids()) + 1
     file.write_text('[liquid."ours"]\nsurface_tension = "30 mPa"\ntemperature = "300 K"\n', "utf-8")
     with refused(asp.InputError, f"surface_tension of liquid 'ours' in {file}", "'mPa'"):
-        asp.liquids(file)
+        asp.menisci.liquids(file)
     file.write_text('[liquid."ours"]\nsurface_tension = "30 mN/m"\n', "utf-8")
     with refused(asp.InputError, f"temperature of liquid 'ours' in {file}"):
-        asp.liquids(file)
+        asp.menisci.liquids(file)
     with refused(asp.InputError, "liquid file"):
-        asp.liquids(tmp_path / "absent.toml")
+        asp.menisci.liquids(tmp_path / "absent.toml")

@@ -33,22 +33,22 @@ def elastic(text: str) -> asp.Elastic:
     ("text", "hardening"),
     [
         (STEEL, None),
-        (f"{STEEL},hardening=linear(2GPa)", asp.LinearHardening(400e6, 2e9)),
-        (f"{STEEL},hardening=swift(0.2)", asp.Swift(400e6, 0.002, 0.2)),
-        (f"{STEEL},hardening=swift(0.2, 0.01)", asp.Swift(400e6, 0.01, 0.2)),
-        (f"{STEEL},hardening=voce(100MPa,20)", asp.Voce(400e6, 100e6, 20.0)),
-        ("E=200GPa,nu=0.3,H=1.12GPa,hardening=linear(0Pa)", asp.LinearHardening(1.12e9 / 2.8, 0.0)),
+        (f"{STEEL},hardening=linear(2GPa)", asp.plasticity.LinearHardening(400e6, 2e9)),
+        (f"{STEEL},hardening=swift(0.2)", asp.plasticity.Swift(400e6, 0.002, 0.2)),
+        (f"{STEEL},hardening=swift(0.2, 0.01)", asp.plasticity.Swift(400e6, 0.01, 0.2)),
+        (f"{STEEL},hardening=voce(100MPa,20)", asp.plasticity.Voce(400e6, 100e6, 20.0)),
+        ("E=200GPa,nu=0.3,H=1.12GPa,hardening=linear(0Pa)", asp.plasticity.LinearHardening(1.12e9 / 2.8, 0.0)),
     ],
 )
 def test_hardening_in_one_line_of_text(text: str, hardening: object) -> None:
-    solid = asp.plastic_solid(elastic(text))
+    solid = asp.plasticity.plastic_solid(elastic(text))
     assert elastic(text).strength.hardening == hardening
-    assert solid.hardening == (hardening or asp.LinearHardening(400e6))
+    assert solid.hardening == (hardening or asp.plasticity.LinearHardening(400e6))
     assert (solid.elastic.youngs_modulus, solid.elastic.poisson_ratio) == (200e9, 0.3)
 
 
 def test_back_stress_in_one_line_of_text() -> None:
-    solid = asp.plastic_solid(elastic(f"{STEEL},kinematic=5GPa,recall=50"))
+    solid = asp.plasticity.plastic_solid(elastic(f"{STEEL},kinematic=5GPa,recall=50"))
     assert (solid.kinematic, solid.recall) == (5e9, 50.0)
 
 
@@ -129,7 +129,7 @@ def test_what_cannot_harden_is_refused(text: str, shown: str) -> None:
 
 
 def test_strength_has_one_yield_stress() -> None:
-    law = asp.Swift(400e6, 0.002, 0.2)
+    law = asp.plasticity.Swift(400e6, 0.002, 0.2)
     assert asp.Strength(hardening=law).yield_stress == 400e6
     assert asp.Strength(yield_stress=400e6, hardening=law) == asp.Strength(hardening=law)
     with refused(InputError, "yield stress (Pa)", "4e+08", "3e+08"):
@@ -146,32 +146,39 @@ def test_flow_stress_is_known_inferred_or_asked_for() -> None:
     assert (inferred.value, inferred.inferred) == (pytest.approx(1e9), True)
     assert math.isnan(flow_stress(elastic("E=200GPa,nu=0.3").strength).value)
     with refused(InputError, "yield stress of steel", "Y"):
-        asp.plastic_solid(asp.material("steel"))
+        asp.plasticity.plastic_solid(asp.material("steel"))
     with refused(InputError, "material of a plastic solid", "viscoelastic"):
-        asp.plastic_solid(asp.Viscoelastic.maxwell(1e9, 1.0, 0.3))
+        asp.plasticity.plastic_solid(asp.Viscoelastic.maxwell(1e9, 1.0, 0.3))
 
 
 def test_parts_of_a_body_from_the_surface_down() -> None:
     body = body_of_text(f"steel:1um/{STEEL}:2um/E=100GPa,nu=0.25,H=3GPa", "body")
-    parts = asp.plastic_parts(body, unknown_is_elastic=True)
-    assert [type(part) for part in parts] == [asp.Elastic, asp.J2, asp.J2]
+    parts = asp.plasticity.plastic_parts(body, unknown_is_elastic=True)
+    assert [type(part) for part in parts] == [asp.Elastic, asp.plasticity.J2, asp.plasticity.J2]
     with refused(InputError, "yield stress of steel"):
-        asp.plastic_parts(body)
-    assert len(asp.plastic_parts(body_of_text(f"{STEEL}:1um/rigid", "body"))) == 1
-    assert asp.plastic_parts(asp.Rigid()) == ()
+        asp.plasticity.plastic_parts(body)
+    assert len(asp.plasticity.plastic_parts(body_of_text(f"{STEEL}:1um/rigid", "body"))) == 1
+    assert asp.plasticity.plastic_parts(asp.Rigid()) == ()
 
 
 def test_graded_coatings_harden_in_between() -> None:
-    top = asp.Elastic(200e9, 0.3, asp.Strength(hardening=asp.LinearHardening(400e6, 4e9)))
-    bottom = asp.Elastic(100e9, 0.3, asp.Strength(hardening=asp.LinearHardening(200e6, 2e9)))
-    laws = [layer.material.strength.hardening for layer in asp.graded(top, bottom, 1e-6, sublayers=2)]
-    assert laws == [asp.LinearHardening(350e6, 3.5e9), asp.LinearHardening(250e6, 2.5e9)]
-    other = asp.Elastic(100e9, 0.3, asp.Strength(hardening=asp.Voce(200e6, 1e6, 2.0)))
+    top = asp.Elastic(200e9, 0.3, asp.Strength(hardening=asp.plasticity.LinearHardening(400e6, 4e9)))
+    bottom = asp.Elastic(100e9, 0.3, asp.Strength(hardening=asp.plasticity.LinearHardening(200e6, 2e9)))
+    laws = [layer.material.strength.hardening for layer in asp.solids.graded(top, bottom, 1e-6, sublayers=2)]
+    assert laws == [asp.plasticity.LinearHardening(350e6, 3.5e9), asp.plasticity.LinearHardening(250e6, 2.5e9)]
+    other = asp.Elastic(100e9, 0.3, asp.Strength(hardening=asp.plasticity.Voce(200e6, 1e6, 2.0)))
     with refused(InputError, "hardening of a graded layer", "Voce", "linear"):
-        asp.graded(top, other, 1e-6)
+        asp.solids.graded(top, other, 1e-6)
 
 
-@pytest.mark.parametrize("law", [asp.LinearHardening(4e8, 2e9), asp.Swift(4e8, 0.01, 0.2), asp.Voce(4e8, 1e8, 20.0)])
+@pytest.mark.parametrize(
+    "law",
+    [
+        asp.plasticity.LinearHardening(4e8, 2e9),
+        asp.plasticity.Swift(4e8, 0.01, 0.2),
+        asp.plasticity.Voce(4e8, 1e8, 20.0),
+    ],
+)
 def test_files_and_tables_keep_the_hardening(law: Any) -> None:
     strength = asp.Strength(1e9, hardening=law, kinematic=5e9, recall=10.0)
     body: Body = asp.Layered(
@@ -206,9 +213,12 @@ def own_file(folder: Path, values: str) -> Path:
 @pytest.mark.parametrize(
     ("values", "law"),
     [
-        ('yield_stress = "400 MPa"\nhardening_modulus = "2 GPa"', asp.LinearHardening(400e6, 2e9)),
-        ('yield_stress = "400 MPa"\nswift_exponent = "0.2"\nswift_strain = "0.01"', asp.Swift(400e6, 0.01, 0.2)),
-        ('yield_stress = "400 MPa"\nvoce_gain = "100 MPa"\nvoce_rate = "20"', asp.Voce(400e6, 100e6, 20.0)),
+        ('yield_stress = "400 MPa"\nhardening_modulus = "2 GPa"', asp.plasticity.LinearHardening(400e6, 2e9)),
+        (
+            'yield_stress = "400 MPa"\nswift_exponent = "0.2"\nswift_strain = "0.01"',
+            asp.plasticity.Swift(400e6, 0.01, 0.2),
+        ),
+        ('yield_stress = "400 MPa"\nvoce_gain = "100 MPa"\nvoce_rate = "20"', asp.plasticity.Voce(400e6, 100e6, 20.0)),
     ],
 )
 def test_own_files_have_hardening_with_sources(tmp_path: Path, values: str, law: object) -> None:

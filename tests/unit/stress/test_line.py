@@ -36,7 +36,7 @@ def test_hertz_line_contact():
     answer = HertzLine(body.plane_strain_modulus, 50.0).at_load(0.05)
     a, p0 = float(answer.radius), float(answer.max_pressure)
     zeta = np.array([0.2, 0.5, 0.786, 2.0])
-    field = asp.stress(result, zeta * a, on=asp.DepthProfile())
+    field = asp.stress(result, zeta * a, on=asp.stresses.DepthProfile())
     closed = hertz_line_normal(0.0 * zeta, zeta, 1.0, shear=1.0, nu=0.3).stress
     np.testing.assert_allclose(field.normal_zz / p0, closed.zz, atol=3e-3)
     np.testing.assert_allclose(field.normal_xx / p0, closed.xx, atol=3e-3)
@@ -104,7 +104,7 @@ def test_a_long_period_is_nearly_free():
     grid = asp.Grid((n, 1), (0.5, 1.0))
     x = grid.centred_coordinates()[0]
     pressure = np.exp(-(x**2) / 2.0)
-    shear = asp.Sliding(0.3, 0.5)
+    shear = asp.stresses.Sliding(0.3, 0.5)
     periodic, free = (
         StressPlanes(Tractions(grid, pressure, shear, kind), BODY, [1.0, 3.0]).whole()
         for kind in ("periodic", "free line")
@@ -118,7 +118,7 @@ def test_a_long_period_is_nearly_free():
 def test_continuity_across_interfaces():
     grid = asp.Grid((16, 1), (0.4, 1.0))
     rng = np.random.default_rng(3)
-    loads = Tractions(grid, rng.random((16, 1)), asp.ShearTraction(*rng.random((2, 16, 1))), "free line")
+    loads = Tractions(grid, rng.random((16, 1)), asp.stresses.ShearTraction(*rng.random((2, 16, 1))), "free line")
     field = StressPlanes(loads, BODY, [0.8, 2.3]).whole(displacement=True)
     for above in (0, 2):
         for component in (field.normal_zz, field.shear_xz, field.shear_yz, *vars(field.displacement).values()):
@@ -127,7 +127,7 @@ def test_continuity_across_interfaces():
 
 def test_a_free_line_has_one_point_along_y():
     with refused(asp.InputError, "grid of a free line"):
-        Tractions(asp.Grid((4, 2), (1.0, 1.0)), np.zeros((4, 2)), asp.Sliding(0.0), "free line")
+        Tractions(asp.Grid((4, 2), (1.0, 1.0)), np.zeros((4, 2)), asp.stresses.Sliding(0.0), "free line")
 
 
 SLIPPING = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.2), 0.8, asp.Frictionless())], asp.Elastic(1.0, 0.3))
@@ -139,7 +139,7 @@ def test_a_layer_that_slips_carries_a_sheared_line_to_both_sides():
     grid = asp.Grid((64, 1), (0.25, 1.0))
     pressure, (qx, qy) = np.zeros((2, 64, 1))[0], np.zeros((2, 64, 1))
     qx[30:33], qy[30:33] = 2.0, 1.0
-    loads = Tractions(grid, pressure, asp.ShearTraction(qx, qy), "free line")
+    loads = Tractions(grid, pressure, asp.stresses.ShearTraction(qx, qy), "free line")
     nodes, weights = np.polynomial.legendre.leggauss(8)
     field = StressPlanes(loads, SLIPPING, 0.4 * (1.0 + nodes)).whole()
     force = np.einsum("k,kx->x", 0.4 * weights, field.normal_xx[..., 0])

@@ -40,7 +40,7 @@ def test_hertz_stress_on_the_axis(hertz):
     """Pixels of a/24: the contact edge is a staircase of relative area error 1e-3, and so is the pressure's."""
     result, a, p0 = hertz
     zeta = np.array([0.1, 0.25, 0.48, 1.0, 2.0])
-    field = asp.stress(result, zeta * a, on=asp.DepthProfile(32.0, 32.0))
+    field = asp.stress(result, zeta * a, on=asp.stresses.DepthProfile(32.0, 32.0))
     closed = hertz_normal(0.0 * zeta, 0.0 * zeta, zeta, 1.0, shear=1.0, nu=0.3).stress
     np.testing.assert_allclose(field.normal_zz / p0, closed.zz, atol=2e-3)
     np.testing.assert_allclose(field.normal_xx / p0, closed.xx, atol=2e-3)
@@ -54,7 +54,7 @@ def test_sliding_hertz_on_the_surface(hertz):
     At the edge itself, x = -a, lies the maximum; it is a cusp that pixels round off by about (Δ/a)^1/2.
     """
     result, a, p0 = hertz
-    field = asp.stress(result, [0.0], on=asp.Section(y="max"), friction=0.5)
+    field = asp.stress(result, [0.0], on=asp.stresses.Section(y="max"), friction=0.5)
 
     def sliding(x):
         at = {"x": np.array(x), "y": np.array(0.0), "z": 0.0, "contact_radius": 1.0, "shear": 1.0, "nu": 0.3}
@@ -81,7 +81,7 @@ def test_sphere_on_a_layer(ratio):
     problem = asp.ContactProblem(surface, body, boundary=asp.Free())
     result = asp.solve(problem, asp.Force(2.0 * np.pi / 3.0 * scale**2))
     depths = np.array([0.3, 0.5, 1.0, 2.0]) * scale
-    field = asp.stress(result, depths, on=asp.Section(y=32.0), friction=0.25)
+    field = asp.stress(result, depths, on=asp.stresses.Section(y=32.0), friction=0.25)
     for number, plane in enumerate(field.planes):
         at = next(p for p in planes(exact.body, [plane.depth / scale]) if p.region.index == plane.region.index)
         for column in (32, 40, 24):
@@ -103,12 +103,12 @@ def test_sections_and_profiles_are_parts_of_the_whole(rough_result):
     assert whole.dims == ("plane", "x", "y")
     assert whole.tensor.xx.shape == (7, *grid.shape)
     cases = (
-        (asp.Section(y="max"), ("plane", "x"), (slice(None), slice(None), j)),
-        (asp.Section(x="max"), ("plane", "y"), (slice(None), i, slice(None))),
-        (asp.Section(x="pressure"), ("plane", "y"), (slice(None), i, slice(None))),
-        (asp.Section(y=2.2 * grid.spacing[1]), ("plane", "x"), (slice(None), slice(None), 2)),
-        (asp.DepthProfile(), ("plane",), (slice(None), i, j)),
-        (asp.DepthProfile(0.0, "max"), ("plane",), (slice(None), 0, j)),
+        (asp.stresses.Section(y="max"), ("plane", "x"), (slice(None), slice(None), j)),
+        (asp.stresses.Section(x="max"), ("plane", "y"), (slice(None), i, slice(None))),
+        (asp.stresses.Section(x="pressure"), ("plane", "y"), (slice(None), i, slice(None))),
+        (asp.stresses.Section(y=2.2 * grid.spacing[1]), ("plane", "x"), (slice(None), slice(None), 2)),
+        (asp.stresses.DepthProfile(), ("plane",), (slice(None), i, j)),
+        (asp.stresses.DepthProfile(0.0, "max"), ("plane",), (slice(None), 0, j)),
     )
     for on, dims, index in cases:
         part = asp.stress(rough_result, depths, on=on, friction=0.2, direction=np.pi / 4, displacement=True)
@@ -121,7 +121,7 @@ def test_sections_and_profiles_are_parts_of_the_whole(rough_result):
 def test_planes_come_one_by_one_and_are_the_same(rough_result):
     depths = np.linspace(0.0, 400e-9, 9)
     whole = asp.stress(rough_result, depths, friction=0.3, dtype="float32")
-    stream = asp.stress_planes(rough_result, depths, friction=0.3, dtype="float32")
+    stream = asp.stresses.stress_planes(rough_result, depths, friction=0.3, dtype="float32")
     assert iter(stream) is stream
     for number, field in enumerate(stream):
         assert len(field.planes) == 1
@@ -132,7 +132,7 @@ def test_planes_come_one_by_one_and_are_the_same(rough_result):
 
 
 def test_labels_of_planes(rough_result):
-    field = asp.stress(rough_result, [300e-9, 0.0, 50e-9, 250e-9], on=asp.DepthProfile())
+    field = asp.stress(rough_result, [300e-9, 0.0, 50e-9, 250e-9], on=asp.stresses.DepthProfile())
     np.testing.assert_array_equal(field.depth, [0.0, 50e-9, 50e-9, 250e-9, 250e-9, 300e-9])
     np.testing.assert_array_equal(field.region, [0, 0, 1, 1, 2, 2])
     assert [plane.side for plane in field.planes] == ["surface", "above", "below", "above", "below", "inside"]
@@ -162,7 +162,7 @@ def test_the_counter_body_carries_the_opposite_shear():
     depths = [0.0, 30e-9, 120e-9]
     mirrored = asp.stress(result, depths, friction=0.3, direction=0.4 + np.pi)
     counter = asp.stress(result, depths, friction=0.3, direction=0.4, of="counter_body")
-    shear = asp.ShearTraction(0.3 * np.cos(0.4) * result.pressure, 0.3 * np.sin(0.4) * result.pressure)
+    shear = asp.stresses.ShearTraction(0.3 * np.cos(0.4) * result.pressure, 0.3 * np.sin(0.4) * result.pressure)
     from_fields = asp.stress(result, depths, friction=shear, of="counter_body")
     for name in STRESSES:
         scale = 1e-12 * np.abs(counter.normal_zz).max()
@@ -179,7 +179,7 @@ def test_free_and_periodic_agree_for_a_small_load_in_a_large_box():
     x, y = grid.centred_coordinates()
     pressure = np.exp(-(x**2 + y**2) / 4.0**2)
     body = asp.Layered([asp.Layer(asp.Elastic(3.0, 0.2), 5.0)], asp.Elastic(1.0, 0.3))
-    shear = asp.Sliding(0.4, 0.3)
+    shear = asp.stresses.Sliding(0.4, 0.3)
     for depth in (2.0, 5.0, 9.0):
         fields = [
             StressPlanes(Tractions(grid, pressure, shear, kind), body, [depth]).whole(displacement=True)
@@ -206,7 +206,7 @@ def test_a_large_load_decays_with_depth():
     result = asp.solve(asp.ContactProblem(sphere(), asp.Elastic(100e9, 0.3), boundary=asp.Free()), asp.Force(5e-5))
     depth = 50 * sphere().grid.size[0]
     top = np.unravel_index(np.argmax(result.pressure), result.pressure.shape)
-    field = asp.stress(result, [depth], on=asp.DepthProfile(*(k * 1e-7 for k in top)))
+    field = asp.stress(result, [depth], on=asp.stresses.DepthProfile(*(k * 1e-7 for k in top)))
     assert field.normal_zz[0] == pytest.approx(-3 * result.force / (2 * np.pi * depth**2), rel=1e-3)
 
 
@@ -223,9 +223,11 @@ def test_plane_strain_lines_have_no_out_of_plane_strain():
 
 
 def test_citations_follow_body_and_boundary(rough_result):
-    assert "Burmister1945" in asp.cite(asp.stress(rough_result, [1e-9], on=asp.DepthProfile())).replace("[", "")
+    assert "Burmister1945" in asp.cite(asp.stress(rough_result, [1e-9], on=asp.stresses.DepthProfile())).replace(
+        "[", ""
+    )
     free = asp.solve(asp.ContactProblem(rough(), asp.Elastic(1e9, 0.3), boundary=asp.Free()), asp.MeanPressure(1e6))
-    keys = asp.stress(free, [1e-9], on=asp.DepthProfile(), friction=0.1).citation_keys
+    keys = asp.stress(free, [1e-9], on=asp.stresses.DepthProfile(), friction=0.1).citation_keys
     assert set(keys) == {"Johnson1985", "Liu2002", "Love1929", "Cerruti1882"}
 
 
@@ -241,9 +243,9 @@ def test_citations_follow_body_and_boundary(rough_result):
         ({"depths": [0.0], "friction": -0.3}, "friction coefficient", "-0.3"),
         ({"depths": [0.0], "friction": 0.3, "direction": (0.0, 0.0)}, "direction of sliding", "(0, 0)"),
         ({"depths": [0.0], "dtype": "int"}, "precision of stresses", "'int'"),
-        ({"depths": [0.0], "on": asp.Section(y=1.0)}, "y of a section or profile (m)", "9e-07"),
+        ({"depths": [0.0], "on": asp.stresses.Section(y=1.0)}, "y of a section or profile (m)", "9e-07"),
         (
-            {"depths": [0.0], "friction": asp.ShearTraction(np.zeros((2, 2)), np.zeros((2, 2)))},
+            {"depths": [0.0], "friction": asp.stresses.ShearTraction(np.zeros((2, 2)), np.zeros((2, 2)))},
             "shear traction along x (Pa)",
             "(2, 2)",
         ),
@@ -256,17 +258,17 @@ def test_refusals(rough_result, arguments, subject, shown):
 
 def test_more_refusals():
     with refused(asp.InputError, "section"):
-        asp.Section()
+        asp.stresses.Section()
     with refused(asp.InputError, "section"):
-        asp.Section(x=0.0, y=0.0)
+        asp.stresses.Section(x=0.0, y=0.0)
     with refused(asp.InputError, "position of a section (m)", "middle", "pressure"):
-        asp.Section(x="middle")
+        asp.stresses.Section(x="middle")
     with refused(asp.InputError, "x of a depth profile (m)"):
-        asp.DepthProfile(x="left")
+        asp.stresses.DepthProfile(x="left")
     surface = rough()
     slipping = asp.Layered([asp.Layer(asp.Elastic(1e9, 0.3), 1e-7, asp.Frictionless())], asp.Elastic(1e9, 0.3))
     result = asp.solve(asp.ContactProblem(surface, slipping), asp.MeanPressure(1e6))
-    asp.stress(result, [1e-7], on=asp.DepthProfile())
+    asp.stress(result, [1e-7], on=asp.stresses.DepthProfile())
     with refused(asp.InputError, "mean shear traction", "Frictionless()"):
         asp.stress(result, [1e-7], friction=0.1)
     on_rock = asp.Layered([asp.Layer(asp.Elastic(1e9, 0.3), 1e-7)], asp.RigidBase())
@@ -284,7 +286,7 @@ def test_shear_without_mean_above_an_interface_that_slips():
     x, y = (line - 48.0 for line in grid.coordinates())
     bell = np.exp(-(x**2 + y**2) / (2 * width**2))
     qx = bell * (1.0 - x**2 / width**2)
-    shear = asp.ShearTraction(qx - qx.mean(), np.zeros_like(qx))
+    shear = asp.stresses.ShearTraction(qx - qx.mean(), np.zeros_like(qx))
     fields = [
         StressPlanes(Tractions(grid, np.zeros_like(qx), shear, boundary), body, [3.0, 6.0]).whole()
         for boundary in ("free", "periodic")
@@ -298,15 +300,15 @@ def test_shear_without_mean_above_an_interface_that_slips():
 
 
 def test_depths_through_a_body():
-    depths = asp.depths_through(DISK, 1e-6, per_region=4)
+    depths = asp.stresses.depths_through(DISK, 1e-6, per_region=4)
     assert (np.diff(depths) > 0.0).all()
     np.testing.assert_allclose(depths[:9], [0.0, 12.5e-9, 25e-9, 37.5e-9, 50e-9, 100e-9, 150e-9, 200e-9, 250e-9])
     assert depths[-1] == pytest.approx(1e-6)
     assert (np.diff(np.diff(depths[8:])) > 0.0).all()
     assert len(planes(DISK, depths)) == len(depths) + 2  # both sides of two interfaces
-    np.testing.assert_allclose(asp.depths_through(DISK, 150e-9, per_region=1), [0.0, 50e-9, 150e-9])
+    np.testing.assert_allclose(asp.stresses.depths_through(DISK, 150e-9, per_region=1), [0.0, 50e-9, 150e-9])
     with refused(asp.InputError, "deepest depth (m)"):
-        asp.depths_through(DISK, 0.0)
+        asp.stresses.depths_through(DISK, 0.0)
 
 
 def test_free_fields_pass_through_interfaces():
@@ -315,7 +317,7 @@ def test_free_fields_pass_through_interfaces():
         [asp.Layer(asp.Elastic(5.0, 0.2), 0.7), asp.Layer(asp.Elastic(0.4, 0.4), 2.0)], asp.Elastic(1.0, 0.3)
     )
     grid = asp.Grid((30, 24), (1.0, 0.8))
-    loads = Tractions(grid, np.random.default_rng(1).random(grid.shape), asp.Sliding(0.4, 1.0), "free")
+    loads = Tractions(grid, np.random.default_rng(1).random(grid.shape), asp.stresses.Sliding(0.4, 1.0), "free")
     field = StressPlanes(loads, body, [0.7, 2.7]).whole(displacement=True)
     for above in (0, 2):
         for component in (field.normal_zz, field.shear_xz, field.shear_yz, *vars(field.displacement).values()):

@@ -41,7 +41,7 @@ def solved(boundary: str = "periodic") -> asp.ContactResult:
     return asp.solve(problem(**changes), asp.MeanPressure(0.4e9))
 
 
-def planes(field: asp.StressField) -> np.ndarray:
+def planes(field: asp.stresses.StressField) -> np.ndarray:
     return np.stack([getattr(field.tensor, name) for name in NAMES], axis=1)
 
 
@@ -65,7 +65,7 @@ def test_flow_takes_the_stress_down_to_the_yield_stress() -> None:
     flow = solved().plastic_flow
     zone = max(flow.zones, key=lambda each: each.largest_strain)
     x, y, depth = zone.place
-    here = asp.DepthProfile(x, y)
+    here = asp.stresses.DepthProfile(x, y)
     held = float(asp.stress(solved(), [depth], on=here).von_mises[0])
     elastic = float(asp.stress(replace(solved(), couplings={}), [depth], on=here).von_mises[0])
     law = FLOW.plasticity[0 if zone.name == "layer 1" else 1]
@@ -102,7 +102,7 @@ def test_below_the_cells_it_decays() -> None:
 def test_lines_and_sections_are_cut_from_the_planes() -> None:
     result, depths = solved(), [10e-9, 90e-9]
     whole = asp.stress(result, depths)
-    section = asp.stress(result, depths, on=asp.Section(y="max"))
+    section = asp.stress(result, depths, on=asp.stresses.Section(y="max"))
     j = int(np.unravel_index(result.pressure.argmax(), result.pressure.shape)[1])
     np.testing.assert_allclose(section.tensor.xx, whole.tensor.xx[:, :, j], atol=1e-9 * np.abs(whole.tensor.xx).max())
 
@@ -144,7 +144,7 @@ def test_layers_that_stay_elastic_are_not_averaged() -> None:
     field, edges = found.sections[0].field, result.plastic_flow.flowed.edges
     means, depths = result.plastic_flow.stress(result.pressure), np.array([plane.depth for plane in field.planes])
     j = int(np.unravel_index(result.pressure.argmax(), result.pressure.shape)[1])
-    exact = planes(asp.stress(result, depths[depths < 60e-9], on=asp.Section(y="pressure")))
+    exact = planes(asp.stress(result, depths[depths < 60e-9], on=asp.stresses.Section(y="pressure")))
     shown = planes(field)
     np.testing.assert_allclose(shown[: len(exact)], exact, rtol=0.0, atol=1e-9 * np.abs(exact).max())
     for number, middle in enumerate(0.5 * (edges[1:] + edges[:-1])):

@@ -40,14 +40,14 @@ def test_it_is_the_shear_given_by_hand(result: asp.ContactResult, of: Any) -> No
     shear = result.stick_slip
     assert shear is not None
     own = asp.stress(result, DEPTHS, of=of)
-    given = asp.stress(result, DEPTHS, of=of, friction=asp.ShearTraction(*shear.traction))
+    given = asp.stress(result, DEPTHS, of=of, friction=asp.stresses.ShearTraction(*shear.traction))
     smooth = asp.stress(result, DEPTHS, of=of, friction=0.0)
     for name in ("xx", "yy", "zz", "xy", "yz", "xz"):
         np.testing.assert_array_equal(getattr(own.tensor, name), getattr(given.tensor, name))
     yields, without = asp.first_yield(own), asp.first_yield(smooth)
     assert yields.regions[0].peak.value == asp.first_yield(given).regions[0].peak.value
     assert yields.regions[0].load_factor < without.regions[0].load_factor
-    torn, pressed = asp.fracture_indicators(own), asp.fracture_indicators(smooth)
+    torn, pressed = asp.stresses.fracture_indicators(own), asp.stresses.fracture_indicators(smooth)
     assert torn[0].peak.value > 1.2 * pressed[0].peak.value
 
 

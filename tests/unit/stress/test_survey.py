@@ -161,7 +161,7 @@ def test_planes_alone_need_no_others(coated: asp.ContactResult) -> None:
 
 
 def test_graded_coating_does_not_multiply_the_planes() -> None:
-    body = asp.Layered(asp.graded(FILM, BASE, 2.0, sublayers=40), BASE)
+    body = asp.Layered(asp.solids.graded(FILM, BASE, 2.0, sublayers=40), BASE)
     found = survey(StressRequest(), contact(body))
     assert len(found.depths) < 90
     assert len(found.maxima) == 41
@@ -195,7 +195,7 @@ def test_sections_at_a_position_and_at_the_highest_pressure(coated: asp.ContactR
     direct = asp.stress(
         coated,
         at.field.depth[np.diff(at.field.depth, prepend=-1.0) > 0.0],
-        on=asp.Section(y=3.0),
+        on=asp.stresses.Section(y=3.0),
         friction=0.3,
         direction=0.5,
     )
@@ -284,7 +284,7 @@ def test_sections_are_those_of_whole_planes_however_late_their_place_is_known(
     computed: list[Plane] = []
     along = StressPlanes.along
 
-    def counted(self: StressPlanes, lines: Sequence[Where], plane: Plane) -> list[asp.StressField]:
+    def counted(self: StressPlanes, lines: Sequence[Where], plane: Plane) -> list[asp.stresses.StressField]:
         computed.append(plane)
         return along(self, lines, plane)
 
@@ -302,7 +302,7 @@ def test_sections_are_those_of_whole_planes_however_late_their_place_is_known(
             np.testing.assert_allclose(getattr(section.tensor, name), expected, atol=1e-13 * scale)
 
 
-def _where(field: asp.StressField) -> Where:
+def _where(field: asp.stresses.StressField) -> Where:
     """Points of ``field``."""
     if "x" in field.dims:
         return Section(y=float(field.y))

@@ -16,14 +16,14 @@ from asperity.physics.stress.yielding import first_yield, fracture_indicators, l
 A = 40.0
 
 
-def hertz_field(nu, depths, *, on=asp.DepthProfile(), friction=0.0, yield_stress=1.0, a=A, p0=1.0):
+def hertz_field(nu, depths, *, on=asp.stresses.DepthProfile(), friction=0.0, yield_stress=1.0, a=A, p0=1.0):
     """Stress under the exact pressure p0 sqrt(1 - r²/a²) on pixels of 1."""
     n = 2 * int(1.5 * a) + 1
     grid = asp.Grid((n, n), (1.0, 1.0))
     x, y = grid.centred_coordinates()
     pressure = p0 * np.sqrt(np.maximum(1.0 - (x**2 + y**2) / a**2, 0.0))
     body = asp.Elastic(1.0, nu, asp.Strength(yield_stress=yield_stress))
-    return StressPlanes(Tractions(grid, pressure, asp.Sliding(friction), "free"), body, depths, on=on).whole()
+    return StressPlanes(Tractions(grid, pressure, asp.stresses.Sliding(friction), "free"), body, depths, on=on).whole()
 
 
 @functools.cache
@@ -48,12 +48,12 @@ def test_onset_under_a_sphere(row, criterion):
 def test_friction_brings_yield_to_the_surface():
     """At μ = 0.5 the largest √J2 = 0.5523 p0 lies at the trailing edge (a cusp, rounded off by the pixels), ν = 0.3."""
     depths = np.concatenate([[0.0], np.linspace(0.05, 0.8, 16) * A])
-    report = first_yield(hertz_field(0.3, depths, on=asp.Section(y="max"), friction=0.5))
+    report = first_yield(hertz_field(0.3, depths, on=asp.stresses.Section(y="max"), friction=0.5))
     assert report.first.peak.side == "surface"
     assert report.first.place == "surface of substrate"
     assert report.first.peak.x == pytest.approx(60.0 - A, abs=1.5)
     assert report.load_factor * np.sqrt(3.0) * 0.5523 == pytest.approx(1.0, rel=np.sqrt(1.0 / A))
-    below = first_yield(hertz_field(0.3, depths[1:], on=asp.Section(y="max"), friction=0.2))
+    below = first_yield(hertz_field(0.3, depths[1:], on=asp.stresses.Section(y="max"), friction=0.2))
     assert below.load_factor * np.sqrt(3.0) * 0.3682 == pytest.approx(1.0, rel=0.01)
     assert below.first.peak.side == "inside"
 
@@ -64,7 +64,7 @@ def test_factor_times_stress_is_the_strength():
     report = first_yield(hertz_field(0.3, depths))
     assert first_yield(hertz_field(0.3, depths, p0=2.0)).load_factor == pytest.approx(0.5 * report.load_factor)
     for scale, yields in ((0.999, False), (1.001, True)):
-        at = first_yield(hertz_field(0.3, depths, p0=scale * report.load_factor, on=asp.Section(y="max")))
+        at = first_yield(hertz_field(0.3, depths, p0=scale * report.load_factor, on=asp.stresses.Section(y="max")))
         assert at.yields is yields
         assert (at.first.yielded_volume > 0.0) is yields
 
@@ -73,12 +73,12 @@ def test_yielded_volume_is_that_of_a_known_zone():
     """√(3J2) under uniform pressure is largest at half the strength's level: count the zone on a finer set of planes."""
     coarse, fine = (
         first_yield(
-            hertz_field(0.3, np.linspace(0.1, 1.4, n) * A, p0=2.5, on=asp.Everywhere(), a=16.0)
+            hertz_field(0.3, np.linspace(0.1, 1.4, n) * A, p0=2.5, on=asp.stresses.Everywhere(), a=16.0)
         ).first.yielded_volume
         for n in (27, 53)
     )
     assert fine == pytest.approx(coarse, rel=0.05)
-    field = hertz_field(0.3, [0.48 * 16.0], p0=2.5, on=asp.Everywhere(), a=16.0)
+    field = hertz_field(0.3, [0.48 * 16.0], p0=2.5, on=asp.stresses.Everywhere(), a=16.0)
     area = np.count_nonzero(field.von_mises > 1.0)
     assert 0.2 * area * 16.0 < fine < 1.4 * area * 16.0
 
@@ -93,7 +93,7 @@ def coated_planes(body, depths, p0=1.0):
     grid = asp.Grid((49, 49), (1.0, 1.0))
     x, y = grid.centred_coordinates()
     pressure = p0 * np.sqrt(np.maximum(1.0 - (x**2 + y**2) / 16.0**2, 0.0))
-    return StressPlanes(Tractions(grid, pressure, asp.Sliding(0.2), "free"), body, depths)
+    return StressPlanes(Tractions(grid, pressure, asp.stresses.Sliding(0.2), "free"), body, depths)
 
 
 def test_every_region_has_its_own_strength():
@@ -145,14 +145,14 @@ def test_load_at_yield_of_a_sphere():
     force = 4 * a**3 * modulus / (3 * R)
     depths = np.linspace(0.3, 0.7, 21) * a
     found = load_at_yield(
-        lambda load: asp.stress(asp.solve(problem, asp.Force(load)), depths, on=asp.DepthProfile(24.0, 24.0)),
+        lambda load: asp.stress(asp.solve(problem, asp.Force(load)), depths, on=asp.stresses.DepthProfile(24.0, 24.0)),
         0.05 * force,
     )
     assert found.load == pytest.approx(force, rel=0.02)
     assert found.report.load_factor == pytest.approx(1.0, abs=1e-3)
     assert found.evaluations <= 6
     linear = first_yield(
-        asp.stress(asp.solve(problem, asp.Force(0.125 * force)), depths * 0.5, on=asp.DepthProfile(24.0, 24.0))
+        asp.stress(asp.solve(problem, asp.Force(0.125 * force)), depths * 0.5, on=asp.stresses.DepthProfile(24.0, 24.0))
     )
     assert linear.load_factor == pytest.approx(
         2.0, rel=0.02

@@ -16,9 +16,9 @@ from refusals import refused
 from scipy.special import erf
 
 import asperity as asp
+from asperity import generate
 from asperity.plots.comparison import LABEL_ROOM, MUTED, SIZE, plot_comparison_area
 from asperity.report.comparison import comparison_sentence
-from asperity.surfaces import generate
 from asperity.theories import Limit, Prediction, Westergaard, theory
 from asperity.theories.protocol import prediction
 
@@ -35,12 +35,12 @@ def film() -> asp.Surface:
 
 
 @pytest.fixture(scope="module")
-def compared(film: asp.Surface) -> asp.Comparison:
+def compared(film: asp.Surface) -> asp.studies.Comparison:
     """The whole catalogue at four loads."""
     return asp.compare(film, STEEL, np.array([0.08, 0.01, 0.02, 0.04]) * 0.1 * E_STAR)
 
 
-def test_curves_are_named_at_their_ends_apart_and_never_alike(compared: asp.Comparison) -> None:
+def test_curves_are_named_at_their_ends_apart_and_never_alike(compared: asp.studies.Comparison) -> None:
     ax = Figure(figsize=SIZE).add_subplot()
     data = compared.dataset
     plot_comparison_area(data, ax)
@@ -59,7 +59,7 @@ def test_curves_are_named_at_their_ends_apart_and_never_alike(compared: asp.Comp
     assert any(np.isnan(values).any() for values in outside)  # beyond its limits a theory is grey only
 
 
-def test_a_comparison_draws_itself(compared: asp.Comparison, film: asp.Surface) -> None:
+def test_a_comparison_draws_itself(compared: asp.studies.Comparison, film: asp.Surface) -> None:
     for kind in ("", "kappa", "local_slope", "gap", "deviation"):
         ax = Figure(figsize=SIZE).add_subplot()
         assert compared.plot(kind, ax) is ax
@@ -284,7 +284,7 @@ def test_two_rough_bodies_are_compared_by_their_sum(film):
     other = film.with_heights(np.roll(film.heights, 20, axis=0), "rolled")
     pair = asp.ContactProblem(film, STEEL, other, STEEL)
     found = asp.compare(pair, pressures=1e8, theories=["persson"])
-    both = asp.compare(asp.composite(film, other), (STEEL, STEEL), 1e8, theories=["persson"])
+    both = asp.compare(asp.surfaces.composite(film, other), (STEEL, STEEL), 1e8, theories=["persson"])
     assert found.roughness.m2 == pytest.approx(both.roughness.m2)
     assert found.numerical.mean_gap == pytest.approx(both.numerical.mean_gap)
     assert "Peng2001" in found.citation_keys
@@ -301,17 +301,17 @@ def test_the_dataset_is_labelled_and_saved(compared, tmp_path):
     np.testing.assert_array_equal(data["numerical_kappa"], compared.kappa(compared.numerical.area_fraction_corrected))
     assert set(json.loads(data.attrs["left_out"])) == {item.name for item in compared.left_out}
     assert len(json.loads(data.attrs["provenance"])["surface"]["digest"]) == 64
-    asp.save_comparison(compared, tmp_path / "c.nc")
-    read = asp.open_tree(tmp_path / "c.nc").to_dataset()
+    asp.files.save_comparison(compared, tmp_path / "c.nc")
+    read = asp.files.open_tree(tmp_path / "c.nc").to_dataset()
     for name in data.data_vars:
         np.testing.assert_array_equal(read[name], data[name])
     assert list(read["theory"].values) == [curve.name for curve in compared.curves]
-    with refused(asp.OutputError, "output file"):
-        asp.save_comparison(compared, tmp_path / "c.nc")
+    with refused(asp.errors.OutputError, "output file"):
+        asp.files.save_comparison(compared, tmp_path / "c.nc")
 
 
 def test_the_table_has_a_row_for_every_curve_and_load(compared, tmp_path):
-    asp.export_comparison_csv(compared, tmp_path / "c.csv")
+    asp.files.export_comparison_csv(compared, tmp_path / "c.csv")
     with (tmp_path / "c.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 4 * (len(compared.curves) + 1)

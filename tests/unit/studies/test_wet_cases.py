@@ -50,7 +50,7 @@ def test_humidity_is_an_axis_and_menisci_are_quantities(tmp_path):
         film = case.asks["film"]
         alone = wetted(case.problem, case.control, film.film, friction=film.friction, solver=case.solver)
         assert float(data["meniscus_force"][number]) == alone.menisci.meniscus_force
-        theory = asp.wet_theory(alone).meniscus_force
+        theory = asp.menisci.wet_theory(alone).meniscus_force
         assert float(data["statistical_meniscus_force"][number]) == pytest.approx(theory, rel=1e-12)
         assert float(data["static_friction"][number]) == pytest.approx(alone.menisci.static_friction, rel=1e-12)
 

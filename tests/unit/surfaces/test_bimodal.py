@@ -9,7 +9,7 @@ from scipy.stats import norm
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.generate import (
+from asperity.generate import (
     ExponentialAutocorrelation,
     GaussianAutocorrelation,
     RmsHeight,

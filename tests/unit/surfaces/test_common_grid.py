@@ -8,7 +8,7 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.generate import GaussianAutocorrelation, gaussian
+from asperity.generate import GaussianAutocorrelation, gaussian
 from asperity.surfaces.pair import composite, largest_rectangle, on_common_grid
 from asperity.surfaces.surface import Surface
 

@@ -10,7 +10,7 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.generate import (
+from asperity.generate import (
     ExponentialAutocorrelation,
     GaussianAutocorrelation,
     PlateauPSD,

@@ -141,11 +141,11 @@ def test_simulated_windows_agree():
     for seed in range(6):
         surface = asp.generate.gaussian(grid, model, seed=seed)
         windows = [
-            asp.levelled(asp.cropped(surface, x=(64.0 * i, 64.0 * (i + 1)), y=(64.0 * j, 64.0 * (j + 1))))
+            asp.levelled(asp.surfaces.cropped(surface, x=(64.0 * i, 64.0 * (i + 1)), y=(64.0 * j, 64.0 * (j + 1))))
             for i in range(8)
             for j in range(8)
         ]
-        squares += [asp.rms_height(window) ** 2 for window in windows]
+        squares += [asp.roughness.rms_height(window) ** 2 for window in windows]
     expected = mean_square_after_levelling(
         model.psd, (64.0, 64.0), "plane", shortest_wavelength=4.0, longest_wavelength=512.0
     )
@@ -163,7 +163,7 @@ def test_effective_number_of_heights():
     expected = 2.0 * grid.area / (math.pi * decay**2)
     # the estimate scatters by some per cent from map to map
     assert found.mean() == pytest.approx(expected, rel=5.0 * found.std() / found.mean() / math.sqrt(40.0) + 0.02)
-    squares = [asp.rms_height(surface) ** 2 for surface in surfaces]
+    squares = [asp.roughness.rms_height(surface) ** 2 for surface in surfaces]
     # a standard deviation of forty values is uncertain by 1/sqrt(80)
     assert np.std(squares) == pytest.approx(math.sqrt(2.0 / expected), rel=4.0 / math.sqrt(80.0))
 

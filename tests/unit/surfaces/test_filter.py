@@ -12,7 +12,7 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.generate import ExponentialAutocorrelation, gaussian, sinusoid
+from asperity.generate import ExponentialAutocorrelation, gaussian, sinusoid
 from asperity.surfaces.prepare.filter import filtered, transmission
 from asperity.surfaces.prepare.level import levelled
 from asperity.surfaces.surface import Surface

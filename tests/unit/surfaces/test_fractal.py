@@ -34,7 +34,7 @@ def test_estimates_of_reference_profiles(row):
     profile = weierstrass_mandelbrot(row)
     lags = [lag for lag in (4, 8, 16, 32, 64, 128) if row["lag_min"] <= lag <= row["lag_max"]]
     found = fractal.fractal_parameters(profile, lags=lags)
-    assert asp.rms_height(profile) == pytest.approx(row["std_m"], rel=1e-10)
+    assert asp.roughness.rms_height(profile) == pytest.approx(row["std_m"], rel=1e-10)
     assert found.dimension == pytest.approx(row["D_estimated"], rel=1e-10)
     assert found.amplitude == pytest.approx(row["C_estimated_m"], rel=1e-9)
     assert found.resolution == row["dx_m"]

@@ -11,7 +11,7 @@ from refusals import refused
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
 from asperity.core.spectral import mode_sum
-from asperity.surfaces.generate import ExponentialAutocorrelation, PlateauPSD, RmsHeight, RmsSlope, SelfAffine, gaussian
+from asperity.generate import ExponentialAutocorrelation, PlateauPSD, RmsHeight, RmsSlope, SelfAffine, gaussian
 
 # Cases of the reference file, in its units (µm, or nm over µm for G3)
 CASES = {

@@ -18,10 +18,7 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.characterise.moments import difference_moments, spectral_moments
-from asperity.surfaces.characterise.spectrum import power_spectrum
-from asperity.surfaces.characterise.summits import summit_statistics, summits
-from asperity.surfaces.generate import (
+from asperity.generate import (
     ExponentialAutocorrelation,
     GaussianAutocorrelation,
     PlateauPSD,
@@ -31,6 +28,9 @@ from asperity.surfaces.generate import (
     TwoSlopes,
     gaussian,
 )
+from asperity.surfaces.characterise.moments import difference_moments, spectral_moments
+from asperity.surfaces.characterise.spectrum import power_spectrum
+from asperity.surfaces.characterise.summits import summit_statistics, summits
 from asperity.surfaces.generate.gaussian import block_noise, node_noise, wave_noise
 from asperity.surfaces.prepare.level import levelled
 from asperity.surfaces.surface import Surface
@@ -338,7 +338,7 @@ DIGEST = """
 import hashlib, sys
 import numpy as np
 from asperity.core.grid import Grid
-from asperity.surfaces import generate as g
+from asperity import generate as g
 grid = Grid((150, 126), (1.0, 1.1))
 spectrum = g.SelfAffine(amplitude=g.RmsHeight(1.0), hurst=0.8, rolloff_wavelength=30.0, shortest_wavelength=4.0)
 for variant in ("random", "fixed", "nested"):

@@ -7,9 +7,7 @@ from refusals import refused
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
 from asperity.core.spectral import mode_sum
-from asperity.surfaces.characterise.moments import difference_moments, spectral_moments
-from asperity.surfaces.characterise.spectrum import power_spectrum
-from asperity.surfaces.generate import (
+from asperity.generate import (
     ExponentialAutocorrelation,
     GaussianAutocorrelation,
     RmsHeight,
@@ -20,6 +18,8 @@ from asperity.surfaces.generate import (
     gaussian,
     spectrum_of,
 )
+from asperity.surfaces.characterise.moments import difference_moments, spectral_moments
+from asperity.surfaces.characterise.spectrum import power_spectrum
 from asperity.surfaces.surface import Surface
 
 BAND = SelfAffine(amplitude=RmsHeight(2.0), hurst=0.7, rolloff_wavelength=25.0, shortest_wavelength=4.0)

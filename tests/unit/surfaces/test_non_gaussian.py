@@ -12,9 +12,7 @@ from asperity.core.errors import InputError
 from asperity.core.grid import Grid
 from asperity.core.pearson import Pearson
 from asperity.core.spectral import mode_sum
-from asperity.surfaces.characterise.heights import height_parameters
-from asperity.surfaces.characterise.spectrum import power_spectrum
-from asperity.surfaces.generate import (
+from asperity.generate import (
     ExponentialAutocorrelation,
     GaussianAutocorrelation,
     HeightMoments,
@@ -29,6 +27,8 @@ from asperity.surfaces.generate import (
     spectrum_of,
     translated,
 )
+from asperity.surfaces.characterise.heights import height_parameters
+from asperity.surfaces.characterise.spectrum import power_spectrum
 from asperity.surfaces.generate.digital_filter import cumulant_factors
 from asperity.surfaces.surface import Surface
 

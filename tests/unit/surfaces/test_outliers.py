@@ -10,14 +10,14 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.characterise.slopes import rms_profile_curvature
-from asperity.surfaces.generate import (
+from asperity.generate import (
     ExponentialAutocorrelation,
     GaussianAutocorrelation,
     RmsHeight,
     SelfAffine,
     gaussian,
 )
+from asperity.surfaces.characterise.slopes import rms_profile_curvature
 from asperity.surfaces.prepare.filter import filtered, reliability_cutoff, tip_limited
 from asperity.surfaces.prepare.level import despiked, levelled, line_corrected
 from asperity.surfaces.surface import Surface

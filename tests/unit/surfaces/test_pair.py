@@ -7,7 +7,7 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces.generate import PlateauPSD, SelfAffine, gaussian, sinusoid, sphere
+from asperity.generate import PlateauPSD, SelfAffine, gaussian, sinusoid, sphere
 from asperity.surfaces.pair import composite
 from asperity.surfaces.surface import Origin, Surface
 

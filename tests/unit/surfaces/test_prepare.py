@@ -10,8 +10,8 @@ from refusals import refused
 import asperity as asp
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
+from asperity.generate import RmsHeight, SelfAffine, gaussian
 from asperity.surfaces.characterise.heights import rms_height
-from asperity.surfaces.generate import RmsHeight, SelfAffine, gaussian
 from asperity.surfaces.prepare.extent import cropped, periodised, resampled, tapered
 from asperity.surfaces.prepare.level import filled, levelled
 from asperity.surfaces.surface import Surface
@@ -355,14 +355,14 @@ def test_steps_never_change_their_input():
 
 def test_sliced_lines_are_those_of_the_map():
     surface = asp.Surface(np.arange(12.0).reshape(4, 3), 1e-6, 2e-6, periodic=True)
-    along_x, along_y = asp.sliced(surface, y="middle"), asp.sliced(surface, x=3.2e-6, length=0.5)
+    along_x, along_y = asp.surfaces.sliced(surface, y="middle"), asp.surfaces.sliced(surface, x=3.2e-6, length=0.5)
     np.testing.assert_array_equal(along_x.heights[:, 0], [1.0, 4.0, 7.0, 10.0])
     assert (along_x.shape, along_x.dx, along_x.dy, along_x.periodic) == ((4, 1), 1e-6, 1.0, True)
     np.testing.assert_array_equal(along_y.heights[:, 0], [9.0, 10.0, 11.0])
     assert (along_y.dx, along_y.dy) == (2e-6, 0.5)
-    np.testing.assert_array_equal(asp.sliced(surface, y=6e-6).heights, surface.heights[:, 2:])
-    assert asp.sliced(surface, y=0.0).origin.history == ("sliced: line at y = 1 µm (4 points)",)
-    holed = asp.sliced(asp.Surface([[1.0, np.nan], [2.0, 3.0]], 1.0), y=1.5)
+    np.testing.assert_array_equal(asp.surfaces.sliced(surface, y=6e-6).heights, surface.heights[:, 2:])
+    assert asp.surfaces.sliced(surface, y=0.0).origin.history == ("sliced: line at y = 1 µm (4 points)",)
+    holed = asp.surfaces.sliced(asp.Surface([[1.0, np.nan], [2.0, 3.0]], 1.0), y=1.5)
     assert holed.n_missing == 1
     for keys, subject, shown in (
         ({}, "line of a map", "x=None, y=None"),
@@ -373,4 +373,4 @@ def test_sliced_lines_are_those_of_the_map():
         ({"x": 0.0, "length": 0.0}, "length (m) of sliced()", "0.0"),
     ):
         with refused(asp.InputError, subject, shown):
-            asp.sliced(surface, **keys)
+            asp.surfaces.sliced(surface, **keys)

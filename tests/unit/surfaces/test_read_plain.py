@@ -233,7 +233,7 @@ def _write_bad_files(folder):
 def test_a_name_that_is_too_long_and_a_damaged_record_are_refused(tmp_path):
     with pytest.raises(FileFormatError):
         read("a" * 300)
-    asp.save_surface(asp.Surface(np.ones((4, 3)), 1e-6), tmp_path / "a.nc")
+    asp.files.save_surface(asp.Surface(np.ones((4, 3)), 1e-6), tmp_path / "a.nc")
     whole = (tmp_path / "a.nc").read_bytes()
     for wrong in (whole.replace(b'"dx":', b'"dx" '), whole.replace(b"heights\0", b"\xff\xff\xff\xff\xff\xff\xff\xff")):
         assert wrong != whole

@@ -65,7 +65,7 @@ def window(length: float, seed: int) -> asp.Surface:
     pixel = length / 256
     nodes = 256 * math.ceil((length + 2.0 * POPULATION.rolloff_wavelength) / length)
     large = asp.generate.gaussian(asp.Grid((nodes, nodes), (pixel, pixel)), Sampled(), seed=seed)
-    return asp.cropped(large, x=(0.0, length), y=(0.0, length))
+    return asp.surfaces.cropped(large, x=(0.0, length), y=(0.0, length))
 
 
 @pytest.mark.parametrize("length", [32.0, 64.0, 128.0])
@@ -102,7 +102,7 @@ def test_the_largest_window_is_the_map(rough):
     whole = asp.levelled(rough)
     assert study.length.tolist() == [16.0, 32.0, 64.0, 128.0, 256.0]
     assert study.parts.tolist() == [64.0, 64.0, 16.0, 4.0, 1.0]
-    assert study.mean["Sq"][-1] == pytest.approx(asp.rms_height(whole), rel=1e-12)
+    assert study.mean["Sq"][-1] == pytest.approx(asp.roughness.rms_height(whole), rel=1e-12)
     assert study.mean["m2_x"][-1] == pytest.approx(r.rms_profile_slope(whole, axis="x") ** 2, rel=1e-12)
     assert math.isnan(study.scatter["Sq"][-1])
     assert np.all(np.diff(study.mean["Sq"]) > 0.0)
@@ -133,7 +133,7 @@ def test_averaging_removes_height_and_picking_does_not(rough):
     assert averaged.kind == "sampling interval, average"
     assert np.all(np.diff(averaged.mean["Sq"]) < 0.0)
     blocks = rough.heights.reshape(64, 4, 64, 4).mean(axis=(1, 3))
-    expected = asp.rms_height(asp.levelled(asp.Surface(blocks, 4.0)))
+    expected = asp.roughness.rms_height(asp.levelled(asp.Surface(blocks, 4.0)))
     assert averaged.mean["Sq"][2] == pytest.approx(expected, rel=1e-12)
 
 

@@ -32,7 +32,7 @@ def realisation(case: str, seed: int) -> asp.Surface:
         return asp.generate.gaussian(GOLD_GRID, GOLD, seed=seed)
     if case == "F2":
         large = asp.generate.gaussian(asp.Grid((512, 512), (1.0, 1.0)), MODEL, seed=seed)
-        return asp.levelled(asp.cropped(large, x=(0.0, 256.0), y=(0.0, 256.0)))
+        return asp.levelled(asp.surfaces.cropped(large, x=(0.0, 256.0), y=(0.0, 256.0)))
     surface = asp.generate.gaussian(GRID, MODEL, seed=seed)
     if case == "F1":
         return surface
@@ -108,7 +108,7 @@ def test_a_short_cutoff_is_found(periodic):
     )
     surface = asp.generate.gaussian(asp.Grid((512, 512), (1.0, 1.0)), spectrum, seed=4)
     if not periodic:
-        surface = asp.levelled(asp.cropped(surface, x=(0.0, 256.0), y=(0.0, 256.0)))
+        surface = asp.levelled(asp.surfaces.cropped(surface, x=(0.0, 256.0), y=(0.0, 256.0)))
     fit = fit_spectrum(power_spectrum(surface))
     # the last mode lies within one mode spacing of the cut-off; a window widens it by two more
     length = surface.size[0]

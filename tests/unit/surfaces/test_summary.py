@@ -23,7 +23,7 @@ SPECTRUM = asp.generate.SelfAffine(
 
 
 @pytest.fixture(scope="module")
-def periodic() -> asp.Characterisation:
+def periodic() -> asp.roughness.Characterisation:
     return asp.characterise(asp.generate.gaussian(GRID, SPECTRUM, seed=3))
 
 
@@ -36,7 +36,7 @@ def with_holes() -> asp.Surface:
 
 
 @pytest.fixture(scope="module")
-def found_with_holes(with_holes) -> asp.Characterisation:
+def found_with_holes(with_holes) -> asp.roughness.Characterisation:
     return asp.characterise(with_holes)
 
 
@@ -55,9 +55,9 @@ def test_every_quantity_is_there_with_unit_and_source(periodic):
 
 def test_groups_agree_with_the_functions(periodic):
     surface = periodic.surface
-    assert periodic.heights.Sq == asp.rms_height(surface)
-    assert periodic.heights.Sz == pytest.approx(asp.peak_to_valley(surface), rel=1e-14)
-    assert periodic.hybrid.Sdq == asp.rms_slope(surface)
+    assert periodic.heights.Sq == asp.roughness.rms_height(surface)
+    assert periodic.heights.Sz == pytest.approx(asp.roughness.peak_to_valley(surface), rel=1e-14)
+    assert periodic.hybrid.Sdq == asp.roughness.rms_slope(surface)
     assert periodic.hybrid.Sdr == r.developed_area_ratio(surface)
     assert periodic.hybrid.Ssc == periodic.summits.eight.mean_curvature
     assert periodic.summits.four.density == r.summit_statistics(r.summits(surface, 4)).density
@@ -99,7 +99,7 @@ def test_two_slopes_are_found():
 def test_holes_are_left_out_and_filled_for_spectra_alone(with_holes, found_with_holes):
     found = found_with_holes
     assert any("Only for the spectra" in remark and "40 points" in remark for remark in found.remarks)
-    assert found.heights.Sq == asp.rms_height(with_holes)
+    assert found.heights.Sq == asp.roughness.rms_height(with_holes)
     filled = asp.characterise(asp.filled(with_holes))
     assert found.moments.spectral == filled.moments.spectral
     assert found.moments.difference != filled.moments.difference

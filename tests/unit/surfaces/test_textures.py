@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from refusals import refused
 
+from asperity import generate as g
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
-from asperity.surfaces import generate as g
 
 GRID = Grid((240, 180), (1e-7, 2e-7))  # 24 µm x 36 µm
 PITCH = (8e-6, 12e-6)

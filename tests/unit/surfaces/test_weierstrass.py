@@ -8,8 +8,8 @@ from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.grid import Grid
+from asperity.generate import weierstrass_mandelbrot, weierstrass_mandelbrot_profile
 from asperity.surfaces.characterise.correlation import mean_square_increment
-from asperity.surfaces.generate import weierstrass_mandelbrot, weierstrass_mandelbrot_profile
 from asperity.surfaces.surface import Surface
 
 PROFILES = reference("fractal_wm_profile_structure")

@@ -20,7 +20,7 @@ BODIES = {"E_star": E_STAR, "hardness": 8e9, "yield_stress": 8e9 / 2.8, "work": 
 
 
 @pytest.fixture(scope="module")
-def roughness() -> asp.Roughness:
+def roughness() -> asp.roughness.Roughness:
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=5e-7, shortest_wavelength=1.2e-7
     )

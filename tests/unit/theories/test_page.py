@@ -23,7 +23,7 @@ def test_the_commands_of_the_guide_run(tmp_path, monkeypatch):
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsHeight(5e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=1.6e-7
     )
-    asp.save_surface(asp.generate.gaussian(asp.Grid((64, 64), (4e-8, 4e-8)), spectrum, seed=1), "scan.nc")
+    asp.files.save_surface(asp.generate.gaussian(asp.Grid((64, 64), (4e-8, 4e-8)), spectrum, seed=1), "scan.nc")
     (text,) = blocks("console")
     lines = [line.removeprefix("$ ").split("  #")[0] for line in text.splitlines()]
     assert len(lines) >= 7

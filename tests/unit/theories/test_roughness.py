@@ -97,7 +97,7 @@ def test_principal_slopes_do_not_depend_on_the_axes():
 
 
 def test_what_is_missing_is_named():
-    bare = asp.Roughness(1e-18, 1e-3, 1e12)
+    bare = asp.roughness.Roughness(1e-18, 1e-3, 1e12)
     with refused(InputError, "roughness for the theory x"):
         bare.known(bare.summits, "its summits", "x")
 
@@ -105,7 +105,7 @@ def test_what_is_missing_is_named():
 @pytest.mark.parametrize("fields", [{"m0": 0.0}, {"m2": -1.0}, {"m4": math.nan}, {"area": 0.0}])
 def test_impossible_numbers_are_refused(fields):
     with pytest.raises(InputError):
-        asp.Roughness(**({"m0": 1e-18, "m2": 1e-3, "m4": 1e12} | fields))
+        asp.roughness.Roughness(**({"m0": 1e-18, "m2": 1e-3, "m4": 1e12} | fields))
 
 
 def test_impossible_lists_are_refused():

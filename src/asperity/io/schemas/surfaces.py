@@ -14,7 +14,8 @@ from ...core.errors import InputError
 from ...core.parameters import checked, parameters
 from ...core.settings import Settings, setting, table_of
 from ...core.values import Angle, Length, NonEmpty, Points, Psd, SignedLength, Size, Values, Whole
-from ...surfaces import generate
+from ...surfaces.generate import autocorrelation, bimodal, digital_filter, gaussian, non_gaussian, power_laws, spectra
+from ...surfaces.generate import deterministic as shapes
 from ...surfaces.generate.gaussian import Spectrum
 from ...surfaces.generate.non_gaussian import Marginal
 from ...surfaces.generate.power_laws import Amplitude
@@ -203,7 +204,7 @@ class GeneratedSurface(AnySurface):
 
 
 AMPLITUDES = MappingProxyType(
-    {"rms_height": generate.RmsHeight, "rms_slope": generate.RmsSlope, "plateau": generate.PlateauPSD}
+    {"rms_height": power_laws.RmsHeight, "rms_slope": power_laws.RmsSlope, "plateau": power_laws.PlateauPSD}
 )
 """Keys of which a spectrum has exactly one, and what they stand for."""
 
@@ -225,52 +226,52 @@ def tabulated(
     *,
     wavelengths: Annotated[tuple[Length, ...], "wavelengths of a table, descending, with commas between"],
     psd: Annotated[tuple[Psd, ...], "spectrum C at the wavelengths of a table, with commas between"],
-) -> generate.TabulatedSpectrum:
+) -> spectra.TabulatedSpectrum:
     """Isotropic spectrum C at some ``wavelengths``, in descending order; straight in between on logarithmic scales."""
-    return generate.TabulatedSpectrum([2.0 * math.pi / length for length in wavelengths], psd)
+    return spectra.TabulatedSpectrum([2.0 * math.pi / length for length in wavelengths], psd)
 
 
 SPECTRA: Mapping[str, Callable[..., Any]] = MappingProxyType(
     {
-        "exponential": generate.ExponentialAutocorrelation,
-        "gaussian": generate.GaussianAutocorrelation,
-        "self_affine": generate.SelfAffine,
-        "two_slopes": generate.TwoSlopes,
+        "exponential": autocorrelation.ExponentialAutocorrelation,
+        "gaussian": autocorrelation.GaussianAutocorrelation,
+        "self_affine": spectra.SelfAffine,
+        "two_slopes": spectra.TwoSlopes,
         "table": tabulated,
-        "measured": generate.spectrum_of,
+        "measured": spectra.spectrum_of,
     }
 )
 """What makes each kind of spectrum."""
 
 HEIGHTS: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {"moments": generate.HeightMoments, "measured": generate.HeightsOf, "two_levels": generate.TwoLevels}
+    {"moments": non_gaussian.HeightMoments, "measured": non_gaussian.HeightsOf, "two_levels": non_gaussian.TwoLevels}
 )
 """What makes each kind of distribution of heights."""
 
 SURFACES: Mapping[str, Callable[..., Surface]] = MappingProxyType(
     {
-        "rough": generate.gaussian,
-        "digital_filter": generate.digital_filter,
-        "translated": generate.translated,
-        "rank_ordered": generate.rank_ordered,
-        "bimodal": generate.bimodal,
-        "two_process": generate.two_process,
-        "particles": generate.particles,
-        "weierstrass_mandelbrot": generate.weierstrass_mandelbrot,
-        "weierstrass_mandelbrot_profile": generate.weierstrass_mandelbrot_profile,
-        "sphere": generate.sphere,
-        "elliptic_paraboloid": generate.elliptic_paraboloid,
-        "cylinder": generate.cylinder,
-        "cone": generate.cone,
-        "wedge": generate.wedge,
-        "power_law": generate.power_law,
-        "flat_punch": generate.flat_punch,
-        "sinusoid": generate.sinusoid,
-        "bisinusoid": generate.bisinusoid,
-        "flat": generate.flat,
-        "laser_bumps": generate.laser_bumps,
-        "dimples": generate.dimples,
-        "grooves": generate.grooves,
+        "rough": gaussian.gaussian,
+        "digital_filter": digital_filter.digital_filter,
+        "translated": non_gaussian.translated,
+        "rank_ordered": non_gaussian.rank_ordered,
+        "bimodal": bimodal.bimodal,
+        "two_process": bimodal.two_process,
+        "particles": bimodal.particles,
+        "weierstrass_mandelbrot": shapes.weierstrass_mandelbrot,
+        "weierstrass_mandelbrot_profile": shapes.weierstrass_mandelbrot_profile,
+        "sphere": shapes.sphere,
+        "elliptic_paraboloid": shapes.elliptic_paraboloid,
+        "cylinder": shapes.cylinder,
+        "cone": shapes.cone,
+        "wedge": shapes.wedge,
+        "power_law": shapes.power_law,
+        "flat_punch": shapes.flat_punch,
+        "sinusoid": shapes.sinusoid,
+        "bisinusoid": shapes.bisinusoid,
+        "flat": shapes.flat,
+        "laser_bumps": shapes.laser_bumps,
+        "dimples": shapes.dimples,
+        "grooves": shapes.grooves,
     }
 )
 """What makes each kind of generated surface."""
@@ -285,7 +286,7 @@ def _amplitude_table() -> type[_OneAmplitude]:
 
 def _tables(kinds: Mapping[str, Callable[..., Any]], base: type[Settings], types: Mapping[Any, Any]) -> dict[str, Any]:
     """The table of each of the ``kinds``."""
-    with_amplitude, amplitudes = _amplitude_table(), (generate.SelfAffine, generate.TwoSlopes)
+    with_amplitude, amplitudes = _amplitude_table(), (spectra.SelfAffine, spectra.TwoSlopes)
     return {
         kind: table_of(made, with_amplitude if made in amplitudes else base, f"kind={kind}", tables=types)
         for kind, made in kinds.items()

@@ -187,8 +187,8 @@ class LoadedBody:
 
     >>> import asperity as asp
     >>> grid = asp.Grid((32, 32), (1e-6, 1e-6))
-    >>> patch = asp.PatchLoad(x=(11.5e-6, 19.5e-6), y=(11.5e-6, 19.5e-6), pressure=1e6)
-    >>> loaded = asp.LoadedBody(asp.Elastic(200e9, 0.3), asp.Tractions.of(grid, patch, boundary="free"))
+    >>> patch = asp.stresses.PatchLoad(x=(11.5e-6, 19.5e-6), y=(11.5e-6, 19.5e-6), pressure=1e6)
+    >>> loaded = asp.stresses.LoadedBody(asp.Elastic(200e9, 0.3), asp.stresses.Tractions.of(grid, patch, boundary="free"))
     >>> field = asp.stress(loaded, depths=[1e-6, 2e-6, 4e-6])
     >>> print(f"{field.von_mises.max():.3g}")
     6.45e+05

@@ -153,8 +153,9 @@ def height_distribution(surface: Surface, bins: int | None = None) -> HeightDist
 
 
 def tilt_share(surface: Surface) -> float:
-    """Share of the mean square height in the least-squares plane, 0 to 1; 0 for a flat map. It is exact for a complete
-    map and an estimate with missing points, since the fits along x and y are then not independent.
+    """Share of the mean square height in the least-squares plane, 0 to 1; 0 for a flat map.
+
+    It is exact for a complete map and an estimate with missing points, since the fits along x and y are then not independent.
     """
     z = np.where(surface.mask, 0.0, surface.heights - mean_height(surface))
     total = float(np.einsum("ij,ij", z, z))

@@ -97,8 +97,9 @@ class PowerSpectrum:
 
 @dataclass(frozen=True, eq=False)
 class RadialSpectrum:
-    """Mean of C over rings of modes: a ring holds the modes with ``low`` < q <= ``high`` (rad/m); empty rings are
-    omitted.
+    """Mean of C over rings of modes.
+
+    A ring holds the modes with ``low`` < q <= ``high`` (rad/m); empty rings are omitted.
 
     ``q`` log-mean wavenumber (rad/m), ``psd`` arithmetic mean of C (m⁴), ``modes`` number of modes of both half planes,
     of which half are independent; ``window`` of the spectrum.

@@ -86,8 +86,7 @@ def summit_plasticity_index(height_deviation: float, interference: float) -> flo
 
 
 def profile_plasticity_index(E_star: float, hardness: float, deviation: float, correlation_length: float) -> float:
-    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard, β* the ``correlation_length`` (1/e) of an exponential autocorrelation
-    in m.
+    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard, β* the ``correlation_length`` (1/e, in m) of an exponential autocorrelation.
 
     Onions & Archard (1973): plastic flow is most unlikely below 0.25 and happens at trivial loads above 0.45.
     """

@@ -1,10 +1,6 @@
-"""The roughness of surfaces, as ``asperity.roughness``: every quantity as a function.
-
-``asperity.characterise`` calls them all; ``QUANTITIES`` defines them.
-"""
-
-from ..core.quantity import Quantity
-from .characterise.correlation import (
+from .contact.roughness import roughness_of
+from .core.quantity import Quantity
+from .surfaces.characterise.correlation import (
     DROP_1E,
     DROP_ISO,
     DROP_TENTH,
@@ -23,7 +19,7 @@ from .characterise.correlation import (
     structure_function,
     tip_cutoff,
 )
-from .characterise.heights import (
+from .surfaces.characterise.heights import (
     Core,
     FunctionalParameters,
     HeightDistribution,
@@ -43,7 +39,7 @@ from .characterise.heights import (
     skewness,
     tilt_share,
 )
-from .characterise.moments import (
+from .surfaces.characterise.moments import (
     DifferenceMoments,
     SlopeTensor,
     SpectralMoments,
@@ -52,17 +48,17 @@ from .characterise.moments import (
     slope_tensor,
     spectral_moments,
 )
-from .characterise.quantities import QUANTITIES
-from .characterise.sampling_study import SamplingStudy, sampling_interval_study, scan_size_study
-from .characterise.slopes import (
+from .surfaces.characterise.quantities import QUANTITIES
+from .surfaces.characterise.sampling_study import SamplingStudy, sampling_interval_study, scan_size_study
+from .surfaces.characterise.slopes import (
     developed_area_ratio,
     rms_laplacian,
     rms_profile_curvature,
     rms_profile_slope,
     rms_slope,
 )
-from .characterise.spectral_fit import SpectralFit, SpectralModel, fit_spectrum
-from .characterise.spectrum import (
+from .surfaces.characterise.spectral_fit import SpectralFit, SpectralModel, fit_spectrum
+from .surfaces.characterise.spectrum import (
     PowerSpectrum,
     ProfileSpectrum,
     RadialSpectrum,
@@ -73,7 +69,7 @@ from .characterise.spectrum import (
     profile_spectrum,
     radial_spectrum,
 )
-from .characterise.summary import (
+from .surfaces.characterise.summary import (
     Characterisation,
     HybridParameters,
     Moments,
@@ -83,8 +79,16 @@ from .characterise.summary import (
     SummitDensities,
     characterise,
 )
-from .characterise.summits import ProfilePeaks, Summits, SummitStatistics, profile_peaks, summit_statistics, summits
-from .characterise.texture import AngularSpectrum, TextureLengths, angular_spectrum, texture_lengths
+from .surfaces.characterise.summits import (
+    ProfilePeaks,
+    Summits,
+    SummitStatistics,
+    profile_peaks,
+    summit_statistics,
+    summits,
+)
+from .surfaces.characterise.texture import AngularSpectrum, TextureLengths, angular_spectrum, texture_lengths
+from .theories.statistics.roughness import Roughness
 
 __all__ = [
     "DROP_1E",
@@ -108,6 +112,7 @@ __all__ = [
     "ProfileSpectrum",
     "Quantity",
     "RadialSpectrum",
+    "Roughness",
     "Sampling",
     "SamplingStudy",
     "ScaleDependence",
@@ -155,6 +160,7 @@ __all__ = [
     "rms_profile_curvature",
     "rms_profile_slope",
     "rms_slope",
+    "roughness_of",
     "sampling_interval_study",
     "scale_dependence",
     "scan_size_study",

@@ -1,0 +1,39 @@
+from ..core.status import Advice
+from .advice import advise, review
+from .boundary import Boundary, Free, FreeLine, Periodic
+from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
+from .history import EnergyBalance, History, HistoryResult, ramps
+from .problem import ContactProblem, Flat
+from .result import ContactResult
+from .solve import Keep, solve, steps
+from .time_division import TimeSteps
+
+__all__ = [
+    "Advice",
+    "Approach",
+    "Boundary",
+    "ContactProblem",
+    "ContactResult",
+    "Control",
+    "EnergyBalance",
+    "FixedGrips",
+    "Flat",
+    "Force",
+    "Free",
+    "FreeLine",
+    "History",
+    "HistoryResult",
+    "Keep",
+    "MeanGap",
+    "MeanPressure",
+    "Periodic",
+    "Pull",
+    "Step",
+    "TimeSteps",
+    "Unloaded",
+    "advise",
+    "ramps",
+    "review",
+    "solve",
+    "steps",
+]

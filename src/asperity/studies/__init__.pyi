@@ -1,0 +1,7 @@
+from ..run.execute import Outcome, run
+from .campaign import Campaign, open_study, run_study
+from .collect import CampaignState
+from .compare import compare
+from .comparison import Comparison
+
+__all__ = ["Campaign", "CampaignState", "Comparison", "Outcome", "compare", "open_study", "run", "run_study"]
