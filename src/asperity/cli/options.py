@@ -27,7 +27,7 @@ from ..io.schemas.problem import (
 )
 from ..io.schemas.surfaces import STEPS, AnySurface, FileSurface, Place
 from ..run.build import build_surface
-from ..surfaces.prepare.level import levelled
+from ..surfaces.prepare.level import levelled, usual_form
 from ..surfaces.surface import Surface
 from .declared import FILE, Given, Option, declarations, options_of
 
@@ -191,7 +191,7 @@ def read_surface(file: Path, given: Given) -> Surface:
 
 def levelled_as(surface: Surface, level: str) -> tuple[Surface, str]:
     """``surface`` after levelling and what was removed: left to itself (auto) the mean of a periodic one, else the plane."""
-    found = level if level != "auto" else "mean" if surface.periodic else "plane"
+    found = level if level != "auto" else usual_form(surface)
     return levelled(surface, int(found) if found.isdecimal() and len(found) < 10 else found), found
 
 
@@ -403,8 +403,10 @@ def step_names(steps: Iterable[Mapping[str, Any]]) -> dict[str, str]:
 
 
 def _level(chosen: Mapping[str, Any]) -> dict[str, Any] | None:
-    form = chosen.get("form", "plane")
+    form = chosen.get("form")
     robust = {"robust": True} if chosen.get("robust") else {}
+    if form is None:
+        return robust
     if form.isdecimal() and len(form) < 10:
         return {"degree": int(form), **robust}
     require.one_of(form, (*_words("level", "form"), "none", "a degree"), "--level")

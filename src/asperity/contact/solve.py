@@ -134,6 +134,11 @@ def solve(
     InputError
         If the control is none, state or operator do not belong to the problem, or a keyword is none of these.
     """
+    if not isinstance(problem, ContactProblem):
+        raise InputError(
+            f"problem must be a ContactProblem, but is a {type(problem).__name__}. Write ContactProblem(surface, body), such as "
+            'ContactProblem(surface, material("steel")).'
+        )
     _require_known(options)
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     if isinstance(control, History):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -94,6 +94,18 @@ class Elastic(Shown):
     strength: Strength = Strength()
     name: str = ""
     sources: tuple[str, ...] = ()
+
+    if not TYPE_CHECKING:
+
+        def __new__(cls, *values: Any, **named: Any) -> Elastic:
+            """Symbols of textbooks are refused with the name that is meant."""
+            wrong = next((name for name in named if name in ("E", "nu", "G", "v")), None)
+            if wrong is not None:
+                raise InputError(
+                    f"keyword of Elastic must be youngs_modulus (E in Pa) or poisson_ratio (nu), but is {wrong}. Write Elastic(70e9, 0.3)"
+                    f"{' with E = 2 (1 + nu) G' if wrong == 'G' else ''}."
+                )
+            return super().__new__(cls)
 
     def __post_init__(self) -> None:
         require.positive(self.youngs_modulus, "Young's modulus (Pa)")

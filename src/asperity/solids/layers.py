@@ -101,6 +101,11 @@ class Layered(Shown):
     def __post_init__(self) -> None:
         if isinstance(self.layers, Layer):
             raise InputError("layers of a Layered body must be a list of Layer, but is a single Layer; write [layer].")
+        if isinstance(self.layers, Elastic):
+            raise InputError(
+                f"layers of a Layered body must be a list of Layer, but is the material {self.layers.name or 'Elastic'} without a thickness; "
+                "write [Layer(material, thickness)]."
+            )
         layers = tuple(self.layers)
         for layer in layers:
             require.instance(layer, Layer, "each layer of a Layered body", "Write Layer(material, thickness).")

@@ -99,7 +99,7 @@ def rough() -> asp.Surface:
 
 def test_the_largest_window_is_the_map(rough):
     study = r.scan_size_study(rough, form="plane")
-    whole = asp.levelled(rough)
+    whole = asp.levelled(rough, "plane")
     assert study.length.tolist() == [16.0, 32.0, 64.0, 128.0, 256.0]
     assert study.parts.tolist() == [64.0, 64.0, 16.0, 4.0, 1.0]
     assert study.mean["Sq"][-1] == pytest.approx(asp.roughness.rms_height(whole), rel=1e-12)

@@ -55,7 +55,12 @@ _ROBUST_PASSES = 50
 _FACTORISED_TOGETHER = 1 << 16  # points in one block of the orthogonal factorisation, to bound its memory
 
 
-def levelled(surface: Surface, form: str | int = "plane", *, robust: bool = False) -> Surface:
+def usual_form(surface: Surface) -> str:
+    """What is removed where no form is asked for: the ``mean`` of a periodic surface, whose plane is part of it, else the ``plane``."""
+    return "mean" if surface.periodic else "plane"
+
+
+def levelled(surface: Surface, form: str | int | None = None, *, robust: bool = False) -> Surface:
     """Surface less its least-squares ``form`` over the valid points.
 
     The form is a polynomial Σ c_ab x^a y^b of total degree a + b <= 0 (``mean``), 1 (``plane``), 2 (``quadratic``) or
@@ -69,11 +74,12 @@ def levelled(surface: Surface, form: str | int = "plane", *, robust: bool = Fals
     surface
         Surface; missing points have no weight.
     form
-        ``mean``, ``plane``, ``quadratic`` or the total degree.
+        ``mean``, ``plane``, ``quadratic`` or the total degree; by default the mean of a periodic surface and the plane of any other.
     robust
         Repeat the fit without the points more than three standard deviations (3 x 1.4826 MAD) from it, until the
         excluded points no longer change: for surfaces whose peaks or pits would tilt the plane.
     """
+    form = usual_form(surface) if form is None else form
     if isinstance(form, str):
         degree, name = _DEGREES[require.one_of(form, _DEGREES, "form to be removed")], form
     else:
