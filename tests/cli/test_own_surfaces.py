@@ -16,7 +16,7 @@ def made(folder: Path) -> asp.Surface:
         amplitude=asp.generate.RmsHeight(1e-9), hurst=0.8, rolloff_wavelength=6e-7, shortest_wavelength=8e-8
     )
     surface = asp.generate.gaussian(asp.Grid((32, 32), (20e-9, 20e-9)), spectrum, seed=1)
-    asp.save_surface(surface, folder / "own.nc")
+    asp.files.save_surface(surface, folder / "own.nc")
     return surface
 
 

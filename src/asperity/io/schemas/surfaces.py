@@ -31,7 +31,10 @@ from ...surfaces.surface import Surface
 def level(
     surface: Surface,
     *,
-    form: Annotated[Literal["mean", "plane", "quadratic"] | None, "form to remove; by default the mean of a periodic surface, the plane of any other"] = None,
+    form: Annotated[
+        Literal["mean", "plane", "quadratic"] | None,
+        "form to remove; by default the mean of a periodic surface, the plane of any other",
+    ] = None,
     degree: Annotated[int | None, Whole(0, HIGHEST_DEGREE), "total degree of a polynomial to remove instead"] = None,
     robust: Annotated[bool, "leave out outliers, such as peaks and pits"] = False,
 ) -> Surface:
