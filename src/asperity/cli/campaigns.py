@@ -194,7 +194,8 @@ class Pace:
         left = max(total - found - done, 0) / rate if rate > 0.0 else float("inf")
         share = min(1.0, (found + done) / max(total, 1))
         failures = f", {failed} failed" if failed else ""
-        return f"{found + done} of {total} cases{failures}, {_rate(rate)}, {duration(left)} left", share
+        speed = f"{rate:.3g} cases/s" if rate >= 1.0 else f"{rate * 60.0:.3g} cases/min"
+        return f"{found + done} of {total} cases{failures}, {speed}, {duration(left)} left", share
 
 
 class Lines:
@@ -232,10 +233,6 @@ def duration(seconds: float) -> str:
     if whole < 3600:
         return f"{whole // 60} min {whole % 60:02d} s"
     return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
-
-
-def _rate(rate: float) -> str:
-    return f"{rate:.3g} cases/s" if rate >= 1.0 else f"{rate * 60.0:.3g} cases/min"
 
 
 def _write(text: str) -> None:
