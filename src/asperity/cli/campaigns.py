@@ -20,9 +20,8 @@ from ..io.schemas.study import DEFAULT_QUANTITIES
 from ..report.study import (
     axis_rows,
     case_table,
+    cause_table,
     derived_table,
-    failure_table,
-    finding_table,
     summary,
     warning_texts,
     write_study_files,
@@ -146,8 +145,8 @@ def _print_causes(campaign: Campaign, state: CampaignState) -> None:
     for text in warning_texts(state):
         say(f"warning: {text}", "yellow", warning=True)
     shown = (
-        ("Failures by cause", failure_table(campaign, state)),
-        ("Warnings and notes of the cases", finding_table(campaign, state)),
+        ("Failures by cause", cause_table(campaign, state.causes, "Cause")),
+        ("Warnings and notes of the cases", cause_table(campaign, state.findings, "Warning or note")),
     )
     for heading, found in shown:
         if found.cells:
