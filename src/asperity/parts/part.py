@@ -170,6 +170,10 @@ class Part:
     name: ClassVar[str] = ""
     title: ClassVar[str] = ""
     table: ClassVar[str] = ""
+    needs: ClassVar[str] = ""
+    """Key that its table must give for the part to be asked for; empty where the table is enough."""
+    implied: ClassVar[Callable[[Any], bool] | None] = None
+    """Which documents without its table ask for the part with the defaults of its settings; none of them without it."""
     settings: ClassVar[type[Settings] | None] = None
     in_every_document: ClassVar[bool] = False
     essential: ClassVar[bool] = False
@@ -184,6 +188,10 @@ class Part:
         found = document
         for key in filter(None, self.table.split(".")):
             found = getattr(found, key)
+        if found is None and self.settings is not None and self.implied is not None and self.implied(document):
+            return self.settings()
+        if self.needs and found is not None and getattr(found, self.needs) is None:
+            return None
         return found if self.table else True
 
     def asked(self, document: Any, folder: Path) -> Any:

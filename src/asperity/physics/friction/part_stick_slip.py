@@ -211,6 +211,7 @@ class StickSlip(Part):
     title = "Stick and slip"
     table = "shear"
     settings = ShearSettings
+    implied = staticmethod(sticks)
     whole_path = True
     of_result = "stick_slip"
 
@@ -224,11 +225,6 @@ class StickSlip(Part):
             Quantity("cycle_dissipation", "J", "energy dissipated by slip in the last closed cycle"),
             *LINEAR,
         )
-
-    def settings_in(self, document: Any) -> ShearSettings | None:
-        """The table [shear], an empty one where the law of friction asks for stick and slip."""
-        found: ShearSettings | None = document.shear
-        return ShearSettings() if found is None and sticks(document) else found
 
     def asked(self, document: Any, folder: Path) -> Sheared:
         """The table [shear] with the direction of the friction."""

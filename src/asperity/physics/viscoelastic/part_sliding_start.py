@@ -56,6 +56,7 @@ class SlidingStart(Part):
     name = "sliding_start"
     title = "Start of sliding"
     table = "hysteresis"
+    needs = "distance"
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
@@ -64,11 +65,6 @@ class SlidingStart(Part):
 
         columns = (replace(item, name=f"way_{item.name}", dims=(STEP,)) for item in COLUMNS)
         return (*SCALARS, FIELD, *columns, FRICTION)
-
-    def settings_in(self, document: Any) -> HysteresisSettings | None:
-        """The table [hysteresis], where it gives a distance."""
-        table: HysteresisSettings | None = document.hysteresis
-        return table if table is not None and table.distance is not None else None
 
     def check(self, ask: HysteresisSettings, problem: ContactProblem) -> None:
         """Refuse fewer steps of time than friction is averaged over, and more than are reasonable."""
