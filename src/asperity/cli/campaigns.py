@@ -171,12 +171,7 @@ def watched(title: str) -> Iterator[Watch]:
         return
 
     with Progress(BarColumn(24), TextColumn("{task.description}"), console=error_console()) as bar:
-        task = bar.add_task("starting workers", total=None)
-
-        def shown(text: str, share: float) -> None:
-            bar.update(task, description=text, total=1.0, completed=share)
-
-        yield OnBar(shown)
+        yield OnBar(bar)
 
 
 class Pace:
@@ -212,14 +207,15 @@ class Lines:
 
 
 class OnBar:
-    """Moves a bar."""
+    """Moves a ``bar``."""
 
-    def __init__(self, shown: Callable[[str, float], None]) -> None:
-        self._shown, self._pace = shown, Pace()
+    def __init__(self, bar: Progress) -> None:
+        self._bar, self._task, self._pace = bar, bar.add_task("starting workers", total=None), Pace()
 
     def update(self, done: int, failed: int, found: int, total: int) -> None:
         """Move it."""
-        self._shown(*self._pace.text(done, failed, found, total))
+        text, share = self._pace.text(done, failed, found, total)
+        self._bar.update(self._task, description=text, total=1.0, completed=share)
 
 
 def duration(seconds: float) -> str:

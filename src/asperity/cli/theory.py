@@ -298,7 +298,10 @@ LEFT = "!"
 
 
 def print_answer(found: Evaluation, *, as_json: bool) -> None:
-    """Print the results of a theory, its limits of validity and its sources."""
+    """Print the results of a theory, its limits of validity and its sources.
+
+    Rows beyond a limit that concerns all columns are marked and red. The heading of stress.xx is σ xx.
+    """
     if as_json:
         console().out(json.dumps(answer_record(found), indent=2), highlight=False)
         return
@@ -308,8 +311,26 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
     if found.numbers:
         numbers = [(column.label, show(value, column.unit)) for column, value in found.numbers]
         _print_table("Numbers", table("", numbers))
-    if found.columns:
-        _print_columns(found)
+    names = [
+        column.name.replace("displacement.", "u ").replace("stress.", "σ ").replace(".", " ").replace("_", " ")
+        for column, _ in found.columns
+    ]
+    if found.columns and found.columns[0][1].size == 1:  # one point is read downwards
+        point = [
+            (name, show(float(values[0]) + 0.0, column.unit), column.label)
+            for name, (column, values) in zip(names, found.columns, strict=True)
+        ]
+        _print_table("Answer", table("", point))
+    elif found.columns:
+        left = ~found.holds()
+        curve = [
+            (LEFT if beyond else "", *(show(float(values[n]) + 0.0, column.unit) for column, values in found.columns))
+            for n, beyond in enumerate(left)
+        ]
+        made = table("", curve, ("", *names))
+        for row, beyond in zip(made.rows, left, strict=True):
+            row.style = "red" if beyond else None
+        _print_table("Answer", made)
     for limit in found.limits:
         known, holds = limit.value[~np.isnan(limit.value)], limit.holds
         extent = "is not defined"
@@ -324,30 +345,6 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
             say(f"{LEFT} left {where}: {rule}. {limit.message} [{limit.citation}]", "red")
     for key in theory.citation_keys:
         say(f"  source: {reference(key)}", "dim")
-
-
-def _print_columns(found: Evaluation) -> None:
-    """The curve; rows beyond a limit that concerns all columns are marked and red. The heading of stress.xx is σ xx."""
-    size, left = found.columns[0][1].size, ~found.holds()
-    names = [
-        column.name.replace("displacement.", "u ").replace("stress.", "σ ").replace(".", " ").replace("_", " ")
-        for column, _ in found.columns
-    ]
-    if size == 1:  # one point is read downwards
-        point = [
-            (name, show(float(values[0]) + 0.0, column.unit), column.label)
-            for name, (column, values) in zip(names, found.columns, strict=True)
-        ]
-        _print_table("Answer", table("", point))
-        return
-    rows = [
-        (LEFT if left[n] else "", *(show(float(values[n]) + 0.0, column.unit) for column, values in found.columns))
-        for n in range(size)
-    ]
-    made = table("", rows, ("", *names))
-    for row, beyond in zip(made.rows, left, strict=True):
-        row.style = "red" if beyond else None
-    _print_table("Answer", made)
 
 
 def _print_table(title: str, made: Table) -> None:

@@ -88,7 +88,11 @@ def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, st
     """
     values = {quantity.name: value for quantity, value in found.values()}
     errors = {*ABSOLUTE_ERRORS.values(), *RELATIVE_ERRORS.values()}
-    along_y = {_other(quantity.name): quantity for quantity in QUANTITIES if _other(quantity.name) != quantity.name}
+    along_y: dict[str, Quantity] = {}  # by the path of the number along x
+    for quantity in QUANTITIES:
+        parts = [part[:-2] + "_x" if part.endswith("_y") else part for part in quantity.name.split(".")]
+        if ".".join(parts) != quantity.name:
+            along_y[".".join(parts)] = quantity
     groups: dict[str, list[tuple[str, str, str]]] = {}
     for quantity in QUANTITIES:
         if quantity.name in errors or quantity in along_y.values():
@@ -109,12 +113,6 @@ def headline_values(found: Characterisation) -> list[tuple[str, str]]:
     """Name and text of the numbers that people look for first."""
     chosen = {quantity.name: (quantity, value) for quantity, value in found.values() if quantity.name in HEADLINE}
     return [(quantity_name(chosen[path][0]), quantity_text(*chosen[path], digits=3)) for path in HEADLINE]
-
-
-def _other(path: str) -> str:
-    """Path along x of a number along y; any other path as it is."""
-    parts = [part[:-2] + "_x" if part.endswith("_y") else part for part in path.split(".")]
-    return ".".join(parts)
 
 
 def _with_error(quantity: Quantity, values: dict[str, float]) -> str:

@@ -45,11 +45,6 @@ def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | 
     return None if document.sensitivity is None else _sensitivities(data, document.quantities)
 
 
-def _column(values: Sequence[Any], shape: tuple[int, ...]) -> Any:
-    """Array of numbers or texts."""
-    return np.array(values, object if isinstance(values[0], str) else float).reshape(shape)
-
-
 def _reduced(
     data: xarray.Dataset, quantities: Sequence[str], dim: str, derive: Callable[[RealArray], object]
 ) -> xarray.Dataset:
@@ -59,12 +54,11 @@ def _reduced(
     made: dict[str, Any] = {}
     for name in quantities:
         array = data[name].transpose(..., dim)
-        shape, dims = array.shape[:-1], array.dims[:-1]
+        dims = {str(other): size for other, size in zip(array.dims[:-1], array.shape, strict=False)}
         found = [vars(derive(row)) for row in np.asarray(array).reshape(-1, array.shape[-1])]
         rows = [{key: value for key, value in each.items() if not isinstance(value, tuple)} for each in found]
         for key in rows[0]:
-            column = _column([row[key] for row in rows], shape)
-            made[f"{name}_{key}"] = (dims, column, _labels(data, name, key))
+            made[f"{name}_{key}"] = _variable(data, name, key, dims, [row[key] for row in rows])
     kept = {str(key): value for key, value in data.coords.items() if dim not in value.dims}
     return xarray.Dataset(made, kept, {"kind": data.attrs["kind"], "title": data.attrs["title"]})
 
@@ -80,19 +74,22 @@ def _sensitivities(data: xarray.Dataset, quantities: Sequence[str]) -> xarray.Da
     made: dict[str, Any] = {"scalar_low": ("scalar", x[0]), "scalar_high": ("scalar", x[1])}
     for name in quantities:
         y = [np.asarray(end[name].transpose(..., "parameter"), dtype=float) for end in ends]
-        dims = (*ends[0][name].transpose(..., "parameter").dims[:-1], "scalar")
+        others = ends[0][name].transpose(..., "parameter").dims[:-1]
+        dims = dict(zip([*map(str, others), "scalar"], y[0].shape, strict=True))
         rows = [
             vars(sensitivity((float(x[0][at[-1]]), float(x[1][at[-1]])), (float(y[0][at]), float(y[1][at]))))
             for at in np.ndindex(y[0].shape)
         ]
         for key in rows[0]:
-            column = _column([row[key] for row in rows], y[0].shape)
-            made[f"{name}_{key}"] = (dims, column, _labels(data, name, key))
+            made[f"{name}_{key}"] = _variable(data, name, key, dims, [row[key] for row in rows])
     kept = {str(key): value for key, value in data.coords.items() if "parameter" not in value.dims}
     attributes = {"kind": data.attrs["kind"], "title": data.attrs["title"]}
     return xarray.Dataset(made, {**kept, "scalar": np.array(scalars, object)}, attributes)
 
 
-def _labels(data: xarray.Dataset, name: str, key: str) -> dict[str, str]:
+def _variable(data: xarray.Dataset, name: str, key: str, dims: dict[str, int], values: Sequence[Any]) -> Any:
+    """Numbers or texts ``key`` of the quantity ``name`` on axes of these sizes, with unit and label."""
     unit = "" if key == "slope" else UNITS.get(key, data[name].attrs["units"])
-    return {"units": unit, "long_name": f"{data[name].attrs['long_name']}: {key.replace('_', ' ')}"}
+    labels = {"units": unit, "long_name": f"{data[name].attrs['long_name']}: {key.replace('_', ' ')}"}
+    kind: Any = object if isinstance(values[0], str) else float
+    return tuple(dims), np.array(values, kind).reshape(tuple(dims.values())), labels

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..contact.certificate import Certificate
 from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
@@ -86,7 +85,8 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
     def on_axes(flat: Any, labels: dict[str, Any]) -> tuple[tuple[str, ...], Any, dict[str, Any]]:
         return dims, flat.reshape(plan.shape), labels
 
-    variables = {name: on_axes(array, _labels(name)) for name, array in values.items()}
+    known = measures() | {item.name: item for item in CERTIFICATE if item.name in CHECKS}
+    variables = {name: on_axes(array, known[name].attributes) for name, array in values.items()}
     codes = {"flag_values": np.array([DONE, FAILED, MISSING], np.int8), "flag_meanings": "done failed missing"}
     variables["outcome"] = on_axes(outcome, {"long_name": "what became of the case", **codes})
     if errors:
@@ -160,12 +160,6 @@ def state(plan: Plan, path: Path) -> CampaignState:
 def _column(values: list[Any]) -> Any:
     numbers = all(isinstance(value, float) for value in values)
     return np.array(values, float) if numbers else np.array([str(value) for value in values], object)
-
-
-def _labels(name: str) -> dict[str, str]:
-    if name in CHECKS and name in Certificate.__dataclass_fields__:
-        return next(entry for entry in CERTIFICATE if entry.name == name).attributes
-    return measures()[name].attributes
 
 
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)

@@ -14,7 +14,7 @@ from ..core.errors import AsperityError, InputError
 from ..core.units import parse, show
 from ..io.schemas.bodies import FLOW, body_from_text
 from ..run.document import document_model
-from ..solids.library import MaterialRecord, materials
+from ..solids.library import materials
 from ..solids.moduli_file import read_moduli
 from ..solids.viscoelastic import fitted_solid
 from .draft import Keys, moduli_files
@@ -111,11 +111,6 @@ def _body(context: Context, item: Asked, name: str) -> None:
     inside()
 
 
-def _constants(record: MaterialRecord) -> str:
-    text = f"E {show(record.youngs_modulus.value, 'Pa', 3)}, ν {record.poisson_ratio.value:g}"
-    return text + (f", H {show(record.hardness.value, 'Pa', 3)}" if record.hardness else "")
-
-
 def _library() -> None:
     """All materials with the source of every value."""
     with (
@@ -124,7 +119,9 @@ def _library() -> None:
     ):
         for record in materials():
             with ui.element("div").classes("material"):
-                ui.label(f"{record.name}: {_constants(record)}").classes("table-title")
+                constants = f"E {show(record.youngs_modulus.value, 'Pa', 3)}, ν {record.poisson_ratio.value:g}"
+                constants += f", H {show(record.hardness.value, 'Pa', 3)}" if record.hardness else ""
+                ui.label(f"{record.name}: {constants}").classes("table-title")
                 for text in (record.note, *record.sources):
                     if text:
                         ui.label(text).classes("hint")
