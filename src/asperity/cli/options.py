@@ -364,8 +364,8 @@ def steps(given: Given) -> list[dict[str, Any]]:
     require.one_of(str(fill["method"]), (*_words("fill", "method"), "none"), "--fill")
     made["fill"] = None if fill == {"method": "none"} else fill
     if sieve:
-        made["filter"] = {"kind": "gaussian", **sieve}
-        require.one_of(str(made["filter"]["kind"]), _words("filter", "kind"), "--filter")
+        made["filter"] = kept = {"kind": "gaussian", **sieve}
+        require.one_of(str(kept["kind"]), _words("filter", "kind"), "--filter")
     return [{"step": step, **values} for step in order if (values := made.get(step)) is not None]
 
 

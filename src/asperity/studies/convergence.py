@@ -97,7 +97,8 @@ def level_axis(base: Base, table: ConvergenceTable) -> Axis:
             "points of a step resample by an axis instead.",
             subject=f"convergence of the {table.of}",
         )
-    place, nx, ny = locate(base.document, "surface.points"), *points
+    place = locate(base.document, "surface.points")
+    nx, ny = points
     made = []
     for level in table.levels:
         factor = level / nx if table.of == "grid" else level

@@ -93,11 +93,11 @@ def carry_out(
         stream = executor.run(function, work.tasks())
         try:
             for task, answer in stream:
-                found = answer
                 if isinstance(answer, Lost):
                     error = {"type": "WorkerLost", "message": answer.reason}
                     failure = {"values": {}, "work": {}, "citations": [], "error": error}
-                    found = [{"key": case["key"], **failure} for case in task["cases"]]
+                    answer = [{"key": case["key"], **failure} for case in task["cases"]]
+                found: list[Record] = answer
                 store.append(found)
                 work.take(task, found)
                 done += len(found)
