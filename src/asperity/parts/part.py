@@ -172,8 +172,6 @@ class Part:
     table: ClassVar[str] = ""
     needs: ClassVar[str] = ""
     """Key that its table must give for the part to be asked for; empty where the table is enough."""
-    implied: ClassVar[Callable[[Any], bool] | None] = None
-    """Which documents without its table ask for the part with the defaults of its settings; none of them without it."""
     settings: ClassVar[type[Settings] | None] = None
     in_every_document: ClassVar[bool] = False
     essential: ClassVar[bool] = False
@@ -183,12 +181,17 @@ class Part:
     of_result: ClassVar[str] = ""
     """Name of the coupling whose answer a result must have for the part to be made from the result alone; empty if that is not enough."""
 
+    @staticmethod
+    def implied(document: Any, /) -> bool:
+        """Whether a ``document`` without the table of this part asks for it, with the defaults of its settings."""
+        return False
+
     def settings_in(self, document: Any) -> Any:
         """The settings that ``document`` holds in the table of this part; None if it holds none, True without a table."""
         found = document
         for key in filter(None, self.table.split(".")):
             found = getattr(found, key)
-        if found is None and self.settings is not None and self.implied is not None and self.implied(document):
+        if found is None and self.settings is not None and self.implied(document):
             return self.settings()
         if self.needs and found is not None and getattr(found, self.needs) is None:
             return None

@@ -150,7 +150,7 @@ class Viscoelasticity(Part):
     title = "Viscoelasticity"
     table = "viscoelastic"
     settings = ViscoelasticSettings
-    implied = attrgetter("relaxes")
+    implied = staticmethod(attrgetter("relaxes"))
     whole_path = True
 
     @property
