@@ -12,19 +12,15 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arrays import BoolArray, RealArray
 from ..core.grid import Grid
-from .edge_tables import PATCHES, WAVES, EdgePixels
-from .measure import Labels, labelled
-
-if TYPE_CHECKING:
-    from .couplings.protocol import Contact
-    from .problem import ContactProblem
+from .edge_tables import EdgePixels
+from .measure import labelled
 
 Indices = NDArray[np.intp]
 
@@ -343,88 +339,3 @@ class _Pressed(NamedTuple):
         spread = np.where(here, CAPPED, np.where(next_one, 0.5 * (single - rigid), spread))
         factor = np.where(here, CAPPED_FACTOR, factor)
         return Places(distance, spread, factor, deep & ~here, deep)
-
-
-# Real area of a contact, its error, spots and perimeter, freed of the size of the pixels by the place of the edges.
-
-
-LEAST_SPOT = 1.0 / 16.0
-"""Least area in pixels of a spot: what single pixels, barely in contact, hold is not told apart from nothing."""
-
-
-@dataclass(frozen=True, eq=False)
-class RealArea:
-    """Real contact area by the place of the edges.
-
-    Attributes
-    ----------
-    spots
-        Area in m² of every contact spot (pixels joined by their sides), largest first.
-    error
-        Error in m² of the sum: what all edges share in the worst case, and two standard deviations of what is random.
-    perimeter
-        Length of all edges in m.
-    """
-
-    spots: RealArray
-    error: float
-    perimeter: float
-
-    @property
-    def total(self) -> float:
-        """Area of all spots in m²."""
-        return float(self.spots.sum())
-
-
-def edges_in(problem: ContactProblem, pressure: RealArray, gap: RealArray, plastic: BoolArray) -> Edges:
-    """Edges of a contact of ``problem`` with these fields, (nx, ny) each."""
-    kinds = (physics.edges(problem) for physics in problem.physics)
-    kind = next((kind for kind in kinds if kind is not None), Kind.elastic)
-    table = WAVES if problem.boundary.name == "periodic" else PATCHES
-    setting = Setting(problem.grid, problem.boundary.wraps, problem.contact_modulus, table, kind)
-    return edges_of(pressure, gap, plastic, setting)
-
-
-def touching_fraction(problem: ContactProblem, contact: Contact) -> float:
-    """Real over nominal area of a ``contact`` that was solved."""
-    p = contact.pressure
-    capped = contact.touching & (p >= contact.cap)
-    return real_area(problem, p, capped, edges_in(problem, p, contact.gap, capped)).total / problem.grid.area
-
-
-def real_area(problem: ContactProblem, pressure: RealArray, plastic: BoolArray, edges: Edges) -> RealArea:
-    """Real area of a contact of ``problem`` with these fields, (nx, ny) each, and its ``edges``.
-
-    A spot with pixels at the limit H of the pressure is at least as large as its force over H, which is exact for any contact.
-    """
-    grid, contact = problem.grid, pressure > 0.0
-    labels, count = labelled(contact, wraps=problem.boundary.wraps)
-    if count == 0:
-        return RealArea(np.zeros(0), 0.0, 0.0)
-    flat = labels.ravel()
-    found = np.bincount(flat, minlength=count + 1).astype(float)
-    found += np.bincount(flat[edges.inner], edges.excess, minlength=count + 1)
-    least = np.full(count + 1, LEAST_SPOT)
-    if plastic.any():
-        force = np.bincount(flat, pressure.ravel().astype(np.float64), minlength=count + 1)
-        limits = _limits(pressure.ravel(), plastic.ravel(), flat, count)
-        np.maximum(least, force / limits, out=least)
-    spots = np.sort(np.maximum(found, least)[1:])[::-1]
-    spots *= min(1.0, grid.n_points / spots.sum())
-    return RealArea(spots * grid.pixel_area, edges.area_error() * grid.pixel_area, edges.perimeter())
-
-
-def _limits(p: RealArray, plastic: BoolArray, labels: Labels, count: int) -> RealArray:
-    """Pressure (count + 1,) in Pa that no point of a spot exceeds; infinite where the limit varies and none of its pixels is at it."""
-    at_limit = p[plastic].astype(np.float64)
-    highest = float(at_limit.max())
-    if float(at_limit.min()) >= highest * (1.0 - SAME_LIMIT):
-        return np.full(count + 1, highest)
-    found, reached = np.zeros(count + 1), np.zeros(count + 1, dtype=bool)
-    np.maximum.at(found, labels, p)
-    reached[labels[plastic]] = True
-    return np.where(reached, found, np.inf)
-
-
-SAME_LIMIT = 1e-6
-"""Relative difference of two pressures at the same limit."""

@@ -20,10 +20,11 @@ from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from . import measure
 from .answer import Answer, WithOutcomes, imprint_of, outside
+from .area import RealArea, edges_in, real_area
 from .certificate import Certificate
 from .controls import Control
 from .couplings.protocol import Contact, Deflections, Memory
-from .edges import Edges, RealArea, edges_in, real_area
+from .edges import Edges
 from .known import ResultNames
 from .operators import Operator, prepare_operator
 from .peak_pressure import PeakPressure, peak_pressure

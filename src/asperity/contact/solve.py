@@ -34,7 +34,7 @@ from .controls import (
     as_step,
     mean_pressure,
 )
-from .couplings.driver import Rounds, Settled, settle
+from .couplings.driver import Rounds, Settled
 from .couplings.held import settle_position
 from .couplings.pressure_limit import ConstantHardness
 from .couplings.protocol import Coupling, Memory, Posed, height_scale
@@ -368,8 +368,7 @@ def settled_with(
     """
     names = {coupling.name for coupling in couplings}
     together = [place for pair, place in PAIRS.items() if pair <= names] if posed.balances_force else []
-    placed = settle_position if isinstance(posed.control, Approach | MeanGap) else settle
-    way = home(together[0]) if together else placed
+    way = home(together[0]) if together else settle_position
     settled: Settled = way(posed, couplings, memories, solver, **options)
     return settled
 

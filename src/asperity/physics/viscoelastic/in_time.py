@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...contact.answer import Answer, outside
+from ...contact.area import touching_fraction
 from ...contact.controls import Approach, Control, MeanGap, Step, as_step
 from ...contact.couplings.driver import Settled
 from ...contact.couplings.protocol import Contact, Coupling, Memory, Posed, height_scale
-from ...contact.edges import touching_fraction
 from ...contact.operators import Operator
 from ...contact.operators.creep import OperatorsInTime
 from ...contact.result import ContactResult
