@@ -213,7 +213,7 @@ def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dic
             in_folder = [out / name for name in names_in_folder(outcome)]
     if "save_document" in files:
         save_document(relocated(document, base, files["save_document"].parent), files["save_document"], overwrite=force)
-    if files.keys() - {"save_document"}:  # what the late imports bring is for files alone
+    if files.keys() - {"save_document"}:
         from ..io.export import export_csv, export_vtk
         from ..report.animation import save_plastic_animation
 

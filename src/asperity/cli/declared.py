@@ -45,10 +45,9 @@ class Option:
         """Parameter of a typer command."""
         names = list(dict.fromkeys((self.name, *self.others, *([self.name.lower()] if not self.others else []))))
         values = self.parameter.values
-        listed = (
-            isinstance(values, Several) and type(values.item) is Values
-        )  # given several times: what has commas in itself
-        named = self.metavar == FILE or self.name.endswith("-file")  # of a file, which shells complete
+        # what has commas in itself is given several times; shells complete names of files
+        listed = isinstance(values, Several) and type(values.item) is Values
+        named = self.metavar == FILE or self.name.endswith("-file")
         kind: Any = list[str] if listed else Path if named else str
         default: Any = REQUIRED if self.required else None
         if isinstance(values, Flag):

@@ -245,9 +245,8 @@ def overlaid(table: Mapping[str, Any], given: Given, base: Path = Path()) -> dic
                 body = body_from_text(chosen[key])
             except InputError as error:
                 raise InputError(f"{option}{error}") from None
-            if file is not None and (
-                "layers" in body or "material" in body
-            ):  # named materials are looked up in the file
+            # named materials are looked up in the file
+            if file is not None and {"layers", "material"} & body.keys():
                 body["materials_file"] = str(base / file)
             result[key] = _from(base, body)
     if "boundary" in chosen:

@@ -153,10 +153,8 @@ def print_words(outcome: Outcome) -> None:
         else:
             say(part.title, "bold")
         for heading, made in words.tables:
-            above = (
-                "",
-                *(row[0] for row in made.cells),
-            )  # the name of a row is left out where the row above has it too
+            # the name of a row is left out where the row above has it too
+            above = ("", *(row[0] for row in made.cells))
             rows = [("" if row[0] == name else row[0], *row[1:]) for name, row in zip(above, made.cells, strict=False)]
             out.print(table(heading, rows, made.headings))
         if words.sentence:

@@ -134,9 +134,8 @@ class _Process:
             except (OSError, RuntimeError):  # no memory for it, or an interpreter within another
                 receiver.close()
                 return None
-            if (
-                number == 0
-            ):  # what the process was in the middle of, and what it has left to clean up, is not the copy's business
+            if number == 0:
+                # the copy draws and ends: it neither goes on with the work of this process nor cleans up after it
                 try:
                     gc.freeze()
                     pickle.dump({place: figures[place].drawing for place in numbers}, sender)
