@@ -175,6 +175,10 @@ def demo(out: Out = None, force: Force = False) -> None:
     raise typer.Exit(code)
 
 
+OVER = frozenset({"control", "path", "body", "counter_body", "bodies", "law", "boundary", "solver"})
+"""Tables of a document that is given which options may replace."""
+
+
 def asked_table(file: Path | None, document: Path | None, given: Given) -> tuple[dict[str, Any], dict[str, str], Path]:
     """Document without its parts, what the user calls its keys, and the folder at which its paths start.
 
@@ -196,7 +200,7 @@ def asked_table(file: Path | None, document: Path | None, given: Given) -> tuple
             "but are given; edit [surface] in the document instead."
         )
     table = read_table(document)
-    if given.within("control", "path", "body", "counter_body", "bodies", "law", "boundary", "solver").values:
+    if OVER & {path[0] for path in given.values}:
         table = overlaid({"control": {}} | table, given, Path().absolute())
     return table, {}, document.parent
 

@@ -96,13 +96,6 @@ class Given:
         n = len(path)
         return Given({p[n:]: value for p, value in self.values.items() if p[:n] == path and len(p) > n}, self.options)
 
-    def within(self, *tables: str) -> Given:
-        """What was given of these ``tables``, with the options for them."""
-        return Given(
-            {path: value for path, value in self.values.items() if path[0] in tables},
-            [option for option in self.options if option.path[0] in tables],
-        )
-
 
 def options_of(
     declared: Any,
