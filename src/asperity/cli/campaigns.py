@@ -20,9 +20,8 @@ from ..io.schemas.study import DEFAULT_QUANTITIES
 from ..report.study import (
     axis_rows,
     case_table,
+    cause_table,
     derived_table,
-    failure_table,
-    finding_table,
     summary,
     warning_texts,
     write_study_files,
@@ -149,8 +148,8 @@ def _print_causes(campaign: Campaign, state: CampaignState) -> None:
     for text in warning_texts(state):
         say(f"warning: {text}", "yellow", warning=True)
     shown = (
-        ("Failures by cause", failure_table(campaign, state)),
-        ("Warnings and notes of the cases", finding_table(campaign, state)),
+        ("Failures by cause", cause_table(campaign, state.causes, "Cause")),
+        ("Warnings and notes of the cases", cause_table(campaign, state.findings, "Warning or note")),
     )
     for heading, found in shown:
         if found.cells:
@@ -175,12 +174,7 @@ def watched(title: str) -> Iterator[Watch]:
         return
 
     with Progress(BarColumn(24), TextColumn("{task.description}"), console=error_console()) as bar:
-        task = bar.add_task("starting workers", total=None)
-
-        def shown(text: str, share: float) -> None:
-            bar.update(task, description=text, total=1.0, completed=share)
-
-        yield OnBar(shown)
+        yield OnBar(bar)
 
 
 class Pace:
@@ -197,7 +191,8 @@ class Pace:
         left = max(total - found - done, 0) / rate if rate > 0.0 else float("inf")
         share = min(1.0, (found + done) / max(total, 1))
         failures = f", {failed} failed" if failed else ""
-        return f"{found + done} of {total} cases{failures}, {_rate(rate)}, {duration(left)} left", share
+        speed = f"{rate:.3g} cases/s" if rate >= 1.0 else f"{rate * 60.0:.3g} cases/min"
+        return f"{found + done} of {total} cases{failures}, {speed}, {duration(left)} left", share
 
 
 class Lines:
@@ -215,14 +210,15 @@ class Lines:
 
 
 class OnBar:
-    """Moves a bar."""
+    """Moves a ``bar``."""
 
-    def __init__(self, shown: Callable[[str, float], None]) -> None:
-        self._shown, self._pace = shown, Pace()
+    def __init__(self, bar: Progress) -> None:
+        self._bar, self._task, self._pace = bar, bar.add_task("starting workers", total=None), Pace()
 
     def update(self, done: int, failed: int, found: int, total: int) -> None:
         """Move it."""
-        self._shown(*self._pace.text(done, failed, found, total))
+        text, share = self._pace.text(done, failed, found, total)
+        self._bar.update(self._task, description=text, total=1.0, completed=share)
 
 
 def duration(seconds: float) -> str:
@@ -235,10 +231,6 @@ def duration(seconds: float) -> str:
     if whole < 3600:
         return f"{whole // 60} min {whole % 60:02d} s"
     return f"{whole // 3600} h {whole % 3600 // 60:02d} min"
-
-
-def _rate(rate: float) -> str:
-    return f"{rate:.3g} cases/s" if rate >= 1.0 else f"{rate * 60.0:.3g} cases/min"
 
 
 def _write(text: str) -> None:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.parameters import Parameter
 from ..core.settings import COMMAND_LINE
@@ -25,7 +23,7 @@ from ..report.comparison import (
     write_comparison_report,
 )
 from ..run.build import Case, build, large_grid, stated_points
-from ..run.document import ProblemDocument, checked, relocated, save_document
+from ..run.document import checked, relocated, save_document
 from ..studies.compare import LOADS, MOST_CONTACTS
 from ..studies.compare import compare as compare_theories
 from ..studies.comparison import Comparison, export_comparison_csv, save_comparison
@@ -108,7 +106,14 @@ def compare(
     with output_folder(out, force=force) as folder:
         comparison = _compared(case, given, numerical=not no_numerical)
         if folder is not None and out is not None:
-            _write(comparison, relocated(document, base, out), folder)
+            highest = ControlTable.model_validate({"mean_pressure": f"{float(comparison.pressures[-1])!r} Pa"})
+            moved = relocated(document, base, out).model_copy(update={"control": highest})
+            save_document(moved, folder / "problem.toml")
+            save_comparison(comparison, folder / "comparison.nc")
+            export_comparison_csv(comparison, folder / "comparison.csv")
+            figures = comparison_figures(comparison.dataset)
+            save_pictures(figures, folder / "plots")
+            write_comparison_report(comparison, folder / "report.html", title=document.title, figures=figures)
     _print(comparison, document.title)
     print_files([] if out is None else [out / name for name in NAMES_IN_FOLDER])
     solved = comparison.numerical
@@ -120,7 +125,11 @@ def _compared(case: Case, given: Given, *, numerical: bool) -> Comparison:
     read = {
         item.name: item.values.read(chosen[item.name], option_of(item)) for item, _ in OWN[3:] if item.name in chosen
     }
-    values, theories = _pressures(chosen), chosen.get("theories")
+    text, loads, theories = chosen.get("pressures"), chosen.get("loads"), chosen.get("theories")
+    if loads is not None and (text is None or ".." not in text):
+        raise InputError("--loads must be given together with a range only, such as --pressures 1MPa..1GPa.")
+    count = LOADS if loads is None else Whole(2).read(loads, "--loads")
+    values = None if text is None else read_range(PRESSURES, text, points=count, linear=False)
     with stage("solving every load") as progress:
         return compare_theories(
             case.problem,
@@ -139,25 +148,6 @@ _PLACEHOLDER = "1 Pa"
 """Load that a document must have until the loads of the comparison are known."""
 
 _HEADING = "Theories and numerical solution (area of a theory: deviation from the numerical one; rms: where it holds)"
-
-
-def _pressures(chosen: Mapping[str, str]) -> RealArray | None:
-    text, loads = chosen.get("pressures"), chosen.get("loads")
-    if loads is not None and (text is None or ".." not in text):
-        raise InputError("--loads must be given together with a range only, such as --pressures 1MPa..1GPa.")
-    count = LOADS if loads is None else Whole(2).read(loads, "--loads")
-    return None if text is None else read_range(PRESSURES, text, points=count, linear=False)
-
-
-def _write(comparison: Comparison, document: ProblemDocument, folder: Path) -> None:
-    """Write everything into ``folder``; the load of the document is the highest."""
-    highest = ControlTable.model_validate({"mean_pressure": f"{float(comparison.pressures[-1])!r} Pa"})
-    save_document(document.model_copy(update={"control": highest}), folder / "problem.toml")
-    save_comparison(comparison, folder / "comparison.nc")
-    export_comparison_csv(comparison, folder / "comparison.csv")
-    figures = comparison_figures(comparison.dataset)
-    save_pictures(figures, folder / "plots")
-    write_comparison_report(comparison, folder / "report.html", title=document.title, figures=figures)
 
 
 def _print(comparison: Comparison, title: str) -> None:

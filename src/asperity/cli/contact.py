@@ -82,7 +82,8 @@ def file_options(*names: str) -> list[Option]:
 def files_in(given: Given, *, force: bool) -> dict[str, Path]:
     """The single files that are asked for; none of them exists, unless they are replaced by ``force``."""
     files = {name: Path(path) for name, path in given.under("output").table().items()}
-    require_new_files([*files.values()], overwrite=force)
+    if files:
+        require_new_files([*files.values()], overwrite=force)
     return files
 
 
@@ -124,8 +125,9 @@ def contact(
     table = with_parts(table, given, (*(with_ or ()), *given.under("asked").table(), *volume))
     where = f"problem document {from_}" if from_ else COMMAND_LINE
     document = checked(table, where, names | part_names(given, everything=from_ is None))
-    inputs = [*files_of(document, base), *([from_] if from_ else [])]
-    require_new_files([*files.values()], overwrite=force, inputs=inputs)
+    if files:
+        inputs = [*files_of(document, base), *([from_] if from_ else [])]
+        require_new_files([*files.values()], overwrite=force, inputs=inputs)
     if file and len(file) > 1:
         if files:
             raise InputError(
@@ -173,6 +175,10 @@ def demo(out: Out = None, force: Force = False) -> None:
     raise typer.Exit(code)
 
 
+OVER = frozenset({"control", "path", "body", "counter_body", "bodies", "law", "boundary", "solver"})
+"""Tables of a document that is given which options may replace."""
+
+
 def asked_table(file: Path | None, document: Path | None, given: Given) -> tuple[dict[str, Any], dict[str, str], Path]:
     """Document without its parts, what the user calls its keys, and the folder at which its paths start.
 
@@ -194,7 +200,7 @@ def asked_table(file: Path | None, document: Path | None, given: Given) -> tuple
             "but are given; edit [surface] in the document instead."
         )
     table = read_table(document)
-    if given.within("control", "path", "body", "counter_body", "bodies", "law", "boundary", "solver").values:
+    if OVER & {path[0] for path in given.values}:
         table = overlaid({"control": {}} | table, given, Path().absolute())
     return table, {}, document.parent
 
@@ -212,25 +218,20 @@ def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dic
     if "save_document" in files:
         save_document(relocated(document, base, files["save_document"].parent), files["save_document"], overwrite=force)
     if files.keys() - {"save_document"}:
-        _write_files(outcome, files, force=force)
+        from ..io.export import export_csv, export_vtk
+        from ..report.animation import save_plastic_animation
+
+        if "csv" in files:
+            export_csv(outcome.result, files["csv"], scalars=outcome.scalars, overwrite=force)
+        if "vtk" in files:
+            export_vtk(outcome.result, files["vtk"], overwrite=force)
+        write_volume(outcome, files, force=force)
+        if "animation" in files:
+            save_plastic_animation(outcome, files["animation"], overwrite=force)
     print_problem(outcome, document.title or "Contact")
     print_result(outcome)
     print_files([*in_folder, *files.values()])
     return OK if outcome.converged else NOT_CONVERGED
-
-
-def _write_files(outcome: Outcome, files: Mapping[str, Path], *, force: bool) -> None:
-    """Write the numbers, fields and pictures of ``outcome`` to the ``files`` that are asked for."""
-    from ..io.export import export_csv, export_vtk
-    from ..report.animation import save_plastic_animation
-
-    if "csv" in files:
-        export_csv(outcome.result, files["csv"], scalars=outcome.scalars, overwrite=force)
-    if "vtk" in files:
-        export_vtk(outcome.result, files["vtk"], overwrite=force)
-    write_volume(outcome, files, force=force)
-    if "animation" in files:
-        save_plastic_animation(outcome, files["animation"], overwrite=force)
 
 
 def write_volume(outcome: Outcome, files: Mapping[str, Path], *, force: bool) -> None:

@@ -41,28 +41,20 @@ class Option:
         """Name of the argument that typer passes."""
         return self.name.lstrip("-").replace("-", "_").replace(".", "_").lower()
 
-    @property
-    def repeated(self) -> bool:
-        """Whether it may be given several times: a list of what has commas in itself."""
-        return isinstance(self.parameter.values, Several) and type(self.parameter.values.item) is Values
-
-    @property
-    def named_file(self) -> bool:
-        """Whether its value is the name of a file, which shells complete."""
-        return self.metavar == FILE or self.name.endswith("-file")
-
     def shown(self) -> inspect.Parameter:
         """Parameter of a typer command."""
         names = list(dict.fromkeys((self.name, *self.others, *([self.name.lower()] if not self.others else []))))
-        kind: Any = list[str] if self.repeated else Path if self.named_file else str
+        values = self.parameter.values
+        # what has commas in itself is given several times; shells complete names of files
+        listed = isinstance(values, Several) and type(values.item) is Values
+        named = self.metavar == FILE or self.name.endswith("-file")
+        kind: Any = list[str] if listed else Path if named else str
         default: Any = REQUIRED if self.required else None
-        if isinstance(self.parameter.values, Flag):
+        if isinstance(values, Flag):
             kind = bool
             if self.parameter.default is True:
                 names = [f"{self.name}/--no-{self.name[2:]}"]
-        metavar = (
-            None if kind is bool else FILE if kind is Path else self.metavar or self.parameter.values.metavar or "TEXT"
-        )
+        metavar = None if kind is bool else FILE if kind is Path else self.metavar or values.metavar or "TEXT"
         made = typer.Option(*names, help=explained(self.parameter), metavar=metavar, rich_help_panel=self.panel)
         wanted: Any = kind if self.required else kind | None
         annotation: Any = Annotated[wanted, made]
@@ -103,13 +95,6 @@ class Given:
         """What was given below ``path``, by the rest of the path."""
         n = len(path)
         return Given({p[n:]: value for p, value in self.values.items() if p[:n] == path and len(p) > n}, self.options)
-
-    def within(self, *tables: str) -> Given:
-        """What was given of these ``tables``, with the options for them."""
-        return Given(
-            {path: value for path, value in self.values.items() if path[0] in tables},
-            [option for option in self.options if option.path[0] in tables],
-        )
 
 
 def options_of(

@@ -75,7 +75,32 @@ def _command(kind: str) -> Any:
         force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
         yes: Annotated[bool, typer.Option("--yes", help="Do not ask before work that takes much memory.")] = False,
     ) -> None:
-        _run(kind, given, (out, plot, force), yes=yes)
+        if plot is not None and plot.suffix.lower() != ".png":
+            raise InputError(f"--plot must be the name of a PNG file, such as heights.png, but is {str(plot)!r}.")
+        require_ending(out)
+        written = [path for path in (out, plot) if path is not None]
+        require_new_files(written, overwrite=force)
+        asked = {"kind": kind} | given.table()
+        memory = asked.pop("memory", None)
+        for part in asked.values():
+            if isinstance(part, dict) and "surface" in part:
+                part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(Given({}))}
+        table: Any = validated(SURFACE_TABLES[kind], asked, COMMAND_LINE, given.names)
+        if memory is not None:
+            _stream(table, out, memory, force)
+            print_files([out])
+            return
+        confirmed(large_grid(stated_points(table)), yes=yes)
+        if kind == "rank_ordered":
+            with shown("ordering ranks") as bar, interruptible(bar) as progress:
+                surface = build_generated(table, Path(), progress=progress)
+        else:
+            surface = build_generated(table, Path())
+        save_surface(surface, out, overwrite=force)
+        if plot is not None:
+            save_surface_plot(surface, plot, overwrite=force)
+        _print(surface)
+        print_files(written)
 
     run.__doc__ = (SURFACE_TABLES[kind].__doc__ or "").replace("``", "")
     return built(run, kind, options(kind))
@@ -116,43 +141,15 @@ def _part_options(item: Parameter, tables: Any) -> list[Option]:
     return list(found.values())
 
 
-def _run(kind: str, given: Given, files: tuple[Path, Path | None, bool], *, yes: bool) -> None:
-    out, plot, force = files
-    if plot is not None and plot.suffix.lower() != ".png":
-        raise InputError(f"--plot must be the name of a PNG file, such as heights.png, but is {str(plot)!r}.")
-    require_ending(out)
-    written = [path for path in (out, plot) if path is not None]
-    require_new_files(written, overwrite=force)
-    asked = {"kind": kind} | given.table()
-    memory = asked.pop("memory", None)
-    for part in asked.values():
-        if isinstance(part, dict) and "surface" in part:
-            part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(Given({}))}
-    table = validated(SURFACE_TABLES[kind], asked, COMMAND_LINE, given.names)
-    if memory is not None:
-        _stream(table, out, memory, force)
-        written = [out]
-    else:
-        confirmed(large_grid(stated_points(table)), yes=yes)
-        surface = _generated(table)
-        save_surface(surface, out, overwrite=force)
-        if plot is not None:
-            save_surface_plot(surface, plot, overwrite=force)
-        _print(surface)
-    print_files(written)
-
-
-def _generated(table: Any) -> Surface:
-
-    if table.kind != "rank_ordered":
-        return build_generated(table, Path())
-    with shown("ordering ranks") as bar, interruptible(bar) as progress:
-        return build_generated(table, Path(), progress=progress)
-
-
 def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
     """Write a surface beyond the memory: an endless one tile by tile, a Gaussian one by transforms on the disk."""
-    _require_streamable(table)
+    if table.kind == "digital_filter" and table.periodic:
+        raise InputError("--memory must be left out with --periodic: this periodic surface is generated as a whole.")
+    if table.kind == "rough" and (table.variant != "random" or table.exact_rms or not table.periodic):
+        raise InputError(
+            "--memory must be left out with --variant, --exact-rms and --no-periodic: beyond the memory Gaussian surfaces are "
+            "periodic, with random waves. Use digital_filter for a window without period."
+        )
     grid = table_grid(table)
     spectrum = build_part(table.spectrum, Path())
     if table.kind == "rough":
@@ -166,17 +163,6 @@ def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
     with stage("writing tiles") as progress:
         save_endless(made, grid.shape, out, memory=bytes_allowed, overwrite=force, progress=progress)
     say(f"  {made.origin.history[0]}", "dim")
-
-
-def _require_streamable(table: Any) -> None:
-
-    if table.kind == "digital_filter" and table.periodic:
-        raise InputError("--memory must be left out with --periodic: this periodic surface is generated as a whole.")
-    if table.kind == "rough" and (table.variant != "random" or table.exact_rms or not table.periodic):
-        raise InputError(
-            "--memory must be left out with --variant, --exact-rms and --no-periodic: beyond the memory Gaussian surfaces are "
-            "periodic, with random waves. Use digital_filter for a window without period."
-        )
 
 
 def _print(surface: Surface) -> None:

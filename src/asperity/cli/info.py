@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Sequence
 from contextlib import nullcontext
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -32,16 +32,6 @@ from .declared import FILE, Given, Option, offers
 from .main import NOT_CONVERGED, OK
 from .options import levelled_as, own_option, read_surface, reading_options
 from .show import console, print_files, say, short_names, silence, table
-
-
-@dataclass(frozen=True)
-class Asked:
-    """Files that are asked for."""
-
-    report: Path | None
-    plot: Path | None
-    plots: Path | None
-    force: bool
 
 
 def _options() -> list[Option]:
@@ -78,18 +68,26 @@ def info(
     Roughness values are those after levelling: by the least-squares plane, of a periodic surface by its mean, unless another level is chosen.
     """
     paths = {name: Path(path) for name, path in given.under("output").table().items()}
-    asked = Asked(paths.get("report"), paths.get("plot"), paths.get("plots"), force)
-    _check(asked)
+    report, plot, plots = (paths.get(name) for name in ("report", "plot", "plots"))
+    for name, path, suffix, example in (
+        ("--plot", plot, ".png", "heights.png"),
+        ("--report", report, ".html", "roughness.html"),
+    ):
+        if path is not None and path.suffix.lower() != suffix:
+            kind = suffix[1:].upper()
+            raise InputError(f"{name} must be the name of a {kind} file, such as {example}, but is {str(path)!r}.")
+        if path is not None:
+            require_new_file(path, overwrite=force)
     if len(files) > 1:
-        if full or asked.plot or asked.plots:
+        if full or plot or plots:
             raise InputError("--full, --plot and --plots must be left out with many files: give one file.")
-        raise typer.Exit(_many(files, given, level, asked, as_json=as_json))
+        raise typer.Exit(_many(files, given, level, report, as_json=as_json, force=force))
     file = files[0]
     tip = given.get("tip_radius")
     radius = None if tip is None else parse(tip, "length", "--tip-radius")
     surface = read_surface(file, given)
     found, (flat, removed) = channels(file), levelled_as(surface, level)
-    whole = characterise(flat, tip_radius=radius) if full or asked.report or asked.plots else None
+    whole = characterise(flat, tip_radius=radius) if full or report or plots else None
     shown = whole if full else None
     if as_json:
         record = _record(file, found, surface, flat, shown) | {"levelled": removed}
@@ -97,7 +95,16 @@ def info(
     else:
         _print(file, found, chosen(found, given.get("surface", "channel"), file).index, surface)
         _print_roughness(flat, shown, removed)
-    written = _written(asked, flat, whole)
+    written: list[Path] = []
+    figures = () if whole is None else roughness_figures(whole)
+    if plot is not None:
+        save_surface_plot(flat, plot, overwrite=force)
+        written.append(plot)
+    if whole is not None and plots is not None:
+        written += save_pictures(figures, plots, overwrite=force)
+    if whole is not None and report is not None:
+        write_roughness_report(whole, report, figures=figures, overwrite=force)
+        written.append(report)
     if written and not as_json:
         say(f"Pictures and pages show the heights after {_levelling(removed)}.", "dim")
         print_files(written)
@@ -106,7 +113,7 @@ def info(
 HEADINGS = ("file", "points", "size", "missing", "Sq", "Sa", "Sz", "Sdq", "levelled")
 
 
-def _many(files: Sequence[Path], given: Given, level: str, asked: Asked, *, as_json: bool) -> int:
+def _many(files: Sequence[Path], given: Given, level: str, report: Path | None, *, as_json: bool, force: bool) -> int:
     """Print one row for each file, and write them as a page; the exit code shows whether all could be read."""
     rows, records, lost = [], [], []
     for file, name in zip(files, short_names(files), strict=True):
@@ -131,45 +138,16 @@ def _many(files: Sequence[Path], given: Given, level: str, asked: Asked, *, as_j
     with silence() if as_json else nullcontext():  # JSON stays alone on stdout
         for text in lost:
             say(f"warning: {text}", "yellow", warning=True)
-    if asked.report is not None:
+    if report is not None:
         write_files_report(
             Table(HEADINGS, tuple(rows)),
-            asked.report,
+            report,
             f"{len(files)} files, {len(lost)} not read.",
-            overwrite=asked.force,
+            overwrite=force,
         )
         if not as_json:
-            print_files([asked.report])
+            print_files([report])
     return NOT_CONVERGED if lost else OK
-
-
-def _check(answer: Asked) -> None:
-    """Refuse what cannot be written before anything is computed."""
-    for name, path, suffix, example in (
-        ("--plot", answer.plot, ".png", "heights.png"),
-        ("--report", answer.report, ".html", "roughness.html"),
-    ):
-        if path is None:
-            continue
-        if path.suffix.lower() != suffix:
-            kind = suffix[1:].upper()
-            raise InputError(f"{name} must be the name of a {kind} file, such as {example}, but is {str(path)!r}.")
-        require_new_file(path, overwrite=answer.force)
-
-
-def _written(answer: Asked, flat: Surface, found: Characterisation | None) -> list[Path]:
-    """The files that are asked for, written."""
-    written: list[Path] = []
-    figures = () if found is None else roughness_figures(found)
-    if answer.plot is not None:
-        save_surface_plot(flat, answer.plot, overwrite=answer.force)
-        written.append(answer.plot)
-    if found is not None and answer.plots is not None:
-        written += save_pictures(figures, answer.plots, overwrite=answer.force)
-    if found is not None and answer.report is not None:
-        write_roughness_report(found, answer.report, figures=figures, overwrite=answer.force)
-        written.append(answer.report)
-    return written
 
 
 def _roughness(flat: Surface) -> dict[str, tuple[float, str, str]]:

@@ -90,54 +90,44 @@ def _print(
         records = [record for record in records if record.name == wanted]
     if as_json:
         console().out(json.dumps([_described(record) for record in records], indent=2), highlight=False)
-    elif wanted is not None:
-        _print_one(listing, records[0])
-    else:
-        _print_all(listing, records)
-
-
-def _described(record: MaterialRecord | LiquidRecord) -> dict[str, Any]:
-    values = {key: {"value": item.value, "source": item.source} for key, item in record.values.items()}
-    return {"name": record.name, "aliases": list(record.aliases), "note": record.note, **values, **_relaxing(record)}
-
-
-def _relaxing(record: MaterialRecord | LiquidRecord) -> dict[str, Any]:
-    """What makes a record viscoelastic: relaxed modulus (Pa), terms (Pa, s), whether the bulk is elastic, and the shift."""
-    if not isinstance(record, MaterialRecord) or record.relaxation is None:
-        return {}
-    shift = None if record.shift is None else {"kind": record.shift.name, **asdict(record.shift)}
-    series = {"relaxed": record.relaxation.relaxed, "terms": [list(term) for term in record.relaxation.terms]}
-    return {"relaxation": {**series, "elastic_bulk": record.elastic_bulk, "shift": shift}}
-
-
-def _print_all(listing: _Listing, records: Sequence[MaterialRecord | LiquidRecord]) -> None:
-
-    rows = [
-        (record.name, *(listing.text(record, key) for key, _, _ in listing.columns), ", ".join(record.aliases))
-        for record in records
-    ]
-    headings = (NAMES[listing.command], *(heading for _, heading, _ in listing.columns), "also called")
-    console().print(table(f"{listing.title} (* assumed)", rows, headings))
-    sources = [
-        (record.name if number == 0 else "", source)
-        for record in records
-        for number, source in enumerate(dict.fromkeys(item.source for item in record.values.values()))
-    ]
-    console().print(table("Sources", sources, (NAMES[listing.command], "source")))
-    say(f"`asperity {listing.command} NAME` shows the source of every value.")
-
-
-def _print_one(listing: _Listing, record: MaterialRecord | LiquidRecord) -> None:
-
+        return
+    if wanted is None:
+        rows = [
+            (record.name, *(listing.text(record, key) for key, _, _ in listing.columns), ", ".join(record.aliases))
+            for record in records
+        ]
+        headings = (NAMES[listing.command], *(heading for _, heading, _ in listing.columns), "also called")
+        console().print(table(f"{listing.title} (* assumed)", rows, headings))
+        sources = [
+            (record.name if number == 0 else "", source)
+            for record in records
+            for number, source in enumerate(dict.fromkeys(item.source for item in record.values.values()))
+        ]
+        console().print(table("Sources", sources, (NAMES[listing.command], "source")))
+        say(f"`asperity {listing.command} NAME` shows the source of every value.")
+        return
+    record = records[0]
     rows = [(key.replace("_", " "), listing.text(record, key), item.source) for key, item in record.values.items()]
     if isinstance(record, MaterialRecord) and record.relaxation is not None:
-        series, source = record.relaxation, record.youngs_modulus.source
+        relaxation, source = record.relaxation, record.youngs_modulus.source
         bulk = "; the bulk modulus does not relax" if record.elastic_bulk else ""
-        rows.append(("relaxed modulus", f"{show(series.relaxed, 'Pa', 5)}{bulk}", source))
-        rows += [("relaxes", f"{show(part, 'Pa', 5)} in {show(time, 's', 5)}", source) for part, time in series.terms]
+        rows.append(("relaxed modulus", f"{show(relaxation.relaxed, 'Pa', 5)}{bulk}", source))
+        for part, time in relaxation.terms:
+            rows.append(("relaxes", f"{show(part, 'Pa', 5)} in {show(time, 's', 5)}", source))
         rows += [("shift", record.shift.name, record.shift_source)] if record.shift is not None else []
     console().print(table(record.name, rows, ("quantity", "value", "source")))
     if record.aliases:
         say(f"also called {', '.join(record.aliases)}")
     if record.note:
         say(record.note)
+
+
+def _described(record: MaterialRecord | LiquidRecord) -> dict[str, Any]:
+    """Record as JSON; of a viscoelastic one with relaxed modulus (Pa), terms (Pa, s), whether the bulk is elastic, and the shift."""
+    values = {key: {"value": item.value, "source": item.source} for key, item in record.values.items()}
+    made = {"name": record.name, "aliases": list(record.aliases), "note": record.note, **values}
+    if isinstance(record, MaterialRecord) and record.relaxation is not None:
+        shift = None if record.shift is None else {"kind": record.shift.name, **asdict(record.shift)}
+        series = {"relaxed": record.relaxation.relaxed, "terms": [list(term) for term in record.relaxation.terms]}
+        made["relaxation"] = {**series, "elastic_bulk": record.elastic_bulk, "shift": shift}
+    return made

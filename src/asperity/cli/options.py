@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
@@ -91,7 +92,7 @@ def preparation_options() -> tuple[Option, ...]:
         make(
             "--level",
             ("prepare", "level", "form"),
-            "remove mean, plane (default), quadratic or a polynomial of the degree given; or none",
+            "remove mean, plane, quadratic or a polynomial of the degree given; or none; by default the mean of a periodic surface, the plane of any other",
             PREPARATION,
             "WORD",
         ),
@@ -211,9 +212,16 @@ def composed(file: Path, given: Given) -> dict[str, Any]:
     table: dict[str, Any] = {"version": 2, "surface": {**surface, "path": str(file)}}
     counter = chosen.get("counter_surface", {})
     if "path" in counter:
-        table["counter_surface"] = {**surface, "path": counter["path"], "mirror": counter.get("mirror", "x")} | _place(
-            counter
-        )
+        other = {**surface, "path": counter["path"], "mirror": counter.get("mirror", "x")}
+        if "place" in counter or "common" in counter:
+            place = other["place"] = dict(counter.get("place", {}))
+            if "shift" in place:
+                place["shift"] = [part.strip() for part in place["shift"].split(",")]
+                if len(place["shift"]) != 2:
+                    raise InputError(
+                        f'--counter-shift must be two lengths, such as "1um,0um", but is {counter["place"]["shift"]!r}.'
+                    )
+        table["counter_surface"] = other
     elif counter:
         option = next(
             option.name
@@ -225,68 +233,62 @@ def composed(file: Path, given: Given) -> dict[str, Any]:
 
 
 def overlaid(table: Mapping[str, Any], given: Given, base: Path = Path()) -> dict[str, Any]:
-    """``table`` with the bodies, boundary, law, load and solver settings that are given; materials files start at ``base``."""
+    """``table`` with the bodies, boundary, law, load and solver settings that are given; materials files start at ``base``.
+
+    The unit of the first value other than zero of a load path decides what it prescribes.
+    """
     chosen, result = given.table(), dict(table)
     file = given.get("bodies", "materials_file")
     for key, option in (("body", "--body"), ("counter_body", "--counter")):
         if key in chosen:
-            result[key] = _from(base, body_table(chosen[key], option, None if file is None else base / file))
+            try:
+                body = body_from_text(chosen[key])
+            except InputError as error:
+                raise InputError(f"{option}{error}") from None
+            # named materials are looked up in the file
+            if file is not None and {"layers", "material"} & body.keys():
+                body["materials_file"] = str(base / file)
+            result[key] = _from(base, body)
     if "boundary" in chosen:
         result["boundary"] = chosen["boundary"]
     if "law" in chosen:
         hardness = chosen["law"]["hardness"]
         result["law"] = {"kind": "hardness", "hardness": WORDS_OF_HARDNESS.get(hardness.strip().casefold(), hardness)}
-    result["control"] = _control(table, given)
     before = table.get("solver", {})
     if "solver" in chosen and isinstance(before, dict):
         result["solver"] = {**before, **chosen["solver"]}
-    return result
-
-
-def _control(table: Mapping[str, Any], given: Given) -> Any:
-    """The load that options give, or that of ``table``."""
-    chosen, steps = given.under("control").table(), given.get("path", "steps")
-    if len(chosen) > 1 or (not chosen and "control" not in table):
+    loads, path_steps = given.under("control").table(), given.get("path", "steps")
+    if len(loads) > 1 or (not loads and "control" not in table):
         options = {option.path[1]: option.name for option in load_options() if option.path[0] == "control"}
         raise InputError(
             f"load must be given by exactly one of {', '.join(options.values())}, "
-            f"but is given by {' and '.join(options[key] for key in chosen) or 'none'}."
+            f"but is given by {' and '.join(options[key] for key in loads) or 'none'}."
         )
-    if "path" in chosen:
-        chosen["path"] = path_table(chosen["path"])
-    control = chosen or table["control"]
-    if steps is None:
-        return control
-    if not isinstance(control, dict) or not isinstance(control.get("path"), dict):
-        raise InputError("--path-steps must be given together with a load path (--path) only, but is given without.")
-    return {**control, "path": {**control["path"], "steps": steps}}
+    if "path" in loads:
+        points = [part.strip() for part in loads["path"].split(",")]
+        first = next((point for point in points if point != NONE), "")
+        for key, kind in PATH_KINDS:
+            with suppress(UnitError):
+                units.parse(first, kind, "")
+                loads["path"] = {key: points}
+                break
+        else:
+            raise InputError(
+                '--path must be pressures, forces or lengths with units, separated by commas, such as "50MPa,0,80MPa", '
+                f"but is {loads['path']!r}."
+            )
+    control = result["control"] = loads or table["control"]
+    if path_steps is not None:
+        if not isinstance(control, dict) or not isinstance(control.get("path"), dict):
+            raise InputError(
+                "--path-steps must be given together with a load path (--path) only, but is given without."
+            )
+        result["control"] = {**control, "path": {**control["path"], "steps": path_steps}}
+    return result
 
 
-def path_table(text: str) -> dict[str, Any]:
-    """Table of the load path in ``text``: the unit of its first value other than zero decides what is prescribed."""
-    points = [part.strip() for part in text.split(",")]
-    loads = [point for point in points if point != NONE]
-    kinds = (("mean_pressure", "pressure"), ("force", "force"), ("force", "surface tension"), ("approach", "length"))
-    for key, kind in kinds:
-        try:
-            units.parse(loads[0] if loads else "", kind, "")
-        except UnitError:
-            continue
-        return {key: points}
-    raise InputError(
-        '--path must be pressures, forces or lengths with units, separated by commas, such as "50MPa,0,80MPa", '
-        f"but is {text!r}."
-    )
-
-
-def body_table(text: str, option: str, materials_file: Path | None) -> dict[str, Any]:
-    """Body from its one line of text (see ``io.schemas.bodies``); named materials are looked up in the file."""
-    try:
-        table = body_from_text(text)
-    except InputError as error:
-        raise InputError(f"{option}{error}") from None
-    named = "layers" in table or "material" in table
-    return {**table, "materials_file": str(materials_file)} if named and materials_file is not None else table
+PATH_KINDS = (("mean_pressure", "pressure"), ("force", "force"), ("force", "surface tension"), ("approach", "length"))
+"""What the points of a load path may be, and the kind of their unit; forces per length are those of line contacts."""
 
 
 def _from(base: Path, table: Any) -> Any:
@@ -302,24 +304,6 @@ def names_in(table: Mapping[str, Any], given: Given) -> dict[str, str]:
     """What the user calls the keys of the document ``table`` that was composed of what is ``given``."""
     names = {**given.names, "control.path.steps": "--path-steps", "counter_surface.path": "--counter-surface"}
     names |= {f"counter_surface.{option.path[-1]}": option.name for option in reading_options()}
-    return names | _body_names(table) | _path_names(table) | step_names(table["surface"]["prepare"])
-
-
-def _path_names(table: Mapping[str, Any]) -> dict[str, str]:
-    """What the user calls the turning points of the load path in ``table``."""
-    path = table["control"].get("path", {})
-    names = {f"control.path.{key}": "--path" for key in path if key != "steps"}
-    return names | {
-        f"control.path.{key}[{number}]": f"turning point {number} of --path"
-        for key, points in path.items()
-        if isinstance(points, list)
-        for number in range(1, len(points) + 1)
-    }
-
-
-def _body_names(table: Mapping[str, Any]) -> dict[str, str]:
-    """What the user calls the keys of the bodies in ``table``: the symbol, the part and the option."""
-    names: dict[str, str] = {}
     words = (*SYMBOLS.items(), ("material", "material"), ("thickness", "thickness"), ("relaxation", "relaxation"))
     for key, option in (("body", "--body"), ("counter_body", "--counter")):
         body = table.get(key)
@@ -329,27 +313,17 @@ def _body_names(table: Mapping[str, Any]) -> dict[str, str]:
         for part, name in parts.items():
             names[part] = name
             names |= {f"{part}.{k}": f"{symbol} of {name}" for symbol, k in words}
-    return names
-
-
-def _place(counter: Mapping[str, Any]) -> dict[str, Any]:
-    """Where the counter surface lies, if any of its options is given."""
-    if "place" not in counter and "common" not in counter:
-        return {}
-    place = dict(counter.get("place", {}))
-    if "shift" in place:
-        place["shift"] = [part.strip() for part in place["shift"].split(",")]
-        if len(place["shift"]) != 2:
-            raise InputError(
-                f'--counter-shift must be two lengths, such as "1um,0um", but is {counter["place"]["shift"]!r}.'
-            )
-    return {"place": place}
+    for key, points in table["control"].get("path", {}).items():
+        names |= {} if key == "steps" else {f"control.path.{key}": "--path"}
+        for number in range(1, len(points) + 1) if isinstance(points, list) else ():
+            names[f"control.path.{key}[{number}]"] = f"turning point {number} of --path"
+    return names | step_names(table["surface"]["prepare"])
 
 
 def steps(given: Given) -> list[dict[str, Any]]:
     """Preparation steps in the order of the options; a sharp filter needs a periodic surface, so that it comes after that.
 
-    Every surface is levelled and filled unless that is turned off.
+    Every surface is levelled and filled unless that is turned off. An empty part of the range of ``--crop`` keeps the full side.
     """
     chosen: dict[str, Any] = {"level": {}, "fill": {}, **given.under("prepare").table()}
     sieve = chosen.get("filter", {})
@@ -361,20 +335,38 @@ def steps(given: Given) -> list[dict[str, Any]]:
     if sieve.get("kind") == "sharp":
         order.remove("filter")
         order.insert(order.index("periodise") + 1, "filter")
-    made: dict[str, dict[str, Any] | None] = {
-        **chosen,
-        "level": _level(chosen["level"]),
-        "fill": {"method": "harmonic", **chosen["fill"]},
-        **({"crop": _crop(chosen["crop"]["range"])} if "crop" in chosen else {}),
-        **({"periodise": {}} if "periodise" in chosen else {}),
-        **({"slice": _line(chosen["slice"]["at"])} if "slice" in chosen else {}),
-    }
-    require.one_of(str(made["fill"]["method"]), (*_words("fill", "method"), "none"), "--fill")  # type: ignore[index]
+    made: dict[str, dict[str, Any] | None] = dict(chosen)
+    form = chosen["level"].get("form")
+    robust = {"robust": True} if chosen["level"].get("robust") else {}
+    if form is None:
+        made["level"] = robust
+    elif form.isdecimal() and len(form) < 10:
+        made["level"] = {"degree": int(form), **robust}
+    else:
+        require.one_of(form, (*_words("level", "form"), "none", "a degree"), "--level")
+        made["level"] = None if form == "none" else {"form": form, **robust}
+    if "crop" in chosen:
+        text = chosen["crop"]["range"]
+        parts = [part.strip() for part in text.split(",")]
+        ends = [[end.strip() for end in part.split(":")] for part in parts]
+        halved = all(len(pair) == 2 for part, pair in zip(parts, ends, strict=True) if part)
+        if len(parts) != 2 or not any(parts) or not halved:
+            raise InputError(f'--crop must be two ranges of lengths, such as "0um:5um,0um:4um", but is {text!r}.')
+        made["crop"] = {axis: pair for axis, part, pair in zip("xy", parts, ends, strict=True) if part}
+    if "periodise" in chosen:
+        made["periodise"] = {}
+    if "slice" in chosen:
+        text = chosen["slice"]["at"]
+        axis, equals, position = (part.strip() for part in text.partition("="))
+        if axis not in ("x", "y") or not equals or not position:
+            raise InputError(f'--line must be a position such as "y=middle" or "x=3um", but is {text!r}.')
+        made["slice"] = {axis: position}
+    fill = {"method": "harmonic", **chosen["fill"]}
+    require.one_of(str(fill["method"]), (*_words("fill", "method"), "none"), "--fill")
+    made["fill"] = None if fill == {"method": "none"} else fill
     if sieve:
-        made["filter"] = {"kind": "gaussian", **sieve}
-        require.one_of(str(made["filter"]["kind"]), _words("filter", "kind"), "--filter")  # type: ignore[index]
-    if made["fill"] == {"method": "none"}:
-        made["fill"] = None
+        made["filter"] = kept = {"kind": "gaussian", **sieve}
+        require.one_of(str(kept["kind"]), _words("filter", "kind"), "--filter")
     return [{"step": step, **values} for step in order if (values := made.get(step)) is not None]
 
 
@@ -400,32 +392,3 @@ def step_names(steps: Iterable[Mapping[str, Any]]) -> dict[str, str]:
         for number, step in enumerate(steps, start=1)
         for key in step
     }
-
-
-def _level(chosen: Mapping[str, Any]) -> dict[str, Any] | None:
-    form = chosen.get("form")
-    robust = {"robust": True} if chosen.get("robust") else {}
-    if form is None:
-        return robust
-    if form.isdecimal() and len(form) < 10:
-        return {"degree": int(form), **robust}
-    require.one_of(form, (*_words("level", "form"), "none", "a degree"), "--level")
-    return None if form == "none" else {"form": form, **robust}
-
-
-def _crop(text: str) -> dict[str, list[str]]:
-    """Ranges of ``"X0:X1,Y0:Y1"``; an empty part keeps the full side."""
-    parts = [part.strip() for part in text.split(",")]
-    ends = [[end.strip() for end in part.split(":")] for part in parts]
-    halved = all(len(pair) == 2 for part, pair in zip(parts, ends, strict=True) if part)
-    if len(parts) != 2 or not any(parts) or not halved:
-        raise InputError(f'--crop must be two ranges of lengths, such as "0um:5um,0um:4um", but is {text!r}.')
-    return {axis: pair for axis, part, pair in zip("xy", parts, ends, strict=True) if part}
-
-
-def _line(text: str) -> dict[str, str]:
-    """Position of ``"y=middle"``."""
-    axis, equals, position = (part.strip() for part in text.partition("="))
-    if axis not in ("x", "y") or not equals or not position:
-        raise InputError(f'--line must be a position such as "y=middle" or "x=3um", but is {text!r}.')
-    return {axis: position}

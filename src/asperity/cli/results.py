@@ -213,16 +213,9 @@ def _asked(text: str | None, given: Given) -> tuple[StressRequest, ProblemDocume
     table = with_parts(start, given, ("stress",))
     checked = checked_parts(table, COMMAND_LINE, part_names(given, everything=True))
     request = stress_request(checked.stress, checked.friction)
-    _require_same_coupling(request, None if before is None else stress_request(before.stress, before.friction))
-    asked = {name: getattr(checked, name) for name in tables}
-    threads = validated(SolverTable, given.under("solver").table(), COMMAND_LINE, {"threads": "--threads"}).threads
-    return request, None if document is None else document.model_copy(update=asked), threads
-
-
-def _require_same_coupling(request: StressRequest, before: StressRequest | None) -> None:
-    """Refuse a coupling that the saved pressure does not have."""
-    had = None if before is None or not before.coupled else (before.friction, before.direction)
-    if request.coupled and had != (request.friction, request.direction):
+    earlier = None if before is None else stress_request(before.stress, before.friction)
+    had = None if earlier is None or not earlier.coupled else (earlier.friction, earlier.direction)
+    if request.coupled and had != (request.friction, request.direction):  # the saved pressure is without it
         holds = (
             "without coupling"
             if had is None
@@ -233,3 +226,6 @@ def _require_same_coupling(request: StressRequest, before: StressRequest | None)
             "Solve again: asperity contact --from problem.toml --coupled with that friction.",
             subject="--coupled",
         )
+    asked = {name: getattr(checked, name) for name in tables}
+    threads = validated(SolverTable, given.under("solver").table(), COMMAND_LINE, {"threads": "--threads"}).threads
+    return request, None if document is None else document.model_copy(update=asked), threads

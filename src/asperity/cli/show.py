@@ -153,15 +153,12 @@ def print_words(outcome: Outcome) -> None:
         else:
             say(part.title, "bold")
         for heading, made in words.tables:
-            out.print(table(heading, _once(made.cells), made.headings))
+            # the name of a row is left out where the row above has it too
+            above = ("", *(row[0] for row in made.cells))
+            rows = [("" if row[0] == name else row[0], *row[1:]) for name, row in zip(above, made.cells, strict=False)]
+            out.print(table(heading, rows, made.headings))
         if words.sentence:
             say(words.sentence, "yellow" if words.alarming else "")
-
-
-def _once(cells: tuple[tuple[str, ...], ...]) -> list[tuple[str, ...]]:
-    """The same ``cells``, without the name of a row where the row above has it too."""
-    above = ("", *(row[0] for row in cells))
-    return [("" if row[0] == name else row[0], *row[1:]) for name, row in zip(above, cells, strict=False)]
 
 
 def print_advice(findings: Iterable[Advice]) -> None:

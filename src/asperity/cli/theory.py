@@ -31,7 +31,7 @@ from ..surfaces.prepare.level import filled
 from ..theories.ask import Evaluation, evaluate, ways_of
 from ..theories.catalogue import FAMILIES, THEORIES
 from ..theories.catalogue import theory as theory_of
-from ..theories.protocol import Described, Limit
+from ..theories.protocol import Described
 from .declared import FILE, Given, Option, built, options_of
 from .main import Listing
 from .options import READING, body_options, levelled_as, read_surface, reading_options
@@ -114,10 +114,23 @@ def theory(
 
     asperity theory NAME --help lists the options, results and sources of a theory.
     """
-    if context.invoked_subcommand is None:
-        if not listed:
-            raise InputError("NAME of a theory or --list must be given, but neither is.")
-        print_list(as_json=as_json)
+    if context.invoked_subcommand is not None:
+        return
+    if not listed:
+        raise InputError("NAME of a theory or --list must be given, but neither is.")
+    if as_json:
+        records = [catalogue_record(kind) for kind in THEORIES.values()]
+        console().out(json.dumps(records, indent=2), highlight=False)
+        return
+    rows: list[tuple[str, ...]] = []
+    for family, kinds in FAMILIES.items():
+        for number, kind in enumerate(kinds):
+            measured = " *" if _measured(kind) is not None else ""
+            rows.append((family if number == 0 else "", f"{kind.name}{measured}", kind.title))
+    console().print(table("Theories", rows, ("family", "name", "theory")))
+    say(
+        "* also from a surface, with --surface FILE. `asperity theory NAME --help` lists inputs, results, limits and sources of one."
+    )
 
 
 def _command(kind: type[Described]) -> Any:
@@ -148,18 +161,13 @@ def _command(kind: type[Described]) -> Any:
     # the docstring up to its sections; formulas, which are indented, keep their lines
     text = re.split(r"\n\n[A-Z]\w+\n---", inspect.cleandoc(kind.__doc__ or ""))[0]
     blocks = [re.sub(r"\n(?!    )", " ", block) for block in f"{kind.title}. {text}".replace("``", "").split("\n\n")]
-    run.__doc__ = "\n\n".join([*blocks, *_details(kind)])
-    return built(run, kind.name, _options(kind))
-
-
-def _details(kind: type[Described]) -> list[str]:
-    """The page of a theory beside its options: what it is asked along, what it answers, its limits and its sources."""
     ways = [f"{way.axis.name}{f' in {way.axis.unit}' if way.axis.unit else ''}" for way in ways_of(kind)]
     numbers = [column.name.rpartition(".")[2] for column in kind.numbers]
-    asked = [f"Asked along {' or '.join(ways)}."] if ways else []
-    chosen = [f"From the inputs alone: {', '.join(numbers)}."] if numbers else []
-    holds = [f"Holds for {bound.rule}. [{bound.citation}]" for bound in kind.limits]
-    return [*asked, *chosen, *holds, *(f"Source: {reference(key)}" for key in kind.citation_keys)]
+    blocks += [f"Asked along {' or '.join(ways)}."] if ways else []
+    blocks += [f"From the inputs alone: {', '.join(numbers)}."] if numbers else []
+    blocks += [f"Holds for {bound.rule}. [{bound.citation}]" for bound in kind.limits]
+    run.__doc__ = "\n\n".join([*blocks, *(f"Source: {reference(key)}" for key in kind.citation_keys)])
+    return built(run, kind.name, _options(kind))
 
 
 def _options(kind: type[Described]) -> list[Option]:
@@ -179,12 +187,12 @@ def _options(kind: type[Described]) -> list[Option]:
 
 
 def _made(kind: type[Described], given: Given) -> Described:
-    """The theory ``kind`` from the numbers given, those of named bodies, and a surface if there is one.
+    """The theory ``kind`` from the numbers given, those of named bodies, and a surface if there is one, filled and levelled.
 
     Raises
     ------
     InputError
-        If a parameter is missing, or given twice.
+        If a parameter is missing, or given twice, or a number that is measured is also given.
     """
     texts = given.under("made").table()
     values = {item.name: _read(item, texts) for item in parameters(kind) if item.name in texts}
@@ -196,7 +204,22 @@ def _made(kind: type[Described], given: Given) -> Described:
     if "file" in chosen:
         if "bins" in chosen:
             values["bins"] = Whole(1).read(chosen["bins"], "--bins")
-        return _of_surface(kind, values, given)
+        method: Any = _measured(kind)
+        taken = {item.name: item for item in list(inspect.signature(method).parameters.values())[1:]}
+        surplus = sorted(set(values) - set(taken))
+        if surplus:
+            options = ", ".join("--" + name.replace("_", "-") for name in surplus)
+            raise InputError(f"{options} must be left out with --surface, which measures what {kind.name} needs.")
+        lacking = [name for name, item in taken.items() if item.default is REQUIRED and name not in values]
+        if lacking:
+            options = ", ".join("--" + name.replace("_", "-") for name in lacking)
+            raise InputError(
+                f"{kind.name} of a surface must also be given {options}, but is not; --body names a material."
+            )
+        surface = read_surface(Path(chosen["file"]), given)
+        flat, _ = levelled_as(filled(surface) if surface.n_missing else surface, chosen.get("level") or "auto")
+        theory: Described = method(roughness_of(flat), **values)
+        return theory
     if "surface" in chosen or "bins" in chosen:
         raise InputError("options for reading must be given together with --surface, but are given alone.")
     missing = [item for item in parameters(kind) if item.required and item.name not in values]
@@ -227,31 +250,6 @@ def _of_bodies(kind: type[Described], values: dict[str, Any], body: str, counter
             raise InputError(f"{option_of(item)} must be given: no body states its {item.name.replace('_', ' ')}.")
     names = {item.name for item in parameters(kind)}
     return {name: value for name, value in known.items() if name in names} | values
-
-
-def _of_surface(kind: type[Described], values: dict[str, Any], given: Given) -> Described:
-    """The theory ``kind`` of the surface in the file that is given, filled and levelled.
-
-    Raises
-    ------
-    InputError
-        If a number that is measured is also given, or another is missing.
-    """
-
-    method: Any = _measured(kind)
-    taken = {item.name: item for item in list(inspect.signature(method).parameters.values())[1:]}
-    surplus = sorted(set(values) - set(taken))
-    if surplus:
-        options = ", ".join("--" + name.replace("_", "-") for name in surplus)
-        raise InputError(f"{options} must be left out with --surface, which measures what {kind.name} needs.")
-    needed = [name for name, item in taken.items() if item.default is REQUIRED and name not in values]
-    if needed:
-        options = ", ".join("--" + name.replace("_", "-") for name in needed)
-        raise InputError(f"{kind.name} of a surface must also be given {options}, but is not; --body names a material.")
-    surface = read_surface(Path(given.get("file")), given)
-    flat, _ = levelled_as(filled(surface) if surface.n_missing else surface, given.get("level") or "auto")
-    theory: Described = method(roughness_of(flat), **values)
-    return theory
 
 
 def _read(item: Parameter, texts: dict[str, Any]) -> Any:
@@ -299,25 +297,11 @@ LEFT = "!"
 """Mark of a row beyond a limit."""
 
 
-def print_list(*, as_json: bool) -> None:
-    """Print all theories with their inputs and sources."""
-    if as_json:
-        records = [catalogue_record(kind) for kind in THEORIES.values()]
-        console().out(json.dumps(records, indent=2), highlight=False)
-        return
-    rows: list[tuple[str, ...]] = []
-    for family, kinds in FAMILIES.items():
-        for number, kind in enumerate(kinds):
-            measured = hasattr(kind, "from_roughness") or hasattr(kind, "of_roughness")
-            rows.append((family if number == 0 else "", f"{kind.name}{' *' if measured else ''}", kind.title))
-    console().print(table("Theories", rows, ("family", "name", "theory")))
-    say(
-        "* also from a surface, with --surface FILE. `asperity theory NAME --help` lists inputs, results, limits and sources of one."
-    )
-
-
 def print_answer(found: Evaluation, *, as_json: bool) -> None:
-    """Print the results of a theory, its limits of validity and its sources."""
+    """Print the results of a theory, its limits of validity and its sources.
+
+    Rows beyond a limit that concerns all columns are marked and red. The heading of stress.xx is σ xx.
+    """
     if as_json:
         console().out(json.dumps(answer_record(found), indent=2), highlight=False)
         return
@@ -327,38 +311,40 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
     if found.numbers:
         numbers = [(column.label, show(value, column.unit)) for column, value in found.numbers]
         _print_table("Numbers", table("", numbers))
-    if found.columns:
-        _print_columns(found)
-    for limit in found.limits:
-        _print_limit(limit)
-    for key in theory.citation_keys:
-        say(f"  source: {reference(key)}", "dim")
-
-
-def _print_columns(found: Evaluation) -> None:
-    """The curve; rows beyond a limit that concerns all columns are marked and red."""
-    size, left = found.columns[0][1].size, ~found.holds()
-    names = [_heading(column.name) for column, _ in found.columns]
-    if size == 1:  # one point is read downwards
+    names = [
+        column.name.replace("displacement.", "u ").replace("stress.", "σ ").replace(".", " ").replace("_", " ")
+        for column, _ in found.columns
+    ]
+    if found.columns and found.columns[0][1].size == 1:  # one point is read downwards
         point = [
             (name, show(float(values[0]) + 0.0, column.unit), column.label)
             for name, (column, values) in zip(names, found.columns, strict=True)
         ]
         _print_table("Answer", table("", point))
-        return
-    rows = [
-        (LEFT if left[n] else "", *(show(float(values[n]) + 0.0, column.unit) for column, values in found.columns))
-        for n in range(size)
-    ]
-    made = table("", rows, ("", *names))
-    for row, beyond in zip(made.rows, left, strict=True):
-        row.style = "red" if beyond else None
-    _print_table("Answer", made)
-
-
-def _heading(name: str) -> str:
-    """Heading of the column ``name``: stress.xx is σ xx."""
-    return name.replace("displacement.", "u ").replace("stress.", "σ ").replace(".", " ").replace("_", " ")
+    elif found.columns:
+        left = ~found.holds()
+        curve = [
+            (LEFT if beyond else "", *(show(float(values[n]) + 0.0, column.unit) for column, values in found.columns))
+            for n, beyond in enumerate(left)
+        ]
+        made = table("", curve, ("", *names))
+        for row, beyond in zip(made.rows, left, strict=True):
+            row.style = "red" if beyond else None
+        _print_table("Answer", made)
+    for limit in found.limits:
+        known, holds = limit.value[~np.isnan(limit.value)], limit.holds
+        extent = "is not defined"
+        if known.size:
+            first, last = f"{known.min():.4g}", f"{known.max():.4g}"
+            extent = f"is {first}" if first == last else f"goes from {first} to {last}"
+        rule = f"{limit.criterion} {extent}, must be {limit.bounds}"
+        if holds.all():
+            say(f"valid: {rule} [{limit.citation}]", "green")
+        else:
+            where = f"at {int((~holds).sum())} of {holds.size} points" if holds.any() else "everywhere"
+            say(f"{LEFT} left {where}: {rule}. {limit.message} [{limit.citation}]", "red")
+    for key in theory.citation_keys:
+        say(f"  source: {reference(key)}", "dim")
 
 
 def _print_table(title: str, made: Table) -> None:
@@ -366,26 +352,6 @@ def _print_table(title: str, made: Table) -> None:
     made.title = None
     say(title, "bold")
     console().print(made)
-
-
-def _print_limit(limit: Limit) -> None:
-    bounds, values, source = limit.bounds, _extent(limit.value), f"[{limit.citation}]"
-    if limit.holds.all():
-        say(f"valid: {limit.criterion} {values}, must be {bounds} {source}", "green")
-        return
-    how_often = (
-        "everywhere" if not limit.holds.any() else f"at {int((~limit.holds).sum())} of {limit.holds.size} points"
-    )
-    say(f"{LEFT} left {how_often}: {limit.criterion} {values}, must be {bounds}. {limit.message} {source}", "red")
-
-
-def _extent(values: RealArray) -> str:
-    """Smallest to largest of ``values``, or the only one."""
-    known = values[~np.isnan(values)]
-    if known.size == 0:
-        return "is not defined"
-    first, last = f"{known.min():.4g}", f"{known.max():.4g}"
-    return f"is {first}" if first == last else f"goes from {first} to {last}"
 
 
 def _input_text(item: Parameter, value: Any) -> str:

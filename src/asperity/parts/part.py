@@ -217,6 +217,8 @@ class Part(Work):
     name: ClassVar[str] = ""
     title: ClassVar[str] = ""
     table: ClassVar[str] = ""
+    needs: ClassVar[str] = ""
+    """Key that its table must give for the part to be asked for; empty where the table is enough."""
     settings: ClassVar[type[Settings] | None] = None
     in_every_document: ClassVar[bool] = False
     essential: ClassVar[bool] = False
@@ -234,11 +236,20 @@ class Part(Work):
         made: Work = home(self.work)() if self.work else self
         return made
 
+    @staticmethod
+    def implied(document: Any, /) -> bool:
+        """Whether a ``document`` without the table of this part asks for it, with the defaults of its settings."""
+        return False
+
     def settings_in(self, document: Any) -> Any:
         """The settings that ``document`` holds in the table of this part; None if it holds none, True without a table."""
         found = document
         for key in filter(None, self.table.split(".")):
             found = getattr(found, key)
+        if found is None and self.settings is not None and self.implied(document):
+            return self.settings()
+        if self.needs and found is not None and getattr(found, self.needs) is None:
+            return None
         return found if self.table else True
 
     def asked(self, document: Any, folder: Path) -> Any:

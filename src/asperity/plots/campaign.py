@@ -76,7 +76,10 @@ def plot_curves(x: Labelled, y: Labelled, curves: Sequence[Curve], ax: Axes) -> 
             half = up(curve.band)[order]
             ax.fill_between(places, values - half, values + half, color=colour, alpha=0.2, linewidth=0.0)
         ax.plot(places, values, color=colour, marker="o", markersize=3.0, label=literal(curve.label) or None)
-    _set_scales(ax, x.values, np.concatenate([curve.values for curve in curves]))
+    if _spans_decades(x.values):
+        ax.set_xscale("log")
+    if _spans_decades(np.concatenate([curve.values for curve in curves])):
+        ax.set_yscale("log")
     return _labelled(ax, (x.quantity.label, along), (y.quantity.label, up), legend=any(curve.label for curve in curves))
 
 
@@ -165,13 +168,6 @@ def plot_sensitivities(
     ax.set_yticks(rows, [literal(names[number]) for number in order])
     ax.set_xlabel(_text(y.quantity.label, along))
     return legend_above(ax)
-
-
-def _set_scales(ax: Axes, x: RealArray, y: RealArray) -> None:
-    if _spans_decades(x):
-        ax.set_xscale("log")
-    if _spans_decades(y):
-        ax.set_yscale("log")
 
 
 def _spans_decades(values: RealArray) -> bool:

@@ -73,6 +73,8 @@ def plot_section(result: ContactResult, ax: Axes) -> Axes:
     The composite rough surface carries all deformation of both bodies, so the counter surface is drawn flat.
     Without contact the cut goes through the smallest gap.
     """
+    from matplotlib.ticker import MaxNLocator
+
     row = row_of_section(result)
     grid = result.problem.grid
     length = scale(grid.size[0], "m")
@@ -82,7 +84,17 @@ def plot_section(result: ContactResult, ax: Axes) -> Axes:
     middle = float(np.mean(rough))
     rough, counter = rough - middle, counter - middle
     height = scale(np.concatenate([rough, counter]), "m")
-    _draw_surfaces(x, height(rough), height(counter), ax)
+    rough, counter = height(rough), height(counter)
+    lowest, highest = float(min(rough.min(), counter.min())), float(max(rough.max(), counter.max()))
+    span = (highest - lowest) or 1.0
+    free = 1.0 - SHARE - 0.16
+    bottom, top = lowest - span * (SHARE + 0.06) / free, highest + span * 0.10 / free
+    ax.fill_between(x, rough, lowest - 0.04 * span, color="0.80", linewidth=0.0)
+    ax.fill_between(x, counter, top, color="0.90", linewidth=0.0)
+    ax.plot(x, counter, color=BLACK, linewidth=1.0, label="counter surface")
+    ax.plot(x, rough, color=BLUE, linewidth=1.0, label="deformed rough surface")
+    ax.set_ylim(bottom, top)
+    ax.set_yticks([tick for tick in ax.get_yticks() if lowest - 0.02 * span <= tick <= top])
     ax.set(
         xlabel=f"x ({length.symbol})"
         + (f", at y = {show((row + 0.5) * grid.spacing[1], 'm')}" if grid.shape[1] > 1 else ""),
@@ -91,7 +103,18 @@ def plot_section(result: ContactResult, ax: Axes) -> Axes:
     )
     low, high = ax.get_ylim()
     say_exaggeration(ax, "heights", grid.size[0], (high - low) * height.factor)
-    _draw_pressure(x, result.pressure[:, row], ax)
+    in_pa = scale(result.pressure[:, row], "Pa")
+    pressure = in_pa(result.pressure[:, row])
+    largest = float(pressure.max()) or 1.0
+    twin = ax.twinx()
+    twin.fill_between(x, pressure, color=VERMILLION, alpha=0.25, linewidth=0.0)
+    twin.plot(x, pressure, color=VERMILLION, linewidth=1.0, label="pressure")
+    ax.plot([], [], color=VERMILLION, label="pressure")
+    twin.set_ylim(0.0, 1.12 * largest / SHARE)
+    ticks = [float(tick) for tick in MaxNLocator(3).tick_values(0.0, largest) if tick <= 1.12 * largest]
+    twin.set_yticks(ticks)
+    twin.set_ylabel(f"pressure ({in_pa.symbol})", color=VERMILLION, y=SHARE / 2.0)
+    twin.tick_params(axis="y", colors=VERMILLION)
     return legend_above(ax, 3, 1.04)
 
 
@@ -100,35 +123,6 @@ def row_of_section(result: ContactResult) -> int:
     if result.contact.any():
         return int(np.argmax((result.pressure == result.pressure.max()).sum(axis=0)))  # plastic: many are highest
     return int(np.unravel_index(np.argmin(result.gap), result.gap.shape)[1])
-
-
-def _draw_surfaces(x: RealArray, rough: RealArray, counter: RealArray, ax: Axes) -> None:
-    low, high = float(min(rough.min(), counter.min())), float(max(rough.max(), counter.max()))
-    span = (high - low) or 1.0
-    bottom, top = low - span * (SHARE + 0.06) / (1.0 - SHARE - 0.16), high + span * 0.10 / (1.0 - SHARE - 0.16)
-    ax.fill_between(x, rough, low - 0.04 * span, color="0.80", linewidth=0.0)
-    ax.fill_between(x, counter, top, color="0.90", linewidth=0.0)
-    ax.plot(x, counter, color=BLACK, linewidth=1.0, label="counter surface")
-    ax.plot(x, rough, color=BLUE, linewidth=1.0, label="deformed rough surface")
-    ax.set_ylim(bottom, top)
-    ax.set_yticks([tick for tick in ax.get_yticks() if low - 0.02 * span <= tick <= top])
-
-
-def _draw_pressure(x: RealArray, pressure: RealArray, ax: Axes) -> None:
-    from matplotlib.ticker import MaxNLocator
-
-    in_unit = scale(pressure, "Pa")
-    drawn = in_unit(pressure)
-    largest = float(drawn.max()) or 1.0
-    twin = ax.twinx()
-    twin.fill_between(x, drawn, color=VERMILLION, alpha=0.25, linewidth=0.0)
-    twin.plot(x, drawn, color=VERMILLION, linewidth=1.0, label="pressure")
-    ax.plot([], [], color=VERMILLION, label="pressure")
-    twin.set_ylim(0.0, 1.12 * largest / SHARE)
-    ticks = [float(tick) for tick in MaxNLocator(3).tick_values(0.0, largest) if tick <= 1.12 * largest]
-    twin.set_yticks(ticks)
-    twin.set_ylabel(f"pressure ({in_unit.symbol})", color=VERMILLION, y=SHARE / 2.0)
-    twin.tick_params(axis="y", colors=VERMILLION)
 
 
 # How pressure and gap are distributed over the area.
@@ -143,10 +137,12 @@ def plot_pressure_histogram(result: ContactResult, ax: Axes) -> Axes:
     in_unit = scale(pressure, "Pa")
     if not _histogram(pressure, in_unit, ax, "contact pressure", "no contact"):
         return ax
-    _mark(ax, float(in_unit(result.mean_real_pressure)), f"mean {{:.3g}} {in_unit.symbol}", BLACK, "--")
+    mean = float(in_unit(result.mean_real_pressure))
+    ax.axvline(mean, color=BLACK, linestyle="--", label=f"mean {mean:.3g} {in_unit.symbol}")
     cap = result.problem.law.pressure_cap()
     if result.plastic.any() and not isinstance(cap, np.ndarray) and not isinstance(result.problem.law, LimitByDepth):
-        _mark(ax, float(in_unit(cap)), f"hardness {{:.3g}} {in_unit.symbol}", VERMILLION, ":")
+        hardness = float(in_unit(cap))
+        ax.axvline(hardness, color=VERMILLION, linestyle=":", label=f"hardness {hardness:.3g} {in_unit.symbol}")
     return legend_above(ax)
 
 
@@ -156,7 +152,8 @@ def plot_gap_histogram(result: ContactResult, ax: Axes) -> Axes:
     in_unit = scale(gap, "m")
     if not _histogram(gap, in_unit, ax, "gap", "full contact"):
         return ax
-    _mark(ax, float(in_unit(result.mean_gap)), f"mean over the whole area {{:.3g}} {in_unit.symbol}", BLACK, "--")
+    mean = float(in_unit(result.mean_gap))
+    ax.axvline(mean, color=BLACK, linestyle="--", label=f"mean over the whole area {mean:.3g} {in_unit.symbol}")
     return legend_above(ax)
 
 
@@ -171,10 +168,6 @@ def _histogram(values: RealArray, in_unit: Scale, ax: Axes, name: str, if_none: 
     ax.stairs(bars.density, bars.edges, fill=True, color=SKY, edgecolor="white", linewidth=0.4)
     ax.set_xlim(0.0, 1.04 * float(bars.edges[-1]))
     return True
-
-
-def _mark(ax: Axes, at: float, label: str, color: str, linestyle: str) -> None:
-    ax.axvline(at, color=color, linestyle=linestyle, label=label.format(at))
 
 
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.

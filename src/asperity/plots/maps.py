@@ -195,6 +195,7 @@ def plot_classes(kinds: RealArray, grid: Grid, ax: Axes, classes: tuple[tuple[st
 def plot_field(values: RealArray, grid: Grid, ax: Axes, look: Look) -> Axes:
     """Map of ``values`` (nx, ny, SI, NaN where blank) with a colour bar, or their curve along a grid of one row."""
     from matplotlib.colors import LogNorm, Normalize
+    from matplotlib.ticker import FuncFormatter, NullFormatter
 
     in_unit = scale(values, look.unit)
     title = f"{look.label} ({in_unit.symbol})"
@@ -210,7 +211,23 @@ def plot_field(values: RealArray, grid: Grid, ax: Axes, look: Look) -> Axes:
     low, high = limits(drawn, look)
     norm = LogNorm(high * 10.0**-DECADES, high, clip=True) if look.log else Normalize(low, high)
     image = _image(drawn, grid, ax, cmap=look.colours, norm=norm)
-    _colour_bar(image, grid, ax, title)
+    width, height = grid.size
+    wide = WIDE < width / height <= SLENDER  # the bar then lies above
+    ratio = max(width / height, height / width)
+    aspect = 1.0 if ratio > SLENDER else min(ratio, 4.0)  # keeps the bar's thickness on oblong maps
+    place = (0.0, 1.0 + 0.03 * aspect, 1.0, 0.03 * aspect) if wide else (1.0 + 0.03 * aspect, 0.0, 0.045 * aspect, 1.0)
+    title = "\n".join(wrap(title, 44))
+    room = BAR_ROOM + 0.15 * title.count("\n")
+    make_room(ax, top=room) if wide else make_room(ax, right=room, share=BAR * aspect)
+    bar_axes = ax.inset_axes(place)
+    bar = ax.figure.colorbar(image, cax=bar_axes, orientation="horizontal" if wide else "vertical")
+    bar.set_label(title)
+    if look.log:
+        bar.formatter = FuncFormatter(lambda value, _: f"{value:g}")
+        bar.minorformatter = NullFormatter()
+    if wide:
+        bar_axes.xaxis.set_ticks_position("top")
+        bar_axes.xaxis.set_label_position("top")
     return ax
 
 
@@ -246,29 +263,6 @@ def _image(drawn: RealArray, grid: Grid, ax: Axes, *, cmap: Any, **options: Any)
     if row:  # nothing varies along y
         ax.set_yticks([])
     return image
-
-
-def _colour_bar(image: AxesImage, grid: Grid, ax: Axes, title: str) -> None:
-    from matplotlib.colors import LogNorm
-    from matplotlib.ticker import FuncFormatter, NullFormatter
-
-    width, height = grid.size
-    wide = WIDE < width / height <= SLENDER
-    ratio = max(width / height, height / width)
-    aspect = 1.0 if ratio > SLENDER else min(ratio, 4.0)  # keeps the bar's thickness on oblong maps
-    place = (0.0, 1.0 + 0.03 * aspect, 1.0, 0.03 * aspect) if wide else (1.0 + 0.03 * aspect, 0.0, 0.045 * aspect, 1.0)
-    title = "\n".join(wrap(title, 44))
-    room = BAR_ROOM + 0.15 * title.count("\n")
-    make_room(ax, top=room) if wide else make_room(ax, right=room, share=BAR * aspect)
-    bar_axes = ax.inset_axes(place)
-    bar = ax.figure.colorbar(image, cax=bar_axes, orientation="horizontal" if wide else "vertical")
-    bar.set_label(title)
-    if isinstance(image.norm, LogNorm):
-        bar.formatter = FuncFormatter(lambda value, _: f"{value:g}")
-        bar.minorformatter = NullFormatter()
-    if wide:
-        bar_axes.xaxis.set_ticks_position("top")
-        bar_axes.xaxis.set_label_position("top")
 
 
 @dataclass(frozen=True)

@@ -81,9 +81,28 @@ _OF_SURFACE = (Plot("heights", "", "", plot_heights, "map"), Plot("view", "", ""
 def _chosen(thing: Any, kind: str) -> _Chosen:
     """The figure ``kind`` of ``thing``, the most telling one if it is empty."""
     if isinstance(thing, StressField):
-        return _of_stress(thing, kind)
-    thing = getattr(thing, "dataset", thing)  # of a comparison
-    what, first, plots = _plots(thing)
+        if thing.dims == ("plane",):
+            named = [(kind,)] if kind else []
+            return _Chosen(lambda ax, **options: plot_stress_profile(thing, ax, *named, **options), CURVE_SIZE)
+        wanted = require.one_of(kind or "von_mises", QUANTITIES, "stress to draw")
+        if len(thing.dims) == 3:
+            size = map_size(Grid((thing.x.size, thing.y.size), thing.spacing))
+            return _Chosen(lambda ax, **options: plot_stress_map(thing, ax, wanted, **options), size)
+        return _Chosen(lambda ax, **options: plot_stress_section(thing, ax, wanted, **options), SECTION_SIZE)
+    plots: Sequence[Plot]
+    if isinstance(thing, Surface):
+        what, first, plots = "a surface", "heights", _OF_SURFACE
+    elif isinstance(thing, Characterisation):
+        what, first, plots = "a characterisation", "distribution", SURFACE_PLOTS
+    elif isinstance(thing, ContactResult):
+        what, first = "a result", "pressure"
+        plots = (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable(physics_plots()), *SHEAR_PLOTS)
+    elif isinstance(thing, HistoryResult):
+        what, first = "a load history", "load_loop" if thing.last.stick_slip is None else LOOP_PLOTS[0].name
+        plots = (*PATH_PLOTS, *LOOP_PLOTS)
+    else:
+        thing = getattr(thing, "dataset", thing)
+        what, first, plots = "a comparison", "area", comparison_plots(thing)
     by_name = {plot.name: plot for plot in plots}
     plot = by_name[require.one_of(kind or first, by_name, f"figure of {what}")]
     draw = partial(plot.draw, thing)
@@ -93,29 +112,3 @@ def _chosen(thing: Any, kind: str) -> _Chosen:
         one = getattr(thing, "last", thing)
         return _Chosen(draw, map_size(getattr(one, "problem", getattr(one, "surface", one)).grid))
     return _Chosen(draw, COMPARISON_SIZE if plot.kind == "comparison" else CURVE_SIZE)
-
-
-def _plots(thing: Any) -> tuple[str, str, Sequence[Plot]]:
-    """What ``thing`` is called, the name of its most telling figure, and all figures."""
-    if isinstance(thing, Surface):
-        return "a surface", "heights", _OF_SURFACE
-    if isinstance(thing, Characterisation):
-        return "a characterisation", "distribution", SURFACE_PLOTS
-    if isinstance(thing, ContactResult):
-        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable(physics_plots()), *SHEAR_PLOTS)
-    if isinstance(thing, HistoryResult):
-        first = "load_loop" if thing.last.stick_slip is None else LOOP_PLOTS[0].name
-        return "a load history", first, (*PATH_PLOTS, *LOOP_PLOTS)
-    return "a comparison", "area", comparison_plots(thing)
-
-
-def _of_stress(field: StressField, kind: str) -> _Chosen:
-    if field.dims == ("plane",):
-        return _Chosen(
-            lambda ax, **options: plot_stress_profile(field, ax, *([(kind,)] if kind else []), **options), CURVE_SIZE
-        )
-    wanted = require.one_of(kind or "von_mises", QUANTITIES, "stress to draw")
-    if len(field.dims) == 3:
-        size = map_size(Grid((field.x.size, field.y.size), field.spacing))
-        return _Chosen(lambda ax, **options: plot_stress_map(field, ax, wanted, **options), size)
-    return _Chosen(lambda ax, **options: plot_stress_section(field, ax, wanted, **options), SECTION_SIZE)

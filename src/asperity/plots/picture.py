@@ -6,7 +6,7 @@ import gc
 import io
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
@@ -306,13 +306,13 @@ def render(plot: Plot, thing: Any) -> bytes:
 
 def figures_by(plots: Iterable[Plot], thing: Any) -> tuple[Figure, ...]:
     """Figures of ``thing`` by ``plots``."""
-    return tuple(_figure(plot, thing) for plot in plots)
-
-
-def _figure(plot: Plot, thing: Any) -> Figure:
-    shows = None if plot.shows is None else partial(plot.shows, thing)
-    made = Figure(plot.name, plot.title, plot.caption, partial(_drawing, plot, thing), plot.kind, shows)
-    return replace(made, of_step=plot.shows if plot.by_step else None)
+    made = []
+    for plot in plots:
+        shows = None if plot.shows is None else partial(plot.shows, thing)
+        of_step = plot.shows if plot.by_step else None
+        draw = partial(_drawing, plot, thing)
+        made.append(Figure(plot.name, plot.title, plot.caption, draw, plot.kind, shows, of_step))
+    return tuple(made)
 
 
 def _drawing(plot: Plot, thing: Any) -> Drawing:
@@ -364,8 +364,15 @@ def png(
 
     ``projection`` of the axes, ``3d`` for a view in space; ``dpi`` dots per inch. The points of its ``curves`` are added to a list.
     """
-    with style(), _no_search_for_garbage():
-        return encoded(_pixels(draw, size, projection, dpi, curves), dpi)
+    # a figure makes some 10⁴ objects that all live as long as it does: to look for garbage among them takes a tenth of its time
+    searches = gc.isenabled()
+    gc.disable()
+    try:
+        with style():
+            return encoded(_pixels(draw, size, projection, dpi, curves), dpi)
+    finally:
+        if searches:
+            gc.enable()
 
 
 def _pixels(
@@ -386,18 +393,6 @@ def _pixels(
     if curves is not None:
         curves.extend(_curves_of(figure, content))
     return pixels
-
-
-@contextmanager
-def _no_search_for_garbage() -> Iterator[None]:
-    """Within it Python does not look for garbage: a figure makes some 10⁴ objects that all live as long as it does, a tenth of its time."""
-    searches = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if searches:
-            gc.enable()
 
 
 def content_of(figure: Any) -> tuple[NDArray[np.uint8], Any]:

@@ -14,7 +14,6 @@ from ..core.grid import Grid
 from ..core.units import percent, show
 from ..surfaces.characterise.correlation import DROP_1E, DROP_TENTH
 from ..surfaces.characterise.heights import core
-from ..surfaces.characterise.spectral_fit import SpectralFit
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
 from .maps import Field, heights_field, plot_heights
@@ -28,7 +27,6 @@ from .picture import (
     VERMILLION,
     Figure,
     Plot,
-    Scale,
     figures_by,
     legend_above,
     scale,
@@ -93,7 +91,11 @@ def plot_autocorrelation(found: Characterisation, ax: Axes) -> Axes:
     """Draw R/R(0) along x and y on ``ax`` with the levels 1/e and 0.1 that define correlation lengths."""
     covariance = found.curves.autocovariance
     longest = max(covariance.size)
-    reach = _reach(found)
+    lengths = np.array([found.spatial.beta_e_x, found.spatial.beta_e_y])
+    known = lengths[np.isfinite(lengths) & (lengths > 0.0)]
+    reach = 0.5 * max(found.surface.size)  # the longest lag to show: six correlation lengths, half the map at most
+    if known.size:
+        reach = min(reach, 6.0 * float(known.max()))
     in_unit = scale(reach, "m")
     ax.set(xlabel=f"lag ({in_unit.symbol})", ylabel="R/R(0)", xlim=(0.0, float(in_unit(reach))))
     ax.axhline(0.0, color="0.7", linewidth=0.7)
@@ -116,14 +118,6 @@ def plot_autocorrelation(found: Characterisation, ax: Axes) -> Axes:
             ax.plot(in_unit(lags[part]), values[part] / covariance.mean_square, color=colour, label=label)
         ax.legend(loc="upper right")
     return ax
-
-
-def _reach(found: Characterisation) -> float:
-    """Longest lag to show: six correlation lengths, half the map at most."""
-    half = 0.5 * max(found.surface.size)
-    lengths = np.array([found.spatial.beta_e_x, found.spatial.beta_e_y])
-    known: RealArray = lengths[np.isfinite(lengths) & (lengths > 0.0)]
-    return min(half, 6.0 * float(known.max())) if known.size else half
 
 
 def _fill_reduced(ax: Axes, width: float, heights: tuple[float, float], *, at_left: bool) -> None:
@@ -149,6 +143,9 @@ def plot_surface_view(surface: Surface, ax: Axes) -> Axes:
     Heights are exaggerated to a fifth of the longer side; large maps are thinned to 180 points along it by block
     averages. Missing points are gaps. A profile has no view.
     """
+    from matplotlib import colormaps
+    from matplotlib.colors import LightSource, Normalize
+
     view: Any = ax  # of the class Axes3D
     heights, grid = _thinned(surface)
     if 1 in grid.shape:
@@ -157,11 +154,17 @@ def plot_surface_view(surface: Surface, ax: Axes) -> Axes:
     length, height = scale(max(grid.size), "m"), scale(heights, "m")
     z = np.asarray(height(heights))
     x, y = np.broadcast_arrays(*(length(c) for c in grid.coordinates()))
+    low, spread = float(np.nanmin(z)), float(np.nanmax(z) - np.nanmin(z)) or 1.0
+    # the slopes of the picture, not those of the surface, make the shading
+    dx, dy = (float(length(d)) / float(length(max(grid.size))) * spread / _TALLEST for d in grid.spacing)
+    light, norm, solid = LightSource(**_LIGHT), Normalize(low, low + spread), np.nan_to_num(z, nan=low)
+    colours = light.shade(solid, colormaps[HEIGHT_MAP], norm=norm, blend_mode="soft", dx=dy, dy=dx)
+    colours[np.isnan(z), 3] = 0.0
     view.plot_surface(
         x,
         y,
-        np.nan_to_num(z, nan=float(np.nanmin(z))),
-        facecolors=_shaded(z, tuple(float(length(d)) / float(length(max(grid.size))) for d in grid.spacing)),
+        solid,
+        facecolors=colours,
         rstride=1,
         cstride=1,
         linewidth=0.0,
@@ -169,30 +172,6 @@ def plot_surface_view(surface: Surface, ax: Axes) -> Axes:
         shade=False,
     )
     view.set(xlabel=f"x ({length.symbol})", ylabel=f"y ({length.symbol})", zlabel=f"height ({height.symbol})")
-    _box(view, grid)
-    along = float(np.ptp((view.get_xlim, view.get_ylim)[int(grid.size[1] > grid.size[0])]())) * length.factor
-    times = _TALLEST * along / (float(np.ptp(view.get_zlim())) * height.factor)
-    view.text2D(1.0, 0.9, times_text("heights", times), transform=view.transAxes, ha="right", fontsize=7.5)
-    return ax
-
-
-def _shaded(z: RealArray, spacing: tuple[float, ...]) -> RealArray:
-    """Colours (nx, ny, 4) of the heights ``z``, lit; transparent where missing. Spacing over the longer side."""
-    from matplotlib import colormaps
-    from matplotlib.colors import LightSource, Normalize
-
-    low, spread = float(np.nanmin(z)), float(np.nanmax(z) - np.nanmin(z)) or 1.0
-    # the slopes of the picture, not those of the surface, make the shading
-    dx, dy = (d * spread / _TALLEST for d in spacing)
-    light, norm = LightSource(**_LIGHT), Normalize(low, low + spread)
-    filled = np.nan_to_num(z, nan=low)
-    colours: RealArray = light.shade(filled, colormaps[HEIGHT_MAP], norm=norm, blend_mode="soft", dx=dy, dy=dx)
-    colours[np.isnan(z), 3] = 0.0
-    return colours
-
-
-def _box(view: Any, grid: Grid) -> None:
-    """Shape, direction and faint grid of the box around the view."""
     width, depth = (max(side / max(grid.size), 0.15) for side in grid.size)
     view.set_box_aspect((width, depth, _TALLEST), zoom=1.1)
     view.view_init(elev=40.0, azim=-55.0)
@@ -201,6 +180,10 @@ def _box(view: Any, grid: Grid) -> None:
         axis._axinfo["grid"].update(color="0.88", linewidth=0.5)
     view.locator_params(nbins=5)
     view.locator_params(axis="z", nbins=3)
+    along = float(np.ptp((view.get_xlim, view.get_ylim)[int(grid.size[1] > grid.size[0])]())) * length.factor
+    times = _TALLEST * along / (float(np.ptp(view.get_zlim())) * height.factor)
+    view.text2D(1.0, 0.9, times_text("heights", times), transform=view.transAxes, ha="right", fontsize=7.5)
+    return ax
 
 
 def plot_summits(found: Characterisation, ax: Axes) -> Axes:
@@ -248,9 +231,29 @@ def plot_spectrum(found: Characterisation, ax: Axes) -> Axes:
     shown = rings.psd > 0.0
     q, psd = rings.q[shown] * unit.factor, rings.psd[shown] / unit.factor**4
     ax.plot(q, psd, color=BLUE, marker=".", markersize=3.5, linewidth=0.8, label="measured")
-    if found.spectra.fit is not None:
-        _draw_fit(found.spectra.fit, unit, ax)
-    _wavelengths(unit, ax)
+    fit = found.spectra.fit
+    if fit is not None:
+        waves = np.geomspace(fit.first, fit.last, 400)
+        label = ", ".join(f"$q^{{{-exponent:.2f}}}$" for exponent in fit.model.exponents)
+        if 0.0 < fit.model.hurst[0] <= 1.0:
+            label += f", H = {fit.model.hurst[0]:.2f} ± {fit.hurst_error:.2f}"
+        ax.plot(waves * unit.factor, fit.model.psd(waves) / unit.factor**4, color=VERMILLION, label=label)
+        ax.axvspan(fit.first * unit.factor, fit.last * unit.factor, color=SKY, alpha=0.13, linewidth=0.0)
+        bends = [(fit.model.rolloff_wavelength, r"$\lambda_r$", BLACK)] if fit.has_rolloff else []
+        if len(fit.model.exponents) == 2:
+            bends.append((fit.model.crossover_wavelength, r"$\lambda_c$", GREEN))
+        for wavelength, name, colour in bends:
+            label, place = f"{name} {show(wavelength, 'm', 3)}", 2.0 * math.pi / wavelength * unit.factor
+            ax.axvline(place, color=colour, linewidth=0.8, linestyle=":", label=label)
+
+    def turned(values: RealArray) -> RealArray:
+        with np.errstate(divide="ignore"):
+            wavelengths: RealArray = 2.0 * np.pi / np.asarray(values, dtype=float)
+        return wavelengths
+
+    both_ways: Any = (turned, turned)
+    above = ax.secondary_xaxis("top", functions=both_ways)
+    above.set_xlabel(f"wavelength ({unit.symbol})")
     ax.legend(loc="lower left")
     return ax
 
@@ -277,34 +280,6 @@ def plot_scale_dependence(found: Characterisation, ax: Axes) -> Axes:
     if ax.lines:
         ax.legend(loc="lower left")
     return ax
-
-
-def _draw_fit(fit: SpectralFit, unit: Scale, ax: Axes) -> None:
-    q = np.geomspace(fit.first, fit.last, 400)
-    label = ", ".join(f"$q^{{{-exponent:.2f}}}$" for exponent in fit.model.exponents)
-    if 0.0 < fit.model.hurst[0] <= 1.0:
-        label += f", H = {fit.model.hurst[0]:.2f} ± {fit.hurst_error:.2f}"
-    ax.plot(q * unit.factor, fit.model.psd(q) / unit.factor**4, color=VERMILLION, label=label)
-    ax.axvspan(fit.first * unit.factor, fit.last * unit.factor, color=SKY, alpha=0.13, linewidth=0.0)
-    bends = [(fit.model.rolloff_wavelength, r"$\lambda_r$", BLACK)] if fit.has_rolloff else []
-    if len(fit.model.exponents) == 2:
-        bends.append((fit.model.crossover_wavelength, r"$\lambda_c$", GREEN))
-    for wavelength, name, colour in bends:
-        label = f"{name} {show(wavelength, 'm', 3)}"
-        ax.axvline(2.0 * math.pi / wavelength * unit.factor, color=colour, linewidth=0.8, linestyle=":", label=label)
-
-
-def _wavelengths(unit: Scale, ax: Axes) -> None:
-    """Axis above the spectrum with wavelengths 2π/q."""
-
-    def turned(values: RealArray) -> RealArray:
-        with np.errstate(divide="ignore"):
-            turned_: RealArray = 2.0 * np.pi / np.asarray(values, dtype=float)
-        return turned_
-
-    both_ways: Any = (turned, turned)
-    above = ax.secondary_xaxis("top", functions=both_ways)
-    above.set_xlabel(f"wavelength ({unit.symbol})")
 
 
 # The standard figures of a surface, as PNG.

@@ -48,7 +48,8 @@ def drawing(figures: Iterable[Figure], processes: int | None = None) -> Iterator
     waiting = [figure for figure in figures if not figure.is_drawn]
     numbers, others = _Numbers(len(waiting)), list[_Process]()
     try:
-        if _may_fork() and len(waiting) >= LEAST:
+        # elsewhere than on Linux, or with the state of a GPU in it, a copy of this process may fail
+        if sys.platform == "linux" and "cupy" not in sys.modules and len(waiting) >= LEAST:
             import matplotlib.backends.backend_agg  # noqa: F401  # once, before there are copies
 
             count = min(thread_count(processes), MOST, len(waiting) // 2) - 1
@@ -97,11 +98,6 @@ def save_pictures(
     return paths
 
 
-def _may_fork() -> bool:
-    """Whether a copy of this process can draw: elsewhere than on Linux, or with the state of a GPU in it, a copy may fail."""
-    return sys.platform == "linux" and "cupy" not in sys.modules
-
-
 class _Numbers:
     """The numbers 0 to ``count`` − 1, each of which goes to one of the processes that iterate over them."""
 
@@ -139,7 +135,13 @@ class _Process:
                 receiver.close()
                 return None
             if number == 0:
-                _draw_and_leave(figures, numbers, sender)
+                # the copy draws and ends: it neither goes on with the work of this process nor cleans up after it
+                try:
+                    gc.freeze()
+                    pickle.dump({place: figures[place].drawing for place in numbers}, sender)
+                    sender.flush()
+                finally:
+                    os._exit(0)
         return cls(number, receiver)
 
     def delivered(self) -> dict[int, Drawing]:
@@ -158,13 +160,3 @@ class _Process:
             if os.waitpid(self.number, os.WNOHANG) == (0, 0):
                 os.kill(self.number, signal.SIGKILL)
                 os.waitpid(self.number, 0)
-
-
-def _draw_and_leave(figures: Sequence[Figure], numbers: _Numbers, answer: BinaryIO) -> None:
-    """All that a copy does: what it was in the middle of is the business of the process that it is a copy of."""
-    gc.freeze()  # what the process has left to be cleaned up is not of the copy
-    try:
-        pickle.dump({number: figures[number].drawing for number in numbers}, answer)
-        answer.flush()
-    finally:
-        os._exit(0)

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from ..core.errors import InputError
-from ..parts.part import Found
 from ..physics.indentation.part import PREFIX as INDENTED
 from ..physics.indentation.part_passes import PREFIX as PASSED
 from ..physics.plastic_flow.figures import Cut, save_cuts, step_label
@@ -38,7 +37,15 @@ def plastic_cuts(outcome: Outcome) -> tuple[Cut, ...]:
     """The cut through the largest plastic strain after every step of ``outcome``; errors as for ``save_plastic_animation``."""
     found = outcome.found
     if FLOW in found and outcome.path is not None and len(outcome.path.steps) > 1:
-        return _volume_cuts(outcome, found[FLOW])
+        facts: Mapping[str, Any] = found[FLOW].detail
+        shown, row, made = picture_of(FLOW, found[FLOW].values, facts).cut, int(facts["row"]), []
+        for number, step in enumerate(outcome.path.steps, start=1):
+            strain = np.zeros_like(shown.strain)  # all steps have the depth cells of the last
+            accumulated = step.require_plastic_flow().accumulated
+            if accumulated.size:
+                strain[:, : accumulated.shape[0]] = accumulated[:, :, row].T
+            made.append(replace(shown, strain=strain, label=step_label(number, step.approach, step.force)))
+        return tuple(made)
     for name in (PASSED, INDENTED):
         run = found[name].detail.run if name in found else None
         if run is not None:
@@ -50,17 +57,3 @@ def plastic_cuts(outcome: Outcome) -> tuple[Cut, ...]:
         "[passes] (--passes) or [indentation] (--indent); a file keeps no steps of these two.",
         subject="outcome of an animation",
     )
-
-
-def _volume_cuts(outcome: Outcome, found: Found) -> tuple[Cut, ...]:
-    """Cuts of the steps of a history, all with the depth cells of the last."""
-    facts: Mapping[str, Any] = found.detail
-    shown, row, made = picture_of(FLOW, found.values, facts).cut, int(facts["row"]), []
-    assert outcome.path is not None
-    for number, step in enumerate(outcome.path.steps, start=1):
-        strain = np.zeros_like(shown.strain)
-        accumulated = step.require_plastic_flow().accumulated
-        if accumulated.size:
-            strain[:, : accumulated.shape[0]] = accumulated[:, :, row].T
-        made.append(replace(shown, strain=strain, label=step_label(number, step.approach, step.force)))
-    return tuple(made)

@@ -87,19 +87,36 @@ def slope_table(comparison: Comparison) -> Table:
         "holds",
     ]
     cells: list[tuple[str, ...]] = []
+    solved = comparison.numerical is not None
     if comparison.numerical is not None:
         area = comparison.numerical.area_fraction_corrected
         shares = [_share(area[number]) for number in at]
         kappas = [_number(comparison.kappa(area)[number]) for number in at]
         cells.append(("numerical", *kappas, *shares, NONE, NONE, NONE))
-    cells += [_theory_cells(comparison, curve, at) for curve in comparison.curves]
+    for curve in comparison.curves:
+        kappa = comparison.kappa(curve.prediction.area_fraction)
+        off = comparison.deviation(curve.name) if solved else curve.prediction.area_fraction
+        gap = _rms(comparison, curve, "gap")
+        cells.append(
+            (
+                curve.name,
+                *(_number(kappa[number]) for number in at),
+                *(_share(off[number], signed=solved) for number in at),
+                _share(_rms(comparison, curve)),
+                NONE if math.isnan(gap) else f"{gap:.2g}",
+                _range(comparison, curve),
+            )
+        )
     return Table(tuple(headings), tuple(cells))
 
 
 def limit_rows(comparison: Comparison) -> Rows:
     """Every note on a curve, under the name of its theory where it is the first."""
     rows: Rows = []
-    for name, notes in _noted(comparison):
+    solved = comparison.numerical
+    of_all = [("numerical", () if solved is None else solved.notes)]
+    of_all += [(curve.name, curve.notes) for curve in comparison.curves]
+    for name, notes in of_all:
         rows += [(name if number == 0 else "", note) for number, note in enumerate(notes)]
     return rows
 
@@ -107,28 +124,6 @@ def limit_rows(comparison: Comparison) -> Rows:
 def left_out_rows(comparison: Comparison) -> Rows:
     """Theories without a curve, and why."""
     return [(item.name, item.reason) for item in comparison.left_out]
-
-
-def _noted(comparison: Comparison) -> list[tuple[str, tuple[str, ...]]]:
-    solved = comparison.numerical
-    own = [] if solved is None or not solved.notes else [("numerical", solved.notes)]
-    return [*own, *((curve.name, curve.notes) for curve in comparison.curves if curve.notes)]
-
-
-def _theory_cells(comparison: Comparison, curve: TheoryCurve, at: list[int]) -> tuple[str, ...]:
-    kappas = comparison.kappa(curve.prediction.area_fraction)
-    deviations = comparison.deviation(curve.name)
-    solved = comparison.numerical is not None
-    shown = deviations if solved else curve.prediction.area_fraction
-    gap = _rms(comparison, curve, "gap")
-    return (
-        curve.name,
-        *(_number(kappas[number]) for number in at),
-        *(_share(shown[number], signed=solved) for number in at),
-        _share(_rms(comparison, curve)),
-        NONE if math.isnan(gap) else f"{gap:.2g}",
-        _range(comparison, curve),
-    )
 
 
 def _range(comparison: Comparison, curve: TheoryCurve) -> str:

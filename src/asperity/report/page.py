@@ -57,7 +57,11 @@ def write_page(
             policy=POLICY,
             **{"provenance": None, "document": None, "scene": None, **values},
         )
-        file.write_text(_secured(page, code), encoding="utf-8")
+        # nothing is allowed but embedded pictures, the page's own style sheet and this script
+        sheet = page[page.index("<style>") + 7 : page.index("</style>")]
+        allowed = f"img-src data:; script-src {_digest(code)}; style-src {_digest(sheet)}"
+        policy = f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"
+        file.write_text(page.replace(POLICY, policy, 1), encoding="utf-8")
 
 
 def rendered(template: str, **values: Any) -> str:
@@ -110,13 +114,6 @@ def script() -> str:
 def style() -> str:
     """The style sheet of the viewer."""
     return _source("viewer.css")
-
-
-def _secured(page: str, code: str) -> str:
-    """``page`` with a policy that forbids everything but embedded pictures, its own style sheet and the script ``code``."""
-    sheet = page[page.index("<style>") + 7 : page.index("</style>")]
-    allowed = f"script-src {_digest(code)}; style-src {_digest(sheet)}"
-    return page.replace(POLICY, f"default-src 'none'; img-src data:; {allowed}; base-uri 'none'; form-action 'none'", 1)
 
 
 def _digest(text: str) -> str:

@@ -16,7 +16,7 @@ from ..plots.picture import Figure
 from ..plots.surface import roughness_figures
 from ..plots.together import drawing
 from ..surfaces.characterise.quantities import GROUPS, QUANTITIES
-from ..surfaces.characterise.summary import Characterisation, SpectralParameters
+from ..surfaces.characterise.summary import Characterisation
 from ..theories.rough.profile_peaks import SampledPeaks
 from ..theories.statistics.nayak import NayakSummits
 from .page import software_rows, write_page
@@ -88,7 +88,11 @@ def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, st
     """
     values = {quantity.name: value for quantity, value in found.values()}
     errors = {*ABSOLUTE_ERRORS.values(), *RELATIVE_ERRORS.values()}
-    along_y = {_other(quantity.name): quantity for quantity in QUANTITIES if _other(quantity.name) != quantity.name}
+    along_y: dict[str, Quantity] = {}  # by the path of the number along x
+    for quantity in QUANTITIES:
+        parts = [part[:-2] + "_x" if part.endswith("_y") else part for part in quantity.name.split(".")]
+        if ".".join(parts) != quantity.name:
+            along_y[".".join(parts)] = quantity
     groups: dict[str, list[tuple[str, str, str]]] = {}
     for quantity in QUANTITIES:
         if quantity.name in errors or quantity in along_y.values():
@@ -96,7 +100,8 @@ def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, st
         text = _with_error(quantity, values)
         name = quantity_name(quantity)
         if quantity.name in along_y:
-            text = _both(text, _with_error(along_y[quantity.name], values))
+            other = _with_error(along_y[quantity.name], values)
+            text = NOT_DEFINED if text == other == NOT_DEFINED else f"{text} (x), {other} (y)"
             name = name.replace(" along x", "").replace(",x", "").replace("_x", "")
         if text != NOT_DEFINED:
             heading = GROUPS[quantity.name.split(".")[0]].replace(" along x", "")
@@ -108,18 +113,6 @@ def headline_values(found: Characterisation) -> list[tuple[str, str]]:
     """Name and text of the numbers that people look for first."""
     chosen = {quantity.name: (quantity, value) for quantity, value in found.values() if quantity.name in HEADLINE}
     return [(quantity_name(chosen[path][0]), quantity_text(*chosen[path], digits=3)) for path in HEADLINE]
-
-
-def _other(path: str) -> str:
-    """Path along x of a number along y; any other path as it is."""
-    parts = [part[:-2] + "_x" if part.endswith("_y") else part for part in path.split(".")]
-    return ".".join(parts)
-
-
-def _both(along_x: str, along_y: str) -> str:
-    if along_x == along_y == NOT_DEFINED:
-        return NOT_DEFINED
-    return f"{along_x} (x), {along_y} (y)"
 
 
 def _with_error(quantity: Quantity, values: dict[str, float]) -> str:
@@ -256,16 +249,14 @@ def summary(found: Characterisation) -> str:
         kind = "isotropic" if aspect > 0.5 else "anisotropic" if aspect > 0.3 else "strongly anisotropic"
         sentences.append(f"The texture is {kind} (Str {aspect:.2f}).")
     if found.spectra.fit is not None:
-        sentences.append(_spectrum_sentence(found.spectrum))
+        spectrum = found.spectrum
+        law = f"The spectrum falls as q to the power −{spectrum.exponent_1:.2f}"
+        if math.isfinite(spectrum.exponent_2):
+            law += f", below {show(spectrum.crossover_wavelength, 'm', 3)} as −{spectrum.exponent_2:.2f}"
+        elif math.isfinite(spectrum.hurst):
+            law += f" (Hurst exponent {spectrum.hurst:.2f})"
+        end = "; the scan shows no roll-off."
+        if math.isfinite(spectrum.rolloff_wavelength):
+            end = f", with a roll-off at {show(spectrum.rolloff_wavelength, 'm', 3)}."
+        sentences.append(law + end)
     return " ".join(sentences)
-
-
-def _spectrum_sentence(spectrum: SpectralParameters) -> str:
-    law = f"The spectrum falls as q to the power −{spectrum.exponent_1:.2f}"
-    if math.isfinite(spectrum.exponent_2):
-        law += f", below {show(spectrum.crossover_wavelength, 'm', 3)} as −{spectrum.exponent_2:.2f}"
-    elif math.isfinite(spectrum.hurst):
-        law += f" (Hurst exponent {spectrum.hurst:.2f})"
-    if math.isfinite(spectrum.rolloff_wavelength):
-        return f"{law}, with a roll-off at {show(spectrum.rolloff_wavelength, 'm', 3)}."
-    return f"{law}; the scan shows no roll-off."

@@ -198,10 +198,21 @@ def scene(
     budget: int = BUDGET,
     most_points: int = MOST_POINTS,
 ) -> dict[str, Any] | None:
-    """Scene of the maps that ``figures`` show on ``grid``, and of other steps of a ``path``; None without any."""
+    """Scene of the maps that ``figures`` show on ``grid``, and of other steps of a ``path``; None without any.
+
+    Of many steps some are shown, evenly chosen, with number and load, and the shift along the surface where there is one.
+    """
     if 1 in grid.shape:
         return None
-    steps = _steps(path)
+    steps: list[int] = []
+    texts: list[str] = []
+    if path is not None and (count := len(path.steps)) > 1:
+        shown = min(count, MOST_STEPS)
+        steps = sorted({round(number * (count - 1) / (shown - 1)) for number in range(shown)})
+        loop = loop_of(path.steps) if path.last.stick_slip is not None else None
+        for number in steps:
+            text = f"{number + 1} of {count}: mean pressure {show(path.steps[number].mean_pressure, 'Pa', 4)}"
+            texts.append(text if loop is None else f"{text}, shift {show(float(loop.shift[number]), 'm', 4)}")
     maps, depths, cuts = _gathered(figures, grid, path, steps)
     if not maps:
         return None
@@ -213,6 +224,8 @@ def scene(
     sections = [_section(figure, cut) for figure, cut in cuts]
     colours = {item["colours"] for item in (*described, *sections) if "colours" in item}
     length = scale(max(grid.size), "m")
+    places = [item.depth for item in depths if item.depth is not None]
+    layers = list(dict.fromkeys(place.layer for place in places))
     first = [item["name"] for item in described if item["name"] in FIRST] or [described[0]["name"]]
     return {
         "size": list(grid.size),
@@ -222,9 +235,9 @@ def scene(
         "line": [0.5 * grid.spacing[0], 0.5 * grid.size[1], grid.size[0] - 0.5 * grid.spacing[0], 0.5 * grid.size[1]],
         "palettes": {name: base64.b64encode(colour_table(name)).decode("ascii") for name in sorted(colours)},
         "maps": [item | {"shown": item["name"] in first} for item in described],
-        "steps": {"label": "Load step", "texts": _step_texts(path, steps)} if path is not None and steps else None,
-        "depths": {"label": "Depth", "texts": [item.depth.words for item in depths if item.depth]} if depths else None,
-        "below": _below(depths) if depths else None,
+        "steps": {"label": "Load step", "texts": texts} if steps else None,
+        "depths": {"label": "Depth", "texts": [place.words for place in places]} if places else None,
+        "below": _layers(layers, [place.value for place in places]) if places else None,
         "sections": sections,
         "spots": None,
         "notes": _notes(maps, described, path, steps),
@@ -258,7 +271,7 @@ def _gathered(
             maps[figure.name] = made
     depths.sort(key=lambda item: item.depth.value if item.depth else 0.0)
     if depths:
-        label = _titled(depths[0].look.label)
+        label = depths[0].look.label[:1].upper() + depths[0].look.label[1:]
         planes = [lambda item=item: item for item in depths]
         maps["planes"] = _Map("planes", label, f"{label} on planes in the body.", planes, "depths")  # type: ignore[arg-type]
     return list(maps.values()), depths, cuts
@@ -308,10 +321,6 @@ def _unit(found: Any) -> dict[str, Any]:
     return {"symbol": found.symbol, "factor": found.factor}
 
 
-def _titled(label: str) -> str:
-    return label[:1].upper() + label[1:]
-
-
 def _layers(layers: Sequence[tuple[str, float, float]], depths: Sequence[float]) -> dict[str, Any]:
     """Entries on depths and layers."""
     known = [
@@ -320,11 +329,6 @@ def _layers(layers: Sequence[tuple[str, float, float]], depths: Sequence[float])
     interfaces = [{"depth": below[1]} for above, below in pairwise(layers) if below[0] != above[0]]
     deepest = max(depths) or 1.0
     return {"depths": list(depths), "length": _unit(scale(deepest, "m")), "layers": known, "interfaces": interfaces}
-
-
-def _below(planes: Sequence[Field]) -> dict[str, Any]:
-    places = [item.depth for item in planes if item.depth is not None]
-    return _layers(list(dict.fromkeys(place.layer for place in places)), [place.value for place in places])
 
 
 def _section(figure: Figure, cut: Cut) -> dict[str, Any]:
@@ -341,29 +345,6 @@ def _section(figure: Figure, cut: Cut) -> dict[str, Any]:
 # Steps of a load path, and what the reader must know.
 
 
-def _steps(path: HistoryResult | None) -> list[int]:
-    """Numbers of the steps that are shown: all, or the turns and some between; none of a single step."""
-    if path is None or len(path.steps) < 2:
-        return []
-    count = len(path.steps)
-    if count <= MOST_STEPS:
-        return list(range(count))
-    even = {round(number * (count - 1) / (MOST_STEPS - 1)) for number in range(MOST_STEPS)}
-    return sorted(even)
-
-
-def _step_texts(path: HistoryResult, steps: Sequence[int]) -> list[str]:
-    """Number and load of the steps, and the force along the surface where there is one."""
-    loop = loop_of(path.steps) if path.steps[-1].stick_slip is not None else None
-    texts = []
-    for number in steps:
-        text = f"{number + 1} of {len(path.steps)}: mean pressure {show(path.steps[number].mean_pressure, 'Pa', 4)}"
-        if loop is not None:
-            text += f", shift {show(float(loop.shift[number]), 'm', 4)}"
-        texts.append(text)
-    return texts
-
-
 def _notes(
     maps: Sequence[_Map], described: Sequence[dict[str, Any]], path: HistoryResult | None, steps: Sequence[int]
 ) -> list[str]:
@@ -374,7 +355,15 @@ def _notes(
         "the largest, of gaps the smallest, of heights the mean."
     ]
     for block in sorted({item.block for item in maps if item.block > 1}):
-        names = [_coarse(item, entry) for item, entry in zip(maps, described, strict=True) if item.block == block]
+        names = []
+        for item, entry in zip(maps, described, strict=True):
+            if item.block != block:
+                continue
+            how = REDUCED[entry["reduce"]] if entry["kind"] == "values" else "the kind that is last in its key"
+            last = item.blocks[-1]
+            if last < block:
+                how += ", in all steps but the last" + (f", which has one for each {last} × {last}" if last > 1 else "")
+            names.append(f"{item.title} ({how})")
         notes.append(
             f"Shown coarser than computed, to keep this page small: one value for each {block} × {block} points in {', '.join(names)}. "
             "Numbers and tables of this page are those of all points."
@@ -382,15 +371,6 @@ def _notes(
     if path is not None and 0 < len(steps) < len(path.steps):
         notes.append(f"The slider shows {len(steps)} of the {len(path.steps)} steps, evenly chosen.")
     return notes
-
-
-def _coarse(item: _Map, entry: dict[str, Any]) -> str:
-    """Title of a map that is shown coarser, what stands for a block of its points, and whether the last step is finer."""
-    how = REDUCED[entry["reduce"]] if entry["kind"] == "values" else "the kind that is last in its key"
-    last = item.blocks[-1]
-    if last < item.block:
-        how += ", in all steps but the last" + (f", which has one for each {last} × {last}" if last > 1 else "")
-    return f"{item.title} ({how})"
 
 
 def as_json(value: Any) -> str:

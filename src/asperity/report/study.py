@@ -90,8 +90,9 @@ def _sweep(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) ->
     rows, more = _rows(array, along)
     y = labelled(array)
     x = labelled(data[along] if along != "case" else data[along].assign_attrs(long_name="case"))
-    picture = _picture(lambda ax: plot_curves(x, y, [Curve(text, np.asarray(row)) for text, row in rows], ax))
-    yield picture(name, y.quantity.title, f"{y.quantity.title} against {x.quantity.label}{more}.")
+    caption = f"{y.quantity.title} against {x.quantity.label}{more}."
+    curves = [Curve(text, np.asarray(row)) for text, row in rows]
+    yield curve_figure(name, y.quantity.title, caption, lambda ax: plot_curves(x, y, curves, ax))
 
 
 def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
@@ -105,23 +106,26 @@ def _monte_carlo(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
         curves = [
             Curve(text, np.asarray(row), np.asarray(band)) for (text, row), (_, band) in zip(rows, bands, strict=True)
         ]
-        picture = _picture(lambda ax: plot_curves(labelled(data[along]), y, curves, ax))
+        x = labelled(data[along])
+        title = f"{y.quantity.title}, mean and scatter"
         caption = (
             f"Mean of {y.quantity.label} over the samples; the band is one standard deviation on either side{where}."
         )
-        yield picture(f"{name}_mean", f"{y.quantity.title}, mean and scatter", caption)
+        yield curve_figure(f"{name}_mean", title, caption, lambda ax: plot_curves(x, y, curves, ax))
     table = campaign.study.document.monte_carlo
     confidence = CONFIDENCE if table is None or table.stop is None else table.stop.confidence
     whole = estimate(np.asarray(first), confidence)
     samples = Labelled(y.quantity, np.asarray(first, dtype=float))
-    picture = _picture(lambda ax: plot_samples(samples, whole.mean, whole.half_width, ax))
-    yield picture(f"{name}_samples", f"{y.quantity.title}, distribution", f"Distribution over the samples{more}.")
+    title, caption = f"{y.quantity.title}, distribution", f"Distribution over the samples{more}."
+    yield curve_figure(
+        f"{name}_samples", title, caption, lambda ax: plot_samples(samples, whole.mean, whole.half_width, ax)
+    )
     done = int(np.flatnonzero(np.isfinite(samples.values)).max(initial=-1)) + 1  # the rest is still to be computed
     running = [estimate(samples.values[: n + 1], confidence) for n in range(done)]
     halves, centres = (np.array([getattr(item, key) for item in running]) for key in ("half_width", "mean"))
-    picture = _picture(lambda ax: plot_running_mean(y, halves, centres, ax))
+    title = f"{y.quantity.title}, running mean"
     caption = f"Mean of the first samples and its confidence interval of {percent(confidence)}{more}."
-    yield picture(f"{name}_running", f"{y.quantity.title}, running mean", caption)
+    yield curve_figure(f"{name}_running", title, caption, lambda ax: plot_running_mean(y, halves, centres, ax))
 
 
 def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
@@ -132,9 +136,8 @@ def _convergence(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
     label = {"grid": "points along x", "domain": "factor on the size"}.get(table.of, "tolerance")
     levels = Labelled(Quantity("level", "1", label), np.asarray(data["level"], dtype=float))
     y = labelled(array)
-    picture = _picture(lambda ax: plot_convergence(levels, y, float(limit), ax))
     caption = f"{y.quantity.label} from coarse to fine, and its Richardson extrapolation{more}."
-    yield picture(name, y.quantity.title, caption)
+    yield curve_figure(name, y.quantity.title, caption, lambda ax: plot_convergence(levels, y, float(limit), ax))
 
 
 def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
@@ -145,12 +148,11 @@ def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str)
         for number, (text, row) in enumerate(rows)
     ]
     y, thickness = labelled(data[name]), labelled(data["thickness"][1:-1])
-    picture = _picture(lambda ax: plot_transitions(thickness, y, transitions, ax))
     caption = (
         f"{y.quantity.title} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
         f"layer does not matter, above the ceiling what lies under it does not{more}."
     )
-    yield picture(name, y.quantity.title, caption)
+    yield curve_figure(name, y.quantity.title, caption, lambda ax: plot_transitions(thickness, y, transitions, ax))
 
 
 def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str) -> Iterator[Figure]:
@@ -159,10 +161,11 @@ def _sensitivity(campaign: Campaign, data: xarray.Dataset, derived: Any, name: s
     base, _ = _first(data[name].isel(parameter=0), "")
     names, y = [str(text) for text in np.asarray(derived["scalar"])], labelled(data[name])
     size = (CURVE_SIZE[0], max(1.6, 0.8 + 0.35 * len(names)))
-    picture = _picture(
-        lambda ax: plot_sensitivities(names, np.asarray(low), np.asarray(high), y, float(base), ax), size
+    caption = f"{y.quantity.label} at the low and the high value of each scalar{more}."
+    ends = np.asarray(low), np.asarray(high)
+    yield curve_figure(
+        name, y.quantity.title, caption, lambda ax: plot_sensitivities(names, *ends, y, float(base), ax), size
     )
-    yield picture(name, y.quantity.title, f"{y.quantity.label} at the low and the high value of each scalar{more}.")
 
 
 _DRAWN: dict[str, Draw] = {
@@ -180,7 +183,8 @@ def _rows(array: xarray.DataArray, along: str) -> tuple[list[tuple[str, xarray.D
     fixed, more = _first(array, along, *others[:1])
     if not others:
         return [("", fixed)], more
-    points = _spread(array.sizes[others[0]])
+    count = array.sizes[others[0]]
+    points = [round(number) for number in np.linspace(0, count - 1, min(count, MOST_CURVES))]
     rows = [(point_text(array[others[0]][number]), fixed.isel({others[0]: number})) for number in points]
     return rows, more
 
@@ -190,18 +194,6 @@ def _first(array: xarray.DataArray, *kept: str) -> tuple[xarray.DataArray, str]:
     dims = [str(dim) for dim in array.dims if dim not in kept]
     texts = [point_text(array[dim][0]) for dim in dims]
     return array.isel(dict.fromkeys(dims, 0)), f", at {', '.join(texts)}" if texts else ""
-
-
-def _spread(count: int) -> Sequence[int]:
-    """Numbers of at most ``MOST_CURVES`` of ``count`` points, first and last among them."""
-    if count <= MOST_CURVES:
-        return range(count)
-    return [int(number) for number in np.linspace(0, count - 1, MOST_CURVES).round()]
-
-
-def _picture(draw: Callable[[Any], Any], size: tuple[float, float] = CURVE_SIZE) -> Callable[[str, str, str], Figure]:
-    """Makes the figure that ``draw`` draws from its name, title and caption."""
-    return lambda name, title, caption: curve_figure(name, title, caption, draw, size)
 
 
 # The numbers of a study in words for tables.
@@ -305,16 +297,6 @@ def case_table(campaign: Campaign, data: xarray.Dataset) -> Table:
     return Table(headings, tuple(cells))
 
 
-def failure_table(campaign: Campaign, state: CampaignState) -> Table:
-    """Causes of failures with their number and first case."""
-    return _cause_table(campaign, state.causes, "Cause")
-
-
-def finding_table(campaign: Campaign, state: CampaignState) -> Table:
-    """Warnings and notes of the cases with their number and first case."""
-    return _cause_table(campaign, state.findings, "Warning or note")
-
-
 def warning_texts(state: CampaignState) -> list[str]:
     """What stands above a study: where the energy is hardly known, and in how many cases there are other warnings."""
     doubted = [cause for cause in state.findings if cause.kind == f"warning ({DOUBT})"]
@@ -328,7 +310,8 @@ def _cases(count: int) -> str:
     return f"{count} case{'s' if count > 1 else ''}"
 
 
-def _cause_table(campaign: Campaign, causes: Iterable[Cause], heading: str) -> Table:
+def cause_table(campaign: Campaign, causes: Iterable[Cause], heading: str) -> Table:
+    """``causes`` of failures, warnings or notes with their number and first case."""
     units: dict[str, str] = {}
     for axis in campaign.plan.axes:
         units |= {axis.name: axis.unit, **axis.columns}
@@ -368,8 +351,8 @@ def write_study_report(
     data, derived, state = campaign.dataset(), campaign.analysis(), campaign.state()
     found = [
         ("derived", "Findings", None if derived is None else derived_table(campaign, data, derived)),
-        ("failures", "Failures by cause", failure_table(campaign, state)),
-        ("findings", "Warnings and notes", finding_table(campaign, state)),
+        ("failures", "Failures by cause", cause_table(campaign, state.causes, "Cause")),
+        ("findings", "Warnings and notes", cause_table(campaign, state.findings, "Warning or note")),
     ]
     write_page(
         path,

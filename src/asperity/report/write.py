@@ -71,6 +71,16 @@ def write_report(
     source = result.problem.surface.origin.source
     stored = json.loads(outcome.stored["provenance"]) if outcome.stored else provenance(result, versions())
     surfaces = [key for key in ("surface", "counter_surface") if key in stored]
+    problem = result.problem
+    inputs: list[tuple[str, Rows]] = [
+        ("Surface", surface_rows(problem.surface)),
+        ("Body", body_rows(problem.body)),
+        ("Counter surface", surface_rows(problem.counter_surface)),
+        ("Counter body", body_rows(problem.counter_body)),
+        ("Boundary, law and load", setting_rows(result)),
+    ]
+    with drawing(outcome.all_figures, outcome.solved.threads):  # meanwhile other processes draw the figures
+        maps = scene_of(outcome)
     write_page(
         path,
         "report.html",
@@ -78,11 +88,11 @@ def write_report(
         status=outcome.status,
         summary=" ".join([summary(result), *(words.sentence for _, words in outcome.sections if words.alarming)]),
         headline=headline_rows(result),
-        inputs=_inputs(result),
+        inputs=inputs,
         certificate=certificate_rows(result),
         results=result_rows(result),
         figures=outcome.pictures,
-        scene=_drawn_scene(outcome),
+        scene=maps,
         sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in outcome.sections],
         advice=tuple(dict.fromkeys((*doubts(*path_steps, result), *outcome.findings, *advice))),
         provenance=[
@@ -94,12 +104,6 @@ def write_report(
         document_of="Problem",
         overwrite=overwrite,
     )
-
-
-def _drawn_scene(outcome: Outcome) -> dict[str, Any] | None:
-    """Scene of the maps of ``outcome``; meanwhile other processes draw its figures."""
-    with drawing(outcome.all_figures, outcome.solved.threads):
-        return scene_of(outcome)
 
 
 def write_tractions_report(
@@ -125,14 +129,3 @@ def write_tractions_report(
         document_of="Problem",
         overwrite=overwrite,
     )
-
-
-def _inputs(result: ContactResult) -> list[tuple[str, Rows]]:
-    problem = result.problem
-    return [
-        ("Surface", surface_rows(problem.surface)),
-        ("Body", body_rows(problem.body)),
-        ("Counter surface", surface_rows(problem.counter_surface)),
-        ("Counter body", body_rows(problem.counter_body)),
-        ("Boundary, law and load", setting_rows(result)),
-    ]

@@ -29,7 +29,6 @@ from ..core.settings import Settings, json_schema, problems
 from ..core.status import is_large, require_memory, room_text
 from ..io.schemas.bodies import (
     FLOW,
-    AnyHardening,
     BodyTable,
     GradedTable,
     LayerTable,
@@ -42,14 +41,11 @@ from ..io.schemas.problem import (
     EFFECTIVE,
     FROM_BODY,
     NONE,
-    BoundaryTable,
     ControlTable,
     HardnessTable,
     LawTable,
-    PathTable,
     PerLength,
     ProblemDocument,
-    SolverTable,
 )
 from ..io.schemas.relaxation import (
     ArrheniusTable,
@@ -156,12 +152,16 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
     body = build_body(document.body, folder)
     counter_body = build_body(document.counter_body, folder)
     surface, counter_surface = build_surfaces(document.surface, document.counter_surface, folder)
+    boundary: Boundary = Free() if document.boundary.kind == "free" else Periodic()
+    if document.boundary.kind == "line":
+        datum = document.boundary.datum
+        boundary = FreeLine(None if datum is None else units.parse(datum, "length", "boundary.datum"))
     problem = ContactProblem(
         surface,
         body,
         Flat() if counter_surface is None else counter_surface,
         counter_body,
-        build_boundary(document.boundary),
+        boundary,
         build_law(document.law, (body, counter_body)),
     )
     known = known or parts()
@@ -180,15 +180,14 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
     for part in asked:
         problem = part.at_work.altered(asks[part.name], problem)
     control, path = build_course(document, asks, known, surface.size[1])
-    solver = build_solver(document.solver, problem, sticks=sticks(problem, [as_step(item) for item in path], None))
+    solver = default_solver(problem, sticks=sticks(problem, [as_step(item) for item in path], None))
+    table = document.solver
+    method, precision = table.method or solver.name, table.precision
+    if table.given("threads", "machine"):  # what it leaves out is the default of the method, or of this problem
+        usual = solver.tolerance if method == solver.name else None
+        tolerance = usual if table.tolerance is None else table.tolerance
+        solver = solver_by_name(method, tolerance, table.max_iterations, precision=precision)
     return Case(document, problem, control, path, solver, asks, known)
-
-
-def build_boundary(table: BoundaryTable) -> Boundary:
-    """Boundary that ``table`` names."""
-    if table.kind == "line":
-        return FreeLine(None if table.datum is None else units.parse(table.datum, "length", "boundary.datum"))
-    return Free() if table.kind == "free" else Periodic()
 
 
 def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
@@ -199,7 +198,7 @@ def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
     if not isinstance(table, HardnessTable):
         return HardWall()
     if table.hardness not in (FROM_BODY, EFFECTIVE):
-        return Hardness(_pressure(table.hardness))
+        return Hardness(_known(table.hardness))
     tops = [(solid.strength.hardness, body) for body in bodies if (solid := surface_material(body)) is not None]
     known = [(hardness, body) for hardness, body in tops if not math.isnan(hardness)]
     if not known:
@@ -218,43 +217,30 @@ def build_course(
 ) -> tuple[Control, tuple[Step | Control, ...]]:
     """The last control of ``document``, and the steps to it, with what the ``known`` parts that are asked for add; none for one load.
 
-    ``length`` is that of a line contact in m.
+    Forces per length are those of a line contact of this ``length`` in m.
     """
-    control, path = build_load(document.control, length)
-    found: tuple[Step | Control, ...] = path or (control,)
+    table = document.control.path
+    if table is None:
+        found: tuple[Step | Control, ...] = (build_control(document.control, length),)
+    else:
+        kinds: dict[str, tuple[Ramped, str]] = {
+            "mean_pressure": (MeanPressure, "pressure"),
+            "force": (Force, "force"),
+            "approach": (Approach, "length"),
+            "mean_gap": (MeanGap, "length"),
+        }
+        name = next(key for key in kinds if getattr(table, key) is not None)
+        kind, quantity = kinds[name]
+        points = [
+            0.0 if text == NONE else units.parse(text, quantity, f"control.path.{name}") * _per_length(text, length)
+            for text in getattr(table, name)
+        ]
+        found = ramps(kind, points, steps=table.steps)
+    alone = found if table is None else ()
     for part in known:
         if part.name in asks:
             found = part.at_work.course(asks[part.name], found)
-    return as_step(found[-1]).normal, () if not path and found == (control,) else found
-
-
-def build_load(table: ControlTable, length: float = 1.0) -> tuple[Control, tuple[Control, ...]]:
-    """The one control that ``table`` gives and no path, or the last control of its load path and the whole path.
-
-    Forces per length are those of a line contact of this ``length`` in m.
-    """
-    if table.path is None:
-        return build_control(table, length), ()
-    path = build_path(table.path, length)
-    return path[-1], path
-
-
-def build_path(table: PathTable, length: float = 1.0) -> tuple[Control, ...]:
-    """The controls of the load path that ``table`` describes."""
-    kinds: dict[str, tuple[Ramped, str]] = {
-        "mean_pressure": (MeanPressure, "pressure"),
-        "force": (Force, "force"),
-        "approach": (Approach, "length"),
-        "mean_gap": (MeanGap, "length"),
-    }
-    name = next(key for key in kinds if getattr(table, key) is not None)
-    kind, quantity = kinds[name]
-    texts: tuple[str, ...] = getattr(table, name)
-    points = [
-        0.0 if text == NONE else units.parse(text, quantity, f"control.path.{name}") * _per_length(text, length)
-        for text in texts
-    ]
-    return ramps(kind, points, steps=table.steps)
+    return as_step(found[-1]).normal, () if found == alone else found
 
 
 def build_control(table: ControlTable, length: float = 1.0) -> Control:
@@ -271,7 +257,7 @@ def build_control(table: ControlTable, length: float = 1.0) -> Control:
             "mean_gap."
         )
     if table.mean_pressure is not None:
-        return MeanPressure(_pressure(table.mean_pressure))
+        return MeanPressure(_known(table.mean_pressure))
     if table.force is not None:
         return Force(units.parse(table.force, "force", "control.force") * _per_length(table.force, length))
     if table.approach is not None:
@@ -282,19 +268,6 @@ def build_control(table: ControlTable, length: float = 1.0) -> Control:
 
 def _per_length(force: float | str, length: float) -> float:
     return length if isinstance(force, PerLength) else 1.0
-
-
-def build_solver(table: SolverTable, problem: ContactProblem, *, sticks: bool = False) -> Solver:
-    """Method with its settings; what ``table`` leaves out is the default of the method, or of this ``problem``, whose surfaces may stick."""
-    chosen = default_solver(problem, sticks=sticks)
-    name, tolerance = table.method or chosen.name, table.tolerance
-    if tolerance is None and name == chosen.name:
-        tolerance = chosen.tolerance
-    return solver_by_name(name, tolerance, table.max_iterations, precision=table.precision)
-
-
-def _pressure(value: float | str | None) -> float:
-    return float("nan") if value is None else float(value)
 
 
 # Bodies.
@@ -333,13 +306,10 @@ def _layers(table: LayerTable | GradedTable, library: Path | None, folder: Path)
     if isinstance(table, LayerTable):
         return (Layer(build_material(table, library, folder), thickness, interface),)
     top, bottom = (build_material(part, library, folder) for part in (table.top, table.bottom))
-    return graded(top, bottom, thickness, grading=_grading(table), sublayers=table.sublayers, interface=interface)
-
-
-def _grading(table: GradedTable) -> Grading:
+    grading: Grading = LinearGrading() if table.kind == "linear" else ExponentialGrading()
     if table.exponent is not None:
-        return PowerGrading(table.exponent)
-    return LinearGrading() if table.kind == "linear" else ExponentialGrading()
+        grading = PowerGrading(table.exponent)
+    return graded(top, bottom, thickness, grading=grading, sublayers=table.sublayers, interface=interface)
 
 
 # Surfaces: read or generated by the function of their kind, then prepared step by step.
@@ -466,27 +436,32 @@ def strength_of(table: MaterialTable, known: Elastic | None) -> Strength:
     )
     if table.hardening is None:
         return strength
-    first, modulus = flow_stress(strength).value, known.youngs_modulus if known else _known(table.youngs_modulus)
+    first, flow = flow_stress(strength).value, table.hardening
     if math.isnan(first):
         raise InputError(
             "yield stress must be given together with a hardening, but is not known. Give yield_stress (Y in the text of a body).",
             subject="yield stress",
         )
-    return replace(strength, yield_stress=first, hardening=_hardening(table.hardening, first, modulus))
-
-
-def _hardening(table: AnyHardening, first: float, youngs_modulus: float) -> Hardening:
-    if isinstance(table, LinearHardeningTable):
-        return LinearHardening(first, float(table.modulus))
-    if isinstance(table, SwiftTable):
-        strain = first / youngs_modulus if table.reference_strain is None else float(table.reference_strain)
-        return Swift(first, strain, float(table.exponent))
-    return Voce(first, float(table.gain), float(table.rate))
+    hardening: Hardening
+    if isinstance(flow, LinearHardeningTable):
+        hardening = LinearHardening(first, float(flow.modulus))
+    elif isinstance(flow, SwiftTable):
+        modulus = known.youngs_modulus if known else _known(table.youngs_modulus)
+        strain = first / modulus if flow.reference_strain is None else float(flow.reference_strain)
+        hardening = Swift(first, strain, float(flow.exponent))
+    else:
+        hardening = Voce(first, float(flow.gain), float(flow.rate))
+    return replace(strength, yield_stress=first, hardening=hardening)
 
 
 def viscoelastic(table: Relaxing, nu: float, folder: Path, **more: Any) -> Viscoelastic:
     """Viscoelastic material that relaxes as ``table`` says, of Poisson's ratio ``nu``; ``more`` are fields of it."""
-    more |= {"elastic_bulk": table.elastic_bulk, "shift": _shift(table)}
+    shift: TemperatureShift | None = None
+    if isinstance(table.shift, ArrheniusTable):
+        shift = Arrhenius(float(table.shift.reference), float(table.shift.activation_energy))
+    elif table.shift is not None:
+        shift = WilliamsLandelFerry(float(table.shift.reference), float(table.shift.c1), float(table.shift.c2))
+    more |= {"elastic_bulk": table.elastic_bulk, "shift": shift}
     if isinstance(table, PronyTable):
         terms = tuple((float(e), float(t)) for e, t in zip(table.moduli, table.times, strict=True))
         return Viscoelastic.prony(float(table.relaxed), terms, nu, **more)
@@ -507,15 +482,6 @@ def viscoelastic(table: Relaxing, nu: float, folder: Path, **more: Any) -> Visco
     columns = read_moduli(folder / table.moduli_file)
     more["sources"] = (*more.get("sources", ()), f"relaxation: {table.moduli_file}")
     return fitted_solid(*columns, poisson_ratio=nu, per_decade=table.per_decade, **more).solid
-
-
-def _shift(table: Relaxing) -> TemperatureShift | None:
-    shift = table.shift
-    if shift is None:
-        return None
-    if isinstance(shift, ArrheniusTable):
-        return Arrhenius(float(shift.reference), float(shift.activation_energy))
-    return WilliamsLandelFerry(float(shift.reference), float(shift.c1), float(shift.c2))
 
 
 def _known(value: float | str | None) -> float:

@@ -224,9 +224,43 @@ def execute(
         As for ``run``.
     """
     names = None if wanted is None else frozenset(wanted)
-    solving = _Solving(case, warm or Warm(), threads or case.threads, names, lines, stage, on_failure)
-    solved = solving.solved()
-    status = solved.result.status
+    problem, asked = case.problem, [part for part in case.parts if part.name in case.asks]
+    threads, warm = threads or case.threads, warm or Warm()
+    stiffness = names is None or STIFFNESS in names
+    path: HistoryResult | None = None
+    with stage(f"solving {len(case.path)} steps" if case.path else "solving") as progress:
+        if warm.operator is None:
+            engine = case.engine(threads)
+            warm.operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+        options: dict[str, Any] = {"operator": warm.operator, "on_failure": on_failure, "solver": case.solver}
+        for part in asked:
+            options |= part.options(case.asks[part.name])
+        if case.path:
+            whole = lines or any(part.whole_path for part in asked)
+            stream = steps(problem, case.path, progress=progress, **options)
+            results = list(deque(stream, maxlen=None if whole else 1))
+            result = results[-1]
+        else:
+            keep, state = Keep(stiffness=stiffness), warm.state()
+            result = solve(problem, case.control, keep=keep, state=state, progress=progress, **options)
+            warm.last = result
+    if case.path:
+        if stiffness and follows_from_pressure(result):
+            result = replace(result, normal_stiffness=stiffness_of(result, operator=warm.operator))
+        if len(results) == len(case.path):
+            path = HistoryResult((*results[:-1], result))
+    solved = Solved(
+        problem,
+        case.control,
+        result,
+        path,
+        solver=case.solver,
+        threads=threads,
+        wanted=names,
+        lines=lines,
+        stage=stage,
+    )
+    status = result.status
     found, failed = _found(case.asks, solved, case.parts)
     findings = (*(finding for item in found.values() for finding in item.findings), *failed)
     statuses = [item.status for item in found.values() if item.status is not None]
@@ -276,88 +310,20 @@ def _found(
     found: dict[str, Found] = {}
     failed: list[Advice] = []
     for part in known:
-        if part.name in asks and _is_wanted(part, solved.wanted):
-            try:
-                found[part.name] = part.at_work.compute(asks[part.name], replace(solved, found=found))
-            except Exception as error:
-                if isinstance(error, MemoryError) or (part.essential and isinstance(error, AsperityError)):
-                    raise
-                if part.essential:
-                    raise ConvergenceError(
-                        f"{part.title} could not be computed: {type(error).__name__}: {error}"
-                    ) from error
-                kind = "" if isinstance(error, AsperityError) else f"{type(error).__name__}: "
-                text = f"{part.title} could not be computed: {kind}{' '.join(str(error).split())}"
-                failed.append(Advice("warning", part.name.replace("_", " "), text))
+        if part.name not in asks:
+            continue
+        if solved.wanted is not None and all(q.costly and q.name not in solved.wanted for q in part.quantities):
+            continue
+        try:
+            found[part.name] = part.at_work.compute(asks[part.name], replace(solved, found=found))
+        except Exception as error:
+            if isinstance(error, MemoryError) or (part.essential and isinstance(error, AsperityError)):
+                raise
+            if part.essential:
+                raise ConvergenceError(
+                    f"{part.title} could not be computed: {type(error).__name__}: {error}"
+                ) from error
+            kind = "" if isinstance(error, AsperityError) else f"{type(error).__name__}: "
+            text = f"{part.title} could not be computed: {kind}{' '.join(str(error).split())}"
+            failed.append(Advice("warning", part.name.replace("_", " "), text))
     return found, tuple(failed)
-
-
-def _is_wanted(part: Part, wanted: frozenset[str] | None) -> bool:
-    """Whether the ``part`` has a quantity that costs nothing, or is ``wanted``."""
-    return wanted is None or any(not item.costly or item.name in wanted for item in part.quantities)
-
-
-@dataclass(frozen=True, eq=False)
-class _Solving:
-    """One case on its way through the solver."""
-
-    case: Case
-    warm: Warm
-    threads: int | None
-    wanted: frozenset[str] | None
-    lines: bool
-    stage: Stage
-    on_failure: Literal["raise", "return"]
-
-    def solved(self) -> Solved:
-        """The contact with all its physics, at the end of the load path if there is one."""
-        case = self.case
-        path, result = self._path() if case.path else (None, self._single())
-        return Solved(
-            case.problem,
-            case.control,
-            result,
-            path,
-            solver=case.solver,
-            threads=self.threads,
-            wanted=self.wanted,
-            lines=self.lines,
-            stage=self.stage,
-        )
-
-    @property
-    def _stiffness(self) -> bool:
-        return self.wanted is None or STIFFNESS in self.wanted
-
-    def _options(self) -> dict[str, Any]:
-        if self.warm.operator is None:
-            problem, engine = self.case.problem, self.case.engine(self.threads)
-            self.warm.operator = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-        options: dict[str, Any] = {
-            "operator": self.warm.operator,
-            "on_failure": self.on_failure,
-            "solver": self.case.solver,
-        }
-        for part in self.case.parts:
-            options |= part.options(self.case.asks[part.name]) if part.name in self.case.asks else {}
-        return options
-
-    def _single(self) -> ContactResult:
-        case, keep = self.case, Keep(stiffness=self._stiffness)
-        with self.stage("solving") as progress:
-            state = self.warm.state()
-            result = solve(case.problem, case.control, keep=keep, state=state, progress=progress, **self._options())
-        self.warm.last = result
-        return result
-
-    def _path(self) -> tuple[HistoryResult | None, ContactResult]:
-        """The load path, which is kept for pictures only, and its end."""
-        case = self.case
-        with self.stage(f"solving {len(case.path)} steps") as progress:
-            stream = steps(case.problem, case.path, progress=progress, **self._options())
-            whole = self.lines or any(part.whole_path for part in case.parts if part.name in case.asks)
-            results = list(deque(stream, maxlen=None if whole else 1))
-        last = results[-1]
-        if self._stiffness and follows_from_pressure(last):
-            results[-1] = replace(last, normal_stiffness=stiffness_of(last, operator=self.warm.operator))
-        return (HistoryResult(tuple(results)) if len(results) == len(case.path) else None), results[-1]

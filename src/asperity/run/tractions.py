@@ -125,7 +125,17 @@ def build_tractions(document: TractionsDocument, folder: Path) -> LoadedBody:
                 f"{' x '.join(map(str, array.shape))}."
             )
     boundary: Any = "free line" if table.boundary == "line" else table.boundary
-    loads = [_placed(load, grid) for load in table.loads]
+    half = [0.5 * step for step in grid.spacing]
+    loads = []
+    for load in table.loads:  # its positions are those of figures: the grid begins half a pixel before its first node
+        given = load.given("kind")
+        for key in ("at", "start", "end"):
+            if key in given:
+                given[key] = tuple(value - step for value, step in zip(given[key], half, strict=True))
+        for key, step in zip("xy", half, strict=True):
+            if key in given:
+                given[key] = tuple(value - step for value in given[key])
+        loads.append(load.makes(**given))
     total = Tractions.of(grid, *loads, boundary=boundary)
     nothing: RealArray = np.zeros(grid.shape)
     shear = ShearTraction(
@@ -133,19 +143,6 @@ def build_tractions(document: TractionsDocument, folder: Path) -> LoadedBody:
     )
     pressure = total.pressure + arrays.get("pressure", nothing)
     return LoadedBody(build_body(document.body, folder), Tractions(grid, pressure, shear, boundary))
-
-
-def _placed(table: Any, grid: Grid) -> Any:
-    """The load of a table, whose positions are those of figures: the grid begins half a pixel before its first node."""
-    half = [0.5 * step for step in grid.spacing]
-    given = table.given("kind")
-    for key in ("at", "start", "end"):
-        if key in given:
-            given[key] = tuple(value - step for value, step in zip(given[key], half, strict=True))
-    for key, step in zip("xy", half, strict=True):
-        if key in given:
-            given[key] = tuple(value - step for value in given[key])
-    return table.makes(**given)
 
 
 def _array(path: Path, key: str) -> RealArray:

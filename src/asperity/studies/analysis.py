@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,9 +16,6 @@ from .sensitivity import BASE, ENDS, sensitivity
 
 if TYPE_CHECKING:
     import xarray
-
-Found = Mapping[str, Any]
-"""Numbers by name of what they are."""
 
 UNITS = {"order": "1", "remark": "", "error": "1", "count": "1", "floor": "m", "ceiling": "m", "elasticity": "1"}
 """Units of derived numbers that are not those of the quantity."""
@@ -34,43 +31,34 @@ def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | 
     if document.monte_carlo is not None:
         stop = document.monte_carlo.stop
         confidence = CONFIDENCE if stop is None else stop.confidence
-        return _reduced(data, document.quantities, "sample", lambda values: vars(estimate(values, confidence)))
+        return _reduced(data, document.quantities, "sample", lambda values: estimate(values, confidence))
     if document.convergence is not None:
         steps = step_sizes(document.convergence.of, [float(level) for level in data["level"]])
-        return _reduced(data, document.quantities, "level", lambda values: _scalars(convergence(steps, list(values))))
+        return _reduced(data, document.quantities, "level", lambda values: convergence(steps, list(values)))
     if document.critical_thickness is not None:
         inside, share = np.asarray(data["thickness"])[1:-1], document.critical_thickness.share
 
-        def critical(values: RealArray) -> Found:
-            return vars(critical_thickness(inside, values[1:-1], float(values[0]), float(values[-1]), share=share))
+        def critical(values: RealArray) -> object:
+            return critical_thickness(inside, values[1:-1], float(values[0]), float(values[-1]), share=share)
 
         return _reduced(data, document.quantities, "thickness", critical)
     return None if document.sensitivity is None else _sensitivities(data, document.quantities)
 
 
-def _scalars(found: object) -> Found:
-    return {name: value for name, value in vars(found).items() if isinstance(value, float | str)}
-
-
-def _column(values: Sequence[Any], shape: tuple[int, ...]) -> Any:
-    """Array of numbers or texts."""
-    return np.array(values, object if isinstance(values[0], str) else float).reshape(shape)
-
-
 def _reduced(
-    data: xarray.Dataset, quantities: Sequence[str], dim: str, derive: Callable[[RealArray], Found]
+    data: xarray.Dataset, quantities: Sequence[str], dim: str, derive: Callable[[RealArray], object]
 ) -> xarray.Dataset:
-    """Numbers that ``derive`` makes of each quantity along ``dim``, on the other axes."""
+    """Numbers and words that ``derive`` makes of each quantity along ``dim``, on the other axes."""
     import xarray
 
     made: dict[str, Any] = {}
     for name in quantities:
         array = data[name].transpose(..., dim)
-        shape, dims = array.shape[:-1], array.dims[:-1]
-        rows = [derive(row) for row in np.asarray(array).reshape(-1, array.shape[-1])]
+        dims = {str(other): size for other, size in zip(array.dims[:-1], array.shape, strict=False)}
+        found = [vars(derive(row)) for row in np.asarray(array).reshape(-1, array.shape[-1])]
+        rows = [{key: value for key, value in each.items() if not isinstance(value, tuple)} for each in found]
         for key in rows[0]:
-            column = _column([row[key] for row in rows], shape)
-            made[f"{name}_{key}"] = (dims, column, _labels(data, name, key))
+            made[f"{name}_{key}"] = _variable(data, name, key, dims, [row[key] for row in rows])
     kept = {str(key): value for key, value in data.coords.items() if dim not in value.dims}
     return xarray.Dataset(made, kept, {"kind": data.attrs["kind"], "title": data.attrs["title"]})
 
@@ -86,19 +74,22 @@ def _sensitivities(data: xarray.Dataset, quantities: Sequence[str]) -> xarray.Da
     made: dict[str, Any] = {"scalar_low": ("scalar", x[0]), "scalar_high": ("scalar", x[1])}
     for name in quantities:
         y = [np.asarray(end[name].transpose(..., "parameter"), dtype=float) for end in ends]
-        dims = (*ends[0][name].transpose(..., "parameter").dims[:-1], "scalar")
+        others = ends[0][name].transpose(..., "parameter").dims[:-1]
+        dims = dict(zip([*map(str, others), "scalar"], y[0].shape, strict=True))
         rows = [
             vars(sensitivity((float(x[0][at[-1]]), float(x[1][at[-1]])), (float(y[0][at]), float(y[1][at]))))
             for at in np.ndindex(y[0].shape)
         ]
         for key in rows[0]:
-            column = _column([row[key] for row in rows], y[0].shape)
-            made[f"{name}_{key}"] = (dims, column, _labels(data, name, key))
+            made[f"{name}_{key}"] = _variable(data, name, key, dims, [row[key] for row in rows])
     kept = {str(key): value for key, value in data.coords.items() if "parameter" not in value.dims}
     attributes = {"kind": data.attrs["kind"], "title": data.attrs["title"]}
     return xarray.Dataset(made, {**kept, "scalar": np.array(scalars, object)}, attributes)
 
 
-def _labels(data: xarray.Dataset, name: str, key: str) -> dict[str, str]:
+def _variable(data: xarray.Dataset, name: str, key: str, dims: dict[str, int], values: Sequence[Any]) -> Any:
+    """Numbers or texts ``key`` of the quantity ``name`` on axes of these sizes, with unit and label."""
     unit = "" if key == "slope" else UNITS.get(key, data[name].attrs["units"])
-    return {"units": unit, "long_name": f"{data[name].attrs['long_name']}: {key.replace('_', ' ')}"}
+    labels = {"units": unit, "long_name": f"{data[name].attrs['long_name']}: {key.replace('_', ' ')}"}
+    kind: Any = object if isinstance(values[0], str) else float
+    return tuple(dims), np.array(values, kind).reshape(tuple(dims.values())), labels

@@ -82,9 +82,15 @@ def make_axis(base: Base, table: AxisTable, name: str) -> Axis:
     for number, value in enumerate(values):
         changes = [(place, value)]
         changes += [(other, _following(other, rule, place, value, number, len(values))) for other, rule in followers]
-        points.append(Point(coordinate(place, value), _together(base, changes)))
+        # checked together: a hardness alone may have no modulus to go with
+        edits = tuple(Edit(at.keys, new, at.content(new, base.folder)) for at, new in changes)
+        shown = ", ".join(f"{at.path} = {new!r}" for at, new in changes)
+        checked(edited(problem_table(base.document), edits), f"problem with {shown}")
+        points.append(Point(coordinate(place, value), edits))
+    if not all(isinstance(point.coordinate, float) for point in points):  # all of them numbers, or else all words
+        points = [Point(str(point.coordinate), point.edits, point.columns) for point in points]
     is_load = place.is_load and all(other.is_load for other, _ in followers)
-    return Axis(name, place.unit, place.path, _uniform(points), is_load)
+    return Axis(name, place.unit, place.path, tuple(points), is_load)
 
 
 def listed(axes: Sequence[Axis]) -> Axis:
@@ -140,27 +146,6 @@ def coordinate(place: Place, value: Any) -> Coordinate:
     return found if isinstance(found, float) else str(found)
 
 
-def numeric_edit(place: Place, number: float) -> Edit:
-    """Change of the scalar at ``place`` to the SI ``number``; not checked."""
-    written = place.written(number)
-    return Edit(place.keys, written, written if place.quantity is None else float(number))
-
-
-def default_name(path: str, taken: set[str]) -> str:
-    """Name of an axis: as many of the last keys of its path as are needed to be none of those ``taken``."""
-    words = path.split(".")
-    names = ("_".join(words[-count:]) for count in range(1, len(words) + 1))
-    return next((name for name in names if name not in taken and not name[0].isdigit()), "_".join(words))
-
-
-def _together(base: Base, changes: Sequence[tuple[Place, Any]]) -> tuple[Edit, ...]:
-    """Edits of all ``changes``, which are checked together: a hardness alone may have no modulus to go with."""
-    edits = tuple(Edit(place.keys, value, place.content(value, base.folder)) for place, value in changes)
-    shown = ", ".join(f"{place.path} = {value!r}" for place, value in changes)
-    checked(edited(problem_table(base.document), edits), f"problem with {shown}")
-    return edits
-
-
 def _as_written(place: Place, value: Any) -> Any:
     if place.keys[-1] == "points":
         return [value, value] if isinstance(value, int) else list(value) if isinstance(value, tuple) else value
@@ -181,10 +166,3 @@ def _following(other: Place, rule: Any, place: Place, value: Any, number: int, c
             f"also.{other.path} must be a list, because its unit {other.unit} is not the unit {place.unit} of {place.path}."
         )
     return other.written(rule * place.number(value))
-
-
-def _uniform(points: Sequence[Point]) -> tuple[Point, ...]:
-    """``points`` whose coordinates are all numbers, or else all words."""
-    if all(isinstance(point.coordinate, float) for point in points):
-        return tuple(points)
-    return tuple(Point(str(point.coordinate), point.edits, point.columns) for point in points)

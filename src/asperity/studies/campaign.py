@@ -160,6 +160,7 @@ def prepare_study(
     Relative paths in a dictionary begin at ``start``. A new study that takes much of time, memory or disk is told to
     ``confirm``, in words, before its folder is made.
     """
+    from ..io.atomic import atomic_file
     from .documents import load_study, study_from_table, study_text
     from .plan import BYTES_OF_A_RECORD, large_study
 
@@ -190,7 +191,8 @@ def prepare_study(
             f"free at {target}; give fewer points or samples, or another folder (--out).",
             subject=f"results of {campaign.plan.n_cases} cases",
         )
-    _write(target / STUDY, study_text(loaded, target))
+    with atomic_file(target / STUDY, overwrite=True) as partial:
+        partial.write_text(study_text(loaded, target), encoding="utf-8", newline="\n")
     return campaign
 
 
@@ -217,10 +219,3 @@ def open_study(folder: str | Path) -> Campaign:
 def default_folder(document: Path) -> Path:
     """Folder of the results of the study ``document``: beside it, with its name."""
     return document.with_name(f"{document.stem}-results")
-
-
-def _write(path: Path, text: str) -> None:
-    from ..io.atomic import atomic_file
-
-    with atomic_file(path, overwrite=True) as partial:
-        partial.write_text(text, encoding="utf-8", newline="\n")

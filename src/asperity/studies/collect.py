@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..contact.certificate import Certificate
 from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
@@ -39,13 +38,12 @@ class Collected:
     def __init__(self, plan: Plan, path: Path) -> None:
         self.plan = plan
         keys = np.fromiter((int(case.key[:16], 16) for item in plan.paths() for case in item), np.uint64)
-        places = np.fromiter((self._flat(case.index) for item in plan.paths() for case in item), np.int64)
+        places = np.fromiter(
+            (np.ravel_multi_index(case.index, plan.shape) for item in plan.paths() for case in item), np.int64
+        )
         order = np.argsort(keys, kind="stable")
         self._keys, self._places = keys[order], places[order]
         self._records = path
-
-    def _flat(self, index: tuple[int, ...]) -> int:
-        return int(np.ravel_multi_index(index, self.plan.shape))
 
     def records(self) -> Iterator[tuple[int, Record]]:
         """Number of a case on the flattened axes, and its record; of a case that was done again also the older ones,
@@ -67,39 +65,10 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
     import xarray
 
     wanted = tuple(dict.fromkeys((*plan.document.quantities, *(q for q in [stop_quantity(plan)] if q))))
-    found = _gathered(Collected(plan, path), wanted)
-    dims = tuple(item.name for item in plan.axes)
-
-    def on_axes(flat: Any, labels: dict[str, Any]) -> tuple[tuple[str, ...], Any, dict[str, Any]]:
-        return dims, flat.reshape(plan.shape), labels
-
-    variables = {name: on_axes(array, _labels(name)) for name, array in found.values.items()}
-    codes = {"flag_values": np.array([DONE, FAILED, MISSING], np.int8), "flag_meanings": "done failed missing"}
-    variables["outcome"] = on_axes(found.outcome, {"long_name": "what became of the case", **codes})
-    if found.errors:
-        texts = np.full(plan.n_cases, "", object)
-        texts[list(found.errors)] = list(found.errors.values())
-        variables["error"] = on_axes(texts, {"long_name": "why the case failed"})
-    made = xarray.Dataset(variables, _coordinates(plan), _attributes(plan, found.citation_keys, study))
-    end = stopped_at(plan, path)
-    return made if end is None else made.isel(sample=slice(end))
-
-
-@dataclass(frozen=True, eq=False)
-class _Gathered:
-    """Numbers, outcome and errors of all cases by their number, and the keys of the papers behind them."""
-
-    values: dict[str, Any]
-    outcome: Any
-    errors: dict[int, str]
-    citation_keys: list[str]
-
-
-def _gathered(collected: Collected, wanted: tuple[str, ...]) -> _Gathered:
-    n = collected.plan.n_cases
-    values = {name: np.full(n, np.nan) for name in (*wanted, *KEPT_CHECKS)}
-    outcome, errors, cited = np.full(n, MISSING, np.int8), dict[int, str](), dict[str, None]()
-    for place, record in collected.records():
+    values = {name: np.full(plan.n_cases, np.nan) for name in (*wanted, *KEPT_CHECKS)}
+    outcome = np.full(plan.n_cases, MISSING, np.int8)
+    errors, cited = dict[int, str](), dict[str, None]()
+    for place, record in Collected(plan, path).records():
         error = record["error"]
         outcome[place] = DONE if error is None else FAILED
         for name in wanted:
@@ -110,18 +79,37 @@ def _gathered(collected: Collected, wanted: tuple[str, ...]) -> _Gathered:
         if error is not None:
             errors[place] = f"{error['type']}: {error['message']}"
         cited |= dict.fromkeys(record["citations"])
-    return _Gathered(values, outcome, errors, list(cited))
+    dims = tuple(item.name for item in plan.axes)
 
+    def on_axes(flat: Any, labels: dict[str, Any]) -> tuple[tuple[str, ...], Any, dict[str, Any]]:
+        return dims, flat.reshape(plan.shape), labels
 
-def _attributes(plan: Plan, citation_keys: list[str], study: str) -> dict[str, str]:
-    return {
+    known = measures() | {item.name: item for item in CERTIFICATE if item.name in CHECKS}
+    variables = {name: on_axes(array, known[name].attributes) for name, array in values.items()}
+    codes = {"flag_values": np.array([DONE, FAILED, MISSING], np.int8), "flag_meanings": "done failed missing"}
+    variables["outcome"] = on_axes(outcome, {"long_name": "what became of the case", **codes})
+    if errors:
+        texts = np.full(plan.n_cases, "", object)
+        texts[list(errors)] = list(errors.values())
+        variables["error"] = on_axes(texts, {"long_name": "why the case failed"})
+    coordinates: dict[str, Any] = {}
+    for item in plan.axes:
+        labels = {"units": item.unit, "long_name": item.path or item.name}
+        coordinates[item.name] = (item.name, _column([point.coordinate for point in item.points]), labels)
+        for name, unit in item.columns.items():
+            column = _column([point.columns[name] for point in item.points])
+            coordinates[name] = (item.name, column, {"units": unit} if unit else {})
+    attributes = {
         "title": plan.document.title,
         "kind": plan.document.kind,
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "software": json.dumps(software() | versions()),
-        "citation_keys": " ".join(citation_keys),
+        "citation_keys": " ".join(cited),
         "study": study,
     }
+    made = xarray.Dataset(variables, coordinates, attributes)
+    end = stopped_at(plan, path)
+    return made if end is None else made.isel(sample=slice(end))
 
 
 def stopped_at(plan: Plan, path: Path) -> int | None:
@@ -197,26 +185,9 @@ def state(plan: Plan, path: Path) -> CampaignState:
     return CampaignState(done, failures, missing, end, causes(failed), causes(found, by_kind=True))
 
 
-def _coordinates(plan: Plan) -> dict[str, Any]:
-    made: dict[str, Any] = {}
-    for item in plan.axes:
-        labels = {"units": item.unit, "long_name": item.path or item.name}
-        made[item.name] = (item.name, _column([point.coordinate for point in item.points]), labels)
-        for name, unit in item.columns.items():
-            column = _column([point.columns[name] for point in item.points])
-            made[name] = (item.name, column, {"units": unit} if unit else {})
-    return made
-
-
 def _column(values: list[Any]) -> Any:
     numbers = all(isinstance(value, float) for value in values)
     return np.array(values, float) if numbers else np.array([str(value) for value in values], object)
-
-
-def _labels(name: str) -> dict[str, str]:
-    if name in CHECKS and name in Certificate.__dataclass_fields__:
-        return next(entry for entry in CERTIFICATE if entry.name == name).attributes
-    return measures()[name].attributes
 
 
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)

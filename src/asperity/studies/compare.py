@@ -92,14 +92,33 @@ def compare(
         If bodies are missing or given twice, a pressure is not positive, a theory is unknown, the surface flat or has
         missing points.
     """
-    problem = _problem(surface, bodies)
-    whole = _whole(problem)
+    if isinstance(surface, ContactProblem):
+        if bodies is not None:
+            raise InputError("bodies must be left out with a ContactProblem, which has its own, but are given.")
+        problem = surface
+    else:
+        if bodies is None:
+            raise InputError('bodies must be given with a surface, such as asperity.material("DLC"), but are not.')
+        body, counter_body = bodies if isinstance(bodies, tuple) else (bodies, Rigid())
+        problem = ContactProblem(surface, body, counter_body=counter_body)
+    counter = problem.counter_surface
+    whole = composite(problem.surface, counter) if isinstance(counter, Surface) else problem.surface
     roughness = roughness_of(whole)
-    loads = _loads(pressures, problem.contact_modulus * roughness.rms_gradient)
+    if pressures is None:
+        loads = np.geomspace(LIGHTEST, HEAVIEST, LOADS) * (problem.contact_modulus * roughness.rms_gradient)
+    else:
+        loads = np.unique(np.asarray(pressures, dtype=float))
+        if loads.size == 0:
+            raise InputError("pressures (Pa) of a comparison must hold at least one, but are empty.")
+        for value in loads.tolist():
+            require.positive(value, "pressure (Pa) of a comparison")
     known = known_of_bodies(problem) | dict(inputs or {})
     chosen = chosen_theories(roughness, problem.contact_modulus, theories=theories, known=known)
-    context = _Context(loads, roughness, most_contacts, isinstance(problem.boundary, Periodic))
-    found = [_curve(name, theory, context) for name, theory in chosen.theories.items()]
+    periodic = isinstance(problem.boundary, Periodic)
+    found = [
+        _curve(name, theory, loads, roughness, most_contacts=most_contacts, periodic=periodic)
+        for name, theory in chosen.theories.items()
+    ]
     exact = solved(problem, loads, solver=solver, progress=progress, engine=engine) if numerical else None
     return Comparison(
         problem=problem,
@@ -114,62 +133,28 @@ def compare(
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Context:
-    """What all theories share: ``loads`` (n,) in Pa, ``roughness``, the limit of contacts, whether the surface repeats."""
-
-    loads: RealArray
-    roughness: Roughness
-    most_contacts: int
-    periodic: bool
-
-
-def _problem(surface: Surface | ContactProblem, bodies: Body | tuple[Body, Body] | None) -> ContactProblem:
-    if isinstance(surface, ContactProblem):
-        if bodies is not None:
-            raise InputError("bodies must be left out with a ContactProblem, which has its own, but are given.")
-        return surface
-    if bodies is None:
-        raise InputError('bodies must be given with a surface, such as asperity.material("DLC"), but are not.')
-    body, counter_body = bodies if isinstance(bodies, tuple) else (bodies, Rigid())
-    return ContactProblem(surface, body, counter_body=counter_body)
-
-
-def _whole(problem: ContactProblem) -> Surface:
-    counter = problem.counter_surface
-    return composite(problem.surface, counter) if isinstance(counter, Surface) else problem.surface
-
-
-def _loads(pressures: ArrayLike | None, unit: float) -> RealArray:
-    if pressures is None:
-        return np.geomspace(LIGHTEST, HEAVIEST, LOADS) * unit
-    given = np.unique(np.asarray(pressures, dtype=float))
-    if given.size == 0:
-        raise InputError("pressures (Pa) of a comparison must hold at least one, but are empty.")
-    for value in given.tolist():
-        require.positive(value, "pressure (Pa) of a comparison")
-    return given
-
-
-def _curve(name: str, theory: SurfaceTheory, context: _Context) -> TheoryCurve | LeftOut:
-    """Curve of one theory as far as it goes along the loads."""
-    loads = context.loads
-    count, first_notes = _reach(theory, loads, context.most_contacts)
+def _curve(
+    name: str, theory: SurfaceTheory, loads: RealArray, roughness: Roughness, *, most_contacts: int, periodic: bool
+) -> TheoryCurve | LeftOut:
+    """Curve of one theory as far as it goes along the ``loads`` (n,) in Pa, NaN behind; ``periodic`` where the surface repeats."""
+    count, first_notes = _reach(theory, loads, most_contacts)
     found, reason = _leading(theory, loads[:count]) if count else (None, "")
     if found is None:
         return LeftOut(name, theory.title, " ".join([*first_notes, reason]).strip())
     from ..theories.rough.interacting_crests import InteractingCrests
 
-    checked = check(theory, found, context.roughness)
-    beyond = np.zeros(loads.size - len(found), dtype=bool)
+    checked = check(theory, found, roughness)
+    rest = loads.size - len(found)
+    values = {item.name: np.append(getattr(found, item.name), np.full(rest, np.nan)) for item in QUANTITIES}
+    beyond = np.zeros(rest, dtype=bool)
     return TheoryCurve(
         name=name,
         title=theory.title,
         family=family(theory),
-        prediction=_filled(found, loads),
+        prediction=Prediction(**values | {"pressure": loads}),
         valid_for={name: np.concatenate([holds, beyond]) for name, holds in checked.valid_for.items()},
         notes=(*first_notes, *((reason,) if reason else ()), *checked.notes),
-        comparable_gap=not (context.periodic and isinstance(theory, InteractingCrests)),
+        comparable_gap=not (periodic and isinstance(theory, InteractingCrests)),
         citation_keys=tuple(theory.citation_keys),
     )
 
@@ -216,15 +201,6 @@ def _leading(theory: SurfaceTheory, loads: RealArray) -> tuple[Prediction | None
     return found, reason.format(low) if low else reason.partition(": ")[2]
 
 
-def _filled(found: Prediction, loads: RealArray) -> Prediction:
-    """``found`` at all ``loads``, NaN behind its last one."""
-    beyond = np.full(loads.size - len(found), np.nan)
-    values = {
-        name: np.concatenate([getattr(found, name), beyond]) for name in (quantity.name for quantity in QUANTITIES)
-    }
-    return Prediction(**values | {"pressure": loads})
-
-
 # The boundary-element solution: one load path, of which a few numbers a load are kept.
 
 
@@ -262,24 +238,16 @@ def solved(
             if not result.converged:
                 faults.append(f"At {pressures[number]:.4g} Pa: {result.status.message}")
                 continue
-            columns[:, number], last = _numbers(result), result
-            findings |= _checks(result) if number in (0, pressures.size - 1) else {}
+            spots = result.n_spots / math.prod(problem.grid.size)
+            columns[:, number] = result.area_fraction, result.area_fraction_corrected, spots, result.mean_gap
+            last = result
+            if number in (0, pressures.size - 1):
+                found = (*advise(result.problem, result.control), *review(result))
+                findings |= {item.criterion: item for item in found}
     except NoSolutionError as error:
         faults.append(str(error))
     seconds, keys = time.perf_counter() - started, problem.citation_keys if last is None else last.citation_keys
     radius = math.sqrt(last.mean_spot_area / math.pi) if last is not None and last.n_spots else math.nan
-    pixels, area, spots, gap = columns
-    curve = NumericalCurve(pixels, area, spots, gap, seconds, method.name, tuple(faults), keys)
+    pixels, area, density, gap = columns
+    curve = NumericalCurve(pixels, area, density, gap, seconds, method.name, tuple(faults), keys)
     return Solved(curve, tuple(findings.values()), radius)
-
-
-def _numbers(result: ContactResult) -> tuple[float, ...]:
-    """Area by pixels and corrected, spots per nominal area in 1/m², mean gap in m."""
-    nominal = math.prod(result.problem.grid.size)
-    return result.area_fraction, result.area_fraction_corrected, result.n_spots / nominal, result.mean_gap
-
-
-def _checks(result: ContactResult) -> dict[str, Advice]:
-    """Findings before and after the solve by their criterion."""
-    found = (*advise(result.problem, result.control), *review(result))
-    return {item.criterion: item for item in found}

@@ -217,8 +217,23 @@ def _dataset(comparison: Comparison) -> xarray.Dataset:
         valid = np.array([curve.valid_for[name] for curve in curves]).reshape(len(curves), comparison.pressures.size)
         label = f"whether all limits of the theory hold that concern {name}"
         variables[f"{name}_valid"] = (("theory", "pressure"), valid, _labels("1", label))
-    if comparison.numerical is not None:
-        variables |= _numerical_variables(comparison, comparison.numerical)
+    numerical = comparison.numerical
+    if numerical is not None:
+        area = numerical.area_fraction_corrected
+        columns = {
+            "area_fraction": (numerical.area_fraction, "1", "real area per nominal area, pixels counted"),
+            "area_fraction_corrected": (area, "1", "real area per nominal area, by edges between pixels"),
+            "contact_density": (numerical.contact_density, "1/m^2", "contact spots per nominal area"),
+            "mean_gap": (numerical.mean_gap, "m", "mean distance of the deformed surfaces"),
+            **{name: (getattr(comparison, name)(area), "1", meaning) for name, meaning in _DERIVED.items()},
+        }
+        for name, (column, unit, meaning) in columns.items():
+            variables[f"numerical_{name}"] = ("pressure", column, _labels(unit, f"boundary elements: {meaning}"))
+        for name, exact in _EXACT.items():
+            rows = [comparison.deviation(curve.name, name) for curve in curves]
+            scale = "rms height" if name == "gap" else f"numerical_{exact}"
+            label = f"({name} of the theory - numerical_{exact}) / {scale}"
+            variables[f"{name}_deviation"] = _of_theories(comparison, rows, "1", label)
     pressures = comparison.pressures
     coordinates = {
         "theory": ("theory", np.array([curve.name for curve in curves], dtype=object)),
@@ -228,27 +243,6 @@ def _dataset(comparison: Comparison) -> xarray.Dataset:
         "relative_pressure": ("pressure", pressures / comparison.E_star, _labels("1", "nominal pressure / E*")),
     }
     return xarray.Dataset(variables, coordinates, _attributes(comparison))
-
-
-def _numerical_variables(comparison: Comparison, numerical: NumericalCurve) -> dict[str, Any]:
-    area = numerical.area_fraction_corrected
-    columns = {
-        "area_fraction": (numerical.area_fraction, "1", "real area per nominal area, pixels counted"),
-        "area_fraction_corrected": (area, "1", "real area per nominal area, by edges between pixels"),
-        "contact_density": (numerical.contact_density, "1/m^2", "contact spots per nominal area"),
-        "mean_gap": (numerical.mean_gap, "m", "mean distance of the deformed surfaces"),
-        **{name: (getattr(comparison, name)(area), "1", meaning) for name, meaning in _DERIVED.items()},
-    }
-    found: dict[str, Any] = {
-        f"numerical_{name}": ("pressure", values, _labels(unit, f"boundary elements: {meaning}"))
-        for name, (values, unit, meaning) in columns.items()
-    }
-    for quantity, exact in _EXACT.items():
-        rows = [comparison.deviation(curve.name, quantity) for curve in comparison.curves]
-        unit = "rms height" if quantity == "gap" else f"numerical_{exact}"
-        label = f"({quantity} of the theory - numerical_{exact}) / {unit}"
-        found[f"{quantity}_deviation"] = _of_theories(comparison, rows, "1", label)
-    return found
 
 
 def _attributes(comparison: Comparison) -> dict[str, Any]:
@@ -369,8 +363,5 @@ def _curve_rows(
     area, p = areas[0], comparison.pressures
     columns = (p, p / comparison.E_star, *areas, comparison.kappa(area), comparison.slope(area), *rest)
     for row in zip(*columns, strict=True):
-        yield (name, *(_cell(value.item()) for value in row))
-
-
-def _cell(value: float | bool) -> float | bool | str:
-    return "" if isinstance(value, float) and math.isnan(value) else value
+        values = [value.item() for value in row]
+        yield (name, *("" if isinstance(value, float) and math.isnan(value) else value for value in values))

@@ -77,11 +77,18 @@ def chosen_theories(
     made: dict[str, SurfaceTheory] = {}
     left_out: list[LeftOut] = []
     for item in surface_theories() if theories is None else theories:
-        found = _made(item, roughness, E_star, known) if isinstance(item, str) else _given(item)
+        if not isinstance(item, str) and not all(
+            hasattr(item, part) for part in ("at_pressure", "validity", "name", "title")
+        ):
+            raise InputError(
+                f"theories of a comparison must be names or theories with at_pressure and validity, but hold {item!r}."
+            )
+        found = _made(item, roughness, E_star, known) if isinstance(item, str) else item
         if isinstance(found, LeftOut):
             left_out.append(found)
-        else:
-            made[_unused(found.name, made)] = found
+            continue
+        number = 1 + sum(other == found.name or other.startswith(f"{found.name} ") for other in made)
+        made[found.name if number == 1 else f"{found.name} {number}"] = found
     return Chosen(made, tuple(left_out))
 
 
@@ -125,20 +132,6 @@ def _made(name: str, roughness: Roughness, E_star: float, known: Mapping[str, fl
     return theory
 
 
-def _given(theory: SurfaceTheory) -> SurfaceTheory:
-    if not all(hasattr(theory, part) for part in ("at_pressure", "validity", "name", "title")):
-        raise InputError(
-            f"theories of a comparison must be names or theories with at_pressure and validity, but hold {theory!r}."
-        )
-    return theory
-
-
-def _unused(name: str, taken: Mapping[str, object]) -> str:
-    """``name``, with a number behind it if it is taken."""
-    number = 1 + sum(other == name or other.startswith(f"{name} ") for other in taken)
-    return name if number == 1 else f"{name} {number}"
-
-
 # Where the theories leave their validity, with the numbers.
 
 
@@ -173,7 +166,28 @@ def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest
 
     ``largest_spot`` is the mean radius in m of the contact spots at the highest load, NaN if it is not known.
     """
-    found = [*_of_layers(problem, largest_spot), *_of_law(problem, theories)]
+    found: list[str] = []
+    coated = [b for b in (problem.body, problem.counter_body) if isinstance(b, Layered) and b.reduced.layers]
+    if coated:
+        thin = min(body.reduced.layers[0].thickness for body in coated)
+        size = ""
+        if math.isfinite(largest_spot):
+            size = f" (at the highest load their mean radius is {show(largest_spot, 'm', 3)})"
+        found.append(
+            "A body is layered. The numerical solution includes its layers; every theory assumes homogeneous half-spaces and takes "
+            f"E* = {show(problem.contact_modulus, 'Pa')} of the materials at the surfaces, which holds while contacts are much "
+            f"smaller than the top layer of {show(thin, 'm', 3)}{size}."
+        )
+    plastic = [name for name, theory in theories.items() if family(theory) == "elastic-plastic"]
+    if not isinstance(problem.law, HardWall):
+        known = f"; so do {_listed(plastic)}" if plastic else ", which no theory here does"
+        found.append(
+            f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories have no such limit."
+        )
+    elif plastic:
+        found.append(
+            f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which adds to the area."
+        )
     adhesive = [name for name, theory in theories.items() if family(theory) == "adhesive"]
     if adhesive:
         found.append(f"The numerical solution has no adhesion; in {_listed(adhesive)} it adds to the area.")
@@ -188,33 +202,6 @@ def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest
             "contact does not have: it is no mean gap and is not compared as one."
         )
     return tuple(found)
-
-
-def _of_layers(problem: ContactProblem, spot: float) -> list[str]:
-    coated = [b for b in (problem.body, problem.counter_body) if isinstance(b, Layered) and b.reduced.layers]
-    if not coated:
-        return []
-    thin = min(body.reduced.layers[0].thickness for body in coated)
-    size = f" (at the highest load their mean radius is {show(spot, 'm', 3)})" if math.isfinite(spot) else ""
-    return [
-        "A body is layered. The numerical solution includes its layers; every theory assumes homogeneous half-spaces and takes "
-        f"E* = {show(problem.contact_modulus, 'Pa')} of the materials at the surfaces, which holds while contacts are much "
-        f"smaller than the top layer of {show(thin, 'm', 3)}{size}."
-    ]
-
-
-def _of_law(problem: ContactProblem, theories: dict[str, SurfaceTheory]) -> list[str]:
-    plastic = [name for name, theory in theories.items() if family(theory) == "elastic-plastic"]
-    if isinstance(problem.law, HardWall):
-        if not plastic:
-            return []
-        return [
-            f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which adds to the area."
-        ]
-    known = f"; so do {_listed(plastic)}" if plastic else ", which no theory here does"
-    return [
-        f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories have no such limit."
-    ]
 
 
 def _listed(names: list[str]) -> str:

@@ -10,7 +10,7 @@ from itertools import pairwise
 from ..core.errors import InputError
 from ..io.schemas.study import ConvergenceTable
 from .axes import Axis, Base, Point
-from .places import Edit, locate
+from .places import locate
 
 HALVINGS = 60
 """Bisections of an interval of orders, which so shrinks below the rounding."""
@@ -61,7 +61,15 @@ def convergence(steps: Sequence[float], values: Sequence[float]) -> Convergence:
     if any(b >= a for a, b in pairwise(h)) or h[-1] <= 0.0:
         raise InputError(f"steps of a convergence study must be positive and fall, but are {h}.")
     coarse, fine = y[-3] - y[-2], y[-2] - y[-1]
-    remark = _remark(y[-3:], coarse, fine)
+    remark = ""
+    if not all(map(math.isfinite, y[-3:])):
+        remark = "a level has failed"
+    elif fine == 0.0:
+        remark = "the two finest levels agree to the last digit"
+    elif coarse == 0.0:
+        remark = "the two coarser levels agree to the last digit"
+    elif coarse * fine < 0.0:
+        remark = "values swing from level to level"
     if remark:
         return Convergence(h, y, remark=remark)
     order = _order(h[-3] / h[-2], h[-2] / h[-1], coarse / fine)
@@ -72,7 +80,7 @@ def convergence(steps: Sequence[float], values: Sequence[float]) -> Convergence:
 
 
 def level_axis(base: Base, table: ConvergenceTable) -> Axis:
-    """Axis of the levels of a convergence study.
+    """Axis of the levels of a convergence study; a grid of one row stays one.
 
     Raises
     ------
@@ -90,39 +98,23 @@ def level_axis(base: Base, table: ConvergenceTable) -> Axis:
             subject=f"convergence of the {table.of}",
         )
     place = locate(base.document, "surface.points")
-    return Axis("level", "1", place.path, [_level(base, table.of, level, points) for level in table.levels])
+    nx, ny = points
+    made = []
+    for level in table.levels:
+        factor = level / nx if table.of == "grid" else level
+        shape = [max(1, round(nx * factor)), ny if ny == 1 else max(1, round(ny * factor))]
+        edits = [base.edit(place, shape)]
+        if table.of == "domain":
+            size = locate(base.document, "surface.size")
+            length_x, length_y = size.content(getattr(base.document.surface, "size", ""), base.folder)
+            edits.append(base.edit(size, f"{length_x * (shape[0] / nx)!r} m x {length_y * (shape[1] / ny)!r} m"))
+        made.append(Point(float(level), tuple(edits)))
+    return Axis("level", "1", place.path, made)
 
 
 def step_sizes(of: str, levels: Sequence[float]) -> tuple[float, ...]:
     """Steps that fall with the ``levels``: inverse numbers of points, tolerances, inverse sizes."""
     return tuple(levels) if of == "tolerance" else tuple(1.0 / level for level in levels)
-
-
-def _level(base: Base, of: str, level: float, points: tuple[int, int]) -> Point:
-    """The grid of one level; a grid of one row stays one."""
-    nx, ny = points
-    factor = level / nx if of == "grid" else level
-    shape = [max(1, round(nx * factor)), ny if ny == 1 else max(1, round(ny * factor))]
-    edits = [base.edit(locate(base.document, "surface.points"), shape)]
-    if of == "domain":
-        edits.append(_resized(base, (shape[0] / nx, shape[1] / ny)))
-    return Point(float(level), tuple(edits))
-
-
-def _resized(base: Base, factors: tuple[float, float]) -> Edit:
-    place = locate(base.document, "surface.size")
-    sides = place.content(getattr(base.document.surface, "size", ""), base.folder)
-    return base.edit(place, " x ".join(f"{side * factor!r} m" for side, factor in zip(sides, factors, strict=True)))
-
-
-def _remark(y: Sequence[float], coarse: float, fine: float) -> str:
-    if not all(map(math.isfinite, y)):
-        return "a level has failed"
-    if fine == 0.0:
-        return "the two finest levels agree to the last digit"
-    if coarse == 0.0:
-        return "the two coarser levels agree to the last digit"
-    return "values swing from level to level" if coarse * fine < 0.0 else ""
 
 
 def _order(coarse: float, fine: float, differences: float) -> float:

@@ -44,48 +44,30 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
         raise InputError(
             f"workers of a study must have the version {task['version']} of asperity, but one has {own}; install the same."
         )
-    path = _LoadPath(task)
-    return [path.record(case) for case in task["cases"]]
-
-
-class _LoadPath:
-    """What the cases of a path share, kept from one to the next."""
-
-    def __init__(self, task: Mapping[str, Any]) -> None:
-        self._table, self._folder = task["table"], Path(task["folder"])
-        self._quantities = tuple(task["quantities"])
-        self._built: Case | None = None
-        self._warm = Warm()
-
-    def record(self, case: Mapping[str, Any]) -> Record:
-        """Record of one ``case``."""
+    quantities, warm = tuple(task["quantities"]), Warm()
+    built: Case | None = None
+    made: list[Record] = []
+    for case in task["cases"]:
         try:
             with warnings.catch_warnings(), np.errstate(all="ignore"):
                 warnings.simplefilter("ignore")  # the findings of a case are in its record
-                return {"key": case["key"], **self._answer(self._case(case["edits"])), "error": None}
+                document = checked(edited(task["table"], map(from_plain, case["edits"])), "problem of this case")
+                if built is None:
+                    built = build(document, Path(task["folder"]))
+                now = built.under(document)
+                threads = now.threads or 1
+                outcome = execute(now, warm=warm, wanted=quantities, lines=False, threads=threads, on_failure="raise")
+                values, certificate = outcome.values, outcome.result.certificate
+                record: Record = {
+                    "key": case["key"],
+                    "values": {name: float(values.get(name, np.nan)) for name in quantities},
+                    "work": {name: getattr(certificate, name) for name in CHECKS},
+                    "citations": list(outcome.citation_keys),
+                    "findings": [[item.level, item.criterion, item.message] for item in outcome.findings],
+                    "error": None,
+                }
         except Exception as error:
             failure = {"type": type(error).__name__, "message": " ".join(str(error).split())}
-            return {"key": case["key"], "values": {}, "work": {}, "citations": [], "error": failure}
-
-    def _case(self, edits: list[Any]) -> Case:
-        document = checked(edited(self._table, map(from_plain, edits)), "problem of this case")
-        if self._built is None:
-            self._built = build(document, self._folder)
-        return self._built.under(document)
-
-    def _answer(self, case: Case) -> dict[str, Any]:
-        outcome = execute(
-            case,
-            warm=self._warm,
-            wanted=self._quantities,
-            lines=False,
-            threads=case.threads or 1,
-            on_failure="raise",
-        )
-        values, certificate = outcome.values, outcome.result.certificate
-        return {
-            "values": {name: float(values.get(name, np.nan)) for name in self._quantities},
-            "work": {name: getattr(certificate, name) for name in CHECKS},
-            "citations": list(outcome.citation_keys),
-            "findings": [[item.level, item.criterion, item.message] for item in outcome.findings],
-        }
+            record = {"key": case["key"], "values": {}, "work": {}, "citations": [], "error": failure}
+        made.append(record)
+    return made

@@ -129,7 +129,11 @@ class _Lane:
             if line.endswith("\n"):
                 return json.loads(line)
             process.communicate()
-            reason = _reason(process.returncode, output)
+            output.seek(0)
+            last = " ".join(output.read().split())[-200:]
+            code = process.returncode
+            ended = f"signal {-code}" if code < 0 else f"exit code {code}"
+            reason = f"the worker ended with {ended}{': ' + last if last else ', perhaps for lack of memory'}"
         return Lost(reason)
 
     def _started(self, output: IO[str]) -> subprocess.Popen[str] | None:
@@ -157,10 +161,3 @@ def worker_environment(threads: int) -> dict[str, str]:
     """Variables of a worker: so many threads in every library, and the modules that this process finds."""
     paths = os.pathsep.join(path for path in sys.path if path)
     return {**os.environ, **dict.fromkeys(THREAD_VARIABLES, str(threads)), "PYTHONPATH": paths}
-
-
-def _reason(code: int, output: IO[str]) -> str:
-    output.seek(0)
-    last = " ".join(output.read().split())[-200:]
-    ended = f"signal {-code}" if code < 0 else f"exit code {code}"
-    return f"the worker ended with {ended}{': ' + last if last else ', perhaps for lack of memory'}"

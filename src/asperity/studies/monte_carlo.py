@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
-from ..io.schemas.study import MonteCarloTable, RandomTable, StopTable
-from .axes import Axis, Base, Coordinate, Point, numeric_edit
+from ..io.schemas.study import MonteCarloTable, StopTable
+from .axes import Axis, Base, Coordinate, Point
 from .places import Edit, Place, locate
 
 CONFIDENCE = 0.95
@@ -81,37 +81,32 @@ class Stop:
         return self.samples if self.reached else None
 
     def take(self, sample: int, point: int, value: float) -> None:
-        """Take in the ``value`` of a ``sample`` at a ``point`` of the other axes, NaN where it failed."""
+        """Take in the ``value`` of a ``sample`` at a ``point`` of the other axes, NaN where it failed.
+
+        Counts, means and sums of squares are updated sample by sample (Welford 1962).
+        """
         if self.reached or sample < self.samples:
             return
         self._waiting.setdefault(sample, {})[point] = value
         while not self.reached and len(self._waiting.get(self.samples, ())) == self._mean.size:
-            self._absorb(self._waiting.pop(self.samples))
-
-    def _absorb(self, values: dict[int, float]) -> None:
-        """Update count, mean and sum of squares (Welford 1962)."""
-        row = np.array([values[point] for point in range(self._mean.size)])
-        good = np.isfinite(row)
-        self._count += good
-        change = np.where(good, row - self._mean, 0.0)
-        self._mean += change / np.maximum(self._count, 1.0)
-        self._square += change * np.where(good, row - self._mean, 0.0)
-        self.samples += 1
-        self.reached = self.samples >= self._table.at_least and bool(np.all(self._half_widths() <= self._allowed()))
-
-    def _half_widths(self) -> RealArray:
-        widths = np.full(self._mean.size, math.inf)
-        for point, count in enumerate(self._count):
-            if count >= 2:
-                error = math.sqrt(self._square[point] / (count - 1.0) / count)
-                widths[point] = student(int(count), self._table.confidence) * error
-        return widths
-
-    def _allowed(self) -> RealArray:
-        if self._table.width is not None:
-            return np.full(self._mean.size, self._table.width)
-        assert self._table.relative_width is not None
-        return self._table.relative_width * np.abs(self._mean)
+            values = self._waiting.pop(self.samples)
+            row = np.array([values[place] for place in range(self._mean.size)])
+            good = np.isfinite(row)
+            self._count += good
+            change = np.where(good, row - self._mean, 0.0)
+            self._mean += change / np.maximum(self._count, 1.0)
+            self._square += change * np.where(good, row - self._mean, 0.0)
+            self.samples += 1
+            half_widths = np.full(self._mean.size, math.inf)
+            for place in np.flatnonzero(self._count >= 2):
+                count = self._count[place]
+                error = math.sqrt(self._square[place] / (count - 1.0) / count)
+                half_widths[place] = student(int(count), self._table.confidence) * error
+            allowed: RealArray | float | None = self._table.width
+            if self._table.relative_width is not None:
+                allowed = self._table.relative_width * np.abs(self._mean)
+            assert allowed is not None
+            self.reached = self.samples >= self._table.at_least and bool(np.all(half_widths <= allowed))
 
 
 @dataclass(frozen=True)
@@ -166,9 +161,11 @@ class Samples(Sequence[Point]):
         edits: list[Edit] = []
         columns: dict[str, Coordinate] = {}
         for scalar in self.scalars:
-            edit = numeric_edit(scalar.place, scalar.drawn(self.seed, number))
-            edits.append(edit)
-            columns[scalar.name] = float(edit.content)
+            place, value = scalar.place, scalar.drawn(self.seed, number)
+            written = place.written(value)
+            content = written if place.quantity is None else value
+            edits.append(Edit(place.keys, written, content))
+            columns[scalar.name] = float(content)
         return Point(float(number), tuple(edits), columns)
 
 
@@ -180,26 +177,25 @@ def sample_axis(base: Base, table: MonteCarloTable, names: Sequence[str]) -> Axi
     InputError
         If a path leads nowhere, or a distribution has no such numbers.
     """
-    scalars = tuple(_uncertain(base, item, name) for item, name in zip(table.random, names, strict=True))
+    scalars: list[Uncertain] = []
+    for item, name in zip(table.random, names, strict=True):
+        place = locate(base.document, item.path)
+        if item.distribution == "seed":
+            if not place.whole:
+                raise InputError(f"{place.path} must be a whole number to be drawn as a seed, but is another scalar.")
+            scalars.append(Uncertain(name, place, "seed"))
+            continue
+        uniform = item.distribution == "uniform"
+        keys = ("low", "high") if uniform else ("mean", "deviation")
+        first, second = (place.number(getattr(item, key)) for key in keys)
+        if uniform and second <= first:
+            raise InputError(f"high of {place.path} must be above low, but runs from {item.low!r} to {item.high!r}.")
+        if not uniform:
+            require.positive(second, f"deviation of {place.path}")
+        if item.distribution == "lognormal":
+            require.positive(first, f"mean of {place.path}")
+        for number in (first, second) if uniform else (first,):
+            base.edit(place, place.written(number))
+        scalars.append(Uncertain(name, place, item.distribution, first, second))
     columns = {scalar.name: scalar.place.unit for scalar in scalars}
-    return Axis("sample", "1", "", Samples(base, table.seed, table.samples, scalars), False, columns)
-
-
-def _uncertain(base: Base, table: RandomTable, name: str) -> Uncertain:
-    place = locate(base.document, table.path)
-    if table.distribution == "seed":
-        if not place.whole:
-            raise InputError(f"{place.path} must be a whole number to be drawn as a seed, but is another scalar.")
-        return Uncertain(name, place, "seed")
-    keys = ("low", "high") if table.distribution == "uniform" else ("mean", "deviation")
-    first, second = (place.number(getattr(table, key)) for key in keys)
-    if table.distribution == "uniform":
-        if second <= first:
-            raise InputError(f"high of {place.path} must be above low, but runs from {table.low!r} to {table.high!r}.")
-    else:
-        require.positive(second, f"deviation of {place.path}")
-    if table.distribution == "lognormal":
-        require.positive(first, f"mean of {place.path}")
-    for number in (first, second) if table.distribution == "uniform" else (first,):
-        base.edit(place, place.written(number))
-    return Uncertain(name, place, table.distribution, first, second)
+    return Axis("sample", "1", "", Samples(base, table.seed, table.samples, tuple(scalars)), False, columns)

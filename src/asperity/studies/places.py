@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, get_args
@@ -153,7 +153,8 @@ def _below(value: Any, field: FieldInfo, keys: tuple[Key, ...]) -> Iterator[Plac
 
 
 def _place(field: FieldInfo, keys: tuple[Key, ...]) -> Place:
-    whole = keys[-1] != "points" and _is_whole(field.annotation)
+    kinds = {part for part in _kinds(field.annotation) if part in (int, float, str, bool)}
+    whole = keys[-1] != "points" and kinds == {int}
     return Place(".".join(map(str, keys)), keys, quantity(field), whole)
 
 
@@ -161,11 +162,6 @@ def _holds_tables(annotation: Any) -> bool:
     if isinstance(annotation, type):
         return issubclass(annotation, Settings)
     return any(_holds_tables(part) for part in get_args(annotation))
-
-
-def _is_whole(annotation: Any) -> bool:
-    kinds = {part for part in _kinds(annotation) if part in (int, float, str, bool)}
-    return kinds == {int}
 
 
 def _kinds(annotation: Any) -> Iterator[Any]:
@@ -228,17 +224,24 @@ class Edit:
     change: Change = "set"
 
 
-def edited(table: dict[str, Any], edits: Iterable[Edit]) -> dict[str, Any]:
-    """The document ``table`` after ``edits``, one after the other."""
+def edited(table: dict[str, Any], edits: Iterable[Edit], *, by_content: bool = False) -> dict[str, Any]:
+    """The document ``table`` after ``edits``, one after the other; its content after theirs where ``by_content``."""
     for edit in edits:
-        table = _after(table, edit, edit.value)
-    return table
-
-
-def edited_content(table: dict[str, Any], edits: Iterable[Edit]) -> dict[str, Any]:
-    """The content ``table`` after ``edits``, one after the other."""
-    for edit in edits:
-        table = _after(table, edit, edit.content)
+        if edit.change == "set":
+            table = replaced(table, edit.keys, edit.content if by_content else edit.value)
+            continue
+        key, number = str(edit.keys[0]), int(edit.keys[2])
+        body = table[key]
+        layers, base = list(body["layers"]), body["base"]
+        if edit.change == "without":
+            del layers[number]
+        else:  # the layer reaches down for ever
+            base = {k: v for k, v in layers[number].items() if k not in ("kind", "thickness", "interface")}
+            del layers[number:]
+        bare = {**base}  # of one material, from the same library
+        if "materials_file" in body and "material" in base:
+            bare["materials_file"] = body["materials_file"]
+        table = {**table, key: {**body, "layers": layers, "base": base} if layers else bare}
     return table
 
 
@@ -251,34 +254,3 @@ def from_plain(values: Sequence[Any]) -> Edit:
     """The edit of which ``plain`` made ``values``."""
     keys, value, change = values
     return Edit(tuple(keys), value, None, change)
-
-
-def _after(table: dict[str, Any], edit: Edit, value: Any) -> dict[str, Any]:
-    if edit.change == "set":
-        return replaced(table, edit.keys, value)
-    key, number = str(edit.keys[0]), int(edit.keys[2])
-    return {**table, key: _LAYERS[edit.change](table[key], number)}
-
-
-def _without(body: Mapping[str, Any], number: int) -> dict[str, Any]:
-    """``body`` without its layer ``number``."""
-    rest = [layer for index, layer in enumerate(body["layers"]) if index != number]
-    return {**body, "layers": rest} if rest else _bare(body, body["base"])
-
-
-def _endless(body: Mapping[str, Any], number: int) -> dict[str, Any]:
-    """``body`` whose layer ``number`` reaches down for ever."""
-    layer = body["layers"][number]
-    material = {key: value for key, value in layer.items() if key not in ("kind", "thickness", "interface")}
-    above = list(body["layers"][:number])
-    return {**body, "layers": above, "base": material} if above else _bare(body, material)
-
-
-def _bare(body: Mapping[str, Any], material: Mapping[str, Any]) -> dict[str, Any]:
-    """A body of one ``material``, from the same library as ``body``."""
-    named = "materials_file" in body and "material" in material
-    return {**material, **({"materials_file": body["materials_file"]} if named else {})}
-
-
-_LAYERS: dict[str, Callable[[Mapping[str, Any], int], dict[str, Any]]] = {"without": _without, "endless": _endless}
-"""What makes each change of a layer."""

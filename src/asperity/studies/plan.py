@@ -19,13 +19,13 @@ from ..io.schemas.study import AxisTable, RandomTable, StudyDocument
 from ..parts.registry import parts, versions
 from ..run.build import stated_points
 from ..run.document import ProblemDocument
-from .axes import Axis, Base, Coordinate, default_name, listed, make_axis
+from .axes import Axis, Base, Coordinate, listed, make_axis
 from .convergence import level_axis
 from .critical_thickness import thickness_axis
 from .documents import LoadedStudy
 from .local import available_cores
 from .monte_carlo import sample_axis
-from .places import Edit, content, edited_content, problem_table
+from .places import Edit, content, edited, problem_table
 from .sensitivity import parameter_axis
 
 
@@ -105,7 +105,7 @@ class Plan:
 
     def key(self, edits: Sequence[Edit]) -> str:
         """Digest of the content of a case: its problem, the quantities and the version of the program."""
-        return content_digest([edited_content(self._content, edits), self._made_by])
+        return content_digest([edited(self._content, edits, by_content=True), self._made_by])
 
     def coordinates(self, index: Sequence[int]) -> dict[str, Coordinate]:
         """Where the case at ``index`` lies, by name of axis and column."""
@@ -204,7 +204,7 @@ def _memory(document: StudyDocument) -> float:
 
 
 def _names(document: StudyDocument) -> list[str]:
-    """Names of the axes and then of the random scalars."""
+    """Names of the axes and then of the random scalars: as given, or as many of the last keys of the path as are needed to be unlike the others."""
     tables: list[AxisTable | RandomTable] = [*document.axes]
     own = {"sample", "case", "level", "parameter", "value", "outcome", "error", "work"}
     if document.monte_carlo is not None:
@@ -214,7 +214,10 @@ def _names(document: StudyDocument) -> list[str]:
     reserved = {*measures()} | own
     names: list[str] = []
     for table in tables:
-        name = table.name or default_name(table.path, reserved | set(names))
+        words, taken = table.path.split("."), reserved | set(names)
+        short = ("_".join(words[-count:]) for count in range(1, len(words) + 1))
+        free = next((name for name in short if name not in taken and not name[0].isdigit()), "_".join(words))
+        name = table.name or free
         if "/" in name or not name.isprintable() or name != name.strip():
             raise InputError(
                 f"name of the axis {table.path} must be printable, without / and spaces at its ends, but is {name!r}: it "

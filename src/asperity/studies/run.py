@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import prod
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ..io.description import software
 from .executors import Executor, Lost, Task
 from .monte_carlo import Stop
 from .places import plain
-from .plan import Plan, StudyCase
+from .plan import Plan
 from .store import Finished, Record, Store
 
 FUNCTION = "asperity.studies.evaluate:evaluate_path"
@@ -93,7 +93,11 @@ def carry_out(
         stream = executor.run(function, work.tasks())
         try:
             for task, answer in stream:
-                found = _lost(task, answer.reason) if isinstance(answer, Lost) else answer
+                if isinstance(answer, Lost):
+                    error = {"type": "WorkerLost", "message": answer.reason}
+                    failure = {"values": {}, "work": {}, "citations": [], "error": error}
+                    answer = [{"key": case["key"], **failure} for case in task["cases"]]
+                found: list[Record] = answer
                 store.append(found)
                 work.take(task, found)
                 done += len(found)
@@ -128,7 +132,16 @@ class _Work:
                     if case.key in self._finished:
                         self._count(case.index, self._finished.value(case.key))
             if missing:
-                yield self._task(missing)
+                yield {
+                    "table": self._plan.table,
+                    "folder": str(self._plan.base.folder.absolute()),
+                    "quantities": list(self._plan.quantities),
+                    "version": software()["asperity"],
+                    "cases": [
+                        {"key": case.key, "index": list(case.index), "edits": [plain(edit) for edit in case.edits]}
+                        for case in missing
+                    ],
+                }
 
     def take(self, task: Task, found: Sequence[Record]) -> None:
         """Count the samples of an answered ``task``."""
@@ -140,21 +153,3 @@ class _Work:
         assert self._stop is not None
         rest = self._plan.shape[1:]
         self._stop.take(index[0], int(np.ravel_multi_index(tuple(index[1:]), rest)) if rest else 0, value)
-
-    def _task(self, cases: Sequence[StudyCase]) -> dict[str, Any]:
-        return {
-            "table": self._plan.table,
-            "folder": str(self._plan.base.folder.absolute()),
-            "quantities": list(self._plan.quantities),
-            "version": software()["asperity"],
-            "cases": [
-                {"key": case.key, "index": list(case.index), "edits": [plain(edit) for edit in case.edits]}
-                for case in cases
-            ],
-        }
-
-
-def _lost(task: Task, reason: str) -> list[Record]:
-    """Records of the cases of a ``task`` that ended its worker."""
-    error = {"type": "WorkerLost", "message": reason}
-    return [{"key": case["key"], "values": {}, "work": {}, "citations": [], "error": error} for case in task["cases"]]

@@ -99,7 +99,7 @@ def _asked(item: Parameter, base: Any) -> Asked:
     inner = get_args(base)[0] if get_origin(base) is tuple and get_args(base) else None
     tables = tables_in(base if inner is None else inner)
     if tables:
-        tag = next((key for key in ("kind", "step") if all(_constant(table, key) for table in tables)), "")
+        tag = next((key for key in ("kind", "step") if all(_constants(table, key) for table in tables)), "")
         by_kind = {word: table for table in tables for word in (_constants(table, tag) or ("",))}
         shape: Shape = "list" if inner is not None else "kinds" if len(by_kind) > 1 else "table"
         return Asked(shape=shape, tables=by_kind, tag=tag if len(by_kind) > 1 or inner is not None else "", **given)
@@ -134,10 +134,6 @@ def _constants(table: type[Settings], key: str) -> tuple[str, ...]:
         return ()
     base, _ = taken_apart(field.annotation)
     return tuple(map(str, get_args(base))) if get_origin(base) is Literal else ()
-
-
-def _constant(table: type[Settings], key: str) -> bool:
-    return bool(_constants(table, key))
 
 
 def _hint(item: Parameter) -> str:

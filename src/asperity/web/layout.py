@@ -63,7 +63,17 @@ def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]
     with ui.element("main").classes("content"):
         ui.html(f"<h1>{title}</h1>", sanitize=False)
         yield
-    _watch(session)
+    own, seen = ui.context.client.id, session.version
+
+    def watch() -> None:
+        """Draw the page again when another window has changed the document."""
+        nonlocal seen
+        if session.version != seen:
+            seen = session.version
+            if session.changed_by not in ("", own):
+                ui.navigate.reload()
+
+    ui.timer(1.0, watch)
 
 
 def look() -> None:
@@ -80,20 +90,6 @@ def _back(session: Session, *, again: bool = False) -> None:
     session.draft.redo() if again else session.draft.undo()
     session.touched()
     ui.navigate.reload()
-
-
-def _watch(session: Session) -> None:
-    """Draw the page again when another window has changed the document."""
-    own, seen = ui.context.client.id, session.version
-
-    def look() -> None:
-        nonlocal seen
-        if session.version != seen:
-            seen = session.version
-            if session.changed_by not in ("", own):
-                ui.navigate.reload()
-
-    ui.timer(1.0, look)
 
 
 def _copies(session: Session) -> None:

@@ -69,10 +69,10 @@ def _start(place: Place) -> None:
     ui.page_title("asperity")
     ui.dark_mode(value=None)
 
-    def begin(fill: Callable[[Session], None], folder: Path | None = None, to: str = "surface") -> None:
+    def begin(first: Callable[[Session], None], folder: Path | None = None, to: str = "surface") -> None:
         try:
             key, session = place.new(folder)
-            fill(session)
+            first(session)
         except AsperityError as error:
             ui.notify(str(error), type="negative", multi_line=True)
             return
@@ -87,9 +87,6 @@ def _start(place: Place) -> None:
             return
         begin(lambda session: None, path)
 
-    def of_preset(name: str) -> Callable[[Session], None]:
-        return lambda session: session.draft.replace(read_table(name))
-
     with ui.element("main").classes("start"):
         ui.html("<h1>asperity – contact of layered rough surfaces</h1>", sanitize=False)
         ui.label("Everything is computed on this machine; nothing is sent anywhere.").classes("hint")
@@ -101,9 +98,13 @@ def _start(place: Place) -> None:
             with ui.card().classes("table").props("flat bordered"):
                 ui.label("An example").classes("table-title")
                 ui.label("A built-in problem, or an interface of the literature.").classes("hint")
-                ui.button("Coated rough disk", on_click=lambda: begin(_demo)).props("no-caps outline")
+                ui.button("Coated rough disk", on_click=lambda: begin(lambda session: fill(session, demo=True))).props(
+                    "no-caps outline"
+                )
                 for name in PRESETS:
-                    ui.button(name, on_click=lambda n=name: begin(of_preset(n))).props("no-caps outline")
+                    ui.button(
+                        name, on_click=lambda n=name: begin(lambda session: session.draft.replace(read_table(n)))
+                    ).props("no-caps outline")
             with ui.card().classes("table").props("flat bordered"):
                 ui.label("A kept session").classes("table-title")
                 ui.label("The folder in which it was kept, or a new one to keep it in from the start.").classes("hint")
@@ -115,8 +116,3 @@ def _start(place: Place) -> None:
                 title = str(session.draft.get("title") or "Contact without a title")
                 kept = f" – kept in {session.folder}" if session.kept else ""
                 ui.link(f"{title}{kept}, {len(session.runs)} runs", f"/s/{key}/surface")
-
-
-def _demo(session: Session) -> None:
-    """The problem of ``asperity demo``."""
-    fill(session, demo=True)

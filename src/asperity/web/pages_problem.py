@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import math
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from ..core.errors import AsperityError, InputError
 from ..core.units import parse, show
 from ..io.schemas.bodies import FLOW, body_from_text
 from ..run.document import document_model
-from ..solids.library import MaterialRecord, materials
+from ..solids.library import materials
 from ..solids.moduli_file import read_moduli
 from ..solids.viscoelastic import fitted_solid
 from .draft import Keys, moduli_files
@@ -110,11 +111,6 @@ def _body(context: Context, item: Asked, name: str) -> None:
     inside()
 
 
-def _constants(record: MaterialRecord) -> str:
-    text = f"E {show(record.youngs_modulus.value, 'Pa', 3)}, ν {record.poisson_ratio.value:g}"
-    return text + (f", H {show(record.hardness.value, 'Pa', 3)}" if record.hardness else "")
-
-
 def _library() -> None:
     """All materials with the source of every value."""
     with (
@@ -123,21 +119,41 @@ def _library() -> None:
     ):
         for record in materials():
             with ui.element("div").classes("material"):
-                ui.label(f"{record.name}: {_constants(record)}").classes("table-title")
+                constants = f"E {show(record.youngs_modulus.value, 'Pa', 3)}, ν {record.poisson_ratio.value:g}"
+                constants += f", H {show(record.hardness.value, 'Pa', 3)}" if record.hardness else ""
+                ui.label(f"{record.name}: {constants}").classes("table-title")
                 for text in (record.note, *record.sources):
                     if text:
                         ui.label(text).classes("hint")
 
 
 def _own_files(key: str, session: Session) -> None:
-    """Takes a file of own materials, for every body that names one, or of storage and loss moduli, for every relaxation that is measured."""
+    """Takes a file of own materials, for every body that names one, or of storage and loss moduli, for every relaxation that is measured.
+
+    The file is read once, so that it is refused here.
+    """
 
     def uploaded(event: events.GenericEventArguments) -> None:
         path = str(event.args.get("path") if isinstance(event.args, dict) else "")
         if path not in session.labels:
             return
+        bodies = {name: session.draft.get(name) for name in ("body", "counter_body")}
+        places: list[Keys]
         try:
-            places = _materials_at(path, session) if path.endswith(".toml") else _moduli_at(path, session)
+            if path.endswith(".toml"):
+                materials(path)
+                named = [
+                    n for n, body in bodies.items() if isinstance(body, dict) and {"material", "layers"} & body.keys()
+                ]
+                places = [(name, "materials_file") for name in named]
+            else:
+                fitted_solid(*read_moduli(Path(path)), poisson_ratio=0.5)
+                places = [keys for name, body in bodies.items() for keys in moduli_files(body, (name,))]
+                if not places:
+                    raise InputError(
+                        "relaxation of a body must be measured to take a file of moduli, but none is. Choose own constants and the relaxation measured "
+                        "first. A file of materials ends in .toml."
+                    )
         except AsperityError as error:
             ui.notify(session.said(str(error)), type="negative", multi_line=True)
             return
@@ -150,29 +166,6 @@ def _own_files(key: str, session: Session) -> None:
     hint = "TOML with a table for each material; or CSV with frequency, storage and loss modulus, for a relaxation that is measured; see the how-to"
     drop(key, "drop a file of own materials or of moduli, or choose it", text, hint)
     ui.on("asperity-uploaded", uploaded)
-
-
-def _materials_at(path: str, session: Session) -> list[Keys]:
-    """Where the file of materials at ``path``, which is read once, belongs in the document."""
-    materials(path)
-    bodies = ((name, session.draft.get(name)) for name in ("body", "counter_body"))
-    return [
-        (name, "materials_file")
-        for name, body in bodies
-        if isinstance(body, dict) and ("material" in body or "layers" in body)
-    ]
-
-
-def _moduli_at(path: str, session: Session) -> list[Keys]:
-    """The same of a file of storage and loss moduli; InputError if no relaxation is measured."""
-    fitted_solid(*read_moduli(Path(path)), poisson_ratio=0.5)
-    found = [keys for name in ("body", "counter_body") for keys in moduli_files(session.draft.get(name), (name,))]
-    if not found:
-        raise InputError(
-            "relaxation of a body must be measured to take a file of moduli, but none is. Choose own constants and the relaxation measured "
-            "first. A file of materials ends in .toml."
-        )
-    return found
 
 
 def drawn(body: Any, *, title: str) -> str:
@@ -216,7 +209,11 @@ def _stack(body: Any) -> tuple[list[tuple[str, float, bool]], str]:
     for layer in body.get("layers") or ():
         if isinstance(layer, dict):
             graded = " to ".join(_name(layer[key]) for key in ("top", "bottom") if key in layer)
-            found.append((graded or _name(layer), _thickness(layer), layer.get("interface") == "frictionless"))
+            thickness = math.nan
+            with suppress(AsperityError):
+                thickness = parse(str(layer.get("thickness", "")), "length", "")
+            slips = layer.get("interface") == "frictionless"
+            found.append((graded or _name(layer), thickness if thickness >= 0.0 else math.nan, slips))
     return found, _name(body.get("base") if found else body)
 
 
@@ -229,14 +226,6 @@ def _name(part: Any) -> str:
     if part.get("relaxation"):
         return str(named or "viscoelastic")
     return str(named or (f"E {part['youngs_modulus']}" if part.get("youngs_modulus") else "material missing"))
-
-
-def _thickness(layer: dict[str, Any]) -> float:
-    try:
-        found = parse(str(layer.get("thickness", "")), "length", "")
-    except AsperityError:
-        return math.nan
-    return found if found >= 0.0 else math.nan
 
 
 def load_page(key: str, session: Session) -> None:

@@ -70,9 +70,15 @@ class Guard:
         query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
         given = query.get("token", [""])[0]
         if scope["type"] == "http" and scope["method"] == "GET" and given and self._same(given, self.token):
-            await self._welcome(scope, send)
+            # the token in the address is exchanged for the cookie; the address no longer shows it
+            cookie = f"{self.cookie}={self.secret}; Path=/; HttpOnly; SameSite=Strict"
+            page = '<!doctype html><meta http-equiv="refresh" content="0; url=/"><title>asperity</title>'
+            more = [("set-cookie", cookie), ("content-type", "text/html; charset=utf-8"), *_strict("", "'none'")]
+            await _answer(send, 200, page.encode(), more)
             return
-        if not self._same(_cookies(headers.get("cookie", "")).get(self.cookie, ""), self.secret):
+        pairs = (part.strip().partition("=") for part in headers.get("cookie", "").split(";"))
+        cookies = {name: value for name, _, value in pairs}
+        if not self._same(cookies.get(self.cookie, ""), self.secret):
             await _refuse(scope, send, 403, NO_TOKEN)
             return
         if scope["type"] == "websocket":
@@ -95,13 +101,6 @@ class Guard:
     @staticmethod
     def _same(given: str, wanted: str) -> bool:
         return hmac.compare_digest(given.encode(), wanted.encode())
-
-    async def _welcome(self, scope: MutableMapping[str, Any], send: Send) -> None:
-        """Exchange the token in the address for the cookie; the address no longer shows it."""
-        cookie = f"{self.cookie}={self.secret}; Path=/; HttpOnly; SameSite=Strict"
-        page = '<!doctype html><meta http-equiv="refresh" content="0; url=/"><title>asperity</title>'
-        headers = [("set-cookie", cookie), ("content-type", "text/html; charset=utf-8"), *_strict("", "'none'")]
-        await _answer(send, 200, page.encode(), headers)
 
     async def _serve(
         self, scope: MutableMapping[str, Any], headers: dict[str, str], receive: Receive, send: Send
@@ -212,11 +211,6 @@ def host_names(host: str, port: int) -> frozenset[str]:
 def is_loopback(host: str) -> bool:
     """Whether only this machine reaches ``host``."""
     return host in ("localhost", "::1") or re.fullmatch(r"127(\.\d{1,3}){3}", host) is not None
-
-
-def _cookies(text: str) -> dict[str, str]:
-    pairs = (part.strip().partition("=") for part in text.split(";"))
-    return {name: value for name, _, value in pairs}
 
 
 def cap_text(largest: int) -> str:

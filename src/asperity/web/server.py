@@ -48,13 +48,26 @@ def serve(options: Options, opened: Callable[[str], None]) -> None:
 
     from .application import application
 
-    with _listening(options) as listener:
+    host = options.host
+    if host in ("0.0.0.0", "::", ""):
+        raise InputError(
+            f"--host must be one address or name of this machine by which others reach it, such as 192.168.1.5, but is "
+            f"{host!r}: the names under which the application answers must be known."
+        )
+    try:
+        listener = socket.create_server((host, options.port), family=socket.AF_INET6 if ":" in host else socket.AF_INET)
+    except OSError as error:
+        raise InputError(
+            f"--host and --port must be free addresses of this machine, but {host}:{options.port} is not: "
+            f"{error.strerror}; leave --port out for any free one."
+        ) from None
+    with listener:
         port = listener.getsockname()[1]
         place = _place(options)
         try:
             token = secrets.token_urlsafe(24)
             app = application(place)
-            guard: Any = Guard(app, host_names(options.host, port), token, place.largest)
+            guard: Any = Guard(app, host_names(host, port), token, place.largest)
             config = uvicorn.Config(
                 guard,
                 log_level="error",
@@ -64,7 +77,7 @@ def serve(options: Options, opened: Callable[[str], None]) -> None:
                 timeout_graceful_shutdown=2,
             )
             server = uvicorn.Server(config)
-            shown = f"[{options.host}]" if ":" in options.host else options.host
+            shown = f"[{host}]" if ":" in host else host
             opened(f"http://{shown}:{port}/?token={token}")
             with _ended_by_signals(server):
                 server.run(sockets=[listener])
@@ -92,22 +105,6 @@ def _ended_by_signals(server: Any) -> Iterator[None]:
     finally:
         for number in changed:
             signal.signal(number, signal.SIG_DFL)
-
-
-def _listening(options: Options) -> socket.socket:
-    family = socket.AF_INET6 if ":" in options.host else socket.AF_INET
-    if options.host in ("0.0.0.0", "::", ""):
-        raise InputError(
-            f"--host must be one address or name of this machine by which others reach it, such as 192.168.1.5, but is "
-            f"{options.host!r}: the names under which the application answers must be known."
-        )
-    try:
-        return socket.create_server((options.host, options.port), family=family)
-    except OSError as error:
-        raise InputError(
-            f"--host and --port must be free addresses of this machine, but {options.host}:{options.port} is not: "
-            f"{error.strerror}; leave --port out for any free one."
-        ) from None
 
 
 def _place(options: Options) -> Place:

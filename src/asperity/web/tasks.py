@@ -82,22 +82,12 @@ def _limit(memory: float | None) -> None:
 @guarded
 def inspect(task: Task) -> dict[str, Any]:
     """Channels of the file at ``path``, and what it does not say itself."""
-    found = channels(task["path"])
-    return {
-        "channels": [
-            {
-                "index": item.index,
-                "name": item.name,
-                "text": _channel_text(item),
-            }
-            for item in found
-        ],
-    }
-
-
-def _channel_text(item: Any) -> str:
-    size = "" if item.size is None else f", {show(item.size[0], 'm', 3)} × {show(item.size[1], 'm', 3)}"
-    return f"{item.name or item.index}: {item.shape[0]} × {item.shape[1]} points{size}"
+    found = []
+    for item in channels(task["path"]):
+        size = "" if item.size is None else f", {show(item.size[0], 'm', 3)} × {show(item.size[1], 'm', 3)}"
+        text = f"{item.name or item.index}: {item.shape[0]} × {item.shape[1]} points{size}"
+        found.append({"index": item.index, "name": item.name, "text": text})
+    return {"channels": found}
 
 
 @guarded

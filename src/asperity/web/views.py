@@ -45,8 +45,18 @@ def write_views(outcome: Outcome, views: Path) -> None:
     scene = scene_of(outcome, more=_planes(outcome), budget=BUDGET)
     _write(views.with_name(views.name + SCENE), scene)
     result = outcome.result
+    # in space: heights, pressure and plastic state of blocks of points, single precision, rows of y
+    heights = np.asarray(result.problem.surface.heights, dtype=float)
+    block = max(1, math.ceil(max(heights.shape) / IN_SPACE))
+    state = result.contact.astype(float) + result.plastic
+    fields = {"height": (heights, "mean"), "pressure": (result.pressure, "max"), "plastic": (state, "max")}
+    space: dict[str, Any] = {"block": block, "cell": [block * side for side in result.problem.grid.spacing]}
+    for name, (values, how) in fields.items():
+        rows = np.ascontiguousarray(reduced(np.asarray(values, float), block, how).T, dtype="<f4")
+        space[name] = base64.b64encode(rows.tobytes()).decode("ascii")
+        space["shape"] = list(rows.shape)
     shown = {
-        "space": _in_space(result),
+        "space": space,
         "spots": _spots(result),
         "spot_count": int(labelled(result.contact, wraps=result.problem.boundary.wraps)[1]),
         "stressed": "stress" in outcome.found,
@@ -73,20 +83,6 @@ def _planes(outcome: Outcome) -> Iterator[Figure]:
     chosen = free[np.unique(np.linspace(0, free.size - 1, PLANES).round().astype(int))] if free.size else free
     for number, plane in enumerate(survey.planes(chosen), start=1):
         yield map_figure(plane, number, outcome.result.problem.boundary)
-
-
-def _in_space(result: ContactResult) -> dict[str, Any]:
-    """Heights, pressure and plastic state of blocks of points, single precision, rows of y; and how many points a block has."""
-    heights = np.asarray(result.problem.surface.heights, dtype=float)
-    block = max(1, math.ceil(max(heights.shape) / IN_SPACE))
-    state = result.contact.astype(float) + result.plastic
-    fields = {"height": (heights, "mean"), "pressure": (result.pressure, "max"), "plastic": (state, "max")}
-    made: dict[str, Any] = {"block": block, "cell": [block * side for side in result.problem.grid.spacing]}
-    for name, (values, how) in fields.items():
-        rows = np.ascontiguousarray(reduced(np.asarray(values, float), block, how).T, dtype="<f4")
-        made[name] = base64.b64encode(rows.tobytes()).decode("ascii")
-        made["shape"] = list(rows.shape)
-    return made
 
 
 def _spots(result: ContactResult) -> list[list[float]]:

@@ -83,7 +83,19 @@ class Worker:
                     process.kill()
 
     async def _answer(self, function: str, task: Mapping[str, Any]) -> dict[str, Any]:
-        process = await self._started()
+        if self._process is None or self._process.returncode is not None:
+            self._process = await asyncio.create_subprocess_exec(
+                sys.executable,
+                "-m",
+                "asperity.studies.worker",
+                stdin=asyncio.subprocess.PIPE,
+                stdout=asyncio.subprocess.PIPE,
+                stderr=asyncio.subprocess.DEVNULL,
+                env=worker_environment(self._threads),
+                start_new_session=True,
+                limit=256 * 2**20,
+            )
+        process = self._process
         assert process.stdin is not None
         assert process.stdout is not None
         memory = None if self.limits.memory == float("inf") else self.limits.memory
@@ -104,21 +116,6 @@ class Worker:
             "error": f"The worker ended with {ended}, perhaps for lack of memory. What was finished before is kept; crop the "
             "surface or resample it to fewer points."
         }
-
-    async def _started(self) -> asyncio.subprocess.Process:
-        if self._process is None or self._process.returncode is not None:
-            self._process = await asyncio.create_subprocess_exec(
-                sys.executable,
-                "-m",
-                "asperity.studies.worker",
-                stdin=asyncio.subprocess.PIPE,
-                stdout=asyncio.subprocess.PIPE,
-                stderr=asyncio.subprocess.DEVNULL,
-                env=worker_environment(self._threads),
-                start_new_session=True,
-                limit=256 * 2**20,
-            )
-        return self._process
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import asperity as asp
 from asperity.cli.campaigns import _print_causes
 from asperity.cli.show import print_result
 from asperity.contact.history import HistoryResult
-from asperity.report.study import finding_table, warning_texts, write_study_report
+from asperity.report.study import cause_table, warning_texts, write_study_report
 from asperity.run.execute import analysed
 from asperity.studies.campaign import Campaign, prepare_study
 from asperity.studies.run import carry_out
@@ -80,5 +80,5 @@ def test_in_a_study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pyt
     _print_causes(campaign, state)
     said = capsys.readouterr().out
     assert said.index("known to") < said.index("Warnings and notes of the cases")
-    at = finding_table(campaign, state).cells[0][2]
+    at = cause_table(campaign, state.findings, "Warning or note").cells[0][2]
     assert at.endswith((" Pa", "kPa", "MPa", "GPa")), f"a place without its unit: {at}"

@@ -29,8 +29,9 @@ from ...core.values import (
     Positive,
     Pressure,
 )
+from ...solids.relaxation_text import AT
 from .relaxation import SYMBOLS as RELAXING
-from .relaxation import RelaxationTable, relaxation_from_symbols, relaxes
+from .relaxation import RelaxationTable, relaxation_from_symbols
 
 NonNegativePressure = Annotated[float, Number("pressure", least=0.0)]
 Share = Annotated[float, Number(least=0.0, most=1.0)]
@@ -335,7 +336,8 @@ def material_from_text(text: str) -> dict[str, Any]:
     given = dict(map(_constant, _constants(bare))) if "=" in bare else {}
     for within in _BRACES.finditer(text):
         given |= dict(map(_constant, _constants(within[1])))
-    relaxing = {"relaxation": relaxation_from_symbols(given)} if relaxes(given) else {}
+    relaxes = bool(given.keys() & set(RELAXING)) or AT in given.get("E", "")
+    relaxing = {"relaxation": relaxation_from_symbols(given)} if relaxes else {}
     plain = {
         SYMBOLS[symbol]: _number(value) if symbol in ("nu", "recall") else value for symbol, value in given.items()
     }

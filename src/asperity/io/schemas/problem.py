@@ -185,6 +185,12 @@ class ProblemDocument(Settings):
     control: ControlTable
     solver: SolverTable = SolverTable()
 
+    @property
+    def relaxes(self) -> bool:
+        """Whether a homogeneous material of its bodies is viscoelastic."""
+        parts = (part for body in (self.body, self.counter_body) for part in (body, *body.layers, body.base))
+        return any(getattr(part, "relaxation", None) is not None for part in parts)
+
     @model_validator(mode="after")
     def _pair(self) -> ProblemDocument:
         if self.surface.mirror is not None:

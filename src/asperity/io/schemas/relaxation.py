@@ -133,11 +133,6 @@ SYMBOLS = ("retardation", "power", "shortest", "longest", "moduli", "bulk", "WLF
 """Symbols of the text of a material that make it viscoelastic, beside @ in its modulus."""
 
 
-def relaxes(symbols: dict[str, str]) -> bool:
-    """Whether the ``symbols`` of the text of a material say that it relaxes."""
-    return bool(symbols.keys() & set(SYMBOLS)) or AT in symbols.get("E", "")
-
-
 def relaxation_from_symbols(symbols: dict[str, str]) -> dict[str, Any]:
     """Table of the relaxation for the ``symbols`` of the text of a material, taking away those it uses.
 

@@ -221,6 +221,3 @@ class Adhesion(Part):
     def coupling(self, ask: Asked) -> Mapping[str, Any]:
         """The attraction joins the solve."""
         return {"adhesion": ask.law}
-
-
-# In words and tables.

@@ -205,6 +205,3 @@ class Dynamics(Part):
                 subject="friction.coefficient",
             )
         return Moving(settings, float(friction.speed or 0.0), float(friction.coefficient))
-
-
-# In figures and words, from stored values alone.

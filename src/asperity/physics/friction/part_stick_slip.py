@@ -201,6 +201,7 @@ class StickSlip(Part):
     title = "Stick and slip"
     table = "shear"
     settings = ShearSettings
+    implied = staticmethod(sticks)
     whole_path = True
     of_result = "stick_slip"
     work = "physics.friction.work_stick_slip:StickSlipWork"
@@ -216,11 +217,6 @@ class StickSlip(Part):
             *LINEAR,
         )
 
-    def settings_in(self, document: Any) -> ShearSettings | None:
-        """The table [shear], an empty one where the law of friction asks for stick and slip."""
-        found: ShearSettings | None = document.shear
-        return ShearSettings() if found is None and sticks(document) else found
-
     def asked(self, document: Any, folder: Path) -> Sheared:
         """The table [shear] with the direction of the friction."""
         settings = self.settings_in(document) or ShearSettings()
@@ -232,6 +228,3 @@ class StickSlip(Part):
                 subject="friction",
             )
         return Sheared(settings, friction.direction)
-
-
-# In words and tables.

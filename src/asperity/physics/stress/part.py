@@ -217,6 +217,3 @@ def _place(value: float | str | None) -> Place:
     if value is None or value == PLACES[0]:
         return "max"
     return "pressure" if isinstance(value, str) else float(value)
-
-
-# In words and tables.

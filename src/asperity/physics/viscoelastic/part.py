@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -137,6 +138,7 @@ class Viscoelasticity(Part):
     title = "Viscoelasticity"
     table = "viscoelastic"
     settings = ViscoelasticSettings
+    implied = staticmethod(attrgetter("relaxes"))
     whole_path = True
     work = "physics.viscoelastic.work:ViscoelasticityWork"
 
@@ -147,12 +149,6 @@ class Viscoelasticity(Part):
 
         moments = (replace(item, name=f"moment_{item.name}", dims=(MOMENT,)) for item in COLUMNS)
         return (*SCALARS, *OSCILLATION, *STEPS, *moments)
-
-    def settings_in(self, document: Any) -> ViscoelasticSettings | None:
-        """The table [viscoelastic], or its defaults where a body relaxes."""
-        found: ViscoelasticSettings | None = document.viscoelastic
-        relaxing = found is None and any(_relaxes_in(body) for body in (document.body, document.counter_body))
-        return ViscoelasticSettings() if relaxing else found
 
     def asked(self, document: Any, folder: Path) -> InTime:
         """The settings with the turning points of the load path."""
@@ -166,9 +162,3 @@ class Viscoelasticity(Part):
         from ...contact.time_division import TimeSteps
 
         return {"time_steps": TimeSteps(float(ask.settings.tolerance), ask.settings.steps)}
-
-
-def _relaxes_in(table: Any) -> bool:
-    """Whether a material of the ``table`` of a body relaxes there."""
-    parts = (table, *table.layers, *((table.base,) if table.base is not None else ()))
-    return any(getattr(part, "relaxation", None) is not None for part in parts)

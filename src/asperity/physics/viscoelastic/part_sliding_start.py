@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from ...core.quantity import Quantity
 from ...parts.part import Part
-from .part_hysteresis import HysteresisSettings
 
 SCALARS = (
     Quantity("start_last_friction", "1", "coefficient of friction by the slope over the last quarter of the distance"),
@@ -33,6 +31,7 @@ class SlidingStart(Part):
     name = "sliding_start"
     title = "Start of sliding"
     table = "hysteresis"
+    needs = "distance"
     work = "physics.viscoelastic.work_sliding_start:SlidingStartWork"
 
     @property
@@ -42,8 +41,3 @@ class SlidingStart(Part):
 
         columns = (replace(item, name=f"way_{item.name}", dims=(STEP,)) for item in COLUMNS)
         return (*SCALARS, FIELD, *columns, FRICTION)
-
-    def settings_in(self, document: Any) -> HysteresisSettings | None:
-        """The table [hysteresis], where it gives a distance."""
-        table: HysteresisSettings | None = document.hysteresis
-        return table if table is not None and table.distance is not None else None
