@@ -100,7 +100,7 @@ class MovingFront:
             state = self._held(problem, closed, pressure, work, tolerance)
             closed, pressure = closed | (state.pressure > 0.0), state.pressure
             energies.append(problem.energy(state))
-            loose = self._loose(problem.law, closed, state)
+            loose = closed & ((-state.traction > self.tension(problem.law)) | (state.pressure <= 0.0))
             ahead = loose if loose.any() else self._closing(problem, closed, state) & ~parted
             if count >= self.max_steps or (not ahead.any() and tolerance == FINEST):
                 break
@@ -113,10 +113,12 @@ class MovingFront:
         pixel = problem.operator.grid.pixel_area
         energy = problem.energy(state) * pixel
         scaled = tuple(value * pixel for value in energies)
-        moving = int(np.count_nonzero(ahead))
-        return AdhesiveSolution(
-            self._shown(problem.law, closed, state), energy, scaled, count, 0, work.pairs, _status(moving, count)
-        )
+        status = Status(Outcome.CONVERGED, f"The edge of the contact is at rest after {count} solves.")
+        if ahead.any():
+            text = f"{np.count_nonzero(ahead)} points at the edge of the contact still move after {count} solves."
+            status = Status(Outcome.ITERATION_LIMIT, text, "Take smaller steps of load or position.")
+        shown = self._shown(problem.law, closed, state)
+        return AdhesiveSolution(shown, energy, scaled, count, 0, work.pairs, status)
 
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
         """One where points would come loose or touch anew under this wall ``pressure`` (Pa) and ``pull``, else zero; fields (nx, ny)."""
@@ -139,9 +141,6 @@ class MovingFront:
         if isinstance(cap, np.ndarray) or cap < np.inf:
             cap = np.where(closed, cap + grip, cap)
         return minimised(replace(problem, cap=cap), np.where(closed, grip, 0.0), pressure, work, tolerance)
-
-    def _loose(self, law: Adhesion, closed: BoolArray, state: Adhered) -> BoolArray:
-        return closed & ((-state.traction > self.tension(law)) | (state.pressure <= 0.0))
 
     def _closing(self, problem: AdhesiveProblem, closed: BoolArray, state: Adhered) -> BoolArray:
         """Open points next to closed ones whose closing releases energy."""
@@ -176,10 +175,3 @@ def neighbouring(field: RealArray, *, wraps: tuple[bool, bool]) -> RealArray:
                 moved[tuple(edge)] = -1.0
             np.maximum(found, moved, out=found)
     return found
-
-
-def _status(moving: int, count: int) -> Status:
-    if moving == 0:
-        return Status(Outcome.CONVERGED, f"The edge of the contact is at rest after {count} solves.")
-    text = f"{moving} points at the edge of the contact still move after {count} solves."
-    return Status(Outcome.ITERATION_LIMIT, text, "Take smaller steps of load or position.")

@@ -89,17 +89,18 @@ class SoftCoreNewton:
             point = start if count == 0 else _at(problem, point.t, point.u, offset)
             point, steps, miss, energies = self._newton(problem, point, work)
             count += steps
-        pixel = problem.operator.grid.pixel_area
-        status = _status(miss, self.tolerance, count)
-        return AdhesiveSolution(
-            _adhered(problem, point),
-            point.energy * pixel,
-            tuple(value * pixel for value in energies),
-            count,
-            count,
-            work.pairs,
-            status,
-        )
+        status = Status(Outcome.CONVERGED, f"Traction and gap agree to {miss:.1e} after {count} steps.")
+        if not miss <= self.tolerance:
+            text = f"Traction and gap still differ by {miss:.1e} after {count} steps."
+            status = Status(Outcome.STAGNATED, text, "Take smaller steps of the load or position, or a finer grid.")
+        law, pixel = problem.law, problem.operator.grid.pixel_area
+        assert isinstance(law, SoftAdhesion)
+        # nearer than the gap of the largest attraction points touch
+        pressure = np.where(point.gap < law.peak, np.maximum(law.strength + point.t, 0.0), 0.0)
+        pull = pressure - point.t
+        scaled = tuple(value * pixel for value in energies)
+        state = Adhered(pressure, pull, point.u, point.gap, pull, point.offset)
+        return AdhesiveSolution(state, point.energy * pixel, scaled, count, count, work.pairs, status)
 
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
         """Largest difference of the traction and the law at the ``gap`` over the larger of strength and traction; fields (nx, ny)."""
@@ -247,19 +248,3 @@ def _at(problem: AdhesiveProblem, t: RealArray, u: RealArray, offset: float) -> 
 def _miss(law: Adhesion, t: RealArray, gap: RealArray) -> float:
     scale = np.maximum(law.strength, np.abs(t))
     return float((np.abs(t + law.attraction(gap)) / scale).max())
-
-
-def _adhered(problem: AdhesiveProblem, point: _Point) -> Adhered:
-    """The same as wall pressure and pull, of which the pressure is that nearer than the gap of the largest attraction."""
-    law = problem.law
-    assert isinstance(law, SoftAdhesion)
-    near = point.gap < law.peak
-    pressure = np.where(near, np.maximum(law.strength + point.t, 0.0), 0.0)
-    return Adhered(pressure, pressure - point.t, point.u, point.gap, pressure - point.t, point.offset)
-
-
-def _status(miss: float, tolerance: float, count: int) -> Status:
-    if miss <= tolerance:
-        return Status(Outcome.CONVERGED, f"Traction and gap agree to {miss:.1e} after {count} steps.")
-    text = f"Traction and gap still differ by {miss:.1e} after {count} steps."
-    return Status(Outcome.STAGNATED, text, "Take smaller steps of the load or position, or a finer grid.")
