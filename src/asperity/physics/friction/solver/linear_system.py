@@ -110,7 +110,9 @@ class NewtonSystem:
         """The same with the preconditioned uniform residuals, by which steps are kept to a sum of zero."""
         ones = np.zeros((2, 2, len(self.slip)), self.work.dtype)
         ones[0, 0], ones[1, 1] = 1.0, 1.0
-        solved = np.stack([self._preconditioned(self.free_part(each)) for each in ones])
+        solved = np.stack(
+            [self.work.cells.solve(self.work.free, self.free_part(each), self.conductance) for each in ones]
+        )
         sums = solved.sum(axis=2, dtype=np.float64)  # (shift, component)
         return replace(self, uniform=(solved, np.linalg.pinv(sums.T)))
 
@@ -125,15 +127,12 @@ class NewtonSystem:
 
     def preconditioned(self, r: RealArray) -> RealArray:
         """Approximate inverse times ``r`` (2, n), of zero sum where steps are."""
-        z = self._preconditioned(r)
+        z = self.work.cells.solve(self.work.free, r, self.conductance)
         if self.uniform is not None:
             solved, inverse = self.uniform
             weights = (inverse @ z.sum(axis=1, dtype=np.float64)).astype(z.dtype)
             z -= np.tensordot(weights, solved, axes=1)
         return z
-
-    def _preconditioned(self, r: RealArray) -> RealArray:
-        return self.work.cells.solve(self.work.free, r, self.conductance)
 
     def solved(self, r: RealArray, reduction: float, most: int) -> tuple[RealArray, int]:
         """Step (2, n) for the residual ``r`` = P s over ``pixel``, and the number of products it took.

@@ -144,19 +144,15 @@ class _Iteration:
         self.total = None if qp.mean_traction is None else np.asarray(qp.mean_traction) * qp.bound.size
         self.work = Workspace.of(qp.operator, points, "float32" if settings.precision == "mixed" else "float64")
         self.pairs = 0.0
-        if start is None:
-            self.q = self._first()
-        else:
+        if start is not None:
             q = points.projected(points.gathered(start))
             self.q = q if self.total is None else points.with_sum(q, self.total)
+        elif self.total is not None:
+            self.q = points.in_proportion(self.total)
+        else:
+            self.q = np.zeros((2, len(points.bound)))
         self._compute()
         self.doublings, self.settled_error, self.by_few = 0, np.inf, False
-
-    def _first(self) -> RealArray:
-        """No traction, or the prescribed one in proportion to the bound."""
-        if self.total is None:
-            return np.zeros((2, len(self.points.bound)))
-        return self.points.in_proportion(self.total)
 
     def _compute(self) -> None:
         """Displacement of the traction from scratch, in double precision."""
@@ -227,8 +223,8 @@ class _Iteration:
             part *= 0.5
         # just below the limit of friction either shift may lead nowhere: 3 of 16 forces of 0.999 and 0.99999 of it did not settle by one alone
         self.by_few = not self.by_few
-        downhill = self.q + s / self.qp.operator.largest
-        self._taken(self._restored(self.points.projected(downhill)), s, force=True)
+        downhill = self.points.projected(self.q + s / self.qp.operator.largest)
+        self._taken(downhill if self.total is None else self.points.with_sum(downhill, self.total), s, force=True)
 
     def _moved(self, system: NewtonSystem, sets: Sets, d: RealArray) -> RealArray:
         """Traction after the step ``d``: slipping ones turned on their circles, sticking ones put back within their bounds.
@@ -248,9 +244,6 @@ class _Iteration:
         towards = traction / bound + sets.tangent * (np.einsum("ij,ij->j", d, sets.tangent) / bound)
         turned = towards * (bound / np.where(sets.slip, size_of(towards), 1.0))
         return np.where(sets.slip, turned, self.points.projected(traction + d))
-
-    def _restored(self, traction: RealArray) -> RealArray:
-        return traction if self.total is None else self.points.with_sum(traction, self.total)
 
     def _taken(self, traction: RealArray, s: RealArray, *, force: bool = False) -> bool:
         """Go to ``traction`` if the energy does not rise by that, or in any case if ``force``."""

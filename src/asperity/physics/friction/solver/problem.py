@@ -112,14 +112,6 @@ class TangentialSolution:
         return np.asarray(np.any(self.slip != 0.0, axis=0))
 
 
-def at_bound(traction: RealArray, slipping: BoolArray, bound: RealArray) -> RealArray:
-    """``traction`` (2, nx, ny) with that of the ``slipping`` points (nx, ny) at another ``bound`` (nx, ny)."""
-    found = traction.copy()
-    turned = found[:, slipping]
-    found[:, slipping] = turned * (bound[slipping] / size_of(turned))
-    return found
-
-
 class TangentialSolver(Protocol):
     """Method for a ``TangentialQP``."""
 
