@@ -305,24 +305,19 @@ class MeniscusCoupling(Coupling):
         count, pixel = astray(end, across, height), self.film.suction * grid.pixel_area
         note = replace(note, found=stands, force=force, closed=True, jump=abs(end.pulls - across.pulls))
         if count * pixel > SMALL * whole:
+            # pixels change sides that may not be wet in part: both ends are kept for some rounds, so that what else moves comes to rest;
+            # then the bracket is closed further and its ends are looked at once more; what still jumps does
             note = replace(note, found=end.stands, force=end.pulls, astray=count, width=note.bracket.width / whole)
-            return self._looked_at(replace(exchange, note=note), end, across)
+            target, looked = end.posed, note.looked + 1
+            if looked >= 2 * _LOOKED_AT and note.width > _NARROWEST:
+                target, looked = note.bracket.further(end, note.external), 2 * _LOOKED_AT
+            elif looked in (_LOOKED_AT, 3 * _LOOKED_AT):
+                target = across.posed
+            elif looked >= 4 * _LOOKED_AT:
+                return replace(exchange, residual=abs(end.step) / whole, stuck=True, note=note)
+            residual, note = _MORE * self.tolerance, replace(note, looked=looked)
+            return replace(exchange, target=np.asarray(target), residual=residual, note=note)
         return replace(exchange, target=exchange.x, residual=abs(force - end.posed) / whole, note=note)
-
-    def _looked_at(self, exchange: Exchange, end: End, across: End) -> Exchange:
-        """Reply where pixels change sides that may not be wet in part: both ends are kept for some rounds, so that what else moves comes to rest.
-
-        Then the bracket is closed further and its ends are looked at once more; what still jumps does.
-        """
-        note, target, looked = exchange.note, end.posed, exchange.note.looked + 1
-        if looked >= 2 * _LOOKED_AT and note.width > _NARROWEST:
-            target, looked = note.bracket.further(end, note.external), 2 * _LOOKED_AT
-        elif looked in (_LOOKED_AT, 3 * _LOOKED_AT):
-            target = across.posed
-        elif looked >= 4 * _LOOKED_AT:
-            return replace(exchange, residual=abs(end.step) / _whole(note.external, end.posed, end.pulls), stuck=True)
-        residual, note = _MORE * self.tolerance, replace(note, looked=looked)
-        return replace(exchange, target=np.asarray(target), residual=residual, note=note)
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
         """Half the way back to the last force that was borne; None where that is not far: then no balance is left in between."""

@@ -20,7 +20,6 @@ from ..friction.part import friction_law, sticks
 from .quantities import WET_SCALARS
 
 if TYPE_CHECKING:
-    from ...contact.controls import Control
     from ...contact.result import ContactResult
     from ...plots.picture import Figure
     from ..friction.law import FrictionLaw
@@ -104,9 +103,34 @@ class Menisci(Part):
         return WET_SCALARS
 
     def asked(self, document: Any, folder: Path) -> Wetted:
-        """The film of the table [film], with the friction of the table [friction]."""
-        law = friction_law(document.friction, sheared=sticks(document))
-        return Wetted(_film(document.film, folder), law)
+        """The film of the table [film], whose liquids file starts at ``folder``, with the friction of the table [friction].
+
+        Raises
+        ------
+        InputError
+            If the liquid is unknown, does not wet, or lacks a value that is needed.
+        """
+        from ...solids.library import Liquid, liquid
+        from .film import LiquidFilm
+
+        table: FilmSettings = document.film
+        tension = math.nan if table.surface_tension is None else table.surface_tension
+        if table.liquid is None:
+            substance = Liquid(tension)
+        else:
+            own = None if table.liquids_file is None else folder / table.liquids_file
+            substance = liquid(table.liquid, library=own)
+            substance = substance if math.isnan(tension) else replace(substance, surface_tension=tension)
+        angles = table.contact_angle
+        sides = (angles[0], angles[1] if len(angles) == 2 else 0.0)
+        if table.humidity is not None:
+            thickness = math.nan if table.thickness is None else table.thickness
+            film = LiquidFilm.at_humidity(substance, table.humidity, thickness=thickness, contact_angles=sides)
+        else:
+            height = math.nan if table.meniscus_height is None else table.meniscus_height
+            film = LiquidFilm.of(substance, float(table.thickness or 0.0), meniscus_height=height, contact_angles=sides)
+        known = {key: value for key in ("viscosity", "shear_strength") if (value := getattr(table, key)) is not None}
+        return Wetted(replace(film, **known), friction_law(document.friction, sheared=sticks(document)))
 
     def coupling(self, ask: Wetted) -> Mapping[str, Any]:
         """The film joins the solve."""
@@ -132,7 +156,32 @@ class Menisci(Part):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Liquid, menisci and friction."""
-        return film_words(found.detail, solved.control)
+        from ...io.words import value_text
+
+        result: SolvedMenisci = found.detail
+        control, film, regime = solved.control, result.film, result.wetting.regime
+        rows = [
+            (f"prescribed {control.name}", show(control.value, control.unit)),
+            ("surface tension", show(film.surface_tension, "N/m")),
+            ("contact angles", " and ".join(f"{math.degrees(angle):.4g}°" for angle in film.contact_angles)),
+        ]
+        if result.viscous_force > 0.0:
+            rows.append(("viscosity", show(film.viscosity, "Pa*s")))
+        rows.append(("dry friction coefficient", f"{result.dry_friction:g}"))
+        cells = [("regime", f"{regime}: {REGIMES[regime]}")]
+        silent = {"friction_force", "viscous_force", "static_friction"} if result.friction_force == 0.0 else set()
+        for quantity in WET_SCALARS:
+            if quantity.name not in silent:
+                cells.append((quantity.label, value_text(quantity, getattr(result, quantity.name))))
+        share, pull = percent(result.meniscus_area_fraction), show(result.meniscus_force, "N")
+        more = f"{result.relative_meniscus_force:.3g} times the external force"
+        if math.isnan(result.relative_meniscus_force):
+            more = "more than the contact force"
+        sentence = f"Menisci on {share} of the nominal area pull with {pull}, {more}."
+        if regime == "dry":
+            sentence = "No liquid bridges the gap: the contact is dry."
+        tables = (("", Table(("Quantity", "Value"), tuple(cells))),)
+        return Words(sentence, rows=rows, tables=tables, remarks=(REMARK,))
 
 
 class WetTheory(Part):
@@ -155,36 +204,8 @@ class WetTheory(Part):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Summits, forces and growth, or why there is no theory."""
-        return theory_words(found.detail, solved.found["film"].detail)
-
-
-def _film(table: FilmSettings, folder: Path) -> LiquidFilm:
-    """Film that ``table`` describes; the path of its liquids file starts at ``folder``.
-
-    Raises
-    ------
-    InputError
-        If the liquid is unknown, does not wet, or lacks a value that is needed.
-    """
-    from ...solids.library import Liquid, liquid
-    from .film import LiquidFilm
-
-    tension = math.nan if table.surface_tension is None else table.surface_tension
-    if table.liquid is None:
-        substance = Liquid(tension)
-    else:
-        substance = liquid(table.liquid, library=None if table.liquids_file is None else folder / table.liquids_file)
-        substance = substance if math.isnan(tension) else replace(substance, surface_tension=tension)
-    angles = table.contact_angle
-    sides = (angles[0], angles[1] if len(angles) == 2 else 0.0)
-    if table.humidity is not None:
-        thickness = math.nan if table.thickness is None else table.thickness
-        film = LiquidFilm.at_humidity(substance, table.humidity, thickness=thickness, contact_angles=sides)
-    else:
-        height = math.nan if table.meniscus_height is None else table.meniscus_height
-        film = LiquidFilm.of(substance, float(table.thickness or 0.0), meniscus_height=height, contact_angles=sides)
-    known = {key: value for key in ("viscosity", "shear_strength") if (value := getattr(table, key)) is not None}
-    return replace(film, **known)
+        rows = theory_rows(found.detail, solved.found["film"].detail)
+        return Words(rows=rows, remarks=() if isinstance(found.detail, str) else (THEORY_REMARK,))
 
 
 REGIMES = {
@@ -210,35 +231,19 @@ THEORY_REMARK = (
 """What the theory of summits is, and why it differs."""
 
 
-def film_words(result: SolvedMenisci, control: Control) -> Words:
-    """Liquid, menisci and friction."""
-    cells = tuple(wet_rows(result))
-    return Words(
-        wet_sentence(result),
-        rows=film_rows(result, control),
-        tables=(("", Table(("Quantity", "Value"), cells)),),
-        remarks=(REMARK,),
-    )
-
-
-def theory_words(found: SolvedTheory | str, result: SolvedMenisci) -> Words:
-    """Results of the theory of summits beside the ``result`` on the map, or why there are none."""
-    return Words(rows=theory_rows(found, result), remarks=() if isinstance(found, str) else (THEORY_REMARK,))
-
-
 def theory_rows(found: SolvedTheory | str, result: SolvedMenisci) -> Rows:
     """Statistical and kinetic menisci beside the ``result`` on the map."""
     from .summits import HAMAKER
 
     if isinstance(found, str):
         return [("no statistical theory", found)] if found else []
-    contact, load = found.statistical.contact, result.external_force
+    contact, load, mapped = found.statistical.contact, result.external_force, result.meniscus_force
     rows = [
         ("summits", f"{found.summits} of radius {show(contact.radius, 'm', 3)}"),
         ("standard deviation of their heights", show(contact.height_deviation, "m", 3)),
         ("meniscus force", show(found.meniscus_force, "N")),
         ("meniscus force / external force", f"{found.meniscus_force / load:.4g}"),
-        ("meniscus force / that of the map", _over(found.meniscus_force, result.meniscus_force)),
+        ("meniscus force / that of the map", f"{found.meniscus_force / mapped:.3g}" if mapped > 0.0 else "–"),
         ("growth of the force with the load, dF/dL", f"{found.feedback:.3g}"),
     ]
     if result.dry_friction > 0.0:
@@ -257,46 +262,3 @@ def theory_rows(found: SolvedTheory | str, result: SolvedMenisci) -> Rows:
         ("meniscus force just after contact", show(found.first_force, "N")),
         ("menisci grow to 99 % within", f"{grown} (Hamaker constant {HAMAKER:g} J, assumed)"),
     ]
-
-
-def _over(force: float, other: float) -> str:
-    return f"{force / other:.3g}" if other > 0.0 else "–"
-
-
-def film_rows(result: SolvedMenisci, control: Control) -> Rows:
-    """Liquid and film."""
-    film = result.film
-    angles = " and ".join(f"{math.degrees(angle):.4g}°" for angle in film.contact_angles)
-    rows = [
-        (f"prescribed {control.name}", show(control.value, control.unit)),
-        ("surface tension", show(film.surface_tension, "N/m")),
-        ("contact angles", angles),
-    ]
-    if result.viscous_force > 0.0:
-        rows.append(("viscosity", show(film.viscosity, "Pa*s")))
-    rows.append(("dry friction coefficient", f"{result.dry_friction:g}"))
-    return rows
-
-
-def wet_rows(result: SolvedMenisci) -> Rows:
-    """Every scalar of the menisci, and the regime; without friction where none was given."""
-    from ...io.words import value_text
-
-    regime = result.wetting.regime
-    rows = [("regime", f"{regime}: {REGIMES[regime]}")]
-    silent = {"friction_force", "viscous_force", "static_friction"} if result.friction_force == 0.0 else set()
-    for quantity in WET_SCALARS:
-        if quantity.name not in silent:
-            rows.append((quantity.label, value_text(quantity, getattr(result, quantity.name))))
-    return rows
-
-
-def wet_sentence(result: SolvedMenisci) -> str:
-    """One sentence on the menisci."""
-    if result.wetting.regime == "dry":
-        return "No liquid bridges the gap: the contact is dry."
-    share = percent(result.meniscus_area_fraction)
-    pull = show(result.meniscus_force, "N")
-    if math.isnan(result.relative_meniscus_force):
-        return f"Menisci on {share} of the nominal area pull with {pull}, more than the contact force."
-    return f"Menisci on {share} of the nominal area pull with {pull}, {result.relative_meniscus_force:.3g} times the external force."
