@@ -153,15 +153,23 @@ class PlasticFlowCoupling(Coupling):
     def share(self, exchange: Exchange) -> Share:
         """The displacement as a lift, and the position if that is prescribed."""
         course: _Course = exchange.note
-        offset = None if course.posed is None else _offset(course.posed, exchange.x)
-        constraint = None if offset is None else FixedOffset(offset)
+        constraint: FixedOffset | None = None
+        if course.posed is not None:
+            control = course.posed.control
+            if isinstance(control, Approach):
+                constraint = FixedOffset(course.posed.top - control.value)
+            elif isinstance(control, MeanGap):
+                constraint = FixedOffset(control.value + float((course.posed.profile - exchange.x).mean()))
         return Share(lift=exchange.x if exchange.x.any() else 0.0, constraint=constraint)
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The displacement that agrees with its own contact, which is found from ``contact`` on."""
         course: _Course = exchange.note
-        if course.flow is None and not self._started(course, contact):
-            return replace(exchange, target=exchange.x, residual=0.0, scale=1.0)
+        if course.flow is None:
+            edges = course.begin.edges if course.begin.edges.size else self._edges(contact.pressure)
+            if not edges.size:  # nothing flows, has flowed or may do so
+                return replace(exchange, target=exchange.x, residual=0.0, scale=1.0)
+            self._prepare(course, edges)
         flow = self._flow(course)
         if course.spread is None:
             course.spread = flow.spread()
@@ -174,16 +182,6 @@ class PlasticFlowCoupling(Coupling):
         return replace(
             exchange, target=lift, residual=residual, scale=size or 1.0, pressure=pressure, stuck=course.stuck
         )
-
-    def _started(self, course: _Course, contact: Contact) -> bool:
-        """Whether anything flows, has flowed or may do so; prepares the volume then."""
-        edges = course.begin.edges
-        if not edges.size:
-            edges = self._edges(contact.pressure)
-            if not edges.size:
-                return False
-        self._prepare(course, edges)
-        return True
 
     def _prepare(self, course: _Course, edges: RealArray) -> None:
         """Volume with depth cells between ``edges``, from what is known on fewer of them."""
@@ -208,9 +206,14 @@ class PlasticFlowCoupling(Coupling):
             return np.zeros(0)
         coarse = depth_edges(body, max(_deepest(body), 0.5 * max(grid.size)), first, 20)
         operator = operator_of(self.problem, coarse, self.volume.threads)
-        flow = VolumeFlow(operator, [_weaker(self.laws[n]) for n in operator.cells.regions], Flowed.virgin())
+        weaker: list[J2 | None] = []
+        for law in (self.laws[number] for number in operator.cells.regions):
+            # a constant yield stress that is less, for a first look
+            least = None if law is None else _PROBED * float(law.hardening.yield_stress(np.zeros(1))[0])
+            weaker.append(None if law is None or least is None else J2(law.elastic, LinearHardening(least)))
+        flow = VolumeFlow(operator, weaker, Flowed.virgin())
         flow.spread()
-        flow.returned(self._loads(operator, pressure))
+        flow.returned(operator.loads(pressure, self._shear(pressure)))
         if not flow.points.size:
             return np.zeros(0)
         depth = _MARGIN * float(coarse[int(flow.cell.max()) + 1])
@@ -244,15 +247,12 @@ class PlasticFlowCoupling(Coupling):
         size = self.sign * friction.coefficient * pressure
         return np.stack([math.cos(friction.direction) * size, math.sin(friction.direction) * size])
 
-    def _loads(self, operator: EigenstrainOperator, pressure: RealArray) -> ComplexArray:
-        return operator.loads(pressure, self._shear(pressure))
-
     def _mapped(self, course: _Course, pressure: RealArray) -> tuple[RealArray, float]:
         """Step of the plastic strain by the return mapping under ``pressure``; goes deeper where the deepest cell begins to flow."""
         while True:
             flow = self._flow(course)
             course.iterations += 1
-            step, residual = flow.returned(self._loads(flow.operator, pressure))
+            step, residual = flow.returned(flow.operator.loads(pressure, self._shear(pressure)))
             ends = flow.points.size and int(flow.cell[-1]) == flow.operator.cells.count - 1
             edges = self._deeper(flow.operator.cells.edges) if ends else None
             if edges is None:
@@ -323,7 +323,12 @@ class PlasticFlowCoupling(Coupling):
         flowed = course.begin if course.settled is None else course.settled
         earlier = float(course.memory.get("work", 0.0))
         mean = contact.force / self.problem.grid.area
-        first = self._first(flowed, course.memory.get("first"), mean)
+        # (regions, 4): mean pressure of the step in which each region flowed first, x, y and depth of its largest strain after it
+        earliest = course.memory.get("first")
+        first = np.full((len(self.laws), 4), np.nan) if earliest is None else earliest.copy()
+        for number, (points, values) in enumerate(_by_region(self.problem, flowed)):
+            if points.size and np.isnan(first[number, 0]):
+                first[number] = mean, *_place(self.problem.grid, flowed.edges, int(points[values.argmax()]))
         place = [mean, contact.posed.top + contact.level, float(contact.gap.mean())]
         memory: dict[str, RealArray] = {"place": np.array(place)}
         if flowed.points.size:
@@ -333,36 +338,11 @@ class PlasticFlowCoupling(Coupling):
             memory["iterations"] = np.asarray(float(course.iterations))
         return memory, found_in(self.problem, memory)
 
-    def _first(self, flowed: Flowed, before: RealArray | None, mean: float) -> RealArray:
-        """(regions, 4): mean pressure of the step in which each region flowed first, x, y and depth of its largest strain after it."""
-        found = np.full((len(self.laws), 4), np.nan) if before is None else before.copy()
-        for number, (points, values) in enumerate(_by_region(self.problem, flowed)):
-            if points.size and np.isnan(found[number, 0]):
-                found[number] = mean, *_place(self.problem.grid, flowed.edges, int(points[values.argmax()]))
-        return found
-
-
-def _offset(posed: Posed, lift: RealArray) -> float | None:
-    """Offset (m) of the bodies at the prescribed position if ``lift`` (nx, ny) in m displaces the surface; None under a prescribed load."""
-    control = posed.control
-    if isinstance(control, Approach):
-        return posed.top - control.value
-    if isinstance(control, MeanGap):
-        return control.value + float((posed.profile - lift).mean())
-    return None
-
 
 def _deepest(body: Elastic | Layered) -> float:
     """Depth (m) of the last interface."""
     places = interfaces(body)
     return float(places[-1]) if places.size else 0.0
-
-
-def _weaker(law: J2 | None) -> J2 | None:
-    """``law`` with a constant yield stress that is less, for a first look."""
-    if law is None:
-        return None
-    return J2(law.elastic, LinearHardening(_PROBED * float(law.hardening.yield_stress(np.zeros(1))[0])))
 
 
 def _by_region(problem: ContactProblem, flowed: Flowed) -> list[tuple[Points, RealArray]]:

@@ -47,17 +47,11 @@ def in_parts(
                 break
             at = result.state
         if result.converged:
-            return _as_one(result, state, len(parts), spent)
+            # with the plastic work and the iterates of all parts
+            flow = result.require_plastic_flow()
+            known = {} if state is None else state.memory.get(NAME, {})
+            whole = replace(flow, step_work=flow.work - float(known.get("work", 0.0)), iterations=spent)
+            message = f"{result.status.message} Plastic flow did not settle in one step: the load was reached in {len(parts)} equal parts."
+            status = replace(result.status, message=message)
+            return replace(result, status=status, couplings={**result.couplings, NAME: whole})
     return failed
-
-
-def _as_one(result: ContactResult, before: InterfaceState | None, count: int, iterations: int) -> ContactResult:
-    """``result`` of the last of ``count`` parts with the plastic work and the iterates of all of them."""
-    flow = result.require_plastic_flow()
-    known = {} if before is None else before.memory.get(NAME, {})
-    whole = replace(flow, step_work=flow.work - float(known.get("work", 0.0)), iterations=iterations)
-    message = (
-        f"{result.status.message} Plastic flow did not settle in one step: the load was reached in {count} equal parts."
-    )
-    status = replace(result.status, message=message)
-    return replace(result, status=status, couplings={**result.couplings, NAME: whole})

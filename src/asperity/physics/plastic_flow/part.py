@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -159,7 +158,16 @@ class PlasticFlow(Part):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """What flows, what stays, zones by layer, tensions."""
-        return flow_words(found)
+        values = found.values
+        strain = percent(float(values["flow_largest_strain"]))
+        depth, dent = (show(float(values[name]), "m", 3) for name in ("flow_depth", "flow_imprint_depth"))
+        work = show(float(values["flow_plastic_work"]), "J", 3)
+        sentence = f"The body flows down to {depth} with plastic strains of up to {strain}; an imprint of {dent} stays, and plastic flow took {work}."
+        if not float(values["flow_largest_strain"]) > 0.0:
+            sentence = "Nothing flows beneath the contact: it is elastic."
+        zones = ("Plastic zones", zones_table(found.detail))
+        tables = (zones, ("Tension and shear that may crack layers", tension_table(values, "flow")))
+        return Words(sentence, [("largest plastic strain", strain)], number_rows(SCALARS, values), tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers and table of zones."""
@@ -177,23 +185,3 @@ REMARK = (
     "unloading is in it only where the unloading was computed (--plastic-unload). Stresses of the table [stress] hold the plastic strain. Tensions are means over depth cells."
 )
 """What the model is."""
-
-
-def flow_words(found: Found) -> Words:
-    """Sentence, headline, rows and tables."""
-    values, facts = found.values, found.detail
-    tables = (
-        ("Plastic zones", zones_table(facts)),
-        ("Tension and shear that may crack layers", tension_table(values, "flow")),
-    )
-    headline = [("largest plastic strain", percent(float(values["flow_largest_strain"])))]
-    return Words(_sentence(values), headline, number_rows(SCALARS, values), tables, (REMARK,))
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    largest = float(values["flow_largest_strain"])
-    if not largest > 0.0:
-        return "Nothing flows beneath the contact: it is elastic."
-    depth, dent = (show(float(values[name]), "m", 3) for name in ("flow_depth", "flow_imprint_depth"))
-    work = show(float(values["flow_plastic_work"]), "J", 3)
-    return f"The body flows down to {depth} with plastic strains of up to {percent(largest)}; an imprint of {dent} stays, and plastic flow took {work}."

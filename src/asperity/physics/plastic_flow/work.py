@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -36,7 +37,11 @@ def flow_found(solved: Solved) -> Found:
         shown, tensions = _shown(flow, solved)
     values = {**_numbers(flow, solved), **tensions, IMPRINT.name: flow.displacement, **shown.values(PREFIX)}
     facts = {"layers": layer_names(body), "axis": "x", "zones": _zone_rows(flow, body), "row": _row(flow)}
-    return Found(values, facts, _findings(flow, body), flow.citation_keys)
+    findings = inferred_strengths(body)
+    if not max(zone.largest_strain for zone in flow.zones) > 0.0:
+        elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
+        findings = (*findings, elastic)
+    return Found(values, facts, findings, flow.citation_keys)
 
 
 def flow_law(table: PlasticFlowSettings, problem: ContactProblem) -> Law:
@@ -175,29 +180,24 @@ def _curve(solved: Solved) -> dict[str, RealArray]:
     if path is None or len(path.steps) < 2:
         return {}
     pixel = solved.problem.grid.pixel_area
+    elastic_force: list[float] = []
+    if solved.lines:  # of the elastic contact at the approaches up to the peak; NaN beyond
+        elastic, peak = solved.problem.with_physics(plastic_flow=None), _peak(solved)
+        elastic_force = [math.nan] * len(path.steps)
+        for number, step in enumerate(path.steps):
+            with suppress(AsperityError):
+                result = solve(elastic, Approach(step.approach), keep=Keep(stiffness=False), on_failure="return")
+                elastic_force[number] = result.force
+            if step is peak:
+                break
     columns = {
         "approach": [step.approach for step in path.steps],
         "force": [step.force for step in path.steps],
         "area": [float(step.contact.sum()) * pixel for step in path.steps],
         "work_lost": [step.require_plastic_flow().work for step in path.steps],
-        "elastic_force": _elastic_forces(solved, path),
+        "elastic_force": elastic_force,
     }
     return {name: np.array([0.0, *values]) for name, values in columns.items() if values}
-
-
-def _elastic_forces(solved: Solved, path: HistoryResult) -> list[float]:
-    """Forces of the elastic contact at the approaches up to the peak; NaN beyond, and nothing where no pictures are drawn."""
-    if not solved.lines:
-        return []
-    elastic, found = solved.problem.with_physics(plastic_flow=None), []
-    peak = int(np.argmax([step.force for step in path.steps]))
-    for step in path.steps[: peak + 1]:
-        try:
-            result = solve(elastic, Approach(step.approach), keep=Keep(stiffness=False), on_failure="return")
-            found.append(result.force)
-        except AsperityError:
-            found.append(math.nan)
-    return found + [math.nan] * (len(path.steps) - peak - 1)
 
 
 def _zone_rows(flow: PlasticBody, body: Body) -> list[Any]:
@@ -214,12 +214,3 @@ def _zone_rows(flow: PlasticBody, body: Body) -> list[Any]:
         size = f"{zone.volume * 1e18:.3g} µm³"
         cells.append([name, percent(zone.largest_strain), place, span, size, first])
     return [list(headings), cells]
-
-
-def _findings(flow: PlasticBody, body: Body) -> tuple[Advice, ...]:
-    """Yield stresses from the hardness, no flow at all; the rest is found in the review of the contact."""
-    made = list(inferred_strengths(body))
-    largest = max(zone.largest_strain for zone in flow.zones)
-    if not largest > 0.0:
-        made.append(Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic."))
-    return tuple(made)
