@@ -182,7 +182,30 @@ class StickSlipCoupling(Coupling):
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """What is remembered, with the displacement by the shear traction under the pressure to start from."""
-        note = _Note(self._before(posed, memory))
+        zero = np.zeros((2, *posed.profile.shape))
+        shift, control, traction, slip, dissipated = np.zeros(3), posed.tangential or Shift(), zero, zero, 0.0
+        if memory:
+            traction = np.stack([memory["traction_x"], memory["traction_y"]])
+            slip = np.stack([memory["slip_x"], memory["slip_y"]])
+            shift, force = np.asarray(memory["shift"], dtype=float), np.asarray(memory["force"], dtype=float)
+            kept = Shift(*shift) if np.isnan(force).any() else TangentialForce(*force)
+            control, dissipated = posed.tangential or kept, float(memory["dissipated"])
+        if isinstance(control, Shift) and np.isnan(shift).any():
+            raise NoSolutionError(
+                "shift must follow a step whose shift is known, but the tangential force of the step before was all that friction bears: how far "
+                "the body slid is not determined. Prescribe a Shift(...) in that step, or a smaller TangentialForce(...).",
+                subject="shift",
+            )
+        if isinstance(control, Shift) and control.twist and any(posed.operator.boundary.wraps):
+            raise InputError(
+                f"twist must be zero where the contact repeats, but is {control.twist:g} rad. Use the boundary Free()."
+            )
+        displacement = zero if self.held is None else self.held.start
+        if memory and self.held is None:
+            displacement = self.operator.displacement(traction)
+            if posed.start is not None:
+                displacement = displacement + self.operator.drawn(posed.start)
+        note = _Note(_Before(traction, displacement, slip, shift, dissipated, control))
         if not self.feedback:
             x = np.zeros(posed.profile.shape)
             return Exchange(x, x, 0.0, self.tolerance, note=note)
@@ -194,42 +217,9 @@ class StickSlipCoupling(Coupling):
         found = self.operator.lift(traction)
         return found if self.held is None else found + self.held.lift
 
-    def _before(self, posed: Posed, memory: Memory) -> _Before:
-        zero = np.zeros((2, *posed.profile.shape))
-        if not memory:
-            control = posed.tangential or Shift()
-            self._check(control, posed, np.zeros(3))
-            start = zero if self.held is None else self.held.start
-            return _Before(zero, start, zero, np.zeros(3), 0.0, control)
-        traction = np.stack([memory["traction_x"], memory["traction_y"]])
-        slip = np.stack([memory["slip_x"], memory["slip_y"]])
-        if self.held is not None:
-            displacement = self.held.start
-        else:
-            displacement = self.operator.displacement(traction)
-            if posed.start is not None:
-                displacement = displacement + self.operator.drawn(posed.start)
-        shift, force = np.asarray(memory["shift"], dtype=float), np.asarray(memory["force"], dtype=float)
-        kept = Shift(*shift) if np.isnan(force).any() else TangentialForce(*force)
-        control = posed.tangential or kept
-        self._check(control, posed, shift)
-        return _Before(traction, displacement, slip, shift, float(memory["dissipated"]), control)
-
     def _free(self, before: _Before) -> RealArray:
         """Displacement (2, nx, ny) in m before the step less what the past leaves at its end."""
         return before.displacement if self.held is None else before.displacement - self.held.displacement
-
-    def _check(self, control: Tangential, posed: Posed, before: RealArray) -> None:
-        if isinstance(control, Shift) and np.isnan(before).any():
-            raise NoSolutionError(
-                "shift must follow a step whose shift is known, but the tangential force of the step before was all that friction bears: how far "
-                "the body slid is not determined. Prescribe a Shift(...) in that step, or a smaller TangentialForce(...).",
-                subject="shift",
-            )
-        if isinstance(control, Shift) and control.twist and any(posed.operator.boundary.wraps):
-            raise InputError(
-                f"twist must be zero where the contact repeats, but is {control.twist:g} rad. Use the boundary Free()."
-            )
 
     def share(self, exchange: Exchange) -> Share:
         """The displacement as a lift."""

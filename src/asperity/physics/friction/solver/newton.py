@@ -107,25 +107,19 @@ class StickSlipNewton:
         if not len(points.index):
             nothing = np.zeros((2, 0)), np.zeros((2, 0)), np.zeros(2)
             return ended(qp, points, nothing, Deviation(0.0, 0.0), tolerance=1.0, work=(0, 0.0))
-        if start is None:
-            start, pairs = self._from_coarser(qp)
+        shape = qp.bound.shape
+        if start is None and min(shape) > COARSEST and np.isfinite(qp.bound).all():
+            # in proportion to the bound as on the grid of half as many points per side
+            bound = restricted(qp.bound)
+            target = np.stack([restricted(component) for component in qp.target])
+            coarse = replace(qp, operator=qp.operator.coarsened, bound=bound, target=target)
+            found = replace(self, tolerance=max(self.tolerance, _LOOSEST)).solve(coarse)
+            ratio = found.traction / np.where(bound > 0.0, bound, 1.0)
+            start = ratio.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]] * qp.bound
+            pairs = found.pairs * (bound.size / qp.bound.size)
         iteration = _Iteration(qp, points, start, self)
         iteration.pairs += pairs
         return iteration.solved()
-
-    def _from_coarser(self, qp: TangentialQP) -> tuple[RealArray | None, float]:
-        """Traction in proportion to the bound as on the grid of half as many points per side, and its FFT pairs."""
-        shape = qp.bound.shape
-        if min(shape) <= COARSEST or not np.isfinite(qp.bound).all():
-            return None, 0.0
-        bound = restricted(qp.bound)
-        target = np.stack([restricted(component) for component in qp.target])
-        coarse = replace(qp, operator=qp.operator.coarsened, bound=bound, target=target)
-        found = replace(self, tolerance=max(self.tolerance, _LOOSEST)).solve(coarse)
-        ratio = found.traction / np.where(bound > 0.0, bound, 1.0)
-        fine = ratio.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]]
-        share = bound.size / qp.bound.size
-        return fine * qp.bound, found.pairs * share
 
 
 class _Slip(NamedTuple):
