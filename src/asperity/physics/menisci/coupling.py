@@ -253,27 +253,21 @@ class MeniscusCoupling(Coupling):
         if external is None:
             return replace(exchange, x=np.asarray(latest), target=np.asarray(latest), residual=0.0, note=note)
         step = latest - x
-        found_next = self._approached if not exchange.exact else self._enclosed
         note = replace(note, direction=note.direction or math.copysign(1.0, step) if step else note.direction)
-        replied = found_next(replace(exchange, note=note), contact, step)
+        if exchange.exact:
+            replied = self._enclosed(replace(exchange, note=note), contact, step)
+        else:  # while the force goes on in one direction solves need not be exact: what is pulled is posed next
+            residual = abs(step) / _whole(external, x, latest)
+            # contact takes the place of liquid, or the error of a solve has led too far
+            turned = step * note.direction < 0.0
+            exact, load, target = turned or residual <= self.tolerance, external + x, latest
+            if load > 0.0:
+                target = min(max(target, load / _GROWTH - external), _GROWTH * load - external)
+            note, target = note if turned else replace(note, before=x), x if exact else target
+            replied = replace(exchange, target=np.asarray(target), residual=residual, exact=exact, note=note)
         if found.full and note.was_open and (step >= 0.0 or replied.settled):
             raise NoSolutionError(f"{self._runaway(external, note)} {_FULL}", subject="meniscus force")
         return replied
-
-    def _approached(self, exchange: Exchange, contact: Contact, step: float) -> Exchange:
-        """Reply while the force goes on in one direction by solves that need not be exact: what is pulled is posed next."""
-        note, x = exchange.note, float(exchange.x)
-        residual = abs(step) / _whole(note.external, x, note.force)
-        turned = (
-            step * note.direction < 0.0
-        )  # contact takes the place of liquid, or the error of a solve has led too far
-        exact = turned or residual <= self.tolerance
-        note = note if turned else replace(note, before=x)
-        target, load = note.force, note.external + x
-        if load > 0.0:
-            target = min(max(target, load / _GROWTH - note.external), _GROWTH * load - note.external)
-        target = x if exact else target
-        return replace(exchange, target=np.asarray(target), residual=residual, exact=exact, note=note)
 
     def _enclosed(self, exchange: Exchange, contact: Contact, step: float) -> Exchange:
         """Reply by solves to the full tolerance: the balance is enclosed, until the force that is posed is pulled or the balance lies in a jump."""
