@@ -32,13 +32,37 @@ from .part_values import PlasticValues, inferred_strengths, interfaces_of, layer
 
 def flow_found(solved: Solved) -> Found:
     """Values, facts and findings of the ``solved`` contact."""
-    flow, body = solved.result.require_plastic_flow(), _body(solved.problem)
+    flow, body = solved.result.require_plastic_flow(), plastic_body(solved.problem.body, solved.problem.counter_body)[0]
     with solved.stage("residual stress"):
         shown, tensions = _shown(flow, solved)
-    values = {**_numbers(flow, solved), **tensions, IMPRINT.name: flow.displacement, **shown.values(PREFIX)}
+    layers, base = flow.zones[:-1], flow.zones[-1]
+    first = [zone.first_yield for zone in flow.zones if math.isfinite(zone.first_yield)]
+    tops = [zone.top for zone in flow.zones if math.isfinite(zone.top)]
+    bottoms = [zone.bottom for zone in flow.zones if math.isfinite(zone.bottom)]
+    peak = _peak(solved)
+    area = float(peak.contact.sum()) * peak.problem.grid.pixel_area
+    values: dict[str, Any] = {
+        **{item.name: math.nan for item in SCALARS},
+        "flow_plastic_work": flow.work,
+        "flow_residual_energy": flow.residual_energy,
+        "flow_volume": sum(zone.volume for zone in flow.zones),
+        "flow_layer_volume": sum(zone.volume for zone in layers) if layers else math.nan,
+        "flow_largest_strain": max(zone.largest_strain for zone in flow.zones),
+        "flow_layer_strain": max((zone.largest_strain for zone in layers), default=math.nan),
+        "flow_base_strain": base.largest_strain,
+        "flow_top": min(tops, default=math.nan),
+        "flow_depth": max(bottoms, default=math.nan),
+        "flow_first_yield": min(first, default=math.nan),
+        "flow_imprint_depth": max(float(flow.displacement.max()), 0.0),
+        "flow_pile_up": max(-float(flow.displacement.min()), 0.0),
+        "flow_mean_contact_pressure": peak.force / area if area > 0.0 else math.nan,
+        **tensions,
+        IMPRINT.name: flow.displacement,
+        **shown.values(PREFIX),
+    }
     facts = {"layers": layer_names(body), "axis": "x", "zones": _zone_rows(flow, body), "row": _row(flow)}
     findings = inferred_strengths(body)
-    if not max(zone.largest_strain for zone in flow.zones) > 0.0:
+    if not values["flow_largest_strain"] > 0.0:
         elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
         findings = (*findings, elastic)
     return Found(values, facts, findings, flow.citation_keys)
@@ -68,39 +92,6 @@ def flow_law(table: PlasticFlowSettings, problem: ContactProblem) -> Law:
     return Law(whole, table.cells, depth, float(table.tolerance))
 
 
-def _body(problem: ContactProblem) -> Body:
-    return plastic_body(problem.body, problem.counter_body)[0]
-
-
-# Numbers.
-
-
-def _numbers(flow: PlasticBody, solved: Solved) -> dict[str, Any]:
-    """``SCALARS`` but for the tensions."""
-    layers, base = flow.zones[:-1], flow.zones[-1]
-    first = [zone.first_yield for zone in flow.zones if math.isfinite(zone.first_yield)]
-    tops = [zone.top for zone in flow.zones if math.isfinite(zone.top)]
-    bottoms = [zone.bottom for zone in flow.zones if math.isfinite(zone.bottom)]
-    result = _peak(solved)
-    area = float(result.contact.sum()) * result.problem.grid.pixel_area
-    return {
-        **{item.name: math.nan for item in SCALARS},
-        "flow_plastic_work": flow.work,
-        "flow_residual_energy": flow.residual_energy,
-        "flow_volume": sum(zone.volume for zone in flow.zones),
-        "flow_layer_volume": sum(zone.volume for zone in layers) if layers else math.nan,
-        "flow_largest_strain": max(zone.largest_strain for zone in flow.zones),
-        "flow_layer_strain": max((zone.largest_strain for zone in layers), default=math.nan),
-        "flow_base_strain": base.largest_strain,
-        "flow_top": min(tops, default=math.nan),
-        "flow_depth": max(bottoms, default=math.nan),
-        "flow_first_yield": min(first, default=math.nan),
-        "flow_imprint_depth": max(float(flow.displacement.max()), 0.0),
-        "flow_pile_up": max(-float(flow.displacement.min()), 0.0),
-        "flow_mean_contact_pressure": result.force / area if area > 0.0 else math.nan,
-    }
-
-
 def _row(flow: PlasticBody) -> int:
     """Row of the grid through the largest plastic strain; where nothing flows the one through the middle."""
     grid = flow.problem.grid
@@ -116,7 +107,7 @@ def _shown(flow: PlasticBody, solved: Solved) -> tuple[PlasticValues, dict[str, 
     place = 0.5 * (across[1:] + across[:-1])
     imprint = -flow.displacement[:, row]
     curve = _curve(solved)
-    interfaces = interfaces_of(_body(solved.problem))
+    interfaces = interfaces_of(flow.body)
     if not flow.depths.size:
         depth = np.array([0.0, float(max(grid.size)) / 8.0])
         empty = np.zeros((grid.shape[0], 1))
