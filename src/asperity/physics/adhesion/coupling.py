@@ -15,7 +15,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from ...contact import measure
-from ...contact.controls import Control, FixedGrips, MeanGap
+from ...contact.controls import FixedGrips, MeanGap
 from ...contact.couplings.protocol import Contact, Coupling, Ended, Exchange, Memory, Posed, Share
 from ...contact.law import HardWall
 from ...contact.operators import Operator
@@ -153,17 +153,13 @@ class AdhesionCoupling(Coupling):
             pull = self.law.attraction(self.law.spacing + posed.dented.max() - posed.dented)
             problem = AdhesiveProblem(self.operator, posed.dented, self.law, FixedMean(0.0))
             pull = self.solver.solve(problem, pull).state.attraction
-        mean = self._mean(posed)
+        mean = None if posed.external_force is None else posed.external_force / self.operator.grid.area
         solution = self._solved(posed, posed.dented, np.inf, mean, pull, posed.start)
         note = _Note(posed, before, posed.dented, solution, mean)
         x = solution.state.pull
         return Exchange(
             x, x, np.inf, self.tolerance, smooth=False, final=_FINAL, scale=min(self.law.strength, 1e300), note=note
         )
-
-    def _mean(self, posed: Posed) -> float | None:
-        force = posed.external_force
-        return None if force is None else force / posed.operator.grid.area
 
     def _solved(
         self,
@@ -248,7 +244,8 @@ class AdhesionCoupling(Coupling):
         core = self._core(note.solution.state)
         residual = self.solver.miss(self.law, exchange.x, pressure, contact.gap + core)
         base = contact.qp.profile - self.operator.apply(exchange.x) + (self.law.spacing - core)
-        mean = self._mean(note.posed)
+        force = note.posed.external_force
+        mean = None if force is None else force / self.operator.grid.area
         if mean is not None and isinstance(contact.qp.constraint, FixedMean):
             mean = contact.qp.constraint.mean_pressure - float(exchange.x.mean())
         # where the last solution is of this profile and load already only the normal solve is to be more accurate
@@ -301,18 +298,25 @@ class AdhesionCoupling(Coupling):
             earlier, later = note.before.gap == 0.0, gap == 0.0
             most = max(np.count_nonzero(earlier), np.count_nonzero(later))
             jumped = bool(np.count_nonzero(earlier != later) > _JUMPED_SHARE * most)
-        held = _held(note, self.operator, self.law, contact)
+        # the problem whose Hessian tells whether the contact is stable under what is prescribed
+        control, operator, posed_force = note.posed.control, self.operator, note.posed.external_force
+        held: FixedMean | FixedOffset = FixedOffset(-contact.level)
+        if posed_force is not None:
+            held = FixedMean(posed_force / grid.area)
+        elif isinstance(control, FixedGrips) and math.isfinite(control.stiffness):
+            operator = MachineOperator(operator, control.stiffness)
+        problem = AdhesiveProblem(operator, note.base, self.law, held, contact.qp.cap)
         state = Adhered(pressure, exchange.x, contact.solution.state.deflection, gap, exchange.x, -contact.level)
         found = AdhesiveContact(
             law=self.law,
             attraction=exchange.x,
             attractive_force=float(exchange.x.sum()) * grid.pixel_area,
             external_force=force,
-            grips=note.posed.control.value if isinstance(note.posed.control, FixedGrips) else approach,
+            grips=control.value if isinstance(control, FixedGrips) else approach,
             adhesive_area_fraction=float(np.mean(zone)),
             interface_energy=interface,
             elastic_energy=elastic,
-            margin=self.solver.margin(held, state),
+            margin=self.solver.margin(problem, state),
             cohesive_length=cohesive_length(self.law, self.E_star),
             pixel=max(grid.pixels),
             dissipated=lost,
@@ -360,17 +364,6 @@ class AdhesionCoupling(Coupling):
             total_dissipated=before.total + lost,
         )
         return found.memory(contact.gap, approach), found
-
-
-def _held(note: _Note, operator: Operator, law: Adhesion, contact: Contact) -> AdhesiveProblem:
-    """The problem whose Hessian tells whether ``contact`` is stable under what is prescribed."""
-    force = note.posed.external_force
-    if force is not None:
-        return AdhesiveProblem(operator, note.base, law, FixedMean(force / operator.grid.area), contact.qp.cap)
-    control: Control = note.posed.control
-    if isinstance(control, FixedGrips) and math.isfinite(control.stiffness):
-        operator = MachineOperator(operator, control.stiffness)
-    return AdhesiveProblem(operator, note.base, law, FixedOffset(-contact.level), contact.qp.cap)
 
 
 def _lost(before: _Before, force: float, approach: float, energy: float, gap: RealArray) -> tuple[float, float, bool]:

@@ -229,13 +229,28 @@ class Adhesion(Part):
         """Scalars of the contact, of the loop, and the criteria."""
         import numpy as np
 
+        from ...contact.roughness import roughness_of
+        from ...theories.adhesion.fuller_tabor import FullerTabor
         from .bound import energy_bound
         from .branch import adhesive_jumps
         from .loop import LOOP_SCALARS, adhesion_loop, adhesion_numbers
+        from .stickiness import stickiness
 
         found = solved.result.require_adhesion()
         loop = None if solved.path is None else adhesion_loop(solved.path.steps)
-        values: dict[str, Any] = adhesion_numbers(solved.result) | _criteria(solved.problem)
+        problem, law = solved.problem, found.law
+        values: dict[str, Any] = adhesion_numbers(solved.result)
+        try:
+            sticky = stickiness(problem)
+            criteria = [sticky.share_of_limit, sticky.effective_work]
+        except InputError:
+            criteria = [math.nan, law.work]  # flat
+        try:
+            roughness = roughness_of(problem.surface.with_heights(problem.profile(), "composite"))
+            criteria.append(FullerTabor.from_roughness(roughness, problem.contact_modulus, work=law.work).theta)
+        except InputError:
+            criteria.append(math.nan)  # no summits of different heights
+        values |= dict(zip((item.name for item in STICKINESS), criteria, strict=True))
         table = getattr(ask, "settings", None)
         jumps: tuple[Jump, ...] = ()
         if loop is not None and solved.path is not None and table is not None and table.jump_tolerance is not None:
@@ -328,25 +343,6 @@ class Adhesion(Part):
             f"{lost}."
         )
         return Words(sentence, headline, rows, tables, (REMARK,))
-
-
-def _criteria(problem: ContactProblem) -> dict[str, float]:
-    from ...contact.roughness import roughness_of
-    from ...theories.adhesion.fuller_tabor import FullerTabor
-    from .stickiness import stickiness
-
-    law, surface = problem.adhesion, problem.surface.with_heights(problem.profile(), "composite")
-    assert law is not None
-    try:
-        sticky = stickiness(problem)
-        numbers = [sticky.share_of_limit, sticky.effective_work]
-    except InputError:
-        numbers = [math.nan, law.work]  # flat
-    try:
-        theta = FullerTabor.from_roughness(roughness_of(surface), problem.contact_modulus, work=law.work).theta
-    except InputError:
-        theta = math.nan  # no summits of different heights
-    return dict(zip((item.name for item in STICKINESS), (*numbers, theta), strict=True))
 
 
 def _findings(solved: Solved) -> tuple[Advice, ...]:

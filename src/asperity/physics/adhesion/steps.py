@@ -104,7 +104,18 @@ def in_ranges(problem: ContactProblem, control: Control, state: InterfaceState, 
         at, done = result.state, 1.0 if last else done + share
         grows = smooth and (way.force or result.require_adhesion().external_force > 0.0 < float(known["force"]))
         share = 2.0 * share if grows else min(2.0 * share, longest)
-    return _as_one(found, state)
+    if len(found) == 1:
+        return found[0]
+    # the last part with losses, jumps and work of all of them
+    final, parts = found[-1], [each.require_adhesion() for each in found]
+    whole = replace(
+        parts[-1].summed(parts[:-1]),
+        steps=sum(part.steps for part in parts),
+        newton_steps=sum(part.newton_steps for part in parts),
+        fft_pairs=sum(part.fft_pairs for part in parts),
+    )
+    plastic = final.total_plastic_work - state.plastic_work
+    return replace(final, plastic_work=plastic, couplings={**final.couplings, "adhesion": whole})
 
 
 def _is_smooth(result: ContactResult, known: Mapping[str, RealArray]) -> bool:
@@ -150,21 +161,3 @@ def _loaded(force: float) -> Control:
     if force == 0.0:
         return Unloaded()
     return Force(force) if force > 0.0 else Pull(-force)
-
-
-def _as_one(found: list[ContactResult], before: InterfaceState) -> ContactResult:
-    """The last of the results ``found`` with losses, jumps and work of all of them."""
-    last, parts = found[-1], [result.require_adhesion() for result in found]
-    if len(found) == 1:
-        return last
-    whole = replace(
-        parts[-1],
-        dissipated=sum(part.dissipated for part in parts),
-        dissipated_error=sum(part.dissipated_error for part in parts),
-        jumped=any(part.jumped for part in parts),
-        steps=sum(part.steps for part in parts),
-        newton_steps=sum(part.newton_steps for part in parts),
-        fft_pairs=sum(part.fft_pairs for part in parts),
-    )
-    plastic = last.total_plastic_work - before.plastic_work
-    return replace(last, plastic_work=plastic, couplings={**last.couplings, "adhesion": whole})

@@ -134,13 +134,6 @@ class Linearised:
         typical = float(np.median(self.soft[self.contact])) if isinstance(self.soft, np.ndarray) else 0.0
         return 1.0 / (kernel + typical)
 
-    def _preconditioned(self, r: RealArray) -> RealArray:
-        self.pairs += 1.0
-        found = self._transform.backward(self._transform.forward(r) * self._inverse)
-        if self.problem.load_prescribed:  # without the mean over the contact
-            found = found - found[self.contact].mean()
-        return np.where(self.contact, found, 0.0)
-
     def _applied(self, traction: RealArray) -> RealArray:
         self.pairs += self.operator.pairs_per_application
         return self.operator.apply(traction)
@@ -162,7 +155,11 @@ class Linearised:
         for _ in range(_INNER_STEPS):
             if first == 0.0 or np.linalg.norm(r) <= tolerance * first:
                 break
-            z = self._preconditioned(r)
+            self.pairs += 1.0
+            z = self._transform.backward(self._transform.forward(r) * self._inverse)
+            if self.problem.load_prescribed:  # without the mean over the contact
+                z = z - z[self.contact].mean()
+            z = np.where(self.contact, z, 0.0)
             rz = float((r * z).sum())
             if not rz > 0.0:
                 break
