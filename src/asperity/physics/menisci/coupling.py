@@ -286,25 +286,19 @@ class MeniscusCoupling(Coupling):
             note = replace(note, looked=0) if bracket.width > self.tolerance * whole else note
             residual = min(residual, max(bracket.width / whole, _MORE * self.tolerance))
             return replace(exchange, target=np.asarray(target), residual=residual, stuck=False, note=note)
-        return self._in_jump(replace(exchange, stuck=False, note=note), contact, end, across)
-
-    def _in_jump(self, exchange: Exchange, contact: Contact, end: End, across: End) -> Exchange:
-        """Reply where the balance lies in the jump of the force from ``end`` to the one ``across``: pixels are wet in part."""
-        note, grid, height = exchange.note, contact.posed.operator.grid, self.film.meniscus_height
-        stands = note.bracket.balanced(end)
-        force, whole = (
-            self.film.suction * stands.share("filled") * grid.area,
-            _whole(note.external, end.posed, end.pulls),
-        )
-        count, pixel = astray(end, across, height), self.film.suction * grid.pixel_area
+        # the balance lies in the jump of the force from this end to the one across: pixels are wet in part
+        exchange, grid = replace(exchange, stuck=False), contact.posed.operator.grid
+        stands = bracket.balanced(end)
+        force = self.film.suction * stands.share("filled") * grid.area
+        count, pixel = astray(end, across, self.film.meniscus_height), self.film.suction * grid.pixel_area
         note = replace(note, found=stands, force=force, closed=True, jump=abs(end.pulls - across.pulls))
         if count * pixel > SMALL * whole:
             # pixels change sides that may not be wet in part: both ends are kept for some rounds, so that what else moves comes to rest;
             # then the bracket is closed further and its ends are looked at once more; what still jumps does
-            note = replace(note, found=end.stands, force=end.pulls, astray=count, width=note.bracket.width / whole)
+            note = replace(note, found=end.stands, force=end.pulls, astray=count, width=bracket.width / whole)
             target, looked = end.posed, note.looked + 1
             if looked >= 2 * _LOOKED_AT and note.width > _NARROWEST:
-                target, looked = note.bracket.further(end, note.external), 2 * _LOOKED_AT
+                target, looked = bracket.further(end, note.external), 2 * _LOOKED_AT
             elif looked in (_LOOKED_AT, 3 * _LOOKED_AT):
                 target = across.posed
             elif looked >= 4 * _LOOKED_AT:
