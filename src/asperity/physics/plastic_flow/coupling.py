@@ -9,7 +9,6 @@ would not settle where the contact gives way more by flow than elastically. The 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import ClassVar, Self
 
@@ -368,26 +367,22 @@ def found_in(problem: ContactProblem, memory: Memory) -> PlasticBody:
     flowed = Flowed.of(memory)
     parts = _by_region(problem, flowed)
     first: RealArray = memory.get("first", np.full((len(parts), 4), np.nan))
-    zones = tuple(_zone(problem, flowed, number, parts, first) for number in range(len(parts)))
+    zones = []
+    for number, (points, values) in enumerate(parts):
+        name = "base" if number == len(parts) - 1 else f"layer {number + 1}"
+        begin, x, y, z = (float(value) for value in first[number])
+        if not points.size:
+            nowhere = (np.nan, np.nan, np.nan)
+            zones.append(PlasticZone(name, 0.0, np.nan, np.nan, 0.0, nowhere, begin, (x, y, z)))
+            continue
+        cell = points // problem.grid.n_points
+        volume = float(np.diff(flowed.edges)[cell].sum()) * problem.grid.pixel_area
+        top, bottom = float(flowed.edges[cell.min()]), float(flowed.edges[cell.max() + 1])
+        place = _place(problem.grid, flowed.edges, int(points[values.argmax()]))
+        zones.append(PlasticZone(name, volume, top, bottom, float(values.max()), place, begin, (x, y, z)))
     lift = np.asarray(memory["lift"]) if "lift" in memory else np.zeros(problem.grid.shape)
     work, step, energy, iterations = (
         float(memory.get(name, 0.0)) for name in ("work", "step_work", "energy", "iterations")
     )
     end = bool(flowed.points.size) and int(flowed.points[-1]) // problem.grid.n_points == flowed.edges.size - 2
-    return PlasticBody(problem, flowed, lift, work, step, energy, zones, end, int(iterations))
-
-
-def _zone(
-    problem: ContactProblem, flowed: Flowed, number: int, parts: Sequence[tuple[Points, RealArray]], first: RealArray
-) -> PlasticZone:
-    points, values = parts[number]
-    name = "base" if number == len(parts) - 1 else f"layer {number + 1}"
-    begin, *where = (float(value) for value in first[number])
-    if not points.size:
-        nowhere = (np.nan, np.nan, np.nan)
-        return PlasticZone(name, 0.0, np.nan, np.nan, 0.0, nowhere, begin, (where[0], where[1], where[2]))
-    cell = points // problem.grid.n_points
-    volume = float(np.diff(flowed.edges)[cell].sum()) * problem.grid.pixel_area
-    top, bottom = float(flowed.edges[cell.min()]), float(flowed.edges[cell.max() + 1])
-    place = _place(problem.grid, flowed.edges, int(points[values.argmax()]))
-    return PlasticZone(name, volume, top, bottom, float(values.max()), place, begin, (where[0], where[1], where[2]))
+    return PlasticBody(problem, flowed, lift, work, step, energy, tuple(zones), end, int(iterations))

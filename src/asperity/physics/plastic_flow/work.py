@@ -19,7 +19,7 @@ from ...core.status import Advice
 from ...core.units import percent, show
 from ...parts.part import Found, Solved
 from ...solids.elastic import Elastic
-from ...solids.layers import Body, Layered
+from ...solids.layers import Layered
 from ...solids.plasticity import J2, von_mises
 from ...solids.strength import plastic_parts
 from ..friction.law import Coulomb
@@ -60,7 +60,18 @@ def flow_found(solved: Solved) -> Found:
         IMPRINT.name: flow.displacement,
         **shown.values(PREFIX),
     }
-    facts = {"layers": layer_names(body), "axis": "x", "zones": _zone_rows(flow, body), "row": _row(flow)}
+    names = layer_names(body)
+    headings = ["Layer", "Largest plastic strain", "at (x, y, depth)", "Depths", "Volume", "First yield at"]
+    cells = []
+    for name, zone in zip(names, flow.zones, strict=False):
+        if not zone.largest_strain > 0.0:
+            cells.append([name, "elastic", "–", "–", "–", "–"])
+            continue
+        place = ", ".join(show(value, "m", 3) for value in zone.place)
+        begin = show(zone.first_yield, "Pa", 3) if math.isfinite(zone.first_yield) else "–"
+        span = f"{show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)}"
+        cells.append([name, percent(zone.largest_strain), place, span, f"{zone.volume * 1e18:.3g} µm³", begin])
+    facts = {"layers": names, "axis": "x", "zones": [headings, cells], "row": _row(flow)}
     findings = inferred_strengths(body)
     if not values["flow_largest_strain"] > 0.0:
         elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
@@ -189,19 +200,3 @@ def _curve(solved: Solved) -> dict[str, RealArray]:
         "elastic_force": elastic_force,
     }
     return {name: np.array([0.0, *values]) for name, values in columns.items() if values}
-
-
-def _zone_rows(flow: PlasticBody, body: Body) -> list[Any]:
-    """Headings and cells of the table of zones."""
-    headings = ("Layer", "Largest plastic strain", "at (x, y, depth)", "Depths", "Volume", "First yield at")
-    cells = []
-    for name, zone in zip(layer_names(body), flow.zones, strict=False):
-        if not zone.largest_strain > 0.0:
-            cells.append([name, "elastic", "–", "–", "–", "–"])
-            continue
-        place = ", ".join(show(value, "m", 3) for value in zone.place)
-        first = show(zone.first_yield, "Pa", 3) if math.isfinite(zone.first_yield) else "–"
-        span = f"{show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)}"
-        size = f"{zone.volume * 1e18:.3g} µm³"
-        cells.append([name, percent(zone.largest_strain), place, span, size, first])
-    return [list(headings), cells]
