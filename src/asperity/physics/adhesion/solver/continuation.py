@@ -145,7 +145,7 @@ class Continuation:
             if found is None:
                 step *= 0.5
                 if step < _SHORTEST * self.first * self.problem.law.range:
-                    raise NoSolutionError(self._too_short(point.offset))
+                    break
                 continue
             along = self._tangent(found, row, self._of_crossing(point, found))
             point = replace(found, turn=along.offset, length=point.length + step)
@@ -154,22 +154,20 @@ class Continuation:
                 step = min(1.4 * step, self.first * self.problem.law.range)
             elif found.corrections >= _SLOW:
                 step *= 0.6
+        pixel = max(self.operator.grid.pixels)
+        text = f"step along the branch must not be less than {_SHORTEST:g} of the first, but is at the offset {point.offset:.6g} m. "
+        if pixel <= self.needed_pixel:
+            raise NoSolutionError(text + "Take smaller steps, or a finer grid.")
+        raise NoSolutionError(
+            text
+            + f"Single points snap there: the pixel is {pixel:.3g} m. Take one of at most {self.needed_pixel:.3g} m, or an attraction "
+            "that falls more gently, such as ExponentialAdhesion(...) or DugdaleAdhesion(..., smoothing=1.0)."
+        )
 
     @property
     def needed_pixel(self) -> float:
         """Largest pixel in m with which the branch can be followed; the compliance of a point goes about as its pixel."""
         return max(self.operator.grid.pixels) * _FOLLOWS / (self.single * self.problem.law.steepest)
-
-    def _too_short(self, offset: float) -> str:
-        pixel = max(self.operator.grid.pixels)
-        text = f"step along the branch must not be less than {_SHORTEST:g} of the first, but is at the offset {offset:.6g} m. "
-        if pixel <= self.needed_pixel:
-            return text + "Take smaller steps, or a finer grid."
-        return (
-            text
-            + f"Single points snap there: the pixel is {pixel:.3g} m. Take one of at most {self.needed_pixel:.3g} m, or an attraction "
-            "that falls more gently, such as ExponentialAdhesion(...) or DugdaleAdhesion(..., smoothing=1.0)."
-        )
 
     def _further(
         self, point: BranchPoint, ahead: BranchPoint, along: _Tangent, step: float

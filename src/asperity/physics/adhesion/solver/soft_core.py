@@ -36,6 +36,7 @@ _PART = 0.25
 """Change of the position in such a part over z0."""
 
 _INNER_STEPS = 400
+_HALVINGS = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,9 +138,20 @@ class SoftCoreNewton:
         for count in range(1, self.max_steps + 1):
             if miss <= self.tolerance:
                 return point, count - 1, miss, energies
-            change = self._change(problem, point, min(0.1, max(1e-5, miss)), work)
-            further = _descended(problem, point, *change)
-            if further is None:
+            x, image, by, down = self._change(problem, point, min(0.1, max(1e-5, miss)), work)
+            # along the change until the energy is lower; no gap changes by more than a part of itself
+            change = image + by
+            with np.errstate(divide="ignore", invalid="ignore"):
+                opens = problem.law.range + 0.5 * point.gap
+                room = np.where(change < 0.0, (1.0 - _NEAREST) * point.gap, opens) / np.abs(change)
+            most = float(np.nanmin(np.where(change == 0.0, np.inf, room)))
+            step = most if down else min(1.0, most)
+            for _ in range(_HALVINGS):
+                further = _at(problem, point.t + step * x, point.u + step * image, point.offset + step * by)
+                if further.energy <= point.energy + 1e-13 * abs(point.energy):
+                    break
+                step *= 0.5
+            else:
                 return point, count, miss, energies
             point = further
             energies.append(point.energy)
@@ -214,25 +226,6 @@ def conjugate(
         now = float((r * Kr).sum())
         p, Kp, size = r + (now / size) * p, Kr + (now / size) * Kp, now
     return x, image, False
-
-
-def _descended(
-    problem: AdhesiveProblem, point: _Point, x: RealArray, image: RealArray, by: float, down: bool
-) -> _Point | None:
-    """The point along the change at which the energy is lower; None where there is none."""
-    change = image + by
-    with np.errstate(divide="ignore", invalid="ignore"):
-        room = np.where(change < 0.0, (1.0 - _NEAREST) * point.gap, problem.law.range + 0.5 * point.gap) / np.abs(
-            change
-        )
-    most = float(np.nanmin(np.where(change == 0.0, np.inf, room)))
-    step = most if down else min(1.0, most)
-    for _ in range(40):
-        further = _at(problem, point.t + step * x, point.u + step * image, point.offset + step * by)
-        if further.energy <= point.energy + 1e-13 * abs(point.energy):
-            return further
-        step *= 0.5
-    return None
 
 
 def _at(problem: AdhesiveProblem, t: RealArray, u: RealArray, offset: float) -> _Point:
