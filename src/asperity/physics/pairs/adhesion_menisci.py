@@ -115,6 +115,7 @@ class _Search:
         self.law = next(c for c in couplings if isinstance(c, AdhesionCoupling)).law
         self.film = next(c for c in couplings if isinstance(c, MeniscusCoupling)).film
         self.pixel = self.film.suction * posed.operator.grid.pixel_area
+        self.first_step = _FIRST * min(self.film.meniscus_height, self.law.range or posed.height_scale)
         self.count = 0
 
     def found(self, first: Settled | None) -> Settled:
@@ -125,7 +126,7 @@ class _Search:
         else:
             start = self._held(float(self.memories.get("adhesion", {}).get("approach", 0.0)), None)
         near, far = self._bracket(start)
-        narrow = _NARROW * self._first_step
+        narrow = _NARROW * self.first_step
         while self._apart_still(near, far) and abs(far.approach - near.approach) > narrow:
             # by the secant or by half
             share = near.force / (near.force - far.force)
@@ -177,11 +178,6 @@ class _Search:
         assert force is not None
         return force
 
-    @property
-    def _first_step(self) -> float:
-        lengths = [self.film.meniscus_height, self.law.range or self.posed.height_scale]
-        return _FIRST * min(lengths)
-
     def _held(self, approach: float, before: Settled | None) -> _Held:
         """Contact at this ``approach`` (m), followed from the one ``before``."""
         self.count += 1
@@ -196,7 +192,7 @@ class _Search:
 
     def _bracket(self, near: _Held) -> tuple[_Held, _Held]:
         """Contacts on both sides of the force wanted, the nearer to the start first."""
-        step = -math.copysign(self._first_step, near.force)
+        step = -math.copysign(self.first_step, near.force)
         for _ in range(_STEPS):
             if not near.converged or abs(near.force) <= self.exact(near):
                 return near, near
