@@ -19,9 +19,7 @@ from ...contact.operators import Operator, prepare_operator
 from ...contact.result import ContactResult
 from ...contact.solvers.protocol import FixedOffset
 from ...core import require
-from ...core.arrays import RealArray
 from ...core.errors import InputError
-from .law import Adhesion
 from .solver.problem import AdhesiveProblem
 from .solver.solver import minimised
 
@@ -93,13 +91,26 @@ def energy_bound(result: ContactResult, *, rounds: int = 8, operator: Operator |
     flat = result.offset - profile
     found = result.require_adhesion()
     energy = found.elastic_energy + found.interface_energy
-    compliance = _self_compliance(operator)
-    reach = _displacement(law, flat, energy / pixel, compliance)
+    one = np.zeros(operator.grid.shape)
+    one[0, 0] = 1.0
+    compliance = float(operator.apply(one)[0, 0])  # K_ii in m/Pa, the same for all points
+    # U of every contact whose energy is not above that found
+    reach = math.inf
+    for _ in range(_BOUNDS):
+        closest = np.zeros_like(flat) if math.isinf(reach) else np.maximum(flat - reach, 0.0)
+        elastic = energy / pixel - float(law.energy(closest).sum())
+        further = math.sqrt(2.0 * compliance * max(elastic, 0.0))
+        if further >= reach * (1.0 - 1e-6):
+            break
+        reach = further
     nearest, farthest = np.maximum(flat - reach, 0.0), np.maximum(flat + reach, 0.0)
     posed = AdhesiveProblem(operator, profile, law, FixedOffset(result.offset))
     pressure, lower = np.asarray(result.pressure, dtype=float), -np.inf
     for _ in range(rounds):
-        slope, base = _chords(law, nearest, farthest)
+        # chords of φ: slope (Pa), and value at no gap (J/m²)
+        low, high, width = law.energy(nearest), law.energy(farthest), farthest - nearest
+        slope = np.where(width > 0.0, np.maximum(high - low, 0.0) / np.where(width > 0.0, width, 1.0), 0.0)
+        base = low - slope * nearest
         pressure = minimised(posed, slope, pressure).pressure
         traction = pressure - slope
         moved = operator.apply(traction)
@@ -112,31 +123,3 @@ def energy_bound(result: ContactResult, *, rounds: int = 8, operator: Operator |
         if gained <= _GAIN * abs(energy / pixel - lower):
             break
     return EnergyBound(energy, lower * pixel, law.work * operator.grid.area, reach)
-
-
-def _self_compliance(operator: Operator) -> float:
-    """K_ii in m/Pa, the same for all points."""
-    one = np.zeros(operator.grid.shape)
-    one[0, 0] = 1.0
-    return float(operator.apply(one)[0, 0])
-
-
-def _displacement(law: Adhesion, flat: RealArray, energy: float, compliance: float) -> float:
-    """U in m of every contact whose energy over the area of a pixel is not above ``energy`` (Pa·m)."""
-    reach = math.inf
-    for _ in range(_BOUNDS):
-        nearest = np.zeros_like(flat) if math.isinf(reach) else np.maximum(flat - reach, 0.0)
-        elastic = energy - float(law.energy(nearest).sum())
-        further = math.sqrt(2.0 * compliance * max(elastic, 0.0))
-        if further >= reach * (1.0 - 1e-6):
-            break
-        reach = further
-    return reach
-
-
-def _chords(law: Adhesion, nearest: RealArray, farthest: RealArray) -> tuple[RealArray, RealArray]:
-    """Slope (Pa) of the chords of φ from the gap ``nearest`` to ``farthest``, >= 0, and their value at no gap (J/m²)."""
-    low, high = law.energy(nearest), law.energy(farthest)
-    width = farthest - nearest
-    slope = np.where(width > 0.0, np.maximum(high - low, 0.0) / np.where(width > 0.0, width, 1.0), 0.0)
-    return slope, low - slope * nearest

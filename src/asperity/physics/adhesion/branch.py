@@ -19,7 +19,7 @@ from ...contact.solvers.protocol import FixedOffset
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
-from .solver.continuation import BranchPoint, Continuation
+from .solver.continuation import Continuation
 from .solver.problem import AdhesiveProblem, Linearised
 
 
@@ -145,53 +145,6 @@ def adhesive_branch(
     NoSolutionError
         If the contact is no equilibrium, or the branch cannot be followed; the message names the pixel needed where that is the reason.
     """
-    problem = result.problem
-    _require_smooth(result)
-    require.one_of(towards, ("parting", "approaching"), "direction of a branch")
-    require.integer(points, 2, "number of points of a branch")
-    if not farthest < result.approach < deepest:
-        raise InputError(
-            f"approach of the contact must be between the farthest {farthest:g} m and the deepest {deepest:g} m, but is {result.approach:g} m."
-        )
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
-    profile, law = problem.profile(), problem.adhesion
-    assert law is not None
-    top = float(profile.max())
-    posed = AdhesiveProblem(operator, profile, law, FixedOffset(top - result.approach))
-    way = Continuation(posed, step)
-    found: list[tuple[float, ...]] = []
-    direction = 1.0 if towards == "parting" else -1.0
-    traction = np.asarray(result.pressure, dtype=float) - result.require_adhesion().attraction
-    for point in way.points(traction, top - result.approach, direction=direction):
-        approach = top - point.offset
-        if found and not farthest <= approach <= deepest:
-            break
-        found.append(_numbers(posed, point, approach))
-        if len(found) >= points:
-            break
-    length, at, force, turn, margin, energy, touching = np.array(found).T
-    return AdhesiveBranch(length, at, force, turn, margin, energy, touching, way.pairs, way.needed_pixel)
-
-
-def _numbers(posed: AdhesiveProblem, point: BranchPoint, approach: float) -> tuple[float, ...]:
-    """Length, approach, force, turn, margin, energy and contact fraction of a ``point``."""
-    at, pixel = posed.at_offset(point.offset), posed.operator.grid.pixel_area
-    state = point.adhered(posed)
-    force = float(point.traction.sum()) * pixel
-    margin = 1.0 - Linearised(at, state).largest()
-    return (
-        point.length,
-        approach,
-        force,
-        point.turn,
-        margin,
-        at.energy(state) * pixel,
-        float((state.pressure > 0.0).mean()),
-    )
-
-
-def _require_smooth(result: ContactResult) -> None:
-    """Refuse what a branch cannot be followed with."""
     problem, law = result.problem, result.require_adhesion().law
     if not isinstance(problem.law, HardWall) or len(problem.physics) > 1:
         raise InputError(
@@ -204,6 +157,32 @@ def _require_smooth(result: ContactResult) -> None:
             "ExponentialAdhesion(...).",
             subject="adhesion",
         )
+    require.one_of(towards, ("parting", "approaching"), "direction of a branch")
+    require.integer(points, 2, "number of points of a branch")
+    if not farthest < result.approach < deepest:
+        raise InputError(
+            f"approach of the contact must be between the farthest {farthest:g} m and the deepest {deepest:g} m, but is {result.approach:g} m."
+        )
+    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
+    profile, pixel = problem.profile(), operator.grid.pixel_area
+    top = float(profile.max())
+    posed = AdhesiveProblem(operator, profile, law, FixedOffset(top - result.approach))
+    way = Continuation(posed, step)
+    found: list[tuple[float, ...]] = []
+    direction = 1.0 if towards == "parting" else -1.0
+    traction = np.asarray(result.pressure, dtype=float) - result.require_adhesion().attraction
+    for point in way.points(traction, top - result.approach, direction=direction):
+        approach = top - point.offset
+        if found and not farthest <= approach <= deepest:
+            break
+        at, state = replace(posed, constraint=FixedOffset(point.offset)), point.adhered(posed)
+        force, energy = float(point.traction.sum()) * pixel, at.energy(state) * pixel
+        margin, touching = 1.0 - Linearised(at, state).largest(), float((state.pressure > 0.0).mean())
+        found.append((point.length, approach, force, point.turn, margin, energy, touching))
+        if len(found) >= points:
+            break
+    lengths, approaches, forces, turns, margins, energies, fractions = np.array(found).T
+    return AdhesiveBranch(lengths, approaches, forces, turns, margins, energies, fractions, way.pairs, way.needed_pixel)
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,24 +235,20 @@ def adhesive_jumps(history: HistoryResult, tolerance: float) -> tuple[Jump, ...]
     require.positive(tolerance, "tolerance of the jumps (m)")
     steps, found = history.steps, []
     for number, result in enumerate(steps):
-        if not isinstance(result.control, FixedGrips):
+        control, problem = result.control, result.problem
+        if not isinstance(control, FixedGrips):
             raise InputError(
-                f"control of a history whose jumps are sought must be FixedGrips(...), but is {result.control!r}."
+                f"control of a history whose jumps are sought must be FixedGrips(...), but is {control!r}."
             )
         if number == 0 or not result.require_adhesion().jumped:
             continue
-        found.append(_closed_in(number, steps[number - 1], result, tolerance))
+        operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
+        jump = Jump(number, steps[number - 1], result)
+        while jump.width > tolerance:
+            middle = FixedGrips(jump.grips, control.stiffness)
+            solved = solve(problem, middle, state=jump.before.state, operator=operator)
+            gone = solved.require_adhesion().jumped
+            jump = replace(jump, after=solved) if gone else replace(jump, before=solved)
+        last = solve(problem, jump.after.control, state=jump.before.state, operator=operator)
+        found.append(replace(jump, after=last))  # what it loses from there
     return tuple(found)
-
-
-def _closed_in(number: int, before: ContactResult, after: ContactResult, tolerance: float) -> Jump:
-    problem = after.problem
-    operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
-    assert isinstance(after.control, FixedGrips)
-    stiffness, jump = after.control.stiffness, Jump(number, before, after)
-    while jump.width > tolerance:
-        middle = solve(problem, FixedGrips(jump.grips, stiffness), state=jump.before.state, operator=operator)
-        gone = middle.require_adhesion().jumped
-        jump = replace(jump, after=middle) if gone else replace(jump, before=middle)
-    last = solve(problem, jump.after.control, state=jump.before.state, operator=operator)
-    return replace(jump, after=last)  # what it loses from there

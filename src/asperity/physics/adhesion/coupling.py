@@ -15,7 +15,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from ...contact import measure
-from ...contact.controls import Control, FixedGrips, MeanGap
+from ...contact.controls import FixedGrips, MeanGap
 from ...contact.couplings.protocol import Contact, Coupling, Ended, Exchange, Memory, Posed, Share
 from ...contact.law import HardWall
 from ...contact.operators import Operator
@@ -149,23 +149,17 @@ class AdhesionCoupling(Coupling):
             jumps = int(memory["jumps"])
             before = _Before(energy, force, approach, np.asarray(memory["gap"], dtype=float), jumps, total)
         elif posed.external_force is not None and posed.external_force <= 0.0:
-            pull = self._touching(posed)
-        solution = self._solved(posed, posed.dented, np.inf, self._mean(posed), pull, posed.start)
-        note = _Note(posed, before, posed.dented, solution, self._mean(posed))
+            # the contact without load that surfaces find which were brought to touch
+            pull = self.law.attraction(self.law.spacing + posed.dented.max() - posed.dented)
+            problem = AdhesiveProblem(self.operator, posed.dented, self.law, FixedMean(0.0))
+            pull = self.solver.solve(problem, pull).state.attraction
+        mean = None if posed.external_force is None else posed.external_force / self.operator.grid.area
+        solution = self._solved(posed, posed.dented, np.inf, mean, pull, posed.start)
+        note = _Note(posed, before, posed.dented, solution, mean)
         x = solution.state.pull
         return Exchange(
             x, x, np.inf, self.tolerance, smooth=False, final=_FINAL, scale=min(self.law.strength, 1e300), note=note
         )
-
-    def _touching(self, posed: Posed) -> RealArray:
-        """Attraction (nx, ny) in Pa of the contact without load that surfaces find which were brought to touch."""
-        first = self.law.attraction(self.law.spacing + posed.dented.max() - posed.dented)
-        problem = AdhesiveProblem(self.operator, posed.dented, self.law, FixedMean(0.0))
-        return self.solver.solve(problem, first).state.attraction
-
-    def _mean(self, posed: Posed) -> float | None:
-        force = posed.external_force
-        return None if force is None else force / posed.operator.grid.area
 
     def _solved(
         self,
@@ -187,9 +181,23 @@ class AdhesionCoupling(Coupling):
         stiffness = control.stiffness if isinstance(control, FixedGrips) else math.inf
         operator = self.operator if math.isinf(stiffness) else MachineOperator(self.operator, stiffness)
         offset = posed.top - control.value
-        _require_open(operator, profile, offset)
-        problem = AdhesiveProblem(operator, profile, self.law, FixedOffset(offset), cap)
-        return _of_bodies(self.solver.solve(problem, pull, pressure), operator, stiffness)
+        if operator.zero_mean_mode and offset <= float(profile.mean()):
+            most = float(profile.max() - profile.mean())
+            raise NoSolutionError(
+                f"approach must be less than {most:.6g} m, where a periodic elastic contact is full and its mean gap zero, but is "
+                f"{float(profile.max()) - offset:.6g} m. Prescribe MeanPressure(...) to go beyond full contact.",
+                subject="approach",
+            )
+        solution = self.solver.solve(
+            AdhesiveProblem(operator, profile, self.law, FixedOffset(offset), cap), pull, pressure
+        )
+        if math.isinf(stiffness):
+            return solution
+        # the deflection of the machine counts as position
+        state = solution.state
+        yielded = float(state.traction.sum()) * operator.grid.pixel_area / stiffness
+        bodies = replace(state, offset=state.offset + yielded, deflection=state.deflection - yielded)
+        return replace(solution, state=bodies)
 
     def _at_gap(
         self, profile: RealArray, cap: float | RealArray, wanted: float, pull: RealArray, pressure: RealArray | None
@@ -236,10 +244,17 @@ class AdhesionCoupling(Coupling):
         core = self._core(note.solution.state)
         residual = self.solver.miss(self.law, exchange.x, pressure, contact.gap + core)
         base = contact.qp.profile - self.operator.apply(exchange.x) + (self.law.spacing - core)
-        mean = self._mean(note.posed)
+        force = note.posed.external_force
+        mean = None if force is None else force / self.operator.grid.area
         if mean is not None and isinstance(contact.qp.constraint, FixedMean):
             mean = contact.qp.constraint.mean_pressure - float(exchange.x.mean())
-        known = self._same(note, base, contact) and _same_load(mean, note.mean) and note.solution.status.converged
+        # where the last solution is of this profile and load already only the normal solve is to be more accurate
+        moved = float(np.abs(base - note.base).max())
+        same_profile = contact.qp.elastic and moved <= 1e-12 * max(float(np.ptp(base)), self.law.range)
+        same_load = mean is note.mean
+        if mean is not None and note.mean is not None:  # but for rounding; other couplings, such as menisci, add to it
+            same_load = abs(mean - note.mean) <= 1e-9 * max(abs(mean), abs(note.mean))
+        known = same_profile and same_load and note.solution.status.converged
         if residual <= self.tolerance or known:
             return replace(exchange, target=exchange.x, residual=residual)
         if note.failed >= _TRIES:
@@ -248,11 +263,6 @@ class AdhesionCoupling(Coupling):
         x, failed = solution.state.pull, 0 if solution.status.converged else note.failed + 1
         note = replace(note, base=base, solution=solution, mean=mean, failed=failed)
         return replace(exchange, target=x, residual=residual, note=note)
-
-    def _same(self, note: _Note, base: RealArray, contact: Contact) -> bool:
-        """Whether the last solution is of this profile already, so that only the normal solve is to be more accurate."""
-        moved = float(np.abs(base - note.base).max())
-        return contact.qp.elastic and moved <= 1e-12 * max(float(np.ptp(base)), self.law.range)
 
     def settled(self, exchange: Exchange) -> str:
         """That the attraction is."""
@@ -268,34 +278,45 @@ class AdhesionCoupling(Coupling):
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, AdhesiveContact]:
         """Memory of attraction and energies; what adhesion did."""
-        found = self._outcome(exchange, contact)
-        posed: Posed = exchange.note.posed
-        return found.memory(self._gap(exchange, contact), posed.top + contact.level), found
-
-    def _outcome(self, exchange: Exchange, contact: Contact) -> AdhesiveContact:
         note: _Note = exchange.note
         grid, solution = self.operator.grid, note.solution
         pressure = np.asarray(contact.pressure, dtype=float)
-        gap = self._gap(exchange, contact)
+        touching = pressure > 0.0
+        # the gap that the law sees; a touch without pressure gains nothing
+        gap = np.where(touching, 0.0, np.maximum(contact.gap, np.finfo(float).tiny)) + self._core(solution.state)
+        zone = (pressure <= 0.0) & (gap < self.law.spacing + self.law.range)
         traction = pressure - exchange.x
         elastic = 0.5 * float((traction * self.operator.apply(traction)).sum()) * grid.pixel_area
         interface = float(self.law.energy(gap).sum()) * grid.pixel_area
         force = float(traction.sum()) * grid.pixel_area
         approach = note.posed.top + contact.level
-        lost, error, jumped = self._lost(note.before, force, approach, elastic + interface, gap)
-        held = _held(note, self.operator, self.law, contact)
+        lost, error, jumped = _lost(note.before, force, approach, elastic + interface, gap)
+        if self.conserves and not jumped:
+            lost, error = 0.0, abs(lost)
+        if jumped and math.isinf(self.law.strength):
+            # points at the edge alone, each of which loses a little energy, are no jump
+            earlier, later = note.before.gap == 0.0, gap == 0.0
+            most = max(np.count_nonzero(earlier), np.count_nonzero(later))
+            jumped = bool(np.count_nonzero(earlier != later) > _JUMPED_SHARE * most)
+        # the problem whose Hessian tells whether the contact is stable under what is prescribed
+        control, operator, posed_force = note.posed.control, self.operator, note.posed.external_force
+        held: FixedMean | FixedOffset = FixedOffset(-contact.level)
+        if posed_force is not None:
+            held = FixedMean(posed_force / grid.area)
+        elif isinstance(control, FixedGrips) and math.isfinite(control.stiffness):
+            operator = MachineOperator(operator, control.stiffness)
+        problem = AdhesiveProblem(operator, note.base, self.law, held, contact.qp.cap)
         state = Adhered(pressure, exchange.x, contact.solution.state.deflection, gap, exchange.x, -contact.level)
-        margin = self.solver.margin(held, state)
-        return AdhesiveContact(
+        found = AdhesiveContact(
             law=self.law,
             attraction=exchange.x,
             attractive_force=float(exchange.x.sum()) * grid.pixel_area,
             external_force=force,
-            grips=note.posed.control.value if isinstance(note.posed.control, FixedGrips) else approach,
-            adhesive_area_fraction=float(np.mean(self._zone(pressure, gap))),
+            grips=control.value if isinstance(control, FixedGrips) else approach,
+            adhesive_area_fraction=float(np.mean(zone)),
             interface_energy=interface,
             elastic_energy=elastic,
-            margin=margin,
+            margin=self.solver.margin(problem, state),
             cohesive_length=cohesive_length(self.law, self.E_star),
             pixel=max(grid.pixels),
             dissipated=lost,
@@ -309,18 +330,10 @@ class AdhesionCoupling(Coupling):
             newton_steps=solution.newton_steps,
             fft_pairs=solution.fft_pairs,
             status=solution.status,
-            spot_radius=self._radius(pressure > 0.0),
-            zone_radius=self._radius((pressure > 0.0) | self._zone(pressure, gap), weighted=True),
+            spot_radius=self._radius(touching),
+            zone_radius=self._radius(touching | zone, weighted=True),
         )
-
-    def _lost(
-        self, before: _Before, force: float, approach: float, energy: float, gap: RealArray
-    ) -> tuple[float, float, bool]:
-        """Energy (J) lost since the step before with its error, and whether in a jump, which without range is more than points of the edge."""
-        lost, error, jumped = _lost(before, force, approach, energy, gap)
-        if self.conserves and not jumped:
-            return 0.0, abs(lost), jumped
-        return lost, error, jumped and not (math.isinf(self.law.strength) and _creeps(before, gap))
+        return found.memory(gap, approach), found
 
     def _radius(self, inside: BoolArray, *, weighted: bool = False) -> float:
         """Radius in m of the mean spot of the points ``inside``, of the mean ``weighted`` by area if asked for."""
@@ -333,15 +346,6 @@ class AdhesionCoupling(Coupling):
         if 1 in grid.shape:
             return 0.5 * area / grid.size[grid.shape.index(1)]
         return math.sqrt(area / math.pi)
-
-    def _zone(self, pressure: RealArray, gap: RealArray) -> BoolArray:
-        return (pressure <= 0.0) & (gap < self.law.spacing + self.law.range)
-
-    def _gap(self, exchange: Exchange, contact: Contact) -> RealArray:
-        """Gap (nx, ny) in m that the law sees; a touch without pressure gains nothing."""
-        touching = np.asarray(contact.pressure) > 0.0
-        opened = np.where(touching, 0.0, np.maximum(contact.gap, np.finfo(float).tiny))
-        return opened + self._core(exchange.note.solution.state)
 
     def end_in_time(self, exchange: Exchange, contact: Contact, ended: Ended, stored: float, heat: float) -> Ended:
         """Memory and outcome of a step of time. What is lost is neither stored nor heat of the bodies: a jump, or the error of the trapezium."""
@@ -362,44 +366,6 @@ class AdhesionCoupling(Coupling):
         return found.memory(contact.gap, approach), found
 
 
-def _same_load(mean: float | None, known: float | None) -> bool:
-    """Whether two mean pressures (Pa) are the same but for rounding; other couplings, such as menisci, add to the load."""
-    if mean is None or known is None:
-        return mean is known
-    return abs(mean - known) <= 1e-9 * max(abs(mean), abs(known))
-
-
-def _held(note: _Note, operator: Operator, law: Adhesion, contact: Contact) -> AdhesiveProblem:
-    """The problem whose Hessian tells whether ``contact`` is stable under what is prescribed."""
-    force = note.posed.external_force
-    if force is not None:
-        return AdhesiveProblem(operator, note.base, law, FixedMean(force / operator.grid.area), contact.qp.cap)
-    control: Control = note.posed.control
-    if isinstance(control, FixedGrips) and math.isfinite(control.stiffness):
-        operator = MachineOperator(operator, control.stiffness)
-    return AdhesiveProblem(operator, note.base, law, FixedOffset(-contact.level), contact.qp.cap)
-
-
-def _of_bodies(solution: AdhesiveSolution, operator: Operator, stiffness: float) -> AdhesiveSolution:
-    """``solution`` with the deflection of the machine counted as position."""
-    if math.isinf(stiffness):
-        return solution
-    state = solution.state
-    yielded = float(state.traction.sum()) * operator.grid.pixel_area / stiffness
-    bodies = replace(state, offset=state.offset + yielded, deflection=state.deflection - yielded)
-    return replace(solution, state=bodies)
-
-
-def _require_open(operator: Operator, profile: RealArray, offset: float) -> None:
-    if operator.zero_mean_mode and offset <= float(profile.mean()):
-        most = float(profile.max() - profile.mean())
-        raise NoSolutionError(
-            f"approach must be less than {most:.6g} m, where a periodic elastic contact is full and its mean gap zero, but is "
-            f"{float(profile.max()) - offset:.6g} m. Prescribe MeanPressure(...) to go beyond full contact.",
-            subject="approach",
-        )
-
-
 def _lost(before: _Before, force: float, approach: float, energy: float, gap: RealArray) -> tuple[float, float, bool]:
     """Energy (J) lost since the step before by the trapezoidal rule, its error, and whether in a jump: more than the rule misses on a smooth branch.
 
@@ -413,10 +379,3 @@ def _lost(before: _Before, force: float, approach: float, energy: float, gap: Re
     farthest = float(np.abs(gap - before.gap).max())
     spread = abs((force - before.force) * step)
     return lost, max(0.5 * spread, -lost), lost > _JUMP * spread and farthest > _FAR * abs(step)
-
-
-def _creeps(before: _Before, gap: RealArray) -> bool:
-    """Whether points at the edge alone have moved, each of which loses a little energy: less than a share of the contact."""
-    earlier, later = before.gap == 0.0, gap == 0.0
-    most = max(np.count_nonzero(earlier), np.count_nonzero(later))
-    return bool(np.count_nonzero(earlier != later) <= _JUMPED_SHARE * most)

@@ -425,7 +425,28 @@ class CustomAdhesion:
             )
         g = self._gaps
         s, phi, fall = self.attraction(g), self.energy(g), self.slope(g)
-        self._check_form(g, s)
+        if self.equilibrium > 0.0:
+            most, at = float(s.max()), int(np.argmax(s))
+            crossing = abs(float(self.attraction(np.array([self.equilibrium]))[0])) <= 1e-9 * most
+            if not (
+                np.isfinite(s).all()
+                and most > 0.0
+                and crossing
+                and (s[g < self.equilibrium * (1.0 - 1e-9)] < 0.0).all()
+                and (np.diff(s[: at + 1]) > 0.0).all()
+                and np.diff(s[at:]).max(initial=0.0) <= 1e-9 * most
+                and s[-1] >= 0.0
+            ):
+                raise InputError(
+                    "attraction of an adhesion law with a core must be finite, negative below the equilibrium gap "
+                    f"{self.equilibrium:g} m, zero there, and rise to one largest value from which it falls, but its values from {s.min():g} to "
+                    f"{s.max():g} Pa are not so. See LennardJonesAdhesion(...)."
+                )
+        elif not (np.isfinite(s).all() and s.min() >= 0.0 and np.diff(s).max() <= 1e-9 * s[0] and s[0] > 0.0):
+            raise InputError(
+                "attraction of an adhesion law must be finite, not negative and not rise with the gap, but its values from "
+                f"{s.min():g} to {s.max():g} Pa are not so. Give the equilibrium gap for a core that repels."
+            )
         for values, rate, what in ((phi, s, "energy"), (s, fall, "slope")):
             step = np.diff(g)
             miss = np.abs(np.diff(values) - 0.5 * step * (rate[1:] + rate[:-1]))
@@ -444,32 +465,6 @@ class CustomAdhesion:
     @property
     def _gaps(self) -> RealArray:
         return np.linspace(0.5 * self.equilibrium, self.far, 4001 if self.equilibrium == 0.0 else 40001)
-
-    def _check_form(self, g: RealArray, s: RealArray) -> None:
-        """Refuse an attraction ``s`` at the gaps ``g`` that is none."""
-        if self.equilibrium > 0.0:
-            most, at = float(s.max()), int(np.argmax(s))
-            crossing = abs(float(self.attraction(np.array([self.equilibrium]))[0])) <= 1e-9 * most
-            if not (
-                np.isfinite(s).all()
-                and most > 0.0
-                and crossing
-                and (s[g < self.equilibrium * (1.0 - 1e-9)] < 0.0).all()
-                and (np.diff(s[: at + 1]) > 0.0).all()
-                and np.diff(s[at:]).max(initial=0.0) <= 1e-9 * most
-                and s[-1] >= 0.0
-            ):
-                raise InputError(
-                    "attraction of an adhesion law with a core must be finite, negative below the equilibrium gap "
-                    f"{self.equilibrium:g} m, zero there, and rise to one largest value from which it falls, but its values from {s.min():g} to "
-                    f"{s.max():g} Pa are not so. See LennardJonesAdhesion(...)."
-                )
-            return
-        if not (np.isfinite(s).all() and s.min() >= 0.0 and np.diff(s).max() <= 1e-9 * s[0] and s[0] > 0.0):
-            raise InputError(
-                "attraction of an adhesion law must be finite, not negative and not rise with the gap, but its values from "
-                f"{s.min():g} to {s.max():g} Pa are not so. Give the equilibrium gap for a core that repels."
-            )
 
     @property
     def spacing(self) -> float:

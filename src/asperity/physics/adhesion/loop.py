@@ -196,38 +196,22 @@ class AdhesionLoop:
         return float(work) / self.area
 
 
-def loop_numbers(loop: AdhesionLoop) -> dict[str, float]:
-    """Values of ``LOOP_SCALARS`` of ``loop``."""
-    values = (
-        loop.pull_off_force,
-        loop.pull_off_approach,
-        loop.hysteresis,
-        loop.hysteresis_error,
-        loop.effective_work,
-    )
-    return dict(zip((item.name for item in LOOP_SCALARS), values, strict=True))
-
-
 def adhesion_loop(steps: Sequence[ContactResult]) -> AdhesionLoop:
     """Loop of the ``steps`` of a history of an adhesive contact, ``HistoryResult.steps``.
 
     InputError if a step has no adhesion.
     """
     found = [step.require_adhesion() for step in steps]
+    beside = [[answer.pulls() for answer in step.answers if answer.traction_beside() is None] for step in steps]
     return AdhesionLoop(
         approach=np.array([step.approach for step in steps]),
         force=np.array([step.external_force for step in steps]),
         energy=np.array([item.elastic_energy + item.interface_energy for item in found]),
         lost=np.array([item.dissipated for item in found]),
         error=np.array([item.dissipated_error for item in found]),
-        pulled=np.array([_pulled(step) for step in steps]),
+        pulled=np.array([float(sum(pulls)) for pulls in beside]),
         grips=np.array([item.grips for item in found]),
         jumped=np.array([item.jumped for item in found]),
         margin=np.array([item.margin for item in found]),
         area=steps[0].problem.grid.area,
     )
-
-
-def _pulled(result: ContactResult) -> float:
-    """Force (N) of what pulls beside the attraction."""
-    return float(sum(answer.pulls() for answer in result.answers if answer.traction_beside() is None))

@@ -83,7 +83,12 @@ class AdhesionSettings(Settings):
                 f'.pair (--adhesion-pair) must be two solids, such as "polystyrene/paraffin wax", but is {self.pair!r}.'
             )
         if self.pair is not None:
-            self._require_known()
+            try:
+                self.of_pair()
+            except InputError as error:
+                raise InputError(
+                    f".pair (--adhesion-pair) must be two solids that were measured together or whose energies are known, but is {self.pair!r}: {error}"
+                ) from None
         given = (self.range is not None) + (self.strength is not None)
         if given and self.law == WITHOUT_RANGE:
             raise InputError(
@@ -104,14 +109,6 @@ class AdhesionSettings(Settings):
         if self.retract is not None and self.steps < 2:
             raise InputError(f".steps (--retract-steps) must be at least 2, but is {self.steps}.")
         return self
-
-    def _require_known(self) -> None:
-        try:
-            self.of_pair()
-        except InputError as error:
-            raise InputError(
-                f".pair (--adhesion-pair) must be two solids that were measured together or whose energies are known, but is {self.pair!r}: {error}"
-            ) from None
 
     def of_pair(self) -> PairAdhesion:
         """Work of adhesion of the pair, with sources."""

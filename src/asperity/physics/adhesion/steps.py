@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -49,10 +50,6 @@ class _Way:
     at: Callable[[float], Control]
     force: bool = False
 
-    def control(self, share: float) -> Control:
-        """The control at this ``share`` of the way."""
-        return self.at(self.start + share * (self.end - self.start))
-
 
 def divides(problem: ContactProblem, state: InterfaceState | None) -> bool:
     """Whether steps from ``state`` may be divided: adhesion of a finite range, and no physics beside it but a hardness or gross sliding.
@@ -75,25 +72,12 @@ def in_ranges(problem: ContactProblem, control: Control, state: InterfaceState, 
     Its losses, jumps and work are those of all parts. Where a part has no solution or does not converge, the whole step is
     solved at once, so that errors name what was asked for.
     """
-    assert problem.adhesion is not None
-    before = state.memory["adhesion"]
-    way = _way_of(problem, control, before)
-    first = _part(way, problem.adhesion, before)
-    if first >= 1.0 and not way.force:
-        return solved(control, state)
-    try:
-        return _followed(problem.adhesion, way, control, state, solved)
-    except (NoSolutionError, _Failed):
-        return solved(control, state)
-
-
-class _Failed(Exception):
-    """A part of the smallest length did not converge."""
-
-
-def _followed(law: Adhesion, way: _Way, control: Control, state: InterfaceState, solved: Solved) -> ContactResult:
-    """The last of the parts, with what all of them lost."""
+    law = problem.adhesion
+    assert law is not None
+    way = _way_of(problem, control, state.memory["adhesion"])
     at, done, share = state, 0.0, _part(way, law, state.memory["adhesion"])
+    if share >= 1.0 and not way.force:
+        return solved(control, state)
     found: list[ContactResult] = []
     while done < 1.0:
         known = at.memory["adhesion"]
@@ -101,33 +85,37 @@ def _followed(law: Adhesion, way: _Way, control: Control, state: InterfaceState,
         least = _SHARES if way.force else _REFINED * longest
         share = min(share, 1.0 - done)
         last = done + share >= 1.0 - 1e-9
-        result = _tried(solved, control if last else way.control(done + share), at)
-        smooth = result is not None and _is_smooth(result, known)
-        followed = smooth or (way.force and result is not None and _is_short(law, result, known))
-        if not followed and share > least:
+        result: ContactResult | None = None
+        with suppress(NoSolutionError):
+            result = solved(control if last else way.at(way.start + (done + share) * (way.end - way.start)), at)
+        if result is not None and not result.converged:
+            result = None
+        smooth = short = False
+        if result is not None:
+            smooth = _is_smooth(result, known)
+            moved = abs(result.approach - float(known["approach"]))
+            short = way.force and moved <= _length(law, known) and not result.require_adhesion().jumped
+        if not (smooth or short) and share > least:
             share = max(0.5 * share, least)
             continue
-        if result is None:
-            raise _Failed
+        if result is None:  # a part of the smallest length did not converge
+            return solved(control, state)
         found.append(result)
         at, done = result.state, 1.0 if last else done + share
         grows = smooth and (way.force or result.require_adhesion().external_force > 0.0 < float(known["force"]))
         share = 2.0 * share if grows else min(2.0 * share, longest)
-    return _as_one(found, state)
-
-
-def _tried(solved: Solved, control: Control, state: InterfaceState) -> ContactResult | None:
-    try:
-        result = solved(control, state)
-    except NoSolutionError:
-        return None
-    return result if result.converged else None
-
-
-def _is_short(law: Adhesion, result: ContactResult, known: Mapping[str, RealArray]) -> bool:
-    """Whether a part moved the bodies by no more than the longest part, without a jump."""
-    short = abs(result.approach - float(known["approach"])) <= _length(law, known)
-    return short and not result.require_adhesion().jumped
+    if len(found) == 1:
+        return found[0]
+    # the last part with losses, jumps and work of all of them
+    final, parts = found[-1], [each.require_adhesion() for each in found]
+    whole = replace(
+        parts[-1].summed(parts[:-1]),
+        steps=sum(part.steps for part in parts),
+        newton_steps=sum(part.newton_steps for part in parts),
+        fft_pairs=sum(part.fft_pairs for part in parts),
+    )
+    plastic = final.total_plastic_work - state.plastic_work
+    return replace(final, plastic_work=plastic, couplings={**final.couplings, "adhesion": whole})
 
 
 def _is_smooth(result: ContactResult, known: Mapping[str, RealArray]) -> bool:
@@ -159,7 +147,9 @@ def _way_of(problem: ContactProblem, control: Control, known: Mapping[str, RealA
     if isinstance(control, Approach):
         return _Way(approach, control.value, FixedGrips)  # which may be apart
     if isinstance(control, MeanGap):
-        return _Way(_mean_gap(problem, known), control.value, MeanGap)
+        law, gap = problem.adhesion, known["gap"]
+        core = np.minimum(gap, law.peak) if isinstance(law, SoftAdhesion) and law.spacing > 0.0 else 0.0
+        return _Way(float((gap - core).mean()), control.value, MeanGap)
     if isinstance(control, Pull):
         return _Way(force, -control.value, _loaded, force=True)
     end = 0.0 if isinstance(control, Unloaded) else mean_pressure(control, problem.grid) * problem.grid.area
@@ -171,27 +161,3 @@ def _loaded(force: float) -> Control:
     if force == 0.0:
         return Unloaded()
     return Force(force) if force > 0.0 else Pull(-force)
-
-
-def _mean_gap(problem: ContactProblem, known: Mapping[str, RealArray]) -> float:
-    law, gap = problem.adhesion, known["gap"]
-    core = np.minimum(gap, law.peak) if isinstance(law, SoftAdhesion) and law.spacing > 0.0 else 0.0
-    return float((gap - core).mean())
-
-
-def _as_one(found: list[ContactResult], before: InterfaceState) -> ContactResult:
-    """The last of the results ``found`` with losses, jumps and work of all of them."""
-    last, parts = found[-1], [result.require_adhesion() for result in found]
-    if len(found) == 1:
-        return last
-    whole = replace(
-        parts[-1],
-        dissipated=sum(part.dissipated for part in parts),
-        dissipated_error=sum(part.dissipated_error for part in parts),
-        jumped=any(part.jumped for part in parts),
-        steps=sum(part.steps for part in parts),
-        newton_steps=sum(part.newton_steps for part in parts),
-        fft_pairs=sum(part.fft_pairs for part in parts),
-    )
-    plastic = last.total_plastic_work - before.plastic_work
-    return replace(last, plastic_work=plastic, couplings={**last.couplings, "adhesion": whole})

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -19,19 +18,13 @@ from ...parts.part import Found, Rows, Solved, Table, Words, Work
 from ...plots.picture import Figure, figures_by
 from ...theories.adhesion.fuller_tabor import FullerTabor
 from .answer import PINNED, RESOLVED_RADIUS, method_of
+from .bound import energy_bound
 from .branch import Jump, adhesive_jumps
-from .figures import ADHESION_LOOP, ADHESION_PLOTS
-from .loop import LOOP_SCALARS, AdhesionLoop, adhesion_cycle, adhesion_loop, adhesion_numbers, loop_numbers
+from .figures import ADHESION_LOOP, ADHESION_PLOTS, BRANCH_PLOT
+from .loop import LOOP_SCALARS, AdhesionLoop, adhesion_cycle, adhesion_loop, adhesion_numbers
 from .part import SOURCES, STICKINESS, Asked, Looped
 from .stickiness import stickiness
-from .work_branch import (
-    branch_figures,
-    branch_of,
-    branch_rows,
-    branch_values,
-    energy_values,
-    jumps_table,
-)
+from .work_branch import branch_values, jumps_table
 
 
 class AdhesionWork(Work):
@@ -52,7 +45,19 @@ class AdhesionWork(Work):
         """Scalars of the contact, of the loop, and the criteria."""
         found = solved.result.require_adhesion()
         loop = None if solved.path is None else adhesion_loop(solved.path.steps)
-        values: dict[str, Any] = adhesion_numbers(solved.result) | _criteria(solved.problem)
+        problem, law = solved.problem, found.law
+        values: dict[str, Any] = adhesion_numbers(solved.result)
+        try:
+            sticky = stickiness(problem)
+            criteria = [sticky.share_of_limit, sticky.effective_work]
+        except InputError:
+            criteria = [math.nan, law.work]  # flat
+        try:
+            roughness = roughness_of(problem.surface.with_heights(problem.profile(), "composite"))
+            criteria.append(FullerTabor.from_roughness(roughness, problem.contact_modulus, work=law.work).theta)
+        except InputError:
+            criteria.append(math.nan)  # no summits of different heights
+        values |= dict(zip((item.name for item in STICKINESS), criteria, strict=True))
         table = getattr(ask, "settings", None)
         jumps: tuple[Jump, ...] = ()
         if loop is not None and solved.path is not None and table is not None and table.jump_tolerance is not None:
@@ -60,16 +65,22 @@ class AdhesionWork(Work):
             loop = loop.closed_in(jumps)
         values |= dict.fromkeys((item.name for item in LOOP_SCALARS), math.nan)
         if loop is not None:
-            values |= loop_numbers(loop)
-        values |= energy_values(solved)
+            values["pull_off_force"], values["pull_off_approach"] = loop.pull_off_force, loop.pull_off_approach
+            values["hysteresis"], values["hysteresis_error"] = loop.hysteresis, loop.hysteresis_error
+            values["effective_work_of_adhesion"] = loop.effective_work
+        values["adhesive_energy"] = found.elastic_energy + found.interface_energy
+        try:
+            values["adhesive_energy_bound"] = energy_bound(solved.result).lower
+        except InputError:
+            values["adhesive_energy_bound"] = math.nan  # a hardness, film, friction or core
         keys, findings = (*found.citation_keys, "PastewkaRobbins2014", "PerssonTosatti2001"), _findings(solved)
         if table is not None and table.pair is not None:
             values |= {SOURCES.name: np.array(table.of_pair().sources)}
         if loop is None or table is None:
             return Found(values, loop, findings, keys)
         if table.branch:
-            branch, stopped = branch_of(solved, -float(table.retract))
-            values, findings, keys = values | branch_values(branch), (*findings, *stopped), (*keys, "Feng2000")
+            of_branch, stopped = branch_values(solved, -float(table.retract))
+            values, findings, keys = values | of_branch, (*findings, *stopped), (*keys, "Feng2000")
         return Found(values, Looped(loop, jumps), findings, keys)
 
     def citations(self, ask: Asked, problem: ContactProblem) -> tuple[str, ...]:
@@ -80,28 +91,59 @@ class AdhesionWork(Work):
         """Loop of force and approach; zone and tractions, of a loop those at the pull-off."""
         if solved.path is None:
             return figures_by(ADHESION_PLOTS, solved.result)
-        branch = branch_figures(found.values)
+        branch = figures_by((BRANCH_PLOT,), found.values) if "branch_approach" in found.values else ()
         at = solved.path.steps[adhesion_loop(solved.path.steps).pull_off]
         return (*figures_by((ADHESION_LOOP,), solved.path), *branch, *figures_by(ADHESION_PLOTS, at))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Law, attraction, resolution, stability; pull-off and hysteresis of a path."""
-        return adhesion_words(solved, found)
+        contact = solved.result.require_adhesion()
+        values, rows = found.values, law_rows(solved.result)
 
+        rows.append(("energy", show(float(values["adhesive_energy"]), "J")))
+        bound = float(values["adhesive_energy_bound"])
+        if math.isfinite(bound):
+            rows.append(("no contact at this approach has less energy than", show(bound, "J")))
+        if "folds" in values:
+            rows.append(("folds of the branch", f"{float(values['folds']):.0f}"))
+            at, force = float(values["fold_approach"]), show(float(values["fold_force"]), "N")
+            if math.isfinite(at):
+                rows.append(("first fold, where rigid grips jump", f"{show(at, 'm')} under {force}"))
 
-def _criteria(problem: ContactProblem) -> dict[str, float]:
-    law, surface = problem.adhesion, problem.surface.with_heights(problem.profile(), "composite")
-    assert law is not None
-    try:
-        sticky = stickiness(problem)
-        numbers = [sticky.share_of_limit, sticky.effective_work]
-    except InputError:
-        numbers = [math.nan, law.work]  # flat
-    try:
-        theta = FullerTabor.from_roughness(roughness_of(surface), problem.contact_modulus, work=law.work).theta
-    except InputError:
-        theta = math.nan  # no summits of different heights
-    return dict(zip((item.name for item in STICKINESS), (*numbers, theta), strict=True))
+        number, left, theta = (values[item.name] for item in STICKINESS)
+        if math.isfinite(number):
+            sticky = f"{number:.3g} ({'sticky' if number < 1.0 else 'not sticky'})"
+            gains = "full contact gains energy" if left > 0.0 else "full contact costs energy"
+            rows.append(("Pastewka and Robbins' number / limit", sticky))
+            rows.append(("Persson and Tosatti's work of adhesion", f"{show(left, 'J/m**2', 3)} ({gains})"))
+        if math.isfinite(theta):
+            rows.append(("Fuller and Tabor's parameter", f"{theta:.3g}"))
+        if SOURCES.name in values:
+            rows.append(("work of adhesion from", "; ".join(map(str, values[SOURCES.name]))))
+
+        if found.detail is None:
+            branch = "at a minimum of the energy" if contact.stable else "NOT at a minimum of the energy"
+            what = "edge of the contact" if contact.short_range else "attracting zone"
+            resolved = "" if contact.resolved else f" The {what} is NOT resolved by the grid."
+            sentence = (
+                f"The surfaces attract each other with {show(contact.attractive_force, 'N')} against an external force of "
+                f"{show(contact.external_force, 'N')}, {branch}.{resolved}"
+            )
+            return Words(sentence, rows=rows, remarks=(REMARK,))
+        looped = found.detail if isinstance(found.detail, Looped) else Looped(found.detail)
+        loop = looped.loop
+        headline = [("pull-off force", show(loop.pull_off_force, "N"))]
+        tables = (("Jumps", jump_table(loop)),) if loop.jumped.any() else ()
+        if looped.jumps:
+            tables = (*tables, ("Where jumps begin", jumps_table(looped.jumps)))
+        jumps = int(loop.jumped.sum())
+        error = f" (to {show(loop.hysteresis_error, 'J', 2)})" if loop.hysteresis_error > 0.0 else ""
+        lost = f"{show(loop.hysteresis, 'J')}{error} were lost, with {jumps} jump{'' if jumps == 1 else 's'}"
+        sentence = (
+            f"The largest tensile force was {show(loop.pull_off_force, 'N')} at an approach of {show(loop.pull_off_approach, 'm')}; "
+            f"{lost}."
+        )
+        return Words(sentence, headline, rows, tables, (REMARK,))
 
 
 def _findings(solved: Solved) -> tuple[Advice, ...]:
@@ -147,45 +189,6 @@ REMARK = (
 """What the numbers mean."""
 
 
-def adhesion_words(solved: Solved, found: Found) -> Words:
-    """Sentence, settings and tables."""
-    rows = law_rows(solved.result) + branch_rows(found.values) + criteria_rows(found.values)
-    if SOURCES.name in found.values:
-        rows.append(("work of adhesion from", "; ".join(map(str, found.values[SOURCES.name]))))
-    if found.detail is None:
-        return Words(adhesion_sentence(solved.result), rows=rows, remarks=(REMARK,))
-    looped = found.detail if isinstance(found.detail, Looped) else Looped(found.detail)
-    loop = looped.loop
-    headline = [("pull-off force", show(loop.pull_off_force, "N"))]
-    tables = (("Jumps", jump_table(loop)),) if loop.jumped.any() else ()
-    if looped.jumps:
-        tables = (*tables, ("Where jumps begin", jumps_table(looped.jumps)))
-    return Words(loop_sentence(loop), headline, rows, tables, (REMARK,))
-
-
-def adhesion_sentence(result: ContactResult) -> str:
-    """One sentence on the attraction."""
-    found = result.require_adhesion()
-    branch = "at a minimum of the energy" if found.stable else "NOT at a minimum of the energy"
-    what = "edge of the contact" if found.short_range else "attracting zone"
-    resolved = "" if found.resolved else f" The {what} is NOT resolved by the grid."
-    return (
-        f"The surfaces attract each other with {show(found.attractive_force, 'N')} against an external force of "
-        f"{show(found.external_force, 'N')}, {branch}.{resolved}"
-    )
-
-
-def loop_sentence(loop: AdhesionLoop) -> str:
-    """One sentence on pull-off and hysteresis."""
-    jumps = int(loop.jumped.sum())
-    error = f" (to {show(loop.hysteresis_error, 'J', 2)})" if loop.hysteresis_error > 0.0 else ""
-    lost = f"{show(loop.hysteresis, 'J')}{error} were lost, with {jumps} jump{'' if jumps == 1 else 's'}"
-    return (
-        f"The largest tensile force was {show(loop.pull_off_force, 'N')} at an approach of {show(loop.pull_off_approach, 'm')}; "
-        f"{lost}."
-    )
-
-
 def law_rows(result: ContactResult) -> Rows:
     """Law, resolution and branch."""
     found = result.require_adhesion()
@@ -215,21 +218,6 @@ def law_rows(result: ContactResult) -> Rows:
         ("pixel that resolves it", needed or "none"),
         ("residual of the attraction", f"{found.residual:.1e}"),
     ]
-
-
-def criteria_rows(values: Mapping[str, Any]) -> Rows:
-    """Criteria of stickiness beside the contact."""
-    rows = []
-    number, left, theta = (values[item.name] for item in STICKINESS)
-    if math.isfinite(number):
-        rows.append(
-            ("Pastewka and Robbins' number / limit", f"{number:.3g} ({'sticky' if number < 1.0 else 'not sticky'})")
-        )
-        verdict = "full contact gains energy" if left > 0.0 else "full contact costs energy"
-        rows.append(("Persson and Tosatti's work of adhesion", f"{show(left, 'J/m**2', 3)} ({verdict})"))
-    if math.isfinite(theta):
-        rows.append(("Fuller and Tabor's parameter", f"{theta:.3g}"))
-    return rows
 
 
 def jump_table(loop: AdhesionLoop) -> Table:

@@ -20,7 +20,7 @@ from ...core.engine.vectors import VectorConvolution
 from ...core.grid import Grid
 from ...core.spectral import PaddedTransform, RealTransform, fast_length, wrapped
 from ...solids.compliance.tensor import BodiesSurface, SurfaceCompliance
-from ...solids.layers import Body, Layered
+from ...solids.layers import Body
 
 NO_COUPLING = 1e-11
 """Coupling over compliance that is rounding: equal bodies, or an incompressible one on a rigid one."""
@@ -213,8 +213,3 @@ class TangentialOperator:
         return TangentialOperator(
             grid, self.compliance, self.boundary, engine=self.engine, entries=entries, octaves=self.octaves
         )
-
-
-def slips_inside(bodies: tuple[Body, Body]) -> bool:
-    """Whether an interface inside one of ``bodies`` carries no shear, so that a mean traction would move it without end."""
-    return any(isinstance(body, Layered) and body.reduced.slips for body in bodies)

@@ -54,7 +54,20 @@ class ShearStep(Settings):
     @model_validator(mode="before")
     @classmethod
     def _from_line(cls, value: Any) -> Any:
-        return step_from_text(value) if isinstance(value, str) else value
+        """Table of the step in text such as ``"50 MPa, 5 nm"`` or ``"1 mN, 5 nm, 2 nm"``: load or approach, then shift or force.
+
+        The message lacks the name of the option or key at its beginning.
+        """
+        if not isinstance(value, str):
+            return value
+        first, *rest = (part.strip() for part in value.split(","))
+        normal = _key_of(first, {"mean_pressure": "pressure", "load": "force", "approach": "length"})
+        along = _key_of(rest[0], {"shift": "length", "force": "force", "twist": "angle"}) if rest else None
+        if normal is None or (rest and along is None) or len(rest) > 2:
+            raise InputError(
+                f' must be a load and a shift or force, such as "50MPa,5nm" or "1mN,5nm,0nm", but is {value!r}.'
+            )
+        return {normal: first, **({} if along is None else {along: rest[0] if along == "twist" else rest})}
 
     @model_validator(mode="after")
     def _at_most_one(self) -> ShearStep:
@@ -82,24 +95,6 @@ class ShearStep(Settings):
             if value is not None:
                 return _control(key, value if isinstance(value, tuple) else (value,), direction)
         return None
-
-
-def step_from_text(text: str) -> dict[str, Any]:
-    """Table of the step in text such as ``"50 MPa, 5 nm"`` or ``"1 mN, 5 nm, 2 nm"``: load or approach, then shift or force.
-
-    Raises
-    ------
-    InputError
-        If it is not understood; the message lacks the name of the option or key at its beginning.
-    """
-    first, *rest = (part.strip() for part in text.split(","))
-    normal = _key_of(first, {"mean_pressure": "pressure", "load": "force", "approach": "length"})
-    along = _key_of(rest[0], {"shift": "length", "force": "force", "twist": "angle"}) if rest else None
-    if normal is None or (rest and along is None) or len(rest) > 2:
-        raise InputError(
-            f' must be a load and a shift or force, such as "50MPa,5nm" or "1mN,5nm,0nm", but is {text!r}.'
-        )
-    return {normal: first, **({} if along is None else {along: rest[0] if along == "twist" else rest})}
 
 
 def _key_of(text: str, kinds: dict[str, str]) -> str | None:
@@ -200,8 +195,8 @@ class StickSlip(Part):
     name = "stick_slip"
     title = "Stick and slip"
     table = "shear"
-    settings = ShearSettings
     implied = staticmethod(sticks)
+    settings = ShearSettings
     whole_path = True
     of_result = "stick_slip"
     work = "physics.friction.work_stick_slip:StickSlipWork"

@@ -86,49 +86,34 @@ class Rubbing(Physics):
     def works(self, steps: Sequence[ContactResult]) -> Mapping[str, RealArray]:
         """Work of the displacement by the shear of gross sliding; of surfaces that stick and slip that of the tangential force, what slip
         dissipates, and what the length of implicit steps takes."""
-        along = _tangential_works(steps)
-        return {
-            "shear_work": _shear_works(steps),
-            "tangential_work": along[0],
-            "slip_work": along[1],
-            "step_work": along[2],
-        }
-
-
-def _shear_works(steps: Sequence[ContactResult]) -> RealArray:
-    """Σ p du (J) of the displacement by the shear of gross sliding in every step, by the mean of the pressures before and after."""
-    pixel, works = steps[0].problem.grid.pixel_area, []
-    none = np.zeros(steps[0].pressure.shape)
-    pressure: RealArray = none
-    lift: RealArray = none
-    for result in steps:
-        if result.creep is not None:  # through its steps of time
-            works.append(result.creep.shear_work)
-            continue
-        now = none if result.sliding is None else result.sliding.shear_displacement
-        works.append(0.5 * float(((result.pressure + pressure) * (now - lift)).sum()) * pixel)
-        pressure, lift = result.pressure, now
-    return np.array(works)
-
-
-def _tangential_works(steps: Sequence[ContactResult]) -> RealArray:
-    """(3, steps): Q·Δδ, energy dissipated by slip and ½ Σ Δq·Δu (J) of every step; zero without stick and slip."""
-    pixel, works = steps[0].problem.grid.pixel_area, np.zeros((3, len(steps)))
-    before = None
-    for number, result in enumerate(steps):
-        now = result.stick_slip
-        if now is None:
-            continue
-        moved = np.array([now.shift_x, now.shift_y, now.twist])
-        traction, displacement = now.traction, now.tangential_displacement
-        if before is not None:
-            moved = moved - [before.shift_x, before.shift_y, before.twist]
-            traction, displacement = traction - before.traction, displacement - before.tangential_displacement
-        works[1, number], creep = now.dissipated, result.creep
-        if creep is None:
-            works[0, number] = now.work_by(moved, displacement, pixel)
-            works[2, number] = 0.5 * float(np.einsum("kij,kij->", traction, displacement)) * pixel
-        else:
-            works[0, number], works[2, number] = creep.tangential_work, creep.step_work
-        before = now
-    return works
+        pixel = steps[0].problem.grid.pixel_area
+        none: RealArray = np.zeros(steps[0].pressure.shape)
+        pressure, lift, before = none, none, None
+        names = ("shear_work", "tangential_work", "slip_work", "step_work")
+        works: dict[str, RealArray] = {name: np.zeros(len(steps)) for name in names}
+        for number, result in enumerate(steps):
+            creep, now = result.creep, result.stick_slip
+            if creep is not None:  # through its steps of time
+                works["shear_work"][number] = creep.shear_work
+            else:
+                # Σ p du by the mean of the pressures before and after
+                lifted = none if result.sliding is None else result.sliding.shear_displacement
+                mean = 0.5 * float(((result.pressure + pressure) * (lifted - lift)).sum())
+                works["shear_work"][number] = mean * pixel
+                pressure, lift = result.pressure, lifted
+            if now is None:
+                continue
+            # Q·Δδ, energy dissipated by slip and ½ Σ Δq·Δu
+            moved = np.array([now.shift_x, now.shift_y, now.twist])
+            traction, displacement = now.traction, now.tangential_displacement
+            if before is not None:
+                moved = moved - [before.shift_x, before.shift_y, before.twist]
+                traction, displacement = traction - before.traction, displacement - before.tangential_displacement
+            works["slip_work"][number] = now.dissipated
+            if creep is None:
+                works["tangential_work"][number] = now.work_by(moved, displacement, pixel)
+                works["step_work"][number] = 0.5 * float(np.einsum("kij,kij->", traction, displacement)) * pixel
+            else:
+                works["tangential_work"][number], works["step_work"][number] = creep.tangential_work, creep.step_work
+            before = now
+        return works

@@ -24,14 +24,14 @@ from ...contact.tangential import Shift, Tangential, TangentialForce, resultant,
 from ...core.arrays import BoolArray, RealArray
 from ...core.engine import CpuEngine
 from ...core.errors import InputError, NoSolutionError
-from ...core.grid import Grid
 from ...core.status import Outcome, Status
+from ...solids.layers import Layered
 from .answer import GROSS, StickSlip, slides_freely
 from .law import Coulomb, FrictionLaw, FullStick, TrescaFriction
-from .operator import TangentialOperator, slips_inside
-from .solver.joint import JointProblem, solve_jointly
+from .operator import TangentialOperator
+from .solver.joint import JointIterate, JointProblem
 from .solver.newton import StickSlipNewton
-from .solver.problem import Deviation, TangentialQP, TangentialSolution, TangentialSolver, at_bound
+from .solver.problem import Deviation, TangentialQP, TangentialSolution, TangentialSolver, size_of
 
 TOLERANCE = 1e-5
 """Relative change of the displacement by shear that does not count. On a rough surface (512², ν = 0.3, rigid counter body, Q up to half
@@ -129,6 +129,9 @@ SERVES = 20.0
 of spheres on bodies of Poisson's ratio 0 to 0.2 in twelve steps full stick failed in 46; there 20
 and 50 settled in all, 100 in 41."""
 
+_JUMPING = (TrescaFriction, FullStick)
+"""Laws by which a point bears shear as soon as it touches."""
+
 
 @dataclass(frozen=True, eq=False)
 class StickSlipCoupling(Coupling):
@@ -150,14 +153,9 @@ class StickSlipCoupling(Coupling):
         """What to do if it does not settle."""
         if isinstance(self.law, FullStick):
             return f"Take Coulomb({SERVES:g}), which slips next to the edge alone, or a finer grid."
-        if self._jumps:
+        if isinstance(self.law, _JUMPING):
             return "Take Coulomb(mu, limit=strength) with a large mu, whose bound begins at zero, or a finer grid."
         return "Take smaller steps, tighten the solver's tolerance, or lower the friction coefficient."
-
-    @property
-    def _jumps(self) -> bool:
-        """Whether a point bears shear as soon as it touches."""
-        return isinstance(self.law, TrescaFriction | FullStick)
 
     @classmethod
     def prepared(cls, problem: ContactProblem, tolerance: float, threads: int | None) -> Self:
@@ -167,7 +165,8 @@ class StickSlipCoupling(Coupling):
         """
         law, bodies = problem.friction, (problem.body, problem.counter_body)
         assert law is not None
-        if slips_inside(bodies):
+        # a mean traction would move it without end
+        if any(isinstance(body, Layered) and body.reduced.slips for body in bodies):
             raise InputError(
                 "layers of a body with stick and slip must be bonded, but one is Frictionless(): nothing would hold it. Use Bonded()."
             )
@@ -183,7 +182,30 @@ class StickSlipCoupling(Coupling):
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """What is remembered, with the displacement by the shear traction under the pressure to start from."""
-        note = _Note(self._before(posed, memory))
+        zero = np.zeros((2, *posed.profile.shape))
+        shift, control, traction, slip, dissipated = np.zeros(3), posed.tangential or Shift(), zero, zero, 0.0
+        if memory:
+            traction = np.stack([memory["traction_x"], memory["traction_y"]])
+            slip = np.stack([memory["slip_x"], memory["slip_y"]])
+            shift, force = np.asarray(memory["shift"], dtype=float), np.asarray(memory["force"], dtype=float)
+            kept = Shift(*shift) if np.isnan(force).any() else TangentialForce(*force)
+            control, dissipated = posed.tangential or kept, float(memory["dissipated"])
+        if isinstance(control, Shift) and np.isnan(shift).any():
+            raise NoSolutionError(
+                "shift must follow a step whose shift is known, but the tangential force of the step before was all that friction bears: how far "
+                "the body slid is not determined. Prescribe a Shift(...) in that step, or a smaller TangentialForce(...).",
+                subject="shift",
+            )
+        if isinstance(control, Shift) and control.twist and any(posed.operator.boundary.wraps):
+            raise InputError(
+                f"twist must be zero where the contact repeats, but is {control.twist:g} rad. Use the boundary Free()."
+            )
+        displacement = zero if self.held is None else self.held.start
+        if memory and self.held is None:
+            displacement = self.operator.displacement(traction)
+            if posed.start is not None:
+                displacement = displacement + self.operator.drawn(posed.start)
+        note = _Note(_Before(traction, displacement, slip, shift, dissipated, control))
         if not self.feedback:
             x = np.zeros(posed.profile.shape)
             return Exchange(x, x, 0.0, self.tolerance, note=note)
@@ -195,49 +217,9 @@ class StickSlipCoupling(Coupling):
         found = self.operator.lift(traction)
         return found if self.held is None else found + self.held.lift
 
-    def _before(self, posed: Posed, memory: Memory) -> _Before:
-        zero = np.zeros((2, *posed.profile.shape))
-        if not memory:
-            control = posed.tangential or Shift()
-            self._check(control, posed, np.zeros(3))
-            start = zero if self.held is None else self.held.start
-            return _Before(zero, start, zero, np.zeros(3), 0.0, control)
-        traction = np.stack([memory["traction_x"], memory["traction_y"]])
-        slip = np.stack([memory["slip_x"], memory["slip_y"]])
-        displacement = self._displacement_before(traction, posed.start)
-        shift, force = np.asarray(memory["shift"], dtype=float), np.asarray(memory["force"], dtype=float)
-        kept = Shift(*shift) if np.isnan(force).any() else TangentialForce(*force)
-        control = posed.tangential or kept
-        self._check(control, posed, shift)
-        return _Before(traction, displacement, slip, shift, float(memory["dissipated"]), control)
-
-    def _displacement_before(self, traction: RealArray, pressure: RealArray | None) -> RealArray:
-        """Displacement (2, nx, ny) along the surface before the step, in m."""
-        if self.held is not None:
-            return self.held.start
-        found = self.operator.displacement(traction)
-        return found if pressure is None else found + self.operator.drawn(pressure)
-
-    def _displaced(self, traction: RealArray, pressure: RealArray) -> RealArray:
-        """Displacement (2, nx, ny) in m along the surface at the end of the step."""
-        found = self.operator.displacement(traction) + self.operator.drawn(pressure)
-        return found if self.held is None else found + self.held.displacement
-
     def _free(self, before: _Before) -> RealArray:
         """Displacement (2, nx, ny) in m before the step less what the past leaves at its end."""
         return before.displacement if self.held is None else before.displacement - self.held.displacement
-
-    def _check(self, control: Tangential, posed: Posed, before: RealArray) -> None:
-        if isinstance(control, Shift) and np.isnan(before).any():
-            raise NoSolutionError(
-                "shift must follow a step whose shift is known, but the tangential force of the step before was all that friction bears: how far "
-                "the body slid is not determined. Prescribe a Shift(...) in that step, or a smaller TangentialForce(...).",
-                subject="shift",
-            )
-        if isinstance(control, Shift) and control.twist and any(posed.operator.boundary.wraps):
-            raise InputError(
-                f"twist must be zero where the contact repeats, but is {control.twist:g} rad. Use the boundary Free()."
-            )
 
     def share(self, exchange: Exchange) -> Share:
         """The displacement as a lift."""
@@ -289,7 +271,7 @@ class StickSlipCoupling(Coupling):
     def _together(self, exchange: Exchange, posed: JointProblem, contact: Contact, traction: RealArray) -> Exchange:
         """Pressure and traction solved for together from those of ``contact`` and ``traction``."""
         errors = {"shear_error": self.solver.tolerance, "normal_error": _NORMAL * self.solver.tolerance}
-        found = solve_jointly(posed, _double(contact.pressure), traction, **errors)
+        found = JointIterate(posed, _double(contact.pressure), traction).solved(**errors)
         target = self._lift(found.traction)
         size = float(np.linalg.norm(target))
         change = float(np.linalg.norm(target - exchange.x))
@@ -312,7 +294,10 @@ class StickSlipCoupling(Coupling):
         target = self._free(before) - self.operator.drawn(pressure)
         start = before.traction
         if note.traction is not None and note.slipping is not None:
-            start = at_bound(note.traction, note.slipping, bound)
+            # what slipped goes to its bound of now
+            start, slipping = note.traction.copy(), note.slipping
+            turned = start[:, slipping]
+            start[:, slipping] = turned * (bound[slipping] / size_of(turned))
         warm, mean = start if start.any() else None, None
         if isinstance(before.control, Shift):
             target += shift_field(grid, _vector(before.control) - before.shift)
@@ -350,7 +335,7 @@ class StickSlipCoupling(Coupling):
         text = f"The normal displacement by the shear of stick and slip still changes by {exchange.residual:.1e}"
         turns = exchange.note.turns
         restless = 0 if turns is None else int(np.count_nonzero(turns >= _RESTLESS))
-        if not self._jumps or not restless:
+        if not isinstance(self.law, _JUMPING) or not restless:
             return text
         which = "1 point, which opens and closes" if restless == 1 else f"{restless} points, which open and close"
         why = "it bears its whole shear strength as soon as it touches, and that shear opens it: between the two this law has no solution"
@@ -365,27 +350,24 @@ class StickSlipCoupling(Coupling):
         before, grid = note.before, self.operator.grid
         bound = self.law.bound(_double(contact.pressure))
         limit = float(bound.sum()) * grid.pixel_area
-        self._require_borne(before.control, limit, contact)
+        control = before.control
+        if isinstance(control, TangentialForce) and not control.magnitude <= limit * (2.0 - GROSS):
+            if limit == 0.0:
+                why = "friction is zero" if contact.pressure.any() else "the surfaces do not touch"
+                raise NoSolutionError(
+                    f"tangential force must be zero where {why}, but is {control.magnitude:.6g} N: nothing bears it. Prescribe a Shift(...) instead.",
+                    subject="tangential force",
+                )
+            raise NoSolutionError(
+                f"tangential force must be at most {limit:.6g} N, which friction bears under this load, but is "
+                f"{control.magnitude:.6g} N: the body slides without end. Prescribe a Shift(...) instead.",
+                subject="tangential force",
+            )
         known = note.solution is not None and note.solved_for is contact.pressure
         if not known or note.solution.deviation.error > self.solver.tolerance:  # type: ignore[union-attr]
             note = self._solved(note, _double(contact.pressure), self.solver)
         found = self._outcome(replace(exchange, note=note), contact, limit)
         return found.memory, found
-
-    def _require_borne(self, control: Tangential, limit: float, contact: Contact) -> None:
-        if not isinstance(control, TangentialForce) or control.magnitude <= limit * (2.0 - GROSS):
-            return
-        if limit == 0.0:
-            why = "friction is zero" if contact.pressure.any() else "the surfaces do not touch"
-            raise NoSolutionError(
-                f"tangential force must be zero where {why}, but is {control.magnitude:.6g} N: nothing bears it. Prescribe a Shift(...) instead.",
-                subject="tangential force",
-            )
-        raise NoSolutionError(
-            f"tangential force must be at most {limit:.6g} N, which friction bears under this load, but is "
-            f"{control.magnitude:.6g} N: the body slides without end. Prescribe a Shift(...) instead.",
-            subject="tangential force",
-        )
 
     def _slip(self, solution: TangentialSolution, before: _Before, pressure: RealArray) -> RealArray:
         """Slip of the step (2, nx, ny) in m, also of the points that touch and bear no shear."""
@@ -404,15 +386,23 @@ class StickSlipCoupling(Coupling):
         note: _Note = exchange.note
         before, grid, pressure, solution = note.before, self.operator.grid, _double(contact.pressure), note.solution
         assert solution is not None
-        control, traction = before.control, solution.traction
+        control, traction, bound = before.control, solution.traction, self.law.bound(pressure)
         step = _vector(control) - before.shift if isinstance(control, Shift) else np.append(solution.shift, 0.0)
         moved = _vector(control) if isinstance(control, Shift) else before.shift + step
         if slides_freely(control, limit) and pressure.any():
             moved = np.array([np.nan, np.nan, moved[2]])
-        slip, displacement = self._slip(solution, before, pressure), self._displaced(traction, pressure)
+        slip = self._slip(solution, before, pressure)
+        displacement = self.operator.displacement(traction) + self.operator.drawn(pressure)
+        if self.held is not None:
+            displacement = displacement + self.held.displacement
         density = np.einsum("kij,kij->ij", traction, slip)
         dissipated = float(density.sum()) * grid.pixel_area
         force_x, force_y, torque = resultant(grid, traction)
+        # De Saxcé's residual of gap and slip together, see ``StickSlip``
+        work = np.where(np.isfinite(bound), bound, 0.0) * np.hypot(*solution.slip)
+        work_of_slip = np.einsum("kij,kij->", traction, solution.slip)
+        residual = abs(float((pressure * contact.gap + work).sum() - work_of_slip))
+        scale = max(float(pressure.sum()) * float(np.hypot(*step[:2])), float(work.sum()))
         return StickSlip(
             law=self.law,
             tangential=control,
@@ -433,7 +423,7 @@ class StickSlipCoupling(Coupling):
             total_dissipated=before.total + dissipated,
             tangential_energy=0.5 * float(np.einsum("kij,kij->", traction, displacement)) * grid.pixel_area,
             duality_gap=solution.deviation.gap,
-            complementarity=_complementarity(contact, self.law.bound(pressure), solution, step, grid),
+            complementarity=residual / scale if scale > 0.0 else 0.0,
             iterations=note.steps,
             fft_pairs=note.pairs,
             status=solution.status,
@@ -454,16 +444,3 @@ def _double(pressure: RealArray) -> RealArray:
 
 def _vector(shift: Shift) -> RealArray:
     return np.array([shift.x, shift.y, shift.twist])
-
-
-def _complementarity(
-    contact: Contact, bound: RealArray, solution: TangentialSolution, moved: RealArray, grid: Grid
-) -> float:
-    """De Saxcé's residual of gap and slip together, see ``StickSlip``."""
-    pressure = _double(contact.pressure)
-    size = np.hypot(*solution.slip)
-    finite = np.isfinite(bound)
-    work = np.where(finite, bound, 0.0) * size
-    residual = float((pressure * contact.gap + work).sum() - np.einsum("kij,kij->", solution.traction, solution.slip))
-    scale = max(float(pressure.sum()) * float(np.hypot(*moved[:2])), float(work.sum()))
-    return abs(residual) / scale if scale > 0.0 else 0.0

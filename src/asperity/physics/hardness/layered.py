@@ -66,7 +66,10 @@ class LayeredHardness:
         faces, places = [], []
         for (upper, _), (lower, _), depth in zip(materials, materials[1:], depths, strict=False):
             if upper.strength.hardness != lower.strength.hardness:  # a face between equal hardnesses changes nothing
-                faces.append(_face(upper, lower))
+                hardnesses = upper.strength.hardness, lower.strength.hardness
+                moduli = upper.youngs_modulus / lower.youngs_modulus
+                yields = upper.strength.yield_stress / lower.strength.yield_stress
+                faces.append(EffectiveHardness(*hardnesses, moduli, None if math.isnan(yields) else yields))
                 places.append(float(depth))
         object.__setattr__(self, "_stack", StackHardness(tuple(faces), tuple(places)) if faces else None)
 
@@ -90,13 +93,3 @@ class LayeredHardness:
     def work_at(self, indentation: RealArray) -> RealArray:
         """Work (nx, ny) in J/m² to indent the virgin surface by ``indentation`` (nx, ny) in m."""
         return self.pressure_cap() * indentation if self._stack is None else self._stack.work(indentation)
-
-
-def _face(upper: Elastic, lower: Elastic) -> EffectiveHardness:
-    ratio = upper.strength.yield_stress / lower.strength.yield_stress
-    return EffectiveHardness(
-        upper.strength.hardness,
-        lower.strength.hardness,
-        upper.youngs_modulus / lower.youngs_modulus,
-        None if math.isnan(ratio) else ratio,
-    )

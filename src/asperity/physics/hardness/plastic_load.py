@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -96,23 +95,7 @@ def plastic_load(
     def at(load: float) -> ContactResult:
         return solve(problem, MeanPressure(load), solver=solver, operator=ready, keep=_KEEP, progress=progress)
 
-    below, above = _bracket(at, hardest, fraction)
-    while above.mean_pressure > below.mean_pressure * (1.0 + tolerance):
-        found = at(math.sqrt(above.mean_pressure * below.mean_pressure))
-        if found.plastic_area_fraction > fraction:
-            above = found
-        else:
-            below = found
-    return PlasticLoad(fraction, below, above)
-
-
-def _bracket(
-    at: Callable[[float], ContactResult], hardest: float, fraction: float
-) -> tuple[ContactResult, ContactResult]:
-    """Results with at most and with more than ``fraction`` plastic, at most a factor of two apart in load.
-
-    The lower one lies between an elastic contact and the first of its doubled loads that is plastic.
-    """
+    # the lower load lies between an elastic contact and the first of its doubled loads that is plastic
     below = at(hardest / _START)
     while below.plastic_area_fraction > 0.0:
         below = at(below.mean_pressure / _DOWN)
@@ -126,8 +109,15 @@ def _bracket(
             )
         above = at(min(load * _UP, math.sqrt(load * hardest)))
         if above.plastic_area_fraction > fraction:
-            return below, above
+            break
         below = above
+    while above.mean_pressure > below.mean_pressure * (1.0 + tolerance):
+        found = at(math.sqrt(above.mean_pressure * below.mean_pressure))
+        if found.plastic_area_fraction > fraction:
+            above = found
+        else:
+            below = found
+    return PlasticLoad(fraction, below, above)
 
 
 def mean_cap(problem: ContactProblem) -> float:

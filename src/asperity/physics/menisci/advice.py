@@ -25,42 +25,17 @@ MOLECULE = 0.28e-9
 
 def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> Iterator[Advice]:
     """What should be known of menisci of ``film`` that stand as ``wetting`` says and ``pull`` (N), where a ``force`` (N) presses the bodies together."""
-    yield from _meniscus_pixels(wetting)
-    yield from _molecules(film)
-    yield from _in_jump(wetting, pull, force)
-
-
-def _in_jump(wetting: Wetting, pull: float, force: float) -> Iterator[Advice]:
-    pixels = wetting.partly
-    count, whole = int(np.count_nonzero(pixels)), float(wetting.filled.sum())
-    if not count or not whole:
-        return
-    jump, held = pull * count / whole, pull * float(wetting.filled[pixels].sum()) / whole
-    if jump > LARGEST_IMBALANCE * force:
-        yield Advice(
-            "note",
-            "jump of the meniscus force",
-            f"The forces balance where the meniscus force jumps: {count} pixel{'' if count == 1 else 's'} that touch or come to the height of the menisci "
-            f"there hold{'s' if count == 1 else ''} liquid in part, which pulls with {show(held, 'N')} of {show(jump, 'N')}. Refine the grid for smaller jumps.",
-        )
-
-
-def _meniscus_pixels(wetting: Wetting) -> Iterator[Advice]:
-    if wetting.regime == "dry":
-        return
-    # the mean over the area: many islands of a pixel or two hardly pull
-    pixels = np.bincount(wetting.labels.ravel())[1:].astype(float)
-    radius = math.sqrt(float((pixels**2).sum() / pixels.sum()) / math.pi)
-    if radius < FEWEST_MENISCUS_PIXELS:
-        yield Advice(
-            "warning",
-            "meniscus pixels",
-            f"Menisci are counted in pixels, but have a radius of {radius:.2g} pixels (less than {FEWEST_MENISCUS_PIXELS:g}): the force "
-            "may be off by several per cent. Refine the grid, or generate the surface with more points.",
-        )
-
-
-def _molecules(film: LiquidFilm) -> Iterator[Advice]:
+    if wetting.regime != "dry":
+        # the mean over the area: many islands of a pixel or two hardly pull
+        pixels = np.bincount(wetting.labels.ravel())[1:].astype(float)
+        across = math.sqrt(float((pixels**2).sum() / pixels.sum()) / math.pi)
+        if across < FEWEST_MENISCUS_PIXELS:
+            yield Advice(
+                "warning",
+                "meniscus pixels",
+                f"Menisci are counted in pixels, but have a radius of {across:.2g} pixels (less than {FEWEST_MENISCUS_PIXELS:g}): the force "
+                "may be off by several per cent. Refine the grid, or generate the surface with more points.",
+            )
     radius = film.meniscus_height / wetting_factor(*film.contact_angles)
     remarks = []
     if radius < CONTINUUM:
@@ -74,3 +49,14 @@ def _molecules(film: LiquidFilm) -> Iterator[Advice]:
         )
     if remarks:
         yield Advice("note", "molecules", " ".join(remarks))
+    partly = wetting.partly
+    count, whole = int(np.count_nonzero(partly)), float(wetting.filled.sum())
+    jump = pull * count / whole if whole else 0.0
+    if count and whole and jump > LARGEST_IMBALANCE * force:
+        held = pull * float(wetting.filled[partly].sum()) / whole
+        yield Advice(
+            "note",
+            "jump of the meniscus force",
+            f"The forces balance where the meniscus force jumps: {count} pixel{'' if count == 1 else 's'} that touch or come to the height of the menisci "
+            f"there hold{'s' if count == 1 else ''} liquid in part, which pulls with {show(held, 'N')} of {show(jump, 'N')}. Refine the grid for smaller jumps.",
+        )

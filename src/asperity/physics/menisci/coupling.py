@@ -253,27 +253,21 @@ class MeniscusCoupling(Coupling):
         if external is None:
             return replace(exchange, x=np.asarray(latest), target=np.asarray(latest), residual=0.0, note=note)
         step = latest - x
-        found_next = self._approached if not exchange.exact else self._enclosed
         note = replace(note, direction=note.direction or math.copysign(1.0, step) if step else note.direction)
-        replied = found_next(replace(exchange, note=note), contact, step)
+        if exchange.exact:
+            replied = self._enclosed(replace(exchange, note=note), contact, step)
+        else:  # while the force goes on in one direction solves need not be exact: what is pulled is posed next
+            residual = abs(step) / _whole(external, x, latest)
+            # contact takes the place of liquid, or the error of a solve has led too far
+            turned = step * note.direction < 0.0
+            exact, load, target = turned or residual <= self.tolerance, external + x, latest
+            if load > 0.0:
+                target = min(max(target, load / _GROWTH - external), _GROWTH * load - external)
+            note, target = note if turned else replace(note, before=x), x if exact else target
+            replied = replace(exchange, target=np.asarray(target), residual=residual, exact=exact, note=note)
         if found.full and note.was_open and (step >= 0.0 or replied.settled):
             raise NoSolutionError(f"{self._runaway(external, note)} {_FULL}", subject="meniscus force")
         return replied
-
-    def _approached(self, exchange: Exchange, contact: Contact, step: float) -> Exchange:
-        """Reply while the force goes on in one direction by solves that need not be exact: what is pulled is posed next."""
-        note, x = exchange.note, float(exchange.x)
-        residual = abs(step) / _whole(note.external, x, note.force)
-        turned = (
-            step * note.direction < 0.0
-        )  # contact takes the place of liquid, or the error of a solve has led too far
-        exact = turned or residual <= self.tolerance
-        note = note if turned else replace(note, before=x)
-        target, load = note.force, note.external + x
-        if load > 0.0:
-            target = min(max(target, load / _GROWTH - note.external), _GROWTH * load - note.external)
-        target = x if exact else target
-        return replace(exchange, target=np.asarray(target), residual=residual, exact=exact, note=note)
 
     def _enclosed(self, exchange: Exchange, contact: Contact, step: float) -> Exchange:
         """Reply by solves to the full tolerance: the balance is enclosed, until the force that is posed is pulled or the balance lies in a jump."""
@@ -292,37 +286,26 @@ class MeniscusCoupling(Coupling):
             note = replace(note, looked=0) if bracket.width > self.tolerance * whole else note
             residual = min(residual, max(bracket.width / whole, _MORE * self.tolerance))
             return replace(exchange, target=np.asarray(target), residual=residual, stuck=False, note=note)
-        return self._in_jump(replace(exchange, stuck=False, note=note), contact, end, across)
-
-    def _in_jump(self, exchange: Exchange, contact: Contact, end: End, across: End) -> Exchange:
-        """Reply where the balance lies in the jump of the force from ``end`` to the one ``across``: pixels are wet in part."""
-        note, grid, height = exchange.note, contact.posed.operator.grid, self.film.meniscus_height
-        stands = note.bracket.balanced(end)
-        force, whole = (
-            self.film.suction * stands.share("filled") * grid.area,
-            _whole(note.external, end.posed, end.pulls),
-        )
-        count, pixel = astray(end, across, height), self.film.suction * grid.pixel_area
+        # the balance lies in the jump of the force from this end to the one across: pixels are wet in part
+        exchange, grid = replace(exchange, stuck=False), contact.posed.operator.grid
+        stands = bracket.balanced(end)
+        force = self.film.suction * stands.share("filled") * grid.area
+        count, pixel = astray(end, across, self.film.meniscus_height), self.film.suction * grid.pixel_area
         note = replace(note, found=stands, force=force, closed=True, jump=abs(end.pulls - across.pulls))
         if count * pixel > SMALL * whole:
-            note = replace(note, found=end.stands, force=end.pulls, astray=count, width=note.bracket.width / whole)
-            return self._looked_at(replace(exchange, note=note), end, across)
+            # pixels change sides that may not be wet in part: both ends are kept for some rounds, so that what else moves comes to rest;
+            # then the bracket is closed further and its ends are looked at once more; what still jumps does
+            note = replace(note, found=end.stands, force=end.pulls, astray=count, width=bracket.width / whole)
+            target, looked = end.posed, note.looked + 1
+            if looked >= 2 * _LOOKED_AT and note.width > _NARROWEST:
+                target, looked = bracket.further(end, note.external), 2 * _LOOKED_AT
+            elif looked in (_LOOKED_AT, 3 * _LOOKED_AT):
+                target = across.posed
+            elif looked >= 4 * _LOOKED_AT:
+                return replace(exchange, residual=abs(end.step) / whole, stuck=True, note=note)
+            residual, note = _MORE * self.tolerance, replace(note, looked=looked)
+            return replace(exchange, target=np.asarray(target), residual=residual, note=note)
         return replace(exchange, target=exchange.x, residual=abs(force - end.posed) / whole, note=note)
-
-    def _looked_at(self, exchange: Exchange, end: End, across: End) -> Exchange:
-        """Reply where pixels change sides that may not be wet in part: both ends are kept for some rounds, so that what else moves comes to rest.
-
-        Then the bracket is closed further and its ends are looked at once more; what still jumps does.
-        """
-        note, target, looked = exchange.note, end.posed, exchange.note.looked + 1
-        if looked >= 2 * _LOOKED_AT and note.width > _NARROWEST:
-            target, looked = note.bracket.further(end, note.external), 2 * _LOOKED_AT
-        elif looked in (_LOOKED_AT, 3 * _LOOKED_AT):
-            target = across.posed
-        elif looked >= 4 * _LOOKED_AT:
-            return replace(exchange, residual=abs(end.step) / _whole(note.external, end.posed, end.pulls), stuck=True)
-        residual, note = _MORE * self.tolerance, replace(note, looked=looked)
-        return replace(exchange, target=np.asarray(target), residual=residual, note=note)
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
         """Half the way back to the last force that was borne; None where that is not far: then no balance is left in between."""

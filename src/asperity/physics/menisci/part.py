@@ -99,9 +99,34 @@ class Menisci(Part):
         return WET_SCALARS
 
     def asked(self, document: Any, folder: Path) -> Wetted:
-        """The film of the table [film], with the friction of the table [friction]."""
-        law = friction_law(document.friction, sheared=sticks(document))
-        return Wetted(_film(document.film, folder), law)
+        """The film of the table [film], whose liquids file starts at ``folder``, with the friction of the table [friction].
+
+        Raises
+        ------
+        InputError
+            If the liquid is unknown, does not wet, or lacks a value that is needed.
+        """
+        from ...solids.library import Liquid, liquid
+        from .film import LiquidFilm
+
+        table: FilmSettings = document.film
+        tension = math.nan if table.surface_tension is None else table.surface_tension
+        if table.liquid is None:
+            substance = Liquid(tension)
+        else:
+            own = None if table.liquids_file is None else folder / table.liquids_file
+            substance = liquid(table.liquid, library=own)
+            substance = substance if math.isnan(tension) else replace(substance, surface_tension=tension)
+        angles = table.contact_angle
+        sides = (angles[0], angles[1] if len(angles) == 2 else 0.0)
+        if table.humidity is not None:
+            thickness = math.nan if table.thickness is None else table.thickness
+            film = LiquidFilm.at_humidity(substance, table.humidity, thickness=thickness, contact_angles=sides)
+        else:
+            height = math.nan if table.meniscus_height is None else table.meniscus_height
+            film = LiquidFilm.of(substance, float(table.thickness or 0.0), meniscus_height=height, contact_angles=sides)
+        known = {key: value for key in ("viscosity", "shear_strength") if (value := getattr(table, key)) is not None}
+        return Wetted(replace(film, **known), friction_law(document.friction, sheared=sticks(document)))
 
     def coupling(self, ask: Wetted) -> Mapping[str, Any]:
         """The film joins the solve."""
@@ -116,32 +141,3 @@ class WetTheory(Part):
     table = "film"
     quantities = (Quantity("statistical_meniscus_force", "N", "meniscus force of the theory of summits", costly=True),)
     work = "physics.menisci.work:WetTheoryWork"
-
-
-def _film(table: FilmSettings, folder: Path) -> LiquidFilm:
-    """Film that ``table`` describes; the path of its liquids file starts at ``folder``.
-
-    Raises
-    ------
-    InputError
-        If the liquid is unknown, does not wet, or lacks a value that is needed.
-    """
-    from ...solids.library import Liquid, liquid
-    from .film import LiquidFilm
-
-    tension = math.nan if table.surface_tension is None else table.surface_tension
-    if table.liquid is None:
-        substance = Liquid(tension)
-    else:
-        substance = liquid(table.liquid, library=None if table.liquids_file is None else folder / table.liquids_file)
-        substance = substance if math.isnan(tension) else replace(substance, surface_tension=tension)
-    angles = table.contact_angle
-    sides = (angles[0], angles[1] if len(angles) == 2 else 0.0)
-    if table.humidity is not None:
-        thickness = math.nan if table.thickness is None else table.thickness
-        film = LiquidFilm.at_humidity(substance, table.humidity, thickness=thickness, contact_angles=sides)
-    else:
-        height = math.nan if table.meniscus_height is None else table.meniscus_height
-        film = LiquidFilm.of(substance, float(table.thickness or 0.0), meniscus_height=height, contact_angles=sides)
-    known = {key: value for key in ("viscosity", "shear_strength") if (value := getattr(table, key)) is not None}
-    return replace(film, **known)

@@ -8,13 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...contact.problem import ContactProblem
 from ...contact.result import ContactResult
 from ...contact.roughness import roughness_of
 from ...core.errors import InputError
 from ...surfaces.surface import Surface
 from ...theories.rough.greenwood_williamson import KotwalBhushan
-from ...theories.statistics.roughness import Roughness
 from ...theories.wet.meniscus import MeniscusGrowth, wetting_factor
 from ...theories.wet.summits import KineticMeniscus, StatisticalMeniscus
 
@@ -77,7 +75,11 @@ def wet_theory(result: ContactResult) -> WetTheory:
     problem, film, load = result.problem, result.require_menisci().film, result.external_force
     if not load > 0.0:
         raise InputError(f"external force (N) must be greater than zero for the theory of summits, but is {load:.4g}.")
-    roughness, count = _roughness(problem)
+    surface = problem.surface
+    roughness = roughness_of(Surface(problem.profile(), surface.dx, surface.dy, periodic=surface.periodic))
+    count = 0 if roughness.summits is None else roughness.summits.count
+    if count < FEWEST:
+        raise InputError(f"profile must have at least {FEWEST} summits for the theory of summits, but has {count}.")
     contact = KotwalBhushan.from_roughness(roughness, problem.contact_modulus).greenwood_williamson
     angle = math.acos(wetting_factor(*film.contact_angles) - 1.0)
     statistical = StatisticalMeniscus(contact, film.surface_tension, film.thickness, angle)
@@ -101,13 +103,3 @@ def wet_theory(result: ContactResult) -> WetTheory:
         growth=growth,
         first_force=first,
     )
-
-
-def _roughness(problem: ContactProblem) -> tuple[Roughness, int]:
-    """Roughness of the composite profile, and its number of summits."""
-    surface = problem.surface
-    found = roughness_of(Surface(problem.profile(), surface.dx, surface.dy, periodic=surface.periodic))
-    count = 0 if found.summits is None else found.summits.count
-    if count < FEWEST:
-        raise InputError(f"profile must have at least {FEWEST} summits for the theory of summits, but has {count}.")
-    return found, count

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ...contact.controls import Control
 from ...contact.result import ContactResult
 from ...core.errors import InputError
 from ...core.units import percent, show
@@ -40,7 +39,30 @@ class MenisciWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Liquid, menisci and friction."""
-        return film_words(found.detail, solved.control)
+        result: SolvedMenisci = found.detail
+        control, film, regime = solved.control, result.film, result.wetting.regime
+        rows = [
+            (f"prescribed {control.name}", show(control.value, control.unit)),
+            ("surface tension", show(film.surface_tension, "N/m")),
+            ("contact angles", " and ".join(f"{math.degrees(angle):.4g}°" for angle in film.contact_angles)),
+        ]
+        if result.viscous_force > 0.0:
+            rows.append(("viscosity", show(film.viscosity, "Pa*s")))
+        rows.append(("dry friction coefficient", f"{result.dry_friction:g}"))
+        cells = [("regime", f"{regime}: {REGIMES[regime]}")]
+        silent = {"friction_force", "viscous_force", "static_friction"} if result.friction_force == 0.0 else set()
+        for quantity in WET_SCALARS:
+            if quantity.name not in silent:
+                cells.append((quantity.label, value_text(quantity, getattr(result, quantity.name))))
+        share, pull = percent(result.meniscus_area_fraction), show(result.meniscus_force, "N")
+        more = f"{result.relative_meniscus_force:.3g} times the external force"
+        if math.isnan(result.relative_meniscus_force):
+            more = "more than the contact force"
+        sentence = f"Menisci on {share} of the nominal area pull with {pull}, {more}."
+        if regime == "dry":
+            sentence = "No liquid bridges the gap: the contact is dry."
+        tables = (("", Table(("Quantity", "Value"), tuple(cells))),)
+        return Words(sentence, rows=rows, tables=tables, remarks=(REMARK,))
 
 
 class WetTheoryWork(Work):
@@ -56,7 +78,8 @@ class WetTheoryWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Summits, forces and growth, or why there is no theory."""
-        return theory_words(found.detail, solved.found["film"].detail)
+        rows = theory_rows(found.detail, solved.found["film"].detail)
+        return Words(rows=rows, remarks=() if isinstance(found.detail, str) else (THEORY_REMARK,))
 
 
 REGIMES = {
@@ -83,33 +106,17 @@ THEORY_REMARK = (
 """What the theory of summits is, and why it differs."""
 
 
-def film_words(result: SolvedMenisci, control: Control) -> Words:
-    """Liquid, menisci and friction."""
-    cells = tuple(wet_rows(result))
-    return Words(
-        wet_sentence(result),
-        rows=film_rows(result, control),
-        tables=(("", Table(("Quantity", "Value"), cells)),),
-        remarks=(REMARK,),
-    )
-
-
-def theory_words(found: SolvedTheory | str, result: SolvedMenisci) -> Words:
-    """Results of the theory of summits beside the ``result`` on the map, or why there are none."""
-    return Words(rows=theory_rows(found, result), remarks=() if isinstance(found, str) else (THEORY_REMARK,))
-
-
 def theory_rows(found: SolvedTheory | str, result: SolvedMenisci) -> Rows:
     """Statistical and kinetic menisci beside the ``result`` on the map."""
     if isinstance(found, str):
         return [("no statistical theory", found)] if found else []
-    contact, load = found.statistical.contact, result.external_force
+    contact, load, mapped = found.statistical.contact, result.external_force, result.meniscus_force
     rows = [
         ("summits", f"{found.summits} of radius {show(contact.radius, 'm', 3)}"),
         ("standard deviation of their heights", show(contact.height_deviation, "m", 3)),
         ("meniscus force", show(found.meniscus_force, "N")),
         ("meniscus force / external force", f"{found.meniscus_force / load:.4g}"),
-        ("meniscus force / that of the map", _over(found.meniscus_force, result.meniscus_force)),
+        ("meniscus force / that of the map", f"{found.meniscus_force / mapped:.3g}" if mapped > 0.0 else "–"),
         ("growth of the force with the load, dF/dL", f"{found.feedback:.3g}"),
     ]
     if result.dry_friction > 0.0:
@@ -128,44 +135,3 @@ def theory_rows(found: SolvedTheory | str, result: SolvedMenisci) -> Rows:
         ("meniscus force just after contact", show(found.first_force, "N")),
         ("menisci grow to 99 % within", f"{grown} (Hamaker constant {HAMAKER:g} J, assumed)"),
     ]
-
-
-def _over(force: float, other: float) -> str:
-    return f"{force / other:.3g}" if other > 0.0 else "–"
-
-
-def film_rows(result: SolvedMenisci, control: Control) -> Rows:
-    """Liquid and film."""
-    film = result.film
-    angles = " and ".join(f"{math.degrees(angle):.4g}°" for angle in film.contact_angles)
-    rows = [
-        (f"prescribed {control.name}", show(control.value, control.unit)),
-        ("surface tension", show(film.surface_tension, "N/m")),
-        ("contact angles", angles),
-    ]
-    if result.viscous_force > 0.0:
-        rows.append(("viscosity", show(film.viscosity, "Pa*s")))
-    rows.append(("dry friction coefficient", f"{result.dry_friction:g}"))
-    return rows
-
-
-def wet_rows(result: SolvedMenisci) -> Rows:
-    """Every scalar of the menisci, and the regime; without friction where none was given."""
-    regime = result.wetting.regime
-    rows = [("regime", f"{regime}: {REGIMES[regime]}")]
-    silent = {"friction_force", "viscous_force", "static_friction"} if result.friction_force == 0.0 else set()
-    for quantity in WET_SCALARS:
-        if quantity.name not in silent:
-            rows.append((quantity.label, value_text(quantity, getattr(result, quantity.name))))
-    return rows
-
-
-def wet_sentence(result: SolvedMenisci) -> str:
-    """One sentence on the menisci."""
-    if result.wetting.regime == "dry":
-        return "No liquid bridges the gap: the contact is dry."
-    share = percent(result.meniscus_area_fraction)
-    pull = show(result.meniscus_force, "N")
-    if math.isnan(result.relative_meniscus_force):
-        return f"Menisci on {share} of the nominal area pull with {pull}, more than the contact force."
-    return f"Menisci on {share} of the nominal area pull with {pull}, {result.relative_meniscus_force:.3g} times the external force."

@@ -15,13 +15,12 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from ...contact.controls import Control, FixedGrips
 from ...contact.couplings.driver import CouplingCheck, Rounds, Settled, settle
-from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed
+from ...contact.couplings.protocol import Contact, Coupling, Memory, Posed
 from ...contact.solvers.protocol import Solver
 from ...core.errors import NoSolutionError
 from ...core.status import Outcome, Progress, Status
@@ -116,14 +115,24 @@ class _Search:
         self.law = next(c for c in couplings if isinstance(c, AdhesionCoupling)).law
         self.film = next(c for c in couplings if isinstance(c, MeniscusCoupling)).film
         self.pixel = self.film.suction * posed.operator.grid.pixel_area
+        self.first_step = _FIRST * min(self.film.meniscus_height, self.law.range or posed.height_scale)
         self.count = 0
 
     def found(self, first: Settled | None) -> Settled:
         """The balance, or the jump that takes its place, from the rounds ``first`` or from before the step."""
-        near, far = self._bracket(self._start(first))
-        narrow = _NARROW * self._first_step
+        # from the approach that rounds came to, else that before the step, else first touch
+        if first is not None:
+            start = self._held(self.measured(first).approach, first)
+        else:
+            start = self._held(float(self.memories.get("adhesion", {}).get("approach", 0.0)), None)
+        near, far = self._bracket(start)
+        narrow = _NARROW * self.first_step
         while self._apart_still(near, far) and abs(far.approach - near.approach) > narrow:
-            middle = self._between(near, far)
+            # by the secant or by half
+            share = near.force / (near.force - far.force)
+            if self.count % 2 or not _INSIDE < share < 1.0 - _INSIDE:
+                share = 0.5
+            middle = self._held(near.approach + share * (far.approach - near.approach), near.settled)
             if not middle.converged or abs(middle.force) <= self.exact(middle):
                 near = far = middle
             elif middle.force * near.force > 0.0:
@@ -146,17 +155,15 @@ class _Search:
 
     def _apart_still(self, near: _Held, far: _Held) -> bool:
         """Whether the contact itself, or more than pixels at the edge of the liquid, changes between the two."""
-        return abs(far.solids - near.solids) > self.exact(near) or self._astray(near, far) > 0
-
-    def _astray(self, near: _Held, far: _Held) -> int:
-        """Number of pixels that fill or dry at once, where their force counts."""
-        count = astray(self._end(near), self._end(far), self.film.meniscus_height)
-        return count if count * self.pixel > SMALL * self._reference(near) else 0
-
-    def _end(self, held: _Held) -> End:
-        contact: Contact = held.settled.contact
-        found = held.settled.exchanges["menisci"].note.found
-        return End(held.solids, held.liquid, found, contact.gap, contact.pressure)
+        if abs(far.solids - near.solids) > self.exact(near):
+            return True
+        ends = []
+        for held in (near, far):
+            contact: Contact = held.settled.contact
+            found = held.settled.exchanges["menisci"].note.found
+            ends.append(End(held.solids, held.liquid, found, contact.gap, contact.pressure))
+        # pixels that fill or dry at once, where their force counts
+        return astray(ends[0], ends[1], self.film.meniscus_height) * self.pixel > SMALL * self._reference(near)
 
     def _reference(self, held: _Held) -> float:
         known = max(abs(self._wanted(held.approach)), held.liquid, _OF_CONTACT * held.settled.contact.force)
@@ -170,18 +177,6 @@ class _Search:
         force = self.posed.external_force
         assert force is not None
         return force
-
-    @property
-    def _first_step(self) -> float:
-        lengths = [self.film.meniscus_height, self.law.range or self.posed.height_scale]
-        return _FIRST * min(lengths)
-
-    def _start(self, first: Settled | None) -> _Held:
-        """The approach that rounds came to, else that before the step, else first touch."""
-        if first is not None:
-            return self._held(self.measured(first).approach, first)
-        known = self.memories.get("adhesion", {})
-        return self._held(float(known["approach"]) if "approach" in known else 0.0, None)
 
     def _held(self, approach: float, before: Settled | None) -> _Held:
         """Contact at this ``approach`` (m), followed from the one ``before``."""
@@ -197,12 +192,13 @@ class _Search:
 
     def _bracket(self, near: _Held) -> tuple[_Held, _Held]:
         """Contacts on both sides of the force wanted, the nearer to the start first."""
-        step = -math.copysign(self._first_step, near.force)
+        step = -math.copysign(self.first_step, near.force)
         for _ in range(_STEPS):
             if not near.converged or abs(near.force) <= self.exact(near):
                 return near, near
-            if near.force > 0.0 and self._apart(near):
-                break
+            left, contact = near.force + self._wanted(near.approach), near.settled.contact
+            if near.force > 0.0 and not contact.pressure.any() and abs(left) <= _EXACT * self.pixel:
+                break  # no force is left
             further = self._held(near.approach + step, near.settled)
             if further.converged and further.force * near.force <= 0.0:
                 return near, further
@@ -212,19 +208,6 @@ class _Search:
             "Prescribe the position, with FixedGrips(...), to follow them.",
             subject="force",
         )
-
-    def _apart(self, held: _Held) -> bool:
-        """Whether no force is left."""
-        left = held.force + self._wanted(held.approach)
-        contact: Contact = held.settled.contact
-        return not contact.pressure.any() and abs(left) <= _EXACT * self.pixel
-
-    def _between(self, near: _Held, far: _Held) -> _Held:
-        """Contact between these two, by the secant or by half."""
-        share = near.force / (near.force - far.force)
-        if self.count % 2 or not _INSIDE < share < 1.0 - _INSIDE:
-            share = 0.5
-        return self._held(near.approach + share * (far.approach - near.approach), near.settled)
 
     def _ended(self, near: _Held, far: _Held, first: Settled | None) -> Settled:
         """The contact between these two under the control, with how well its forces add up."""
@@ -239,13 +222,22 @@ class _Search:
         liquid = self.film.suction * stands.share("filled") * self.posed.operator.grid.area
         missed = abs(best.solids - liquid)
         exchanges["adhesion"] = replace(adhesion, note=replace(adhesion.note, posed=self.posed))
-        note = replace(self._note(menisci, first), found=stands, force=liquid)
+        # with the force of the first round, which tells the feedback
+        known = replace(menisci.note, was_dry=False) if first is None else first.exchanges["menisci"].note
+        note = replace(known, external=self.posed.external_force or 0.0, found=stands, force=liquid)
         exchanges["menisci"] = replace(menisci, x=np.asarray(liquid), note=note)
         reference = self._reference(best)
         check = CouplingCheck("menisci", missed / reference, 0.0, allowed / reference)
-        status = (
-            self._status(best, abs(far.liquid - near.liquid), missed) if settled.status.converged else settled.status
-        )
+        status, forces = settled.status, "Attraction, menisci and external force"
+        where = f"at the approach {best.approach:.6g} m, found by {self.count} contacts"
+        if status.converged and missed > allowed:
+            message = f"{forces} miss their balance by {missed:.3g} N in a jump of the contact {where}."
+            remedy = "Take smaller steps of the load, or prescribe the position, with FixedGrips(...)."
+            status = Status(Outcome.STAGNATED, message, remedy)
+        elif status.converged:
+            jump = f" in a jump of the menisci by {abs(far.liquid - near.liquid):.3g} N, of which part is there,"
+            inside = jump if abs(best.force) > allowed else ""
+            status = Status(Outcome.CONVERGED, f"{forces} are in balance to {missed:.1e} N{inside} {where}.")
         return replace(
             settled,
             contact=replace(settled.contact, posed=self.posed).with_work_of(None if first is None else first.contact),
@@ -254,24 +246,3 @@ class _Search:
             rounds=self.count + (0 if first is None else first.rounds),
             status=status,
         )
-
-    def _note(self, menisci: Exchange, first: Settled | None) -> Any:
-        """Note of the ``menisci`` with the force of the first round, which tells the feedback, and the external one (N)."""
-        known = replace(menisci.note, was_dry=False) if first is None else first.exchanges["menisci"].note
-        return replace(known, external=self.posed.external_force or 0.0)
-
-    def _status(self, best: _Held, jump: float, missed: float) -> Status:
-        where = f"at the approach {best.approach:.6g} m, found by {self.count} contacts"
-        forces = "Attraction, menisci and external force"
-        if missed > self.exact(best):
-            return Status(
-                Outcome.STAGNATED,
-                f"{forces} miss their balance by {missed:.3g} N in a jump of the contact {where}.",
-                "Take smaller steps of the load, or prescribe the position, with FixedGrips(...).",
-            )
-        inside = (
-            f" in a jump of the menisci by {jump:.3g} N, of which part is there,"
-            if abs(best.force) > self.exact(best)
-            else ""
-        )
-        return Status(Outcome.CONVERGED, f"{forces} are in balance to {missed:.1e} N{inside} {where}.")

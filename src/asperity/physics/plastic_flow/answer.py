@@ -147,7 +147,35 @@ class PlasticBody(Answer):
                     f"The plastic strain is not settled: the return mapping still changes it by {check.residual:.1e} of itself (at most "
                     f"{check.tolerance:g} wanted). {REMEDY}",
                 )
-        yield from _limits(self)
+        if not self.small_strain:
+            zone = max(self.zones, key=lambda item: item.largest_strain)
+            where = "the base" if zone.name == "base" else zone.name
+            yield Advice(
+                "warning",
+                "small strain",
+                f"The plastic strain reaches {percent(zone.largest_strain)}, {show(zone.place[2], 'm')} deep in {where}; above "
+                f"{percent(SMALL_STRAIN)} small strains are no longer a good description. Lower the load or smooth sharp summits, or take "
+                "imprint and pressures as qualitative there.",
+            )
+        body = self.problem.body if self.of == "body" else self.problem.counter_body
+        end = float(self.flowed.edges[-1]) if self.reaches_end else math.inf
+        on_rigid = (
+            isinstance(body, Layered) and isinstance(body.base, RigidBase) and end > (1.0 - 1e-9) * body.thickness
+        )
+        if self.reaches_end and not on_rigid:
+            yield Advice(
+                "warning",
+                "depth of the cells",
+                f"Points in the deepest cell flow, at {show(end, 'm', 3)}, and what lies below is held elastic: plastic "
+                "strain and imprint are too small. Give a larger depth, or none (--plastic-depth).",
+            )
+        if self.reaches_edge:
+            yield Advice(
+                "warning",
+                "edge of the grid",
+                "Points under the edge of the grid flow, and what lies beside the grid is held elastic: loads are too large, and plastic strain "
+                "and imprint too small. Give a grid with a wider margin around the contact: on one of five contact radii loads are within 0.2 %.",
+            )
 
     @property
     def small_strain(self) -> bool:
@@ -239,38 +267,3 @@ class PlasticBody(Answer):
     ) -> float:
         """Largest principal stress in Pa along the surface, as of ``layers``; negative where all of it is compressed."""
         return tension_along(YieldingStress(self.residual(threads), pressure, shear).at(0.0, below=True))
-
-
-def _limits(flow: PlasticBody) -> Iterator[Advice]:
-    """Strains that are not small, and zones deeper than the cells."""
-    if not flow.small_strain:
-        zone = max(flow.zones, key=lambda item: item.largest_strain)
-        yield Advice(
-            "warning",
-            "small strain",
-            f"The plastic strain reaches {percent(zone.largest_strain)}, {show(zone.place[2], 'm')} deep in {_part(zone.name)}; above "
-            f"{percent(SMALL_STRAIN)} small strains are no longer a good description. Lower the load or smooth sharp summits, or take "
-            "imprint and pressures as qualitative there.",
-        )
-    body = flow.problem.body if flow.of == "body" else flow.problem.counter_body
-    end = float(flow.flowed.edges[-1]) if flow.reaches_end else math.inf
-    on_rigid = isinstance(body, Layered) and isinstance(body.base, RigidBase) and end > (1.0 - 1e-9) * body.thickness
-    if flow.reaches_end and not on_rigid:
-        yield Advice(
-            "warning",
-            "depth of the cells",
-            f"Points in the deepest cell flow, at {show(end, 'm', 3)}, and what lies below is held elastic: plastic "
-            "strain and imprint are too small. Give a larger depth, or none (--plastic-depth).",
-        )
-
-    if flow.reaches_edge:
-        yield Advice(
-            "warning",
-            "edge of the grid",
-            "Points under the edge of the grid flow, and what lies beside the grid is held elastic: loads are too large, and plastic strain "
-            "and imprint too small. Give a grid with a wider margin around the contact: on one of five contact radii loads are within 0.2 %.",
-        )
-
-
-def _part(name: str) -> str:
-    return "the base" if name == "base" else name

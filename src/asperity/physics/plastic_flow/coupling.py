@@ -9,7 +9,6 @@ would not settle where the contact gives way more by flow than elastically. The 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import ClassVar, Self
 
@@ -153,15 +152,23 @@ class PlasticFlowCoupling(Coupling):
     def share(self, exchange: Exchange) -> Share:
         """The displacement as a lift, and the position if that is prescribed."""
         course: _Course = exchange.note
-        offset = None if course.posed is None else _offset(course.posed, exchange.x)
-        constraint = None if offset is None else FixedOffset(offset)
+        constraint: FixedOffset | None = None
+        if course.posed is not None:
+            control = course.posed.control
+            if isinstance(control, Approach):
+                constraint = FixedOffset(course.posed.top - control.value)
+            elif isinstance(control, MeanGap):
+                constraint = FixedOffset(control.value + float((course.posed.profile - exchange.x).mean()))
         return Share(lift=exchange.x if exchange.x.any() else 0.0, constraint=constraint)
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The displacement that agrees with its own contact, which is found from ``contact`` on."""
         course: _Course = exchange.note
-        if course.flow is None and not self._started(course, contact):
-            return replace(exchange, target=exchange.x, residual=0.0, scale=1.0)
+        if course.flow is None:
+            edges = course.begin.edges if course.begin.edges.size else self._edges(contact.pressure)
+            if not edges.size:  # nothing flows, has flowed or may do so
+                return replace(exchange, target=exchange.x, residual=0.0, scale=1.0)
+            self._prepare(course, edges)
         flow = self._flow(course)
         if course.spread is None:
             course.spread = flow.spread()
@@ -174,16 +181,6 @@ class PlasticFlowCoupling(Coupling):
         return replace(
             exchange, target=lift, residual=residual, scale=size or 1.0, pressure=pressure, stuck=course.stuck
         )
-
-    def _started(self, course: _Course, contact: Contact) -> bool:
-        """Whether anything flows, has flowed or may do so; prepares the volume then."""
-        edges = course.begin.edges
-        if not edges.size:
-            edges = self._edges(contact.pressure)
-            if not edges.size:
-                return False
-        self._prepare(course, edges)
-        return True
 
     def _prepare(self, course: _Course, edges: RealArray) -> None:
         """Volume with depth cells between ``edges``, from what is known on fewer of them."""
@@ -208,9 +205,14 @@ class PlasticFlowCoupling(Coupling):
             return np.zeros(0)
         coarse = depth_edges(body, max(_deepest(body), 0.5 * max(grid.size)), first, 20)
         operator = operator_of(self.problem, coarse, self.volume.threads)
-        flow = VolumeFlow(operator, [_weaker(self.laws[n]) for n in operator.cells.regions], Flowed.virgin())
+        weaker: list[J2 | None] = []
+        for law in (self.laws[number] for number in operator.cells.regions):
+            # a constant yield stress that is less, for a first look
+            least = None if law is None else _PROBED * float(law.hardening.yield_stress(np.zeros(1))[0])
+            weaker.append(None if law is None or least is None else J2(law.elastic, LinearHardening(least)))
+        flow = VolumeFlow(operator, weaker, Flowed.virgin())
         flow.spread()
-        flow.returned(self._loads(operator, pressure))
+        flow.returned(operator.loads(pressure, self._shear(pressure)))
         if not flow.points.size:
             return np.zeros(0)
         depth = _MARGIN * float(coarse[int(flow.cell.max()) + 1])
@@ -244,15 +246,12 @@ class PlasticFlowCoupling(Coupling):
         size = self.sign * friction.coefficient * pressure
         return np.stack([math.cos(friction.direction) * size, math.sin(friction.direction) * size])
 
-    def _loads(self, operator: EigenstrainOperator, pressure: RealArray) -> ComplexArray:
-        return operator.loads(pressure, self._shear(pressure))
-
     def _mapped(self, course: _Course, pressure: RealArray) -> tuple[RealArray, float]:
         """Step of the plastic strain by the return mapping under ``pressure``; goes deeper where the deepest cell begins to flow."""
         while True:
             flow = self._flow(course)
             course.iterations += 1
-            step, residual = flow.returned(self._loads(flow.operator, pressure))
+            step, residual = flow.returned(flow.operator.loads(pressure, self._shear(pressure)))
             ends = flow.points.size and int(flow.cell[-1]) == flow.operator.cells.count - 1
             edges = self._deeper(flow.operator.cells.edges) if ends else None
             if edges is None:
@@ -323,7 +322,12 @@ class PlasticFlowCoupling(Coupling):
         flowed = course.begin if course.settled is None else course.settled
         earlier = float(course.memory.get("work", 0.0))
         mean = contact.force / self.problem.grid.area
-        first = self._first(flowed, course.memory.get("first"), mean)
+        # (regions, 4): mean pressure of the step in which each region flowed first, x, y and depth of its largest strain after it
+        earliest = course.memory.get("first")
+        first = np.full((len(self.laws), 4), np.nan) if earliest is None else earliest.copy()
+        for number, (points, values) in enumerate(_by_region(self.problem, flowed)):
+            if points.size and np.isnan(first[number, 0]):
+                first[number] = mean, *_place(self.problem.grid, flowed.edges, int(points[values.argmax()]))
         place = [mean, contact.posed.top + contact.level, float(contact.gap.mean())]
         memory: dict[str, RealArray] = {"place": np.array(place)}
         if flowed.points.size:
@@ -333,36 +337,11 @@ class PlasticFlowCoupling(Coupling):
             memory["iterations"] = np.asarray(float(course.iterations))
         return memory, found_in(self.problem, memory)
 
-    def _first(self, flowed: Flowed, before: RealArray | None, mean: float) -> RealArray:
-        """(regions, 4): mean pressure of the step in which each region flowed first, x, y and depth of its largest strain after it."""
-        found = np.full((len(self.laws), 4), np.nan) if before is None else before.copy()
-        for number, (points, values) in enumerate(_by_region(self.problem, flowed)):
-            if points.size and np.isnan(found[number, 0]):
-                found[number] = mean, *_place(self.problem.grid, flowed.edges, int(points[values.argmax()]))
-        return found
-
-
-def _offset(posed: Posed, lift: RealArray) -> float | None:
-    """Offset (m) of the bodies at the prescribed position if ``lift`` (nx, ny) in m displaces the surface; None under a prescribed load."""
-    control = posed.control
-    if isinstance(control, Approach):
-        return posed.top - control.value
-    if isinstance(control, MeanGap):
-        return control.value + float((posed.profile - lift).mean())
-    return None
-
 
 def _deepest(body: Elastic | Layered) -> float:
     """Depth (m) of the last interface."""
     places = interfaces(body)
     return float(places[-1]) if places.size else 0.0
-
-
-def _weaker(law: J2 | None) -> J2 | None:
-    """``law`` with a constant yield stress that is less, for a first look."""
-    if law is None:
-        return None
-    return J2(law.elastic, LinearHardening(_PROBED * float(law.hardening.yield_stress(np.zeros(1))[0])))
 
 
 def _by_region(problem: ContactProblem, flowed: Flowed) -> list[tuple[Points, RealArray]]:
@@ -388,26 +367,22 @@ def found_in(problem: ContactProblem, memory: Memory) -> PlasticBody:
     flowed = Flowed.of(memory)
     parts = _by_region(problem, flowed)
     first: RealArray = memory.get("first", np.full((len(parts), 4), np.nan))
-    zones = tuple(_zone(problem, flowed, number, parts, first) for number in range(len(parts)))
+    zones = []
+    for number, (points, values) in enumerate(parts):
+        name = "base" if number == len(parts) - 1 else f"layer {number + 1}"
+        begin, x, y, z = (float(value) for value in first[number])
+        if not points.size:
+            nowhere = (np.nan, np.nan, np.nan)
+            zones.append(PlasticZone(name, 0.0, np.nan, np.nan, 0.0, nowhere, begin, (x, y, z)))
+            continue
+        cell = points // problem.grid.n_points
+        volume = float(np.diff(flowed.edges)[cell].sum()) * problem.grid.pixel_area
+        top, bottom = float(flowed.edges[cell.min()]), float(flowed.edges[cell.max() + 1])
+        place = _place(problem.grid, flowed.edges, int(points[values.argmax()]))
+        zones.append(PlasticZone(name, volume, top, bottom, float(values.max()), place, begin, (x, y, z)))
     lift = np.asarray(memory["lift"]) if "lift" in memory else np.zeros(problem.grid.shape)
     work, step, energy, iterations = (
         float(memory.get(name, 0.0)) for name in ("work", "step_work", "energy", "iterations")
     )
     end = bool(flowed.points.size) and int(flowed.points[-1]) // problem.grid.n_points == flowed.edges.size - 2
-    return PlasticBody(problem, flowed, lift, work, step, energy, zones, end, int(iterations))
-
-
-def _zone(
-    problem: ContactProblem, flowed: Flowed, number: int, parts: Sequence[tuple[Points, RealArray]], first: RealArray
-) -> PlasticZone:
-    points, values = parts[number]
-    name = "base" if number == len(parts) - 1 else f"layer {number + 1}"
-    begin, *where = (float(value) for value in first[number])
-    if not points.size:
-        nowhere = (np.nan, np.nan, np.nan)
-        return PlasticZone(name, 0.0, np.nan, np.nan, 0.0, nowhere, begin, (where[0], where[1], where[2]))
-    cell = points // problem.grid.n_points
-    volume = float(np.diff(flowed.edges)[cell].sum()) * problem.grid.pixel_area
-    top, bottom = float(flowed.edges[cell.min()]), float(flowed.edges[cell.max() + 1])
-    place = _place(problem.grid, flowed.edges, int(points[values.argmax()]))
-    return PlasticZone(name, volume, top, bottom, float(values.max()), place, begin, (where[0], where[1], where[2]))
+    return PlasticBody(problem, flowed, lift, work, step, energy, tuple(zones), end, int(iterations))

@@ -14,9 +14,15 @@ FINEST = 4
 """Times that a step is halved at most."""
 
 
-def parts_of(control: Control, result: ContactResult, state: InterfaceState | None, count: int) -> tuple[Control, ...]:
-    """``count`` controls in equal steps from the load or position of ``state`` to ``control``; ``result`` is any under ``control``."""
-    problem, profile = result.problem, result.problem.profile()
+def in_parts(
+    control: Control,
+    state: InterfaceState | None,
+    failed: ContactResult,
+    solved: Callable[[Control, InterfaceState | None], ContactResult],
+) -> ContactResult:
+    """Result under ``control`` by twice as many parts until all of them are ``solved``, and says so; ``failed``, of one step, if none are."""
+    # in equal steps from the load or position of the state
+    problem, profile = failed.problem, failed.problem.profile()
     mean, approach, gap = 0.0, 0.0, float(profile.max() - profile.mean())
     known = {} if state is None else state.memory.get(NAME, {})
     if "place" in known:
@@ -27,19 +33,10 @@ def parts_of(control: Control, result: ContactResult, state: InterfaceState | No
     kind = type(control)
     first = begin.get(kind, float(control.value))
     made = MeanPressure if kind is Unloaded else kind
-    values = [first + (control.value - first) * k / count for k in range(1, count)]
-    return (*(made(value) for value in values if value > 0.0), control)  # type: ignore[call-arg]
-
-
-def in_parts(
-    control: Control,
-    state: InterfaceState | None,
-    failed: ContactResult,
-    solved: Callable[[Control, InterfaceState | None], ContactResult],
-) -> ContactResult:
-    """Result under ``control`` by twice as many parts until all of them are ``solved``, and says so; ``failed``, of one step, if none are."""
-    for halved in range(1, FINEST + 1):
-        parts, at, spent = parts_of(control, failed, state, 2**halved), state, 0
+    for count in (2**halved for halved in range(1, FINEST + 1)):
+        values = [first + (control.value - first) * k / count for k in range(1, count)]
+        parts = (*(made(value) for value in values if value > 0.0), control)  # type: ignore[call-arg]
+        at, spent = state, 0
         for part in parts:
             result = solved(part, at)
             spent += result.require_plastic_flow().iterations
@@ -47,17 +44,10 @@ def in_parts(
                 break
             at = result.state
         if result.converged:
-            return _as_one(result, state, len(parts), spent)
+            # with the plastic work and the iterates of all parts
+            flow = result.require_plastic_flow()
+            whole = replace(flow, step_work=flow.work - float(known.get("work", 0.0)), iterations=spent)
+            message = f"{result.status.message} Plastic flow did not settle in one step: the load was reached in {len(parts)} equal parts."
+            status = replace(result.status, message=message)
+            return replace(result, status=status, couplings={**result.couplings, NAME: whole})
     return failed
-
-
-def _as_one(result: ContactResult, before: InterfaceState | None, count: int, iterations: int) -> ContactResult:
-    """``result`` of the last of ``count`` parts with the plastic work and the iterates of all of them."""
-    flow = result.require_plastic_flow()
-    known = {} if before is None else before.memory.get(NAME, {})
-    whole = replace(flow, step_work=flow.work - float(known.get("work", 0.0)), iterations=iterations)
-    message = (
-        f"{result.status.message} Plastic flow did not settle in one step: the load was reached in {count} equal parts."
-    )
-    status = replace(result.status, message=message)
-    return replace(result, status=status, couplings={**result.couplings, NAME: whole})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -382,31 +382,27 @@ def plastic_frames(cuts: Sequence[Cut], *, dpi: int = 100) -> tuple[bytes, ...]:
     whole = max(cuts, key=lambda cut: int(np.count_nonzero(cut.strain > LEAST)))
     left, right, deep = whole.reach
     length = scale(np.array([right - left, deep]), "m")
+
+    class Frame(Cut):
+        """Drawn as far as the largest zone reaches, so that all frames share one unit of length."""
+
+        @property
+        def reach(self) -> tuple[float, float, float]:
+            return whole.reach
+
     made = []
     with style():
         for cut in cuts:
             figure, buffer = Canvas(figsize=FRAME_SIZE, dpi=dpi), io.BytesIO()
             FigureCanvasAgg(figure)
             ax = figure.add_axes((0.13, 0.15, 0.83, 0.73))
-            plot_zones(_framed(cut, whole), ax, largest=largest or 1e-3)
+            known = {item.name: getattr(cut, item.name) for item in fields(cut)}
+            plot_zones(Frame(**known), ax, largest=largest or 1e-3)
             ax.set(xlim=(float(length(left)), float(length(right))), ylim=(float(length(deep)), 0.0))
             ax.set_title(cut.label, loc="left")
             figure.savefig(buffer, format="png")
             made.append(buffer.getvalue())
     return tuple(made)
-
-
-def _framed(cut: Cut, whole: Cut) -> Cut:
-    """``cut`` that is drawn as far as the zone of ``whole`` reaches, so that all frames share one unit of length."""
-
-    class _Frame(Cut):
-        @property
-        def reach(self) -> tuple[float, float, float]:
-            return whole.reach
-
-    return _Frame(
-        cut.across, cut.depth, cut.strain, cut.interfaces, cut.layers, cut.axis, cut.residual, cut.stress, cut.label
-    )
 
 
 def save_cuts(cuts: Sequence[Cut], path: str | Path, *, overwrite: bool = False) -> Path:

@@ -8,11 +8,9 @@ from typing import ClassVar
 
 from ...core import require
 from ...core.errors import InputError
-from ...solids.eigenstrain.cells import stack_of
 from ...solids.elastic import Elastic, Rigid
-from ...solids.layers import Body, Layered, RigidBase, materials_of
+from ...solids.layers import Body, Layered, RigidBase
 from ...solids.plasticity import J2
-from ...solids.viscoelastic import Viscoelastic
 
 
 @dataclass(frozen=True)
@@ -95,7 +93,16 @@ class PlasticFlow:
         found: list[J2 | None] = []
         for number, (law, material) in enumerate(zip(given, materials, strict=True)):
             if isinstance(law, J2):
-                _require_alike(law, material)
+                if not isinstance(material, Elastic):
+                    raise InputError(
+                        "plasticity of a rigid base must be None, but is a J2 law. Write None as the last of the laws."
+                    )
+                ours, own = law.elastic, material
+                if (ours.youngs_modulus, ours.poisson_ratio) != (own.youngs_modulus, own.poisson_ratio):
+                    raise InputError(
+                        f"elastic constants of a J2 law must be E = {own.youngs_modulus:g} Pa, nu = {own.poisson_ratio:g} of the body, "
+                        f"but are E = {ours.youngs_modulus:g} Pa, nu = {ours.poisson_ratio:g}."
+                    )
             thickness = layers[number].thickness if number < len(layers) else 1.0
             if thickness > 0.0:
                 found.append(law if isinstance(law, J2) else None)
@@ -104,40 +111,9 @@ class PlasticFlow:
         return tuple(found)
 
 
-def _require_alike(law: J2, material: object) -> None:
-    own = law.elastic
-    if not isinstance(material, Elastic):
-        raise InputError(
-            "plasticity of a rigid base must be None, but is a J2 law. Write None as the last of the laws."
-        )
-    if (own.youngs_modulus, own.poisson_ratio) != (material.youngs_modulus, material.poisson_ratio):
-        raise InputError(
-            f"elastic constants of a J2 law must be E = {material.youngs_modulus:g} Pa, nu = {material.poisson_ratio:g} of the body, "
-            f"but are E = {own.youngs_modulus:g} Pa, nu = {own.poisson_ratio:g}."
-        )
-
-
 def plastic_body(body: Body, counter_body: Body) -> tuple[Elastic | Layered, float]:
     """The body that flows and the sign of the shear traction on it: ``body``, or where that is rigid the ``counter_body``."""
     if not isinstance(body, Rigid):
         return body, 1.0
     assert not isinstance(counter_body, Rigid)
     return counter_body, -1.0
-
-
-def require_bodies(flow: PlasticFlow, body: Body, counter_body: Body) -> None:
-    """Refuse bodies that ``flow`` does not fit.
-
-    Raises
-    ------
-    InputError
-        If laws and materials differ, a layer may slip, or a material is viscoelastic.
-    """
-    plastic, _ = plastic_body(body, counter_body)
-    flow.laws(plastic)
-    stack_of(plastic)
-    for material in (*materials_of(body), *materials_of(counter_body)):
-        if isinstance(material, Viscoelastic):
-            raise InputError(
-                f"materials of a contact with plastic flow must be elastic, but one is {material!r}. Take its relaxed or its instantaneous solid."
-            )

@@ -11,9 +11,12 @@ from ...contact.controls import Control, Step
 from ...contact.law import HardWall
 from ...contact.problem import ContactProblem, Physics, Preparing, Solved
 from ...core.errors import InputError
+from ...solids.eigenstrain.cells import stack_of
+from ...solids.layers import materials_of
 from ...solids.plasticity import J2, LinearHardening, Swift, Voce
+from ...solids.viscoelastic import Viscoelastic
 from ..friction.law import Coulomb
-from .law import PlasticFlow, require_bodies
+from .law import PlasticFlow, plastic_body
 
 if TYPE_CHECKING:
     from ...contact.couplings.protocol import Coupling
@@ -62,7 +65,14 @@ class Flowing(Physics):
                 raise InputError(
                     f"{what} of a contact with plastic flow must be another or none, but is {found!r}. {remedy}"
                 )
-        require_bodies(self.flow, problem.body, problem.counter_body)
+        plastic, _ = plastic_body(problem.body, problem.counter_body)
+        self.flow.laws(plastic)
+        stack_of(plastic)  # refuses a layer that may slip
+        for material in (*materials_of(problem.body), *materials_of(problem.counter_body)):
+            if isinstance(material, Viscoelastic):
+                raise InputError(
+                    f"materials of a contact with plastic flow must be elastic, but one is {material!r}. Take its relaxed or its instantaneous solid."
+                )
 
     def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
         """The lift by plastic strain."""

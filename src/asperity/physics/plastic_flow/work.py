@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from ...core.units import percent, show
 from ...parts.part import Found, Solved, Stored, Words, Work
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
-from ...solids.layers import Body, Layered
+from ...solids.layers import Layered
 from ...solids.plasticity import J2, von_mises
 from ...solids.strength import plastic_parts
 from ..friction.law import Coulomb
@@ -35,12 +35,51 @@ from .work_values import PlasticValues, inferred_strengths, interfaces_of, layer
 
 def flow_found(solved: Solved) -> Found:
     """Values, facts and findings of the ``solved`` contact."""
-    flow, body = solved.result.require_plastic_flow(), _body(solved.problem)
+    flow, body = solved.result.require_plastic_flow(), plastic_body(solved.problem.body, solved.problem.counter_body)[0]
     with solved.stage("residual stress"):
         shown, tensions = _shown(flow, solved)
-    values = {**_numbers(flow, solved), **tensions, IMPRINT.name: flow.displacement, **shown.values(PREFIX)}
-    facts = {"layers": layer_names(body), "axis": "x", "zones": _zone_rows(flow, body), "row": _row(flow)}
-    return Found(values, facts, _findings(flow, body), flow.citation_keys)
+    layers, base = flow.zones[:-1], flow.zones[-1]
+    first = [zone.first_yield for zone in flow.zones if math.isfinite(zone.first_yield)]
+    tops = [zone.top for zone in flow.zones if math.isfinite(zone.top)]
+    bottoms = [zone.bottom for zone in flow.zones if math.isfinite(zone.bottom)]
+    peak = _peak(solved)
+    area = float(peak.contact.sum()) * peak.problem.grid.pixel_area
+    values: dict[str, Any] = {
+        **{item.name: math.nan for item in SCALARS},
+        "flow_plastic_work": flow.work,
+        "flow_residual_energy": flow.residual_energy,
+        "flow_volume": sum(zone.volume for zone in flow.zones),
+        "flow_layer_volume": sum(zone.volume for zone in layers) if layers else math.nan,
+        "flow_largest_strain": max(zone.largest_strain for zone in flow.zones),
+        "flow_layer_strain": max((zone.largest_strain for zone in layers), default=math.nan),
+        "flow_base_strain": base.largest_strain,
+        "flow_top": min(tops, default=math.nan),
+        "flow_depth": max(bottoms, default=math.nan),
+        "flow_first_yield": min(first, default=math.nan),
+        "flow_imprint_depth": max(float(flow.displacement.max()), 0.0),
+        "flow_pile_up": max(-float(flow.displacement.min()), 0.0),
+        "flow_mean_contact_pressure": peak.force / area if area > 0.0 else math.nan,
+        **tensions,
+        IMPRINT.name: flow.displacement,
+        **shown.values(PREFIX),
+    }
+    names = layer_names(body)
+    headings = ["Layer", "Largest plastic strain", "at (x, y, depth)", "Depths", "Volume", "First yield at"]
+    cells = []
+    for name, zone in zip(names, flow.zones, strict=False):
+        if not zone.largest_strain > 0.0:
+            cells.append([name, "elastic", "–", "–", "–", "–"])
+            continue
+        place = ", ".join(show(value, "m", 3) for value in zone.place)
+        begin = show(zone.first_yield, "Pa", 3) if math.isfinite(zone.first_yield) else "–"
+        span = f"{show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)}"
+        cells.append([name, percent(zone.largest_strain), place, span, f"{zone.volume * 1e18:.3g} µm³", begin])
+    facts = {"layers": names, "axis": "x", "zones": [headings, cells], "row": _row(flow)}
+    findings = inferred_strengths(body)
+    if not values["flow_largest_strain"] > 0.0:
+        elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
+        findings = (*findings, elastic)
+    return Found(values, facts, findings, flow.citation_keys)
 
 
 def flow_law(table: PlasticFlowSettings, problem: ContactProblem) -> Law:
@@ -67,39 +106,6 @@ def flow_law(table: PlasticFlowSettings, problem: ContactProblem) -> Law:
     return Law(whole, table.cells, depth, float(table.tolerance))
 
 
-def _body(problem: ContactProblem) -> Body:
-    return plastic_body(problem.body, problem.counter_body)[0]
-
-
-# Numbers.
-
-
-def _numbers(flow: PlasticBody, solved: Solved) -> dict[str, Any]:
-    """``SCALARS`` but for the tensions."""
-    layers, base = flow.zones[:-1], flow.zones[-1]
-    first = [zone.first_yield for zone in flow.zones if math.isfinite(zone.first_yield)]
-    tops = [zone.top for zone in flow.zones if math.isfinite(zone.top)]
-    bottoms = [zone.bottom for zone in flow.zones if math.isfinite(zone.bottom)]
-    result = _peak(solved)
-    area = float(result.contact.sum()) * result.problem.grid.pixel_area
-    return {
-        **{item.name: math.nan for item in SCALARS},
-        "flow_plastic_work": flow.work,
-        "flow_residual_energy": flow.residual_energy,
-        "flow_volume": sum(zone.volume for zone in flow.zones),
-        "flow_layer_volume": sum(zone.volume for zone in layers) if layers else math.nan,
-        "flow_largest_strain": max(zone.largest_strain for zone in flow.zones),
-        "flow_layer_strain": max((zone.largest_strain for zone in layers), default=math.nan),
-        "flow_base_strain": base.largest_strain,
-        "flow_top": min(tops, default=math.nan),
-        "flow_depth": max(bottoms, default=math.nan),
-        "flow_first_yield": min(first, default=math.nan),
-        "flow_imprint_depth": max(float(flow.displacement.max()), 0.0),
-        "flow_pile_up": max(-float(flow.displacement.min()), 0.0),
-        "flow_mean_contact_pressure": result.force / area if area > 0.0 else math.nan,
-    }
-
-
 def _row(flow: PlasticBody) -> int:
     """Row of the grid through the largest plastic strain; where nothing flows the one through the middle."""
     grid = flow.problem.grid
@@ -115,7 +121,7 @@ def _shown(flow: PlasticBody, solved: Solved) -> tuple[PlasticValues, dict[str, 
     place = 0.5 * (across[1:] + across[:-1])
     imprint = -flow.displacement[:, row]
     curve = _curve(solved)
-    interfaces = interfaces_of(_body(solved.problem))
+    interfaces = interfaces_of(flow.body)
     if not flow.depths.size:
         depth = np.array([0.0, float(max(grid.size)) / 8.0])
         empty = np.zeros((grid.shape[0], 1))
@@ -179,54 +185,24 @@ def _curve(solved: Solved) -> dict[str, RealArray]:
     if path is None or len(path.steps) < 2:
         return {}
     pixel = solved.problem.grid.pixel_area
+    elastic_force: list[float] = []
+    if solved.lines:  # of the elastic contact at the approaches up to the peak; NaN beyond
+        elastic, peak = solved.problem.with_physics(plastic_flow=None), _peak(solved)
+        elastic_force = [math.nan] * len(path.steps)
+        for number, step in enumerate(path.steps):
+            with suppress(AsperityError):
+                result = solve(elastic, Approach(step.approach), keep=Keep(stiffness=False), on_failure="return")
+                elastic_force[number] = result.force
+            if step is peak:
+                break
     columns = {
         "approach": [step.approach for step in path.steps],
         "force": [step.force for step in path.steps],
         "area": [float(step.contact.sum()) * pixel for step in path.steps],
         "work_lost": [step.require_plastic_flow().work for step in path.steps],
-        "elastic_force": _elastic_forces(solved, path),
+        "elastic_force": elastic_force,
     }
     return {name: np.array([0.0, *values]) for name, values in columns.items() if values}
-
-
-def _elastic_forces(solved: Solved, path: HistoryResult) -> list[float]:
-    """Forces of the elastic contact at the approaches up to the peak; NaN beyond, and nothing where no pictures are drawn."""
-    if not solved.lines:
-        return []
-    elastic, found = solved.problem.with_physics(plastic_flow=None), []
-    peak = int(np.argmax([step.force for step in path.steps]))
-    for step in path.steps[: peak + 1]:
-        try:
-            result = solve(elastic, Approach(step.approach), keep=Keep(stiffness=False), on_failure="return")
-            found.append(result.force)
-        except AsperityError:
-            found.append(math.nan)
-    return found + [math.nan] * (len(path.steps) - peak - 1)
-
-
-def _zone_rows(flow: PlasticBody, body: Body) -> list[Any]:
-    """Headings and cells of the table of zones."""
-    headings = ("Layer", "Largest plastic strain", "at (x, y, depth)", "Depths", "Volume", "First yield at")
-    cells = []
-    for name, zone in zip(layer_names(body), flow.zones, strict=False):
-        if not zone.largest_strain > 0.0:
-            cells.append([name, "elastic", "–", "–", "–", "–"])
-            continue
-        place = ", ".join(show(value, "m", 3) for value in zone.place)
-        first = show(zone.first_yield, "Pa", 3) if math.isfinite(zone.first_yield) else "–"
-        span = f"{show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)}"
-        size = f"{zone.volume * 1e18:.3g} µm³"
-        cells.append([name, percent(zone.largest_strain), place, span, size, first])
-    return [list(headings), cells]
-
-
-def _findings(flow: PlasticBody, body: Body) -> tuple[Advice, ...]:
-    """Yield stresses from the hardness, no flow at all; the rest is found in the review of the contact."""
-    made = list(inferred_strengths(body))
-    largest = max(zone.largest_strain for zone in flow.zones)
-    if not largest > 0.0:
-        made.append(Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic."))
-    return tuple(made)
 
 
 class PlasticFlowWork(Work):
@@ -270,7 +246,16 @@ class PlasticFlowWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """What flows, what stays, zones by layer, tensions."""
-        return flow_words(found)
+        values = found.values
+        strain = percent(float(values["flow_largest_strain"]))
+        depth, dent = (show(float(values[name]), "m", 3) for name in ("flow_depth", "flow_imprint_depth"))
+        work = show(float(values["flow_plastic_work"]), "J", 3)
+        sentence = f"The body flows down to {depth} with plastic strains of up to {strain}; an imprint of {dent} stays, and plastic flow took {work}."
+        if not float(values["flow_largest_strain"]) > 0.0:
+            sentence = "Nothing flows beneath the contact: it is elastic."
+        zones = ("Plastic zones", zones_table(found.detail))
+        tables = (zones, ("Tension and shear that may crack layers", tension_table(values, "flow")))
+        return Words(sentence, [("largest plastic strain", strain)], number_rows(SCALARS, values), tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers and table of zones."""
@@ -288,23 +273,3 @@ REMARK = (
     "unloading is in it only where the unloading was computed (--plastic-unload). Stresses of the table [stress] hold the plastic strain. Tensions are means over depth cells."
 )
 """What the model is."""
-
-
-def flow_words(found: Found) -> Words:
-    """Sentence, headline, rows and tables."""
-    values, facts = found.values, found.detail
-    tables = (
-        ("Plastic zones", zones_table(facts)),
-        ("Tension and shear that may crack layers", tension_table(values, "flow")),
-    )
-    headline = [("largest plastic strain", percent(float(values["flow_largest_strain"])))]
-    return Words(_sentence(values), headline, number_rows(SCALARS, values), tables, (REMARK,))
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    largest = float(values["flow_largest_strain"])
-    if not largest > 0.0:
-        return "Nothing flows beneath the contact: it is elastic."
-    depth, dent = (show(float(values[name]), "m", 3) for name in ("flow_depth", "flow_imprint_depth"))
-    work = show(float(values["flow_plastic_work"]), "J", 3)
-    return f"The body flows down to {depth} with plastic strains of up to {percent(largest)}; an imprint of {dent} stays, and plastic flow took {work}."

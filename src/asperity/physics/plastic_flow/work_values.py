@@ -202,16 +202,14 @@ def meshed_laws(body: Body, *, unknown_is_elastic: bool) -> list[J2 | None]:
     InputError
         If a yield stress is not known.
     """
-    return [_with_hardening(part) for part in plastic_parts(body, unknown_is_elastic=unknown_is_elastic)]
-
-
-def _with_hardening(part: J2 | Elastic) -> J2 | None:
-    if not isinstance(part, J2):
-        return None
-    if isinstance(part.hardening, LinearHardening) and part.hardening.modulus == 0.0:
-        least = LEAST_HARDENING * part.elastic.youngs_modulus
-        return replace(part, hardening=LinearHardening(part.hardening.initial, least))
-    return part
+    laws: list[J2 | None] = []
+    for part in plastic_parts(body, unknown_is_elastic=unknown_is_elastic):
+        law = part if isinstance(part, J2) else None
+        if law is not None and isinstance(law.hardening, LinearHardening) and law.hardening.modulus == 0.0:
+            least = LEAST_HARDENING * law.elastic.youngs_modulus
+            law = replace(law, hardening=LinearHardening(law.hardening.initial, least))
+        laws.append(law)
+    return laws
 
 
 def summit_radius(problem: ContactProblem, fix: str) -> float:

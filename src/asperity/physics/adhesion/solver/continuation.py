@@ -111,7 +111,9 @@ class Continuation:
     def __init__(self, problem: AdhesiveProblem, step: float = 0.25) -> None:
         self.problem, self.operator = problem, problem.operator
         self.first = require.positive(step, "step along the branch, over the range of the attraction")
-        self.single = float(self.operator.apply(_one(problem.profile.shape)).max())
+        one = np.zeros(problem.profile.shape)
+        one[0, 0] = 1.0
+        self.single = float(self.operator.apply(one).max())
         self.pairs = 0.0
 
     def points(self, traction: RealArray, offset: float, *, direction: float) -> Iterator[BranchPoint]:
@@ -143,7 +145,7 @@ class Continuation:
             if found is None:
                 step *= 0.5
                 if step < _SHORTEST * self.first * self.problem.law.range:
-                    raise NoSolutionError(self._too_short(point.offset))
+                    break
                 continue
             along = self._tangent(found, row, self._of_crossing(point, found))
             point = replace(found, turn=along.offset, length=point.length + step)
@@ -152,22 +154,20 @@ class Continuation:
                 step = min(1.4 * step, self.first * self.problem.law.range)
             elif found.corrections >= _SLOW:
                 step *= 0.6
+        pixel = max(self.operator.grid.pixels)
+        text = f"step along the branch must not be less than {_SHORTEST:g} of the first, but is at the offset {point.offset:.6g} m. "
+        if pixel <= self.needed_pixel:
+            raise NoSolutionError(text + "Take smaller steps, or a finer grid.")
+        raise NoSolutionError(
+            text
+            + f"Single points snap there: the pixel is {pixel:.3g} m. Take one of at most {self.needed_pixel:.3g} m, or an attraction "
+            "that falls more gently, such as ExponentialAdhesion(...) or DugdaleAdhesion(..., smoothing=1.0)."
+        )
 
     @property
     def needed_pixel(self) -> float:
         """Largest pixel in m with which the branch can be followed; the compliance of a point goes about as its pixel."""
         return max(self.operator.grid.pixels) * _FOLLOWS / (self.single * self.problem.law.steepest)
-
-    def _too_short(self, offset: float) -> str:
-        pixel = max(self.operator.grid.pixels)
-        text = f"step along the branch must not be less than {_SHORTEST:g} of the first, but is at the offset {offset:.6g} m. "
-        if pixel <= self.needed_pixel:
-            return text + "Take smaller steps, or a finer grid."
-        return (
-            text
-            + f"Single points snap there: the pixel is {pixel:.3g} m. Take one of at most {self.needed_pixel:.3g} m, or an attraction "
-            "that falls more gently, such as ExponentialAdhesion(...) or DugdaleAdhesion(..., smoothing=1.0)."
-        )
 
     def _further(
         self, point: BranchPoint, ahead: BranchPoint, along: _Tangent, step: float
@@ -221,7 +221,10 @@ class Continuation:
 
     def _tangent(self, point: BranchPoint, along: _Tangent, crossing: _Tangent | None = None) -> _Tangent:
         """Direction of the branch at ``point``, on from ``along``, of length one; that in which the points of a ``crossing`` go on."""
-        weight = self._weight(point)
+        law = self.problem.law
+        near = point.contact | (np.abs(law.attraction(np.maximum(point.gap, 0.3 * law.spacing))) > _NEAR * law.strength)
+        share = float(near.mean())
+        weight = np.where(near, 1.0 / share, 0.0) if share > 0.0 else np.ones_like(point.traction)
         x, u, by = self._solved(point, along, np.zeros_like(point.traction), 1.0, 1e-6)
         size = float(np.sqrt((weight * u * u).mean() + by * by))
         if crossing is not None and crossing.along(u, by) < 0.0:
@@ -240,12 +243,6 @@ class Continuation:
         sign = np.where(crossing, np.sign(ahead.gap - point.gap), 0.0)
         weight = crossing / float(crossing.mean())
         return _Tangent(np.zeros_like(sign), sign, float((weight * sign).mean()), weight)
-
-    def _weight(self, point: BranchPoint) -> RealArray:
-        law = self.problem.law
-        near = point.contact | (np.abs(law.attraction(np.maximum(point.gap, 0.3 * law.spacing))) > _NEAR * law.strength)
-        share = float(near.mean())
-        return np.where(near, 1.0 / share, 0.0) if share > 0.0 else np.ones_like(point.traction)
 
     def _solved(
         self, point: BranchPoint, along: _Tangent, right: RealArray, length: float, tolerance: float
@@ -272,9 +269,3 @@ class Continuation:
     def _applied(self, traction: RealArray) -> RealArray:
         self.pairs += self.operator.pairs_per_application
         return self.operator.apply(traction)
-
-
-def _one(shape: tuple[int, ...]) -> RealArray:
-    field = np.zeros(shape)
-    field[0, 0] = 1.0
-    return field

@@ -94,13 +94,19 @@ class MovingFront:
         """
         work, tolerance, count = Work(), _LOOSE, 0
         closed, parted = pull > 0.0, np.zeros(pull.shape, dtype=bool)
+        most = self.tension(problem.law)
+        grip = _GRIP * most
         energies = []
         while True:
             count += 1
-            state = self._held(problem, closed, pressure, work, tolerance)
+            # closed points are held together by more than they can bear
+            cap = problem.cap
+            if isinstance(cap, np.ndarray) or cap < np.inf:
+                cap = np.where(closed, cap + grip, cap)
+            state = minimised(replace(problem, cap=cap), np.where(closed, grip, 0.0), pressure, work, tolerance)
             closed, pressure = closed | (state.pressure > 0.0), state.pressure
             energies.append(problem.energy(state))
-            loose = self._loose(problem.law, closed, state)
+            loose = closed & ((-state.traction > most) | (state.pressure <= 0.0))
             ahead = loose if loose.any() else self._closing(problem, closed, state) & ~parted
             if count >= self.max_steps or (not ahead.any() and tolerance == FINEST):
                 break
@@ -113,10 +119,16 @@ class MovingFront:
         pixel = problem.operator.grid.pixel_area
         energy = problem.energy(state) * pixel
         scaled = tuple(value * pixel for value in energies)
-        moving = int(np.count_nonzero(ahead))
-        return AdhesiveSolution(
-            self._shown(problem.law, closed, state), energy, scaled, count, 0, work.pairs, _status(moving, count)
-        )
+        status = Status(Outcome.CONVERGED, f"The edge of the contact is at rest after {count} solves.")
+        if ahead.any():
+            text = f"{np.count_nonzero(ahead)} points at the edge of the contact still move after {count} solves."
+            status = Status(Outcome.ITERATION_LIMIT, text, "Take smaller steps of load or position.")
+        # no more pull than each point needs to stay closed
+        traction = np.where(closed, state.traction, 0.0)
+        pull = np.where(closed, np.maximum(-traction, 0.0) + _LEFT * most, 0.0)
+        gap = np.where(closed, 0.0, state.gap)
+        shown = Adhered(np.where(closed, traction + pull, 0.0), pull, state.deflection, gap, pull, state.offset)
+        return AdhesiveSolution(shown, energy, scaled, count, 0, work.pairs, status)
 
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
         """One where points would come loose or touch anew under this wall ``pressure`` (Pa) and ``pull``, else zero; fields (nx, ny)."""
@@ -130,19 +142,6 @@ class MovingFront:
         most = max(float(-state.traction.min()), 0.0)
         return 1.0 - (most / self.tension(problem.law)) ** 2
 
-    def _held(
-        self, problem: AdhesiveProblem, closed: BoolArray, pressure: RealArray | None, work: Work, tolerance: float
-    ) -> Adhered:
-        """Contact with the points ``closed`` held together by more than they can bear."""
-        grip = _GRIP * self.tension(problem.law)
-        cap = problem.cap
-        if isinstance(cap, np.ndarray) or cap < np.inf:
-            cap = np.where(closed, cap + grip, cap)
-        return minimised(replace(problem, cap=cap), np.where(closed, grip, 0.0), pressure, work, tolerance)
-
-    def _loose(self, law: Adhesion, closed: BoolArray, state: Adhered) -> BoolArray:
-        return closed & ((-state.traction > self.tension(law)) | (state.pressure <= 0.0))
-
     def _closing(self, problem: AdhesiveProblem, closed: BoolArray, state: Adhered) -> BoolArray:
         """Open points next to closed ones whose closing releases energy."""
         law = problem.law
@@ -152,14 +151,6 @@ class MovingFront:
         tension = neighbouring(behind, wraps=problem.operator.boundary.wraps)
         near = state.gap < _AHEAD * self.tension(law) * self.compliance
         return ~closed & near & (tension >= 0.0) & (0.5 * tension * state.gap < law.work)
-
-    def _shown(self, law: Adhesion, closed: BoolArray, state: Adhered) -> Adhered:
-        """The same with no more pull than each point needs to stay closed."""
-        traction = np.where(closed, state.traction, 0.0)
-        pull = np.where(closed, np.maximum(-traction, 0.0) + _LEFT * self.tension(law), 0.0)
-        pressure = np.where(closed, traction + pull, 0.0)
-        gap = np.where(closed, 0.0, state.gap)
-        return Adhered(pressure, pull, state.deflection, gap, pull, state.offset)
 
 
 def neighbouring(field: RealArray, *, wraps: tuple[bool, bool]) -> RealArray:
@@ -176,10 +167,3 @@ def neighbouring(field: RealArray, *, wraps: tuple[bool, bool]) -> RealArray:
                 moved[tuple(edge)] = -1.0
             np.maximum(found, moved, out=found)
     return found
-
-
-def _status(moving: int, count: int) -> Status:
-    if moving == 0:
-        return Status(Outcome.CONVERGED, f"The edge of the contact is at rest after {count} solves.")
-    text = f"{moving} points at the edge of the contact still move after {count} solves."
-    return Status(Outcome.ITERATION_LIMIT, text, "Take smaller steps of load or position.")

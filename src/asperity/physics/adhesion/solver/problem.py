@@ -8,14 +8,14 @@ points of
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ....contact.operators import Operator
 from ....contact.operators.convolution import spectral_kernel
-from ....contact.solvers.protocol import Constraint, FixedMean, FixedOffset
+from ....contact.solvers.protocol import Constraint, FixedMean
 from ....core.arrays import BoolArray, RealArray
 from ....core.spectral import RealTransform
 from ..law import Adhesion
@@ -49,10 +49,6 @@ class AdhesiveProblem:
     def load_prescribed(self) -> bool:
         """Whether the load is."""
         return isinstance(self.constraint, FixedMean)
-
-    def at_offset(self, offset: float) -> AdhesiveProblem:
-        """The same with this offset (m) prescribed."""
-        return replace(self, constraint=FixedOffset(offset))
 
     def energy(self, state: Adhered) -> float:
         """Π over the area of a pixel, in Pa·m."""
@@ -138,18 +134,6 @@ class Linearised:
         typical = float(np.median(self.soft[self.contact])) if isinstance(self.soft, np.ndarray) else 0.0
         return 1.0 / (kernel + typical)
 
-    def _preconditioned(self, r: RealArray) -> RealArray:
-        self.pairs += 1.0
-        found = self._transform.backward(self._transform.forward(r) * self._inverse)
-        z = np.where(self.contact, found, 0.0)
-        return self._balanced(z)
-
-    def _balanced(self, z: RealArray) -> RealArray:
-        """``z`` without its mean over the contact where the load is prescribed."""
-        if not self.problem.load_prescribed:
-            return z
-        return np.where(self.contact, z - z[self.contact].mean(), 0.0)
-
     def _applied(self, traction: RealArray) -> RealArray:
         self.pairs += self.operator.pairs_per_application
         return self.operator.apply(traction)
@@ -171,7 +155,11 @@ class Linearised:
         for _ in range(_INNER_STEPS):
             if first == 0.0 or np.linalg.norm(r) <= tolerance * first:
                 break
-            z = self._preconditioned(r)
+            self.pairs += 1.0
+            z = self._transform.backward(self._transform.forward(r) * self._inverse)
+            if self.problem.load_prescribed:  # without the mean over the contact
+                z = z - z[self.contact].mean()
+            z = np.where(self.contact, z, 0.0)
             rz = float((r * z).sum())
             if not rz > 0.0:
                 break

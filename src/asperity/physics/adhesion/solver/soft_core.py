@@ -36,6 +36,7 @@ _PART = 0.25
 """Change of the position in such a part over z0."""
 
 _INNER_STEPS = 400
+_HALVINGS = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,17 +90,18 @@ class SoftCoreNewton:
             point = start if count == 0 else _at(problem, point.t, point.u, offset)
             point, steps, miss, energies = self._newton(problem, point, work)
             count += steps
-        pixel = problem.operator.grid.pixel_area
-        status = _status(miss, self.tolerance, count)
-        return AdhesiveSolution(
-            _adhered(problem, point),
-            point.energy * pixel,
-            tuple(value * pixel for value in energies),
-            count,
-            count,
-            work.pairs,
-            status,
-        )
+        status = Status(Outcome.CONVERGED, f"Traction and gap agree to {miss:.1e} after {count} steps.")
+        if not miss <= self.tolerance:
+            text = f"Traction and gap still differ by {miss:.1e} after {count} steps."
+            status = Status(Outcome.STAGNATED, text, "Take smaller steps of the load or position, or a finer grid.")
+        law, pixel = problem.law, problem.operator.grid.pixel_area
+        assert isinstance(law, SoftAdhesion)
+        # nearer than the gap of the largest attraction points touch
+        pressure = np.where(point.gap < law.peak, np.maximum(law.strength + point.t, 0.0), 0.0)
+        pull = pressure - point.t
+        scaled = tuple(value * pixel for value in energies)
+        state = Adhered(pressure, pull, point.u, point.gap, pull, point.offset)
+        return AdhesiveSolution(state, point.energy * pixel, scaled, count, count, work.pairs, status)
 
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
         """Largest difference of the traction and the law at the ``gap`` over the larger of strength and traction; fields (nx, ny)."""
@@ -136,9 +138,20 @@ class SoftCoreNewton:
         for count in range(1, self.max_steps + 1):
             if miss <= self.tolerance:
                 return point, count - 1, miss, energies
-            change = self._change(problem, point, min(0.1, max(1e-5, miss)), work)
-            further = _descended(problem, point, *change)
-            if further is None:
+            x, image, by, down = self._change(problem, point, min(0.1, max(1e-5, miss)), work)
+            # along the change until the energy is lower; no gap changes by more than a part of itself
+            change = image + by
+            with np.errstate(divide="ignore", invalid="ignore"):
+                opens = problem.law.range + 0.5 * point.gap
+                room = np.where(change < 0.0, (1.0 - _NEAREST) * point.gap, opens) / np.abs(change)
+            most = float(np.nanmin(np.where(change == 0.0, np.inf, room)))
+            step = most if down else min(1.0, most)
+            for _ in range(_HALVINGS):
+                further = _at(problem, point.t + step * x, point.u + step * image, point.offset + step * by)
+                if further.energy <= point.energy + 1e-13 * abs(point.energy):
+                    break
+                step *= 0.5
+            else:
                 return point, count, miss, energies
             point = further
             energies.append(point.energy)
@@ -215,25 +228,6 @@ def conjugate(
     return x, image, False
 
 
-def _descended(
-    problem: AdhesiveProblem, point: _Point, x: RealArray, image: RealArray, by: float, down: bool
-) -> _Point | None:
-    """The point along the change at which the energy is lower; None where there is none."""
-    change = image + by
-    with np.errstate(divide="ignore", invalid="ignore"):
-        room = np.where(change < 0.0, (1.0 - _NEAREST) * point.gap, problem.law.range + 0.5 * point.gap) / np.abs(
-            change
-        )
-    most = float(np.nanmin(np.where(change == 0.0, np.inf, room)))
-    step = most if down else min(1.0, most)
-    for _ in range(40):
-        further = _at(problem, point.t + step * x, point.u + step * image, point.offset + step * by)
-        if further.energy <= point.energy + 1e-13 * abs(point.energy):
-            return further
-        step *= 0.5
-    return None
-
-
 def _at(problem: AdhesiveProblem, t: RealArray, u: RealArray, offset: float) -> _Point:
     gap = offset + problem.law.spacing + u - problem.profile
     least = 0.3 * problem.law.spacing
@@ -247,19 +241,3 @@ def _at(problem: AdhesiveProblem, t: RealArray, u: RealArray, offset: float) -> 
 def _miss(law: Adhesion, t: RealArray, gap: RealArray) -> float:
     scale = np.maximum(law.strength, np.abs(t))
     return float((np.abs(t + law.attraction(gap)) / scale).max())
-
-
-def _adhered(problem: AdhesiveProblem, point: _Point) -> Adhered:
-    """The same as wall pressure and pull, of which the pressure is that nearer than the gap of the largest attraction."""
-    law = problem.law
-    assert isinstance(law, SoftAdhesion)
-    near = point.gap < law.peak
-    pressure = np.where(near, np.maximum(law.strength + point.t, 0.0), 0.0)
-    return Adhered(pressure, pressure - point.t, point.u, point.gap, pressure - point.t, point.offset)
-
-
-def _status(miss: float, tolerance: float, count: int) -> Status:
-    if miss <= tolerance:
-        return Status(Outcome.CONVERGED, f"Traction and gap agree to {miss:.1e} after {count} steps.")
-    text = f"Traction and gap still differ by {miss:.1e} after {count} steps."
-    return Status(Outcome.STAGNATED, text, "Take smaller steps of the load or position, or a finer grid.")

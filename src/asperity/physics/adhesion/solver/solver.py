@@ -130,7 +130,12 @@ class MajoriseMinimise:
                 and miss > self.tolerance
             ):
                 break
-        status = _status(miss, self.tolerance, count, ended=count >= self.max_steps)
+        status = Status(Outcome.CONVERGED, f"Attraction and gap agree to {miss:.1e} after {count} steps.")
+        if not miss <= self.tolerance:
+            text = f"Attraction and gap still differ by {miss:.1e} of the strength after {count} steps."
+            remedy = "Take smaller steps of the load or position, or a grid that resolves the adhesion."
+            ended = Outcome.ITERATION_LIMIT if count >= self.max_steps else Outcome.STAGNATED
+            status = Status(ended, text, remedy)
         scaled = tuple(value * pixel for value in energies)
         return AdhesiveSolution(state, scaled[-1], scaled, count, newton_steps, work.pairs, status)
 
@@ -230,7 +235,10 @@ def _steihaug(
         image = direction - system.root * moved
         curvature = float((direction * image).sum())
         step = before / curvature if curvature > 0.0 else np.inf
-        most = _to_border(change, moved, radius)
+        # the largest step that stays within the radius at every point
+        with np.errstate(divide="ignore", invalid="ignore"):
+            room = np.where(moved > 0.0, radius - change, radius + change) / np.abs(moved)
+        most = max(float(np.nanmin(np.where(moved == 0.0, np.inf, room))), 0.0)
         if step >= most:
             return z + most * direction
         z, change = z + step * direction, change + step * moved
@@ -238,18 +246,3 @@ def _steihaug(
         now = float((residual * residual).sum())
         direction, before = residual + (now / before) * direction, now
     return z
-
-
-def _to_border(change: RealArray, moved: RealArray, radius: float) -> float:
-    """Largest step along ``moved`` from ``change`` (m) that stays within the ``radius`` at every point."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        room = np.where(moved > 0.0, radius - change, radius + change) / np.abs(moved)
-    return max(float(np.nanmin(np.where(moved == 0.0, np.inf, room))), 0.0)
-
-
-def _status(miss: float, tolerance: float, count: int, *, ended: bool) -> Status:
-    if miss <= tolerance:
-        return Status(Outcome.CONVERGED, f"Attraction and gap agree to {miss:.1e} after {count} steps.")
-    text = f"Attraction and gap still differ by {miss:.1e} of the strength after {count} steps."
-    remedy = "Take smaller steps of the load or position, or a grid that resolves the adhesion."
-    return Status(Outcome.ITERATION_LIMIT if ended else Outcome.STAGNATED, text, remedy)

@@ -101,17 +101,6 @@ class JointSolution:
     steps: int
 
 
-def solve_jointly(
-    problem: JointProblem, pressure: RealArray, traction: RealArray, *, shear_error: float, normal_error: float
-) -> JointSolution:
-    """Pressure and traction of ``problem`` from a ``pressure`` (nx, ny) and ``traction`` (2, nx, ny) in Pa.
-
-    Until ``Deviation.error`` is at most ``shear_error`` and the mean gap under load over the rms height at most ``normal_error``. Where that
-    is not reached the best iterate is returned: no energy falls from step to step, so that there is no promise.
-    """
-    return JointIterate(problem, pressure, traction).solved(shear_error, normal_error)
-
-
 class Place(NamedTuple):
     """Iterate on its free points: traction (2, n) and pressure (n,), slip, residual of the gap (m), and errors over those wanted."""
 
@@ -126,7 +115,7 @@ class Place(NamedTuple):
 
 
 class JointIterate:
-    """Iterate of one joint solve."""
+    """Iterate of one joint solve of ``problem``, from a ``pressure`` (nx, ny) and ``traction`` (2, nx, ny) in Pa."""
 
     def __init__(self, problem: JointProblem, pressure: RealArray, traction: RealArray) -> None:
         self.problem, self.engine = problem, problem.shear.engine
@@ -138,24 +127,19 @@ class JointIterate:
         constraint = normal.constraint
         self.load = constraint.mean_pressure * size if isinstance(constraint, FixedMean) else None
         self.steps, self.pairs, self.cost = 0, 0.0, 1.5 * shear.pairs_per_application
-        self._into_bounds()
+        # the start, put within its bounds and scaled to load and force
+        index = np.flatnonzero(self.p > 0.0)
+        if self.load is not None:
+            self.p *= self.load / float(self.p.sum())
+        points = Points(index, self._bound(index, self.p.reshape(-1)[index]), self.target[:, index], 1.0)
+        q = points.projected(points.gathered(self.q))
+        self.q = points.scattered(q if self.force is None else points.with_sum(q, self.force), self.shape)
         self._compute()
         self.fields = [[self.engine.field(self.shape, "float32") for _ in range(3)] for _ in range(2)]
         nothing = Points(np.empty(0, np.int64), np.empty(0), np.empty((2, 0)), shear.largest)
         self.work = Workspace.of(shear, nothing, "float32")
         model = spline_compliance(normal.operator, self.work.pixel).model
         self.splines = self.engine.splines(self.shape, model, "float32")
-
-    def _into_bounds(self) -> None:
-        index = np.flatnonzero(self.p > 0.0)
-        if self.load is not None:
-            self.p *= self.load / float(self.p.sum())
-        bound = self._bound(index, self.p.reshape(-1)[index])
-        points = Points(index, bound, self.target[:, index], 1.0)
-        q = points.projected(points.gathered(self.q))
-        if self.force is not None:
-            q = points.with_sum(q, self.force)
-        self.q = points.scattered(q, self.shape)
 
     def _bound(self, index: Index, p: RealArray) -> RealArray:
         bound: RealArray = at_points(self.problem.law, index).bound(p[None])[0]
@@ -169,8 +153,12 @@ class JointIterate:
         self.pairs += self.cost
         self.exact = True
 
-    def solved(self, shear_error: float, normal_error: float) -> JointSolution:
-        """Steps until the errors are reached by displacements computed from scratch."""
+    def solved(self, *, shear_error: float, normal_error: float) -> JointSolution:
+        """Steps until the errors are reached by displacements computed from scratch.
+
+        Until ``Deviation.error`` is at most ``shear_error`` and the mean gap under load over the rms height at most ``normal_error``. Where
+        that is not reached the best iterate is returned: no energy falls from step to step, so that there is no promise.
+        """
         before, lowest, idle = np.inf, np.inf, 0
         while True:
             place = self._place(shear_error, normal_error)
@@ -187,16 +175,11 @@ class JointIterate:
             fallen = place.error / before if before < np.inf else 1.0
             reduction, before = min(_REDUCTION, max(wanted, _FORCING * fallen)), place.error
             self._step(place, reduction)
-        return self._solution(best)
-
-    def _solution(self, place: Place) -> JointSolution:
         pressure, slipping = np.zeros(self.p.size), np.zeros(self.p.size, bool)
-        index = place.points.index
-        pressure[index], slipping[index] = place.p, place.sets.slip
-        traction = place.points.scattered(place.q, self.shape)
-        return JointSolution(
-            pressure.reshape(self.shape), traction, slipping.reshape(self.shape), self.pairs, self.steps
-        )
+        index = best.points.index
+        pressure[index], slipping[index] = best.p, best.sets.slip
+        traction, shape = best.points.scattered(best.q, self.shape), self.shape
+        return JointSolution(pressure.reshape(shape), traction, slipping.reshape(shape), self.pairs, self.steps)
 
     def _place(self, shear_error: float, normal_error: float) -> Place:
         normal = self.problem.normal

@@ -104,15 +104,14 @@ class NewtonSystem:
         conductance = conductance.astype(kind)
         work.cells.factorise(work.free, conductance)
         system = cls(work, slip, tangent.astype(kind), curvature.astype(kind), conductance, None)
-        return system.with_uniform() if zero_sum else system
-
-    def with_uniform(self) -> NewtonSystem:
-        """The same with the preconditioned uniform residuals, by which steps are kept to a sum of zero."""
-        ones = np.zeros((2, 2, len(self.slip)), self.work.dtype)
+        if not zero_sum:
+            return system
+        # the preconditioned uniform residuals, by which steps are kept to a sum of zero
+        ones = np.zeros((2, 2, len(slip)), kind)
         ones[0, 0], ones[1, 1] = 1.0, 1.0
-        solved = np.stack([self._preconditioned(self.free_part(each)) for each in ones])
+        solved = np.stack([work.cells.solve(work.free, system.free_part(each), conductance) for each in ones])
         sums = solved.sum(axis=2, dtype=np.float64)  # (shift, component)
-        return replace(self, uniform=(solved, np.linalg.pinv(sums.T)))
+        return replace(system, uniform=(solved, np.linalg.pinv(sums.T)))
 
     def free_part(self, values: RealArray) -> RealArray:
         """P times ``values`` (2, n)."""
@@ -125,15 +124,12 @@ class NewtonSystem:
 
     def preconditioned(self, r: RealArray) -> RealArray:
         """Approximate inverse times ``r`` (2, n), of zero sum where steps are."""
-        z = self._preconditioned(r)
+        z = self.work.cells.solve(self.work.free, r, self.conductance)
         if self.uniform is not None:
             solved, inverse = self.uniform
             weights = (inverse @ z.sum(axis=1, dtype=np.float64)).astype(z.dtype)
             z -= np.tensordot(weights, solved, axes=1)
         return z
-
-    def _preconditioned(self, r: RealArray) -> RealArray:
-        return self.work.cells.solve(self.work.free, r, self.conductance)
 
     def solved(self, r: RealArray, reduction: float, most: int) -> tuple[RealArray, int]:
         """Step (2, n) for the residual ``r`` = P s over ``pixel``, and the number of products it took.

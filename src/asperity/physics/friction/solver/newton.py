@@ -107,25 +107,19 @@ class StickSlipNewton:
         if not len(points.index):
             nothing = np.zeros((2, 0)), np.zeros((2, 0)), np.zeros(2)
             return ended(qp, points, nothing, Deviation(0.0, 0.0), tolerance=1.0, work=(0, 0.0))
-        if start is None:
-            start, pairs = self._from_coarser(qp)
+        shape = qp.bound.shape
+        if start is None and min(shape) > COARSEST and np.isfinite(qp.bound).all():
+            # in proportion to the bound as on the grid of half as many points per side
+            bound = restricted(qp.bound)
+            target = np.stack([restricted(component) for component in qp.target])
+            coarse = replace(qp, operator=qp.operator.coarsened, bound=bound, target=target)
+            found = replace(self, tolerance=max(self.tolerance, _LOOSEST)).solve(coarse)
+            ratio = found.traction / np.where(bound > 0.0, bound, 1.0)
+            start = ratio.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]] * qp.bound
+            pairs = found.pairs * (bound.size / qp.bound.size)
         iteration = _Iteration(qp, points, start, self)
         iteration.pairs += pairs
         return iteration.solved()
-
-    def _from_coarser(self, qp: TangentialQP) -> tuple[RealArray | None, float]:
-        """Traction in proportion to the bound as on the grid of half as many points per side, and its FFT pairs."""
-        shape = qp.bound.shape
-        if min(shape) <= COARSEST or not np.isfinite(qp.bound).all():
-            return None, 0.0
-        bound = restricted(qp.bound)
-        target = np.stack([restricted(component) for component in qp.target])
-        coarse = replace(qp, operator=qp.operator.coarsened, bound=bound, target=target)
-        found = replace(self, tolerance=max(self.tolerance, _LOOSEST)).solve(coarse)
-        ratio = found.traction / np.where(bound > 0.0, bound, 1.0)
-        fine = ratio.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]]
-        share = bound.size / qp.bound.size
-        return fine * qp.bound, found.pairs * share
 
 
 class _Slip(NamedTuple):
@@ -144,19 +138,15 @@ class _Iteration:
         self.total = None if qp.mean_traction is None else np.asarray(qp.mean_traction) * qp.bound.size
         self.work = Workspace.of(qp.operator, points, "float32" if settings.precision == "mixed" else "float64")
         self.pairs = 0.0
-        if start is None:
-            self.q = self._first()
-        else:
+        if start is not None:
             q = points.projected(points.gathered(start))
             self.q = q if self.total is None else points.with_sum(q, self.total)
+        elif self.total is not None:
+            self.q = points.in_proportion(self.total)
+        else:
+            self.q = np.zeros((2, len(points.bound)))
         self._compute()
         self.doublings, self.settled_error, self.by_few = 0, np.inf, False
-
-    def _first(self) -> RealArray:
-        """No traction, or the prescribed one in proportion to the bound."""
-        if self.total is None:
-            return np.zeros((2, len(self.points.bound)))
-        return self.points.in_proportion(self.total)
 
     def _compute(self) -> None:
         """Displacement of the traction from scratch, in double precision."""
@@ -227,8 +217,8 @@ class _Iteration:
             part *= 0.5
         # just below the limit of friction either shift may lead nowhere: 3 of 16 forces of 0.999 and 0.99999 of it did not settle by one alone
         self.by_few = not self.by_few
-        downhill = self.q + s / self.qp.operator.largest
-        self._taken(self._restored(self.points.projected(downhill)), s, force=True)
+        downhill = self.points.projected(self.q + s / self.qp.operator.largest)
+        self._taken(downhill if self.total is None else self.points.with_sum(downhill, self.total), s, force=True)
 
     def _moved(self, system: NewtonSystem, sets: Sets, d: RealArray) -> RealArray:
         """Traction after the step ``d``: slipping ones turned on their circles, sticking ones put back within their bounds.
@@ -248,9 +238,6 @@ class _Iteration:
         towards = traction / bound + sets.tangent * (np.einsum("ij,ij->j", d, sets.tangent) / bound)
         turned = towards * (bound / np.where(sets.slip, size_of(towards), 1.0))
         return np.where(sets.slip, turned, self.points.projected(traction + d))
-
-    def _restored(self, traction: RealArray) -> RealArray:
-        return traction if self.total is None else self.points.with_sum(traction, self.total)
 
     def _taken(self, traction: RealArray, s: RealArray, *, force: bool = False) -> bool:
         """Go to ``traction`` if the energy does not rise by that, or in any case if ``force``."""

@@ -112,14 +112,6 @@ class TangentialSolution:
         return np.asarray(np.any(self.slip != 0.0, axis=0))
 
 
-def at_bound(traction: RealArray, slipping: BoolArray, bound: RealArray) -> RealArray:
-    """``traction`` (2, nx, ny) with that of the ``slipping`` points (nx, ny) at another ``bound`` (nx, ny)."""
-    found = traction.copy()
-    turned = found[:, slipping]
-    found[:, slipping] = turned * (bound[slipping] / size_of(turned))
-    return found
-
-
 class TangentialSolver(Protocol):
     """Method for a ``TangentialQP``."""
 
@@ -178,7 +170,14 @@ class Points:
         if size <= _ROUNDING * float(np.hypot(*total) + np.abs(traction).sum()):
             return traction
         inside = size_of(traction) < self.bound * AT_BOUND
-        room = np.where(inside, self._room(traction, missing / size), 0.0)
+        # by how much each may grow along what is missing; what is unbounded takes all there is
+        unbounded = np.isinf(self.bound)
+        if unbounded.any():
+            room = np.where(unbounded, 1e200, 0.0)
+        else:
+            along = (missing / size) @ traction
+            room = np.sqrt(np.maximum(self.bound**2 - size_of(traction) ** 2 + along**2, 0.0)) - along
+        room = np.where(inside, room, 0.0)
         if float(room.sum()) < size:
             return self.nearest(traction, total)
         return self.projected(traction + (missing / float(room.sum()))[:, None] * room)
@@ -216,14 +215,6 @@ class Points:
         unbounded = np.isinf(self.bound)
         weight = unbounded.astype(float) if unbounded.any() else self.bound
         return np.asarray(total[:, None] * (weight / weight.sum()))
-
-    def _room(self, traction: RealArray, direction: RealArray) -> RealArray:
-        """By how much each of ``traction`` (2, n) may grow along the unit vector ``direction``; what is unbounded takes all there is."""
-        unbounded = np.isinf(self.bound)
-        if unbounded.any():
-            return np.where(unbounded, 1e200, 0.0)
-        along = direction @ traction
-        return np.asarray(np.sqrt(np.maximum(self.bound**2 - size_of(traction) ** 2 + along**2, 0.0)) - along)
 
 
 _SWEEPS = 100
