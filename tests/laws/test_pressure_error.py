@@ -6,7 +6,7 @@ import pytest
 import asperity as asp
 from asperity.contact.operators import prepare_operator
 from asperity.contact.solvers import ActiveSet, ContactQP, FixedMean, run
-from asperity.contact.solvers.pressure_error import pressure_error
+from asperity.contact.solvers.protocol import pressure_error
 
 ALLOWED = 1e-3
 """Error of the pressure over the largest, and in the L2 norm, at the default tolerance."""

@@ -35,10 +35,9 @@ from .controls import (
 )
 from .couplings.driver import Rounds, Settled
 from .couplings.held import settle_position
-from .couplings.pressure_limit import ConstantHardness
 from .couplings.protocol import Coupling, Memory, Posed, height_scale
 from .history import History, HistoryResult
-from .law import HardWall, LimitByDepth
+from .law import ConstantHardness, HardWall, LimitByDepth
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem, Preparing, Solved, require_borne
 from .result import ContactResult, added, assemble

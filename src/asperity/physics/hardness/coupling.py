@@ -29,9 +29,8 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from ...contact.couplings.pressure_limit import added_indentation, indentation_before, indented
 from ...contact.couplings.protocol import Ahead, Contact, Coupling, Exchange, Memory, Posed, Share
-from ...contact.law import LimitByDepth
+from ...contact.law import LimitByDepth, added_indentation, indentation_before, indented
 from ...contact.operators.convolution import Operator
 from ...contact.solvers.active_set.solver import ActiveSet
 from ...contact.solvers.active_set.yielding import FallingLimit, follow

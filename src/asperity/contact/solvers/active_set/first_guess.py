@@ -122,7 +122,7 @@ def settle(work: Workspace, rounds: int) -> None:
     qp = work.qp
     survey = work.survey()
     free = free_set(survey, plane_level(qp, survey.totals), qp.height_scale, work.scaled.dtype, wide=True)
-    narrowed(work, free, free.residual(centred=work.load_prescribed), rounds=rounds)
+    narrowed(work, free, free.residual(centred=work.load is not None), rounds=rounds)
 
 
 _AREA_PER_LOAD = 2.0

@@ -16,7 +16,7 @@ import numpy as np
 from ....core.arrays import RealArray
 from ....core.engine import Convolution, Engine, FreeSet, Products, Splines, Survey
 from ...operators import Operator
-from ..protocol import ContactQP, FixedMean, FixedOffset, heights_near_contact
+from ..protocol import ContactQP, FixedOffset, heights_near_contact
 from .spline_model import SplineCompliance, spline_compliance
 
 # The compliance and the arrays of a problem.
@@ -31,6 +31,7 @@ class ScaledOperator:
     """
 
     operator: Operator
+    engine: Engine
     dtype: str
     scale: float
     product: Convolution
@@ -42,12 +43,7 @@ class ScaledOperator:
         """Scaled ``operator`` with work arrays of its own."""
         engine, shape = operator.engine, operator.grid.shape
         fields = engine.field(shape, dtype), engine.field(shape, dtype)
-        return cls(operator, dtype, scale, operator.convolution(dtype, scale), *fields)
-
-    @property
-    def engine(self) -> Engine:
-        """Machine that computes it."""
-        return self.operator.engine
+        return cls(operator, engine, dtype, scale, operator.convolution(dtype, scale), *fields)
 
     @cached_property
     def modelled(self) -> SplineCompliance:
@@ -59,21 +55,20 @@ class ScaledOperator:
         """Nested splines that model it."""
         return self.engine.splines(self.operator.grid.shape, self.modelled.model, self.dtype)
 
-    @property
-    def model_steps(self) -> int:
-        """Steps of conjugate gradients on the model for one use of the preconditioner; one is its approximate inverse."""
-        return _MODEL_STEPS if self.modelled.refined else 1
-
 
 @dataclass(frozen=True, eq=False)
 class Workspace:
     """Arrays of one problem and the scaled operator for its corrections.
 
     ``pressure`` and ``deflection`` (Pa, m; in the precision ``dtype``) are the iterate, changed in place; ``exact`` is
-    the convolution that makes the one from the other. A deflection over ``scaled.scale`` is a pressure in units of ``unit``.
+    the convolution that makes the one from the other. A deflection over ``scaled.scale`` is a pressure in units of ``unit`` (Pa).
+    ``load`` is the sum of the pressure (Pa) that is prescribed, so that corrections must sum to zero; None at a prescribed position.
     """
 
     qp: ContactQP
+    engine: Engine
+    unit: float
+    load: float | None
     scaled: ScaledOperator
     dtype: str
     heights: Any
@@ -96,38 +91,26 @@ class Workspace:
             exact.apply(pressure, begun)
         else:
             begun = engine.array(deflection, dtype)
-        scale = operator.largest or 1.0
+        scale, constraint = operator.largest or 1.0, qp.constraint
+        if isinstance(constraint, FixedOffset):
+            load, heights = None, qp.profile - constraint.offset if constraint.offset else qp.profile
+        else:
+            load, heights = constraint.mean_pressure * qp.profile.size, heights_near_contact(qp)
+            if precision == "single" and heights is qp.profile:
+                heights = heights - float(heights.mean())
         return cls(
             qp=qp,
+            engine=engine,
+            unit=qp.height_scale / scale,
+            load=load,
             scaled=ScaledOperator.of(operator, "float64" if precision == "double" else "float32", scale),
             dtype=dtype,
-            heights=engine.array(_heights(qp, centred=precision == "single"), dtype),
+            heights=engine.array(heights, dtype),
             cap=None if qp.elastic else engine.array(np.asarray(qp.cap, dtype=float).reshape(-1), dtype),
             exact=exact,
             pressure=pressure,
             deflection=begun,
         )
-
-    @property
-    def unit(self) -> float:
-        """Pressure (Pa) of one in a correction."""
-        return self.qp.height_scale / self.scaled.scale
-
-    @property
-    def engine(self) -> Engine:
-        """Machine it is on."""
-        return self.scaled.engine
-
-    @property
-    def load(self) -> float | None:
-        """Sum of the pressure (Pa) that is prescribed; None at a prescribed position."""
-        constraint = self.qp.constraint
-        return constraint.mean_pressure * self.qp.profile.size if isinstance(constraint, FixedMean) else None
-
-    @property
-    def load_prescribed(self) -> bool:
-        """Whether corrections must sum to zero."""
-        return self.load is not None
 
     def survey(self) -> Survey:
         """Sums over the iterate."""
@@ -137,14 +120,6 @@ class Workspace:
         """Workspace with arrays of its own for the iterate; the work arrays of corrections are shared."""
         pressure, deflection = self.engine.copy(self.pressure), self.engine.copy(self.deflection)
         return replace(self, pressure=pressure, deflection=deflection)
-
-
-def _heights(qp: ContactQP, *, centred: bool) -> RealArray:
-    """Heights from a level near the contact; ``centred`` in any case if the load is prescribed."""
-    if isinstance(qp.constraint, FixedOffset):
-        return qp.profile - qp.constraint.offset if qp.constraint.offset else qp.profile
-    heights = heights_near_contact(qp)
-    return heights - float(heights.mean()) if centred and heights is qp.profile else heights
 
 
 # The linear system of a step, and its preconditioner.
@@ -179,11 +154,6 @@ class LinearSystem:
         """Mean of a vector that sums to ``total``, where it is to be taken out."""
         return total / self.free.size if self.zero_sum and self.free.size else 0.0
 
-    @property
-    def pairs(self) -> float:
-        """FFT pairs of a product."""
-        return 0.0 if self.modelled else self.scaled.operator.pairs_per_application
-
     def prepared(self, r: Any, pending: PressureChange | None = None) -> Any:
         """Residual that the ``pending`` change leaves of ``r``, as the model predicts it, with the preconditioner prepared for the set."""
         splines = self.scaled.splines
@@ -204,7 +174,7 @@ class LinearSystem:
     def preconditioned(self, r: Any, other: Any, out: Any, *, more: int = 0) -> Products:
         """Approximate inverse of K times ``r``, better by some ``more`` steps on the model, and its products with ``r`` and ``other``."""
         scaled = self.scaled
-        steps = scaled.model_steps + more
+        steps = (_MODEL_STEPS if scaled.modelled.refined else 1) + more  # one is the approximate inverse of the model
         if self.modelled or steps == 1:
             return scaled.splines.solve(self.free, r, other, out)
         model, stopping = replace(self, modelled=True), Stopping(0.0, steps - 1)
@@ -274,7 +244,7 @@ def conjugate_gradients(
     ``on_step`` receives the length of every step while its product with the compliance is in ``response``.
     ``further``: length of one more step without a product, over that before; for changes whose deflection is computed anyway. None if zero.
     """
-    free = system.free
+    free, pairs = system.free, 0.0 if system.modelled else system.scaled.operator.pairs_per_application
     last: _Direction | None = None
     predicted = system.prepared(r, pending)
     if stopping.max_steps == 0:
@@ -286,7 +256,7 @@ def conjugate_gradients(
     taken, z, length, reached = int(pending is not None), free.empty(), _STEP_LENGTH, False
     while taken < stopping.max_steps:
         if taken > 0 and ending is not None and free.largest(r) <= ending:
-            return _unmeasured(system, r, last, length, Correction(d, taken * system.pairs, True, open=True))
+            return _unmeasured(system, r, last, length, Correction(d, taken * pairs, True, open=True))
         if reached := taken > 0 and left < enough:
             break
         preconditioned = system.preconditioned(r, r if last is None else last.kt, z)
@@ -303,7 +273,7 @@ def conjugate_gradients(
         if on_step is not None:
             on_step(length)
         d, r, left = free.update_solution(length, t, kt, system.mean(total), d, r)
-    found = Correction(d if taken else None, taken * system.pairs, reached)
+    found = Correction(d if taken else None, taken * pairs, reached)
     return _unmeasured(system, r, last, further * length, found) if further and taken else found
 
 

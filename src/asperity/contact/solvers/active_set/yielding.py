@@ -237,7 +237,7 @@ class _Iteration:
 
     def _correction(self, set_: _Points, system: _Equations) -> RealArray:
         """Solution d (n,) of the system with the model of K by preconditioned conjugate residuals, in units of ``Workspace.unit``."""
-        w, load_prescribed = system.weights, self.work.load_prescribed
+        w, load_prescribed = system.weights, self.work.load is not None
         heavy = w / w.sum()
         self.splines.factorise(set_.points, system.conductance)
 
@@ -269,7 +269,7 @@ class _Iteration:
         """Inverse of nested splines times ``r`` (n,), summing to zero where the load is prescribed."""
         free, single = ~set_.yields, r.astype(system.conductance.dtype)
         z = self.splines.solve_with(set_.points, single, system.conductance).astype(float)
-        if self.work.load_prescribed:
+        if self.work.load is not None:
             z[free] -= z.sum() / np.count_nonzero(free)
         return z
 
@@ -295,7 +295,7 @@ class _Iteration:
             return new
         left, change = free | set_.yields, (new - set_.pressure) / work.unit
         r = set_.r + work.qp.height_scale * self._by_model(set_, change)
-        level = float(r[free].mean()) if work.load_prescribed else level
+        level = float(r[free].mean()) if work.load is not None else level
         rest = self._set(set_.index[left], new[left], r[left], set_.yields[left], level)
         correction = self._correction(rest, self._equations(rest, level))
         new[left] = self._within(rest, correction, load - float(new[~left].sum()))
@@ -306,7 +306,7 @@ class _Iteration:
         free, highest = ~set_.yields, self.highest[set_.index]
         new = set_.pressure + self.work.unit * d
         inside = np.clip(new, np.where(free, 0.0, self.lowest[set_.index]), highest)
-        if self.work.load_prescribed:
+        if self.work.load is not None:
             _restore(inside, free, highest, load)
         return inside
 
