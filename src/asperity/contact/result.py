@@ -356,13 +356,10 @@ def assemble(
     beside = [lift, *(answer.retarded() for answer in answers)]
     displacement = sum((part for part in beside if part is not None), u)
     springs = [energy for energy in (answer.springs() for answer in answers) if energy is not None]
-    deflections = None
-    if found.qp.elastic and attraction is None:  # by the pressures from which the next one is extrapolated
-        pairs = [(p, u)]
-        if before is not None and before.deflections is not None:
-            known = before.deflections.by(before.pressure, operator)
-            pairs += [] if known is None else [(before.pressure, known)]
-        deflections = Deflections(operator, tuple(pairs))
+    pairs = [(p, u)]  # by the pressures from which the next one is extrapolated
+    if before is not None and before.deflections is not None:
+        known = before.deflections.by(before.pressure, operator)
+        pairs += [] if known is None else [(before.pressure, known)]
     capped = np.zeros(p.shape, dtype=bool) if found.qp.elastic else (p > 0.0) & (p >= found.cap)
     yielding = 0 if found.qp.elastic else int(np.count_nonzero(capped))
     computed = found.qp.as_computed(found.solution.state)[0]  # a GPU takes a hundredth of the time
@@ -396,7 +393,7 @@ def assemble(
         couplings=outcomes,
         memory={name: memory for name, memory in memories.items() if memory and name != "hardness"},
         earlier=before.pressure if before is not None and before.pressure.any() else None,
-        deflections=deflections,
+        deflections=Deflections(operator, tuple(pairs)) if found.qp.elastic and attraction is None else None,
         **_indentation(problem, before, memories["hardness"], added(answer.imprint() for answer in answers)),
     )
 

@@ -139,7 +139,7 @@ def solve(
     keep = options.pop("keep", None) or Keep()
     step = control if isinstance(control, Step) else Step(control)
     result = Prepared(problem, keep=keep, sticks=sticks(problem, [step], state), **options).step(step, state)
-    if on_failure == "raise" and not result.converged:
+    if on_failure == "raise" and not result.status.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
 
@@ -374,8 +374,8 @@ def settled_with(
     Arguments and errors are those of ``settle``.
     """
     names = {coupling.name for coupling in couplings}
-    together = [place for pair, place in PAIRS.items() if pair <= names] if posed.balances_force else []
-    way = home(together[0]) if together else settle_position
+    together = [place for pair, place in PAIRS.items() if pair <= names]
+    way = home(together[0]) if together and posed.balances_force else settle_position
     settled: Settled = way(posed, couplings, memories, solver, **options)
     return settled
 
@@ -454,7 +454,10 @@ def default_solver(problem: ContactProblem, *, sticks: bool = False) -> Solver:
     """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size, as tight as its physics need."""
     wanted = (physics.normal_tolerance(sticks=sticks) for physics in problem.physics)
     tolerance = min((each for each in wanted if each is not None), default=None)
-    return ActiveSet() if tolerance is None else ActiveSet(tolerance=tolerance)
+    return _USUAL if tolerance is None else ActiveSet(tolerance=tolerance)
+
+
+_USUAL = ActiveSet()
 
 
 def couplings_of(

@@ -240,6 +240,7 @@ class _Iteration:
     def settled(self) -> Settled:
         """Rounds until all couplings are settled by a solve to the full tolerance, or it must be given up."""
         tolerance, lowest, progressed = self._next_tolerance(np.inf, self.active), np.inf, 0
+        status: Status | None = None
         alone = self.couplings[self.active[0]] if len(self.active) == 1 else None
         if isinstance(alone, Foreseeing):
             # it may find the contact by a method of its own, from which rounds then start
@@ -252,7 +253,8 @@ class _Iteration:
             tolerance = self.finest if count == self.rounds.most else tolerance
             contact = self._solved(self._posed(), tolerance)
             if not contact.solution.status.converged:
-                return self._ended(contact, count, contact.solution.status)
+                status = contact.solution.status
+                break
             moves = self._reply(contact)
             if tolerance <= self.finest:
                 state, asked = contact.solution.state, self.solver.tolerance
@@ -268,7 +270,8 @@ class _Iteration:
                     settled = [self.couplings[name].settled(self.exchanges[name]) for name in self.active]
                     message = contact.solution.status.message
                     message = " ".join([message, *(f"{text} {rounds}" for text in settled)])
-                    return self._ended(contact, count, Status(Outcome.CONVERGED, message))
+                    status = Status(Outcome.CONVERGED, message)
+                    break
                 tolerance = self.finest
                 continue
             if self.nested and moves:
@@ -285,11 +288,16 @@ class _Iteration:
             idle = 0 if self.active == [Position.name] else count - progressed
             tolerance = max(self.finest, self._next_tolerance(worst, concerned) * _TIGHTER**idle)
             self._advance(moves)
-        farthest = max(self.active, key=self._ratio)
-        coupling, stagnated = self.couplings[farthest], count < self.rounds.most
-        message = f"{coupling.unsettled(self.exchanges[farthest])} after {count} rounds."
-        outcome = Outcome.STAGNATED if stagnated else Outcome.ITERATION_LIMIT
-        return self._ended(contact, count, Status(outcome, message, coupling.remedy))
+        if status is None:
+            farthest = max(self.active, key=self._ratio)
+            coupling, stagnated = self.couplings[farthest], count < self.rounds.most
+            message = f"{coupling.unsettled(self.exchanges[farthest])} after {count} rounds."
+            status = Status(Outcome.STAGNATED if stagnated else Outcome.ITERATION_LIMIT, message, coupling.remedy)
+        checks = []
+        for name in self.active:
+            rate = min(self._rate(name), _SLOWEST) if count > 1 else 0.0
+            checks.append(CouplingCheck(name, self.exchanges[name].residual, rate, self.exchanges[name].tolerance))
+        return Settled(contact, self.exchanges, tuple(checks), count, self.finest, status)
 
     def _reply(self, contact: Contact) -> bool:
         """Replies of the couplings to ``contact``; whether the position moves, for which when nested all others wait."""
@@ -416,8 +424,15 @@ class _Iteration:
             if solver.tolerance != tolerance and is_dataclass(solver):
                 settable: Any = {item.name for item in fields(solver) if item.init}
                 solver = replace(solver, tolerance=tolerance) if "tolerance" in settable else solver
-            if self.last is None and not self.active and isinstance(solver, ActiveSet):
-                begun = self._extrapolated(solver, qp)
+            posed, lone = (
+                self.posed,
+                self.last is None and not self.active and not isinstance(self.posed.retarded, np.ndarray),
+            )
+            before = [pressure for pressure in (posed.start, posed.earlier) if pressure is not None]
+            if isinstance(solver, ActiveSet) and lone and len(before) == 2 and (ratio := self._ahead(qp)) is not None:
+                known = [None if posed.deflections is None else posed.deflections.by(p, qp.operator) for p in before]
+                last, earlier = (Loaded(*load) for load in zip(before, known, strict=True))
+                begun = solver.extrapolated(qp, last, earlier, ratio)  # with its deflection
             solution = run(solver, qp, None if begun is not None else self._start(qp), self.watched, begun)
             error, asked = solution.state.error, self.solver.tolerance
             if solution.status.outcome is Outcome.STAGNATED and tolerance < error <= asked:
@@ -426,9 +441,8 @@ class _Iteration:
                 self.reached = error
                 text = f"Converged: relative error {error:.2e} by {self.solver.name}, as far as the arithmetic reaches, tolerance {asked:.0e}."
                 solution = replace(solution, status=Status(Outcome.CONVERGED, text))
-        contact = Contact(self.posed, qp, solution, self.indentation, self.attraction).with_work_of(self.last)
-        if self.last is None:
-            contact = contact.after(*self.spent)
+        contact = Contact(self.posed, qp, solution, self.indentation, self.attraction)
+        contact, self.spent = contact.with_work_of(self.last, *self.spent), (0, 0.0)
         if contact.pressure.any():
             self.pressures = [*self.pressures[-1:], contact.pressure]
         self.last = contact
@@ -465,18 +479,6 @@ class _Iteration:
         step = mean - float(before.mean(dtype=np.float64))
         ratio = (qp.constraint.mean_pressure - mean) / step if abs(step) > 1e-12 * mean else 0.0
         return ratio if 0.0 < ratio <= _FARTHEST else None
-
-    def _extrapolated(self, solver: ActiveSet, qp: ContactQP) -> SolverState | None:
-        """State extrapolated from the loads before, with its deflection."""
-        posed, ratio = self.posed, self._ahead(qp)
-        if ratio is None or posed.start is None or posed.earlier is None or isinstance(posed.retarded, np.ndarray):
-            return None
-        known = posed.deflections
-        last, earlier = (
-            Loaded(pressure, None if known is None else known.by(pressure, qp.operator))
-            for pressure in (posed.start, posed.earlier)
-        )
-        return solver.extrapolated(qp, last, earlier, ratio)
 
     def _goes_on(self) -> bool:
         """Whether an unknown that is not smooth still moves and has never turned back: it is bounded, and so comes to rest."""
@@ -539,14 +541,6 @@ class _Iteration:
             exchange = self.exchanges[name]
             if exchange.smooth or not exchange.settled:
                 self.exchanges[name] = replace(exchange, x=np.clip(x, exchange.lowest, exchange.highest))
-
-    def _ended(self, contact: Contact, count: int, status: Status) -> Settled:
-        checks = []
-        for name in self.active:
-            exchange = self.exchanges[name]
-            rate = min(self._rate(name), _SLOWEST) if count > 1 else 0.0
-            checks.append(CouplingCheck(name, exchange.residual, rate, exchange.tolerance))
-        return Settled(contact, self.exchanges, tuple(checks), count, self.finest, status)
 
 
 class _Told:

@@ -76,12 +76,6 @@ class ContactQP:
         profile = self.resident_profile
         return self if profile is self.profile else replace(self, profile=profile)
 
-    @property
-    def on_host(self) -> ContactQP:
-        """The same with the profile as a NumPy array."""
-        profile = self.operator.engine.numpy(self.profile)
-        return self if profile is self.profile else replace(self, profile=profile)
-
     def survey(self, state: SolverState) -> Survey:
         """Sums over ``state`` and the profile, in double precision."""
         return self.operator.engine.survey(*self._arrays(state))
@@ -151,16 +145,6 @@ class SolverState:
         if isinstance(self.memory, Borrowing):
             return self.memory.copied(self)
         return replace(self, pressure=self.pressure.copy(), deflection=self.deflection.copy())
-
-    @property
-    def finished(self) -> SolverState:
-        """The same as NumPy arrays, without the memory of the method: a result, and a start for ``init``."""
-        if self.engine is None:
-            return replace(self, memory=None)
-        own = self.pressure, self.deflection
-        pressure, deflection = (self.engine.numpy(values) for values in own)
-        kept = own if self.engine.separate_memory else None
-        return replace(self, pressure=pressure, deflection=deflection, memory=None, engine=None, resident=kept)
 
 
 @runtime_checkable
@@ -254,8 +238,15 @@ def run(
 ) -> Solution:
     """Iterate ``solver`` from the pressure ``start`` (Pa), if there is one, or the state ``begun``, until it converges, stagnates or gives up."""
     ended = iterated(solver, qp, start, progress, begun)
-    state, finished = ended.state, ended.state.finished
-    total = finished.pressure.sum() if state.engine is None else state.engine.total(state.pressure)
+    state, engine = ended.state, ended.state.engine
+    finished = replace(state, memory=None)
+    if engine is None:
+        total = state.pressure.sum()
+    else:  # as NumPy arrays
+        total, own = engine.total(state.pressure), (state.pressure, state.deflection)
+        pressure, deflection = (engine.numpy(values) for values in own)
+        kept = own if engine.separate_memory else None
+        finished = replace(finished, pressure=pressure, deflection=deflection, engine=None, resident=kept)
     reached = f"relative error {state.error:.2e} after {state.iterations} iterations of {solver.name}"
     if not np.isfinite(total):
         text, remedy = "The pressure is not a finite number.", "Check heights, moduli and load for extreme values."
@@ -423,7 +414,7 @@ def heights_near_contact(qp: ContactQP) -> RealArray:
     if lightly_loaded(qp):
         if qp.elastic:
             return qp.profile - float(qp.profile.max())
-        profile = qp.on_host.profile if isinstance(qp.cap, np.ndarray) else qp.profile
+        profile = qp.operator.engine.numpy(qp.profile) if isinstance(qp.cap, np.ndarray) else qp.profile
         total = qp.constraint.mean_pressure * profile.size * (1.0 - 1e-12)
         return qp.profile + _last_needed(-profile, qp.cap, total)
     mean = float(qp.profile.mean())
@@ -551,7 +542,7 @@ def feasible_start(qp: ContactQP, start: RealArray | None) -> RealArray:
         return scaled_to_load(guess, qp.cap, mean)
     if start is not None and given:
         return np.asarray(np.clip(start, 0.0, qp.cap))
-    overlap = np.maximum(qp.on_host.profile - qp.constraint.offset, 0.0)
+    overlap = np.maximum(qp.operator.engine.numpy(qp.profile) - qp.constraint.offset, 0.0)
     response = float((overlap * qp.operator.apply(overlap)).sum())
     factor = float((overlap**2).sum()) / response if response > 0.0 else 0.0
     return np.asarray(np.clip(factor * overlap, 0.0, qp.cap))

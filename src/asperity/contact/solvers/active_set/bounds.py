@@ -111,7 +111,8 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, rounds: int = 1) -> Narr
     for _ in range(rounds):
         predicted = r if change is None else splines.predicted_residual(left, r, free, change)
         system = LinearSystem(work.scaled, left, work.load is not None)
-        z = system.preconditioned(system.prepared(predicted), predicted, left.empty())
+        splines.factorise(left)
+        z = system.preconditioned(predicted, predicted, left.empty())
         # beyond single precision the step fails, and says so, as others do
         with np.errstate(over="ignore", invalid="ignore"):
             d = left.shifted(z.vector, -system.mean(z.total))

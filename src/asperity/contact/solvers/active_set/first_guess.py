@@ -89,7 +89,7 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> Start:
     Pairs are counted in pairs of the grid of ``qp``: those of half as many points per side count a quarter.
     """
     if min(qp.profile.shape) <= COARSEST:
-        qp = qp.on_host
+        qp = replace(qp, profile=qp.operator.engine.numpy(qp.profile))
         return Start(feasible_start(qp, highest_points(qp)), narrowed=_NARROWED[0])
     rises = qp.elastic and steepness(qp.operator, _RISING_CELLS) > _RISING_FROM
     settles = qp.elastic and steepness(qp.operator) > _SETTLING_FROM

@@ -154,23 +154,6 @@ class LinearSystem:
         """Mean of a vector that sums to ``total``, where it is to be taken out."""
         return total / self.free.size if self.zero_sum and self.free.size else 0.0
 
-    def prepared(self, r: Any, pending: PressureChange | None = None) -> Any:
-        """Residual that the ``pending`` change leaves of ``r``, as the model predicts it, with the preconditioner prepared for the set."""
-        splines = self.scaled.splines
-        if pending is not None:
-            r = splines.predicted_residual(self.free, r, pending.free, pending.values)
-        if not self.modelled:
-            splines.factorise(self.free)
-        return r
-
-    def times(self, t: Any, out: Any) -> Products:
-        """K t, of the vector ``t`` that lies in the field, and twice its product with it."""
-        scaled = self.scaled
-        if self.modelled:
-            return scaled.splines.deflection(self.free, t, t, out)
-        scaled.product.apply(scaled.field, scaled.response)
-        return self.free.gather_products(scaled.response, t, t, out)
-
     def preconditioned(self, r: Any, other: Any, out: Any, *, more: int = 0) -> Products:
         """Approximate inverse of K times ``r``, better by some ``more`` steps on the model, and its products with ``r`` and ``other``."""
         scaled = self.scaled
@@ -244,16 +227,33 @@ def conjugate_gradients(
     ``on_step`` receives the length of every step while its product with the compliance is in ``response``.
     ``further``: length of one more step without a product, over that before; for changes whose deflection is computed anyway. None if zero.
     """
-    free, pairs = system.free, 0.0 if system.modelled else system.scaled.operator.pairs_per_application
+    free, scaled = system.free, system.scaled
+    pairs = 0.0 if system.modelled else scaled.operator.pairs_per_application
     last: _Direction | None = None
-    predicted = system.prepared(r, pending)
+    # what the pending change leaves of the residual, as the model predicts it
+    predicted = r if pending is None else scaled.splines.predicted_residual(free, r, pending.free, pending.values)
+    if not system.modelled:
+        scaled.splines.factorise(free)
     if stopping.max_steps == 0:
-        begun = Correction(free.zeros(), 0.0, True, open=stopping.ending is not None)
-        return _unmeasured(system, predicted, None, _STEP_LENGTH, begun, stopping.more)
+        none = Correction(free.zeros(), 0.0, True, open=stopping.ending is not None)
+        return _unmeasured(system, predicted, None, _STEP_LENGTH, none, stopping.more)
     ending = None if stopping.ending is None else stopping.ending * free.largest(r)
     enough = stopping.reduction**2 * free.square(predicted) if stopping.reduction and stopping.max_steps > 1 else 0.0
-    d, r, first, left = _first_step(system, r, predicted, pending, on_step)
-    taken, z, length, reached = int(pending is not None), free.empty(), _STEP_LENGTH, False
+    d, z, first, left = free.zeros(), free.empty(), 0.0, 0.0
+    if pending is not None:
+        # a step by one product with the compliance, which gives the deflection by the pending change as well: its direction t is
+        # the preconditioned residual that the change will leave, and the field holds t + change / length
+        begun = system.preconditioned(predicted, predicted, z, more=_FIRST_STEPS)
+        t, _ = _next_direction(system, r, begun, None)
+        pending.free.scatter_add(pending.values, 1.0 / _STEP_LENGTH, scaled.field)
+        scaled.product.apply(scaled.field, scaled.response)
+        scaled.engine.clear_field(pending.free, scaled.field)
+        z, total, _, _ = free.gather_products(scaled.response, t, t, begun.vector)
+        if on_step is not None:
+            on_step(_STEP_LENGTH)
+        d, r, left = free.update_solution(_STEP_LENGTH, t, z, system.mean(total), d, r)
+        first = begun.first
+    taken, length, reached = int(pending is not None), _STEP_LENGTH, False
     while taken < stopping.max_steps:
         if taken > 0 and ending is not None and free.largest(r) <= ending:
             return _unmeasured(system, r, last, length, Correction(d, taken * pairs, True, open=True))
@@ -265,7 +265,12 @@ def conjugate_gradients(
             break
         first = first or product
         t, slope = _next_direction(system, r, preconditioned, last)
-        kt, total, curvature, _ = system.times(t, free.empty() if last is None else last.kt)
+        out = free.empty() if last is None else last.kt
+        if system.modelled:
+            kt, total, curvature, _ = scaled.splines.deflection(free, t, t, out)
+        else:
+            scaled.product.apply(scaled.field, scaled.response)
+            kt, total, curvature, _ = free.gather_products(scaled.response, t, t, out)
         if curvature <= 0.0:
             break
         last = _Direction(t, kt, curvature, total)
@@ -299,39 +304,3 @@ def _next_direction(system: LinearSystem, r: Any, z: Products, last: _Direction 
     t = system.free.zeros() if last is None else last.t
     field = None if system.modelled else system.scaled.field
     return system.free.update_direction(z.vector, mean, ratio, t, r, field)
-
-
-class _FirstStep(NamedTuple):
-    """Vector ``d``, the residual ``r`` after it, of the square ``left``; the product ``first`` of the predicted residual with its preconditioned self."""
-
-    d: Any
-    r: Any
-    first: float
-    left: float
-
-
-def _first_step(
-    system: LinearSystem,
-    r: Any,
-    predicted: Any,
-    pending: PressureChange | None,
-    on_step: Callable[[float], None] | None,
-) -> _FirstStep:
-    """Step by one product with the compliance, which gives the deflection by the ``pending`` change as well; none where there is no such change.
-
-    Its direction t is the preconditioned residual ``predicted`` that the change will leave; the field holds t + change / length.
-    """
-    scaled, free = system.scaled, system.free
-    if pending is None:
-        return _FirstStep(free.zeros(), r, 0.0, 0.0)
-    z = system.preconditioned(predicted, predicted, free.empty(), more=_FIRST_STEPS)
-    t, _ = _next_direction(system, r, z, None)
-    pending.free.scatter_add(pending.values, 1.0 / _STEP_LENGTH, scaled.field)
-    scaled.product.apply(scaled.field, scaled.response)
-    scaled.engine.clear_field(pending.free, scaled.field)
-    response = free.gather_products(scaled.response, t, t, free.empty())
-    if on_step is not None:
-        on_step(_STEP_LENGTH)
-    mean = system.mean(response.total)
-    d, r, left = free.update_solution(_STEP_LENGTH, t, response.vector, mean, free.zeros(), r)
-    return _FirstStep(d, r, z.first, left)

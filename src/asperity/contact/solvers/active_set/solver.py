@@ -326,7 +326,8 @@ class ActiveSet:
             wide = min(qp.profile.shape) > COARSEST
         else:  # a last step, if the one before made few points tensile
             few = memory.tensile is not None and memory.clipped <= _SETTLED * memory.tensile.size
-            wide = few and not (self.monotone or self._guess) and self._wanted(state.error) >= _SINGLE
+            near = _MARGIN * self.tolerance >= _SINGLE * state.error
+            wide = few and near and not (self.monotone or self._guess)
         free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype, wide=wide)
         step = self._clipped_step if clips else self._unclipped_step
         following = step(memory, free, state.error)
@@ -411,7 +412,8 @@ class ActiveSet:
     def _gradient_step(self, memory: _Memory) -> _Memory:
         """(4) Step along the projected gradient from the iterate in the arrays; exhausted if not even that goes down."""
         work = memory.work
-        qp, engine = work.qp.on_host, work.engine
+        engine = work.engine
+        qp = replace(work.qp, profile=engine.numpy(work.qp.profile))
         _compute_from_scratch(memory)
         pressure, deflection = engine.numpy(work.pressure).copy(), engine.numpy(work.deflection).copy()
         lower = descend(qp, SolverState(pressure, deflection, memory.computed_at), levelling_step(qp))
@@ -448,7 +450,9 @@ class ActiveSet:
         due = ends or error < _REFRESH * memory.computed_at
         due = due or (memory.unsuccessful is None and memory.tensile is not None)
         if memory.iterations and ends and self._guess:
-            _clear_tensile(memory)
+            if memory.tensile is not None:
+                clear_tension(work, memory.tensile, memory.survey.totals.pressure)
+            memory.tensile = None
         elif memory.iterations and due and not memory.from_scratch:
             _compute_from_scratch(memory)
             error = memory.computed_at
@@ -467,17 +471,16 @@ class ActiveSet:
             work.engine,
         )
 
-    def _wanted(self, error: float) -> float:
-        """Reduction of the ``error`` that reaches the tolerance, with some margin."""
-        return _MARGIN * self.tolerance / error if error > 0.0 else 1.0
-
     def _stopping(self, memory: _Memory, free: FreeSet, error: float) -> Stopping:
         """(2) When to stop a correction.
 
         Accuracy is wasted on a set that will change: only once few points enter or leave is it worth having, and only
         once none does is the system solved to what the tolerance needs.
         """
-        changed, settled, wanted = free.entering + memory.clipped, memory.settled(free), self._wanted(error)
+        changed, settled = free.entering + memory.clipped, memory.settled(free)
+        wanted = (
+            _MARGIN * self.tolerance / error if error > 0.0 else 1.0
+        )  # reduction of the error that reaches the tolerance
         alone = memory.unsuccessful is None and not memory.fallbacks
         ends = not (self.monotone or self._guess)  # the last step may be one whose length is not measured
         if ends and wanted >= _SINGLE and (settled or alone):
@@ -502,17 +505,12 @@ class _Guess(ActiveSet):
 
 
 def _compute_from_scratch(memory: _Memory, total: float | None = None) -> None:
-    """Clear tensile points, and compute the deflection anew instead of from its updates; ``total`` as for ``_clear_tensile``."""
+    """Compute the deflection anew instead of from its updates, tensile points cleared and the others, of the sum ``total`` (by default that of the survey), scaled to the load."""
     work = memory.work
-    _clear_tensile(memory, total)
+    if memory.tensile is not None:
+        clear_tension(work, memory.tensile, memory.survey.totals.pressure if total is None else total)
+    memory.tensile = None
     work.exact.apply(work.pressure, work.deflection)
     memory.applications += 1
     memory.survey, memory.tension, memory.from_scratch = work.survey(), 0.0, True
     memory.computed_at = relative_error(work, memory.survey.totals)
-
-
-def _clear_tensile(memory: _Memory, total: float | None = None) -> None:
-    """Clear tensile points and scale the others, of the sum ``total`` (by default that of the survey), to the load."""
-    if memory.tensile is not None:
-        clear_tension(memory.work, memory.tensile, memory.survey.totals.pressure if total is None else total)
-    memory.tensile = None
