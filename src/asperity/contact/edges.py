@@ -109,7 +109,8 @@ class Edges:
     @property
     def cosine(self) -> RealArray:
         """Cosine of normal and axis, (n,); one beyond the border of the grid."""
-        return _cosine(self.axis, self.normal, self.beyond)
+        along = np.where(self.axis == 0, self.normal[:, 0], self.normal[:, 1])
+        return np.where(self.beyond, 1.0, np.abs(along))
 
     @property
     def excess(self) -> RealArray:
@@ -127,10 +128,6 @@ class Edges:
         shared = abs(float((weight * spread).sum())) + float((weight * self.factor).sum())
         scatter = np.where(self.beyond, 0.0, weight**2 * (self.spread**2 + RANDOM**2))
         return float(np.hypot(shared, 2.0 * np.sqrt(scatter.sum())))
-
-
-def _cosine(axis: NDArray[np.int8], normal: RealArray, beyond: BoolArray) -> RealArray:
-    return np.where(beyond, 1.0, np.abs(np.where(axis == 0, normal[:, 0], normal[:, 1])))
 
 
 class Outside(NamedTuple):
@@ -280,7 +277,8 @@ def edges_of(p: RealArray, gap: RealArray, plastic: BoolArray, setting: Setting)
     at, first = np.unique(pairs.inner, return_inverse=True)
     normal = _normals(at, p, grid, wraps)[first]
     normal = np.where(np.any(normal != 0.0, axis=1)[:, None], normal, np.sqrt(0.5))
-    cosine = _cosine(pairs.axis, normal, pairs.beyond)
+    along = np.where(pairs.axis == 0, normal[:, 0], normal[:, 1])
+    cosine = np.where(pairs.beyond, 1.0, np.abs(along))
     weight = cosine**2
     none = np.zeros(weight.size)
     if setting.kind is Kind.elastic:

@@ -138,7 +138,10 @@ class Position(Coupling):
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """Step of the logarithm of the load, from how far the bodies are from the position."""
         note, x, posed = exchange.note, float(exchange.x), contact.posed
-        closeness = self._closeness(note, contact)
+        if isinstance(posed.control, Approach):  # since the dented surfaces touched
+            closeness = contact.level + float(posed.dented.max())
+        else:
+            closeness = note.touch - float(contact.gap.mean())
         miss = closeness - note.wanted
         noise = contact.solution.state.error * posed.height_scale
         low = x if miss < -noise else note.low
@@ -202,13 +205,6 @@ class Position(Coupling):
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
         """Nothing to remember."""
         return {}, None
-
-    def _closeness(self, note: _Note, contact: Contact) -> float:
-        """Approach or decrease of the mean gap (m) since the dented surfaces touched."""
-        posed = contact.posed
-        if isinstance(posed.control, Approach):
-            return contact.level + float(posed.dented.max())
-        return note.touch - float(contact.gap.mean())
 
     def _step(self, note: _Note, closeness: float, rms: float) -> float:
         """Step of the logarithm of the load by Persson's law, mean gap = -0.45 rms ln p + ..., or by proportionality at light loads."""

@@ -179,7 +179,8 @@ class _Iteration:
             survey = self.work.survey()
             level, error = plane_level(self.work.qp, survey.totals), relative_error(self.work, survey.totals)
             set_ = self._points(survey, level)
-            off = self._disagreement(set_)
+            limits = set_.limits[set_.yields]
+            off = float(np.max(np.abs(set_.pressure[set_.yields] - limits) / limits, initial=0.0))
             if not (np.isfinite(error) and np.isfinite(off)):
                 break
             if progress:
@@ -213,13 +214,6 @@ class _Iteration:
         points = self.engine.points(self.work.qp.profile.shape, index, self.work.scaled.dtype)
         return _Points(index, pressure, r, yields, limits, points)
 
-    def _disagreement(self, set_: _Points) -> float:
-        """Largest relative difference of pressure and limit where points yield."""
-        if not set_.yields.any():
-            return 0.0
-        limits = set_.limits[set_.yields]
-        return float(np.max(np.abs(set_.pressure[set_.yields] - limits) / limits))
-
     def _equations(self, set_: _Points, level: float) -> _Equations:
         """The joint system, over the scale of the operator, its residual over the rms height."""
         work = self.work
@@ -248,7 +242,10 @@ class _Iteration:
         d, before = np.zeros(r.size), list[tuple[RealArray, RealArray, float]]()
         target = _REDUCTION**2 * float(w @ (r * r))
         for _ in range(_MOST_PRODUCTS):
-            z = self._preconditioned(set_, system, r)
+            single, free = r.astype(system.conductance.dtype), ~set_.yields
+            z = self.splines.solve_with(set_.points, single, system.conductance).astype(float)
+            if load_prescribed:
+                z[free] -= z.sum() / np.count_nonzero(free)
             az = centred(self._by_model(set_, z) - system.stiff * z)
             for other, product, square in before:
                 share = float((w * az) @ product) / square
@@ -264,14 +261,6 @@ class _Iteration:
                 break
             before.append((z, az, square))
         return d
-
-    def _preconditioned(self, set_: _Points, system: _Equations, r: RealArray) -> RealArray:
-        """Inverse of nested splines times ``r`` (n,), summing to zero where the load is prescribed."""
-        free, single = ~set_.yields, r.astype(system.conductance.dtype)
-        z = self.splines.solve_with(set_.points, single, system.conductance).astype(float)
-        if self.work.load is not None:
-            z[free] -= z.sum() / np.count_nonzero(free)
-        return z
 
     def _by_model(self, set_: _Points, values: RealArray) -> RealArray:
         """K times ``values`` (n,) on the set, over its scale, by the model of nested splines."""
@@ -307,7 +296,21 @@ class _Iteration:
         new = set_.pressure + self.work.unit * d
         inside = np.clip(new, np.where(free, 0.0, self.lowest[set_.index]), highest)
         if self.work.load is not None:
-            _restore(inside, free, highest, load)
+            for _ in range(LOAD_SWEEPS):  # all of them where scaling the free ones does not suffice
+                missing = load - float(inside.sum())
+                if abs(missing) <= LOAD_ROUNDING * load:
+                    break
+                below = free & (inside > 0.0) & (inside < highest)
+                movable = float(inside[below].sum())
+                if movable > 0.0 and movable + missing > 0.0:
+                    inside[below] = np.minimum(inside[below] * ((movable + missing) / movable), highest[below])
+                elif missing < 0.0:
+                    inside *= load / (load - missing)
+                else:
+                    below = free & (inside < highest)
+                    if not below.any():
+                        break
+                    inside[below] = np.minimum(inside[below] + missing / np.count_nonzero(below), highest[below])
         return inside
 
     def _add(self, set_: _Points, new: RealArray) -> None:
@@ -320,22 +323,3 @@ class _Iteration:
         self.engine.clear_field(set_.points, scaled.field)
         self.pairs += scaled.operator.pairs_per_application
         self.engine.add(scaled.response, work.qp.height_scale, work.deflection)
-
-
-def _restore(pressure: RealArray, free: BoolArray, highest: RealArray, target: float) -> None:
-    """Scale the ``free`` pressures below their limit (in place) so that all sum to ``target``; all of them where that does not suffice."""
-    for _ in range(LOAD_SWEEPS):
-        missing = target - float(pressure.sum())
-        if abs(missing) <= LOAD_ROUNDING * target:
-            return
-        below = free & (pressure > 0.0) & (pressure < highest)
-        movable = float(pressure[below].sum())
-        if movable > 0.0 and movable + missing > 0.0:
-            pressure[below] = np.minimum(pressure[below] * ((movable + missing) / movable), highest[below])
-        elif missing < 0.0:
-            pressure *= target / (target - missing)
-        else:
-            below = free & (pressure < highest)
-            if not below.any():
-                return
-            pressure[below] = np.minimum(pressure[below] + missing / np.count_nonzero(below), highest[below])
