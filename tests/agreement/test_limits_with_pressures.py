@@ -10,9 +10,9 @@ from contact_cases import rough
 
 import asperity as asp
 from asperity.contact.solvers import ActiveSet
-from asperity.contact.solvers.active_set import yielding
-from asperity.contact.solvers.active_set.yielding import Followed
 from asperity.physics.hardness import coupling as hardness
+from asperity.physics.hardness import solver as yielding
+from asperity.physics.hardness.solver import Followed
 
 LIMIT_TOLERANCE = 1e-5
 BOUNDARIES = pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)

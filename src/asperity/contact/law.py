@@ -94,20 +94,6 @@ class LimitByDepth(InterfaceLaw, Protocol):
         """Work (nx, ny) in J/m² to indent the virgin surface by ``indentation`` (nx, ny) in m."""
 
 
-def work_density(law: InterfaceLaw, before: RealArray, after: RealArray) -> RealArray:
-    """Work (nx, ny) in J/m² to indent the surface from ``before`` to ``after`` (nx, ny) in m: the integral of the limit."""
-    added = after - before
-    if not added.any():
-        return np.zeros_like(added)
-    if not isinstance(law, LimitByDepth):
-        work: RealArray = law.pressure_cap() * added
-        return work
-    index, density = np.flatnonzero(added), np.zeros_like(added)
-    last, first = (law.work_at(depth.reshape(-1)[index][None])[0] for depth in (after, before))
-    density.reshape(-1)[index] = last - first
-    return density
-
-
 # A limit of the pressure as a coupling.
 
 
@@ -130,7 +116,14 @@ def indented(law: InterfaceLaw, memory: Memory, contact: Contact) -> Memory:
         return {"work": np.zeros(()), **memory}
     first = indentation_before(contact.posed, memory)
     last = first + added_indentation(contact)
-    work = float(work_density(law, first, last).sum()) * contact.posed.operator.grid.pixel_area
+    deeper, density = last - first, np.zeros_like(last)  # in J/m²: the integral of the limit
+    index = np.flatnonzero(deeper)
+    if isinstance(law, LimitByDepth) and index.size:
+        after, before = (law.work_at(depth.reshape(-1)[index][None])[0] for depth in (last, first))
+        density.reshape(-1)[index] = after - before
+    elif index.size:
+        density = law.pressure_cap() * deeper
+    work = float(density.sum()) * contact.posed.operator.grid.pixel_area
     return {"indentation": last, "work": np.asarray(float(memory.get("work", 0.0)) + work)}
 
 

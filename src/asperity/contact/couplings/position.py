@@ -116,7 +116,7 @@ class Position(Coupling):
     remedy: ClassVar[str] = "Prescribe a load, or a position of less overlap."
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
-        """The load of the start, or a guess.
+        """The load of the start, or a guess, which is within a factor of three on self-affine surfaces.
 
         Raises
         ------
@@ -126,7 +126,19 @@ class Position(Coupling):
         control = posed.control
         touch, wanted = closeness_wanted(posed, elastic=self.elastic)
         known = 0.0 if posed.start is None else float(posed.start.mean())
-        x = np.asarray(np.log(known) if known > 0.0 else _first_guess(posed, touch, wanted))
+        if known > 0.0:
+            x = np.asarray(np.log(known))
+        else:  # Persson's law from the stiffness of the surface as a whole, in proportion to the load where few points touch
+            response = posed.operator.apply(posed.dented)
+            stiffness = float(posed.dented.std()) / float(response.std() or 1.0)
+            full = float(np.log(posed.height_scale * stiffness or 1.0)) + _AT_FULL
+            unit = _PERSSON * posed.height_scale
+            light = unit / _LIGHT
+            if wanted >= light:
+                guess = full + min((wanted - touch) / unit, _BEYOND)
+            else:
+                guess = full - max(touch - light, 0.0) / unit + float(np.log(wanted / light)) / _LIGHT
+            x = np.asarray(guess)
         size = min(wanted, control.value) if isinstance(control, MeanGap) else wanted
         accuracy = max(_SOLVER_SHARE * min(size / posed.height_scale, 1.0), _FINEST)
         return Exchange(x, x, np.inf, accuracy=accuracy, note=_Note(touch, wanted, size))
@@ -252,19 +264,3 @@ def closeness_wanted(posed: Posed, *, elastic: bool) -> tuple[float, float]:
             f"mean gap must be less than {touch:.6g} m, the mean gap at first touch, but is {control.value:.6g} m."
         )
     return touch, wanted
-
-
-def _first_guess(posed: Posed, touch: float, wanted: float) -> float:
-    """Logarithm of the mean pressure (Pa) at which the surfaces are closer by ``wanted`` (m) than at first ``touch``.
-
-    Persson's law from the stiffness of the surface as a whole, with the constant of self-affine surfaces, where it is within a
-    factor of three; in proportion to the load where few points touch.
-    """
-    response = posed.operator.apply(posed.dented)
-    stiffness = float(posed.dented.std()) / float(response.std() or 1.0)
-    full = float(np.log(posed.height_scale * stiffness or 1.0)) + _AT_FULL
-    unit = _PERSSON * posed.height_scale
-    light = unit / _LIGHT
-    if wanted >= light:
-        return full + min((wanted - touch) / unit, _BEYOND)
-    return full - max(touch - light, 0.0) / unit + float(np.log(wanted / light)) / _LIGHT

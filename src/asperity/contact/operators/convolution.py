@@ -185,11 +185,8 @@ class _Prepared:
         known: dict[tuple[str, float], Convolution] = vars(self).setdefault("_convolutions", {})
         if (dtype, scale) not in known:
             kernel, shape = self._resident if scale == 1.0 else self._resident / scale, self.grid.shape
-            if self.padded == shape:
-                made = self.engine.convolution(kernel, shape, dtype)
-            else:
-                made = self.engine.padded_convolution(kernel, shape, self.padded, dtype)
-            known[dtype, scale] = made
+            padded = None if self.padded == shape else self.padded
+            known[dtype, scale] = self.engine.convolution(kernel, shape, dtype, padded)
         return known[dtype, scale]
 
     def apply(self, pressure: RealArray) -> RealArray:

@@ -327,15 +327,14 @@ class CpuEngine:
         pad = ROW_PAD if dtype == "float32" and shape[1] >= _PADDED_FROM else 0
         return np.zeros((shape[0], shape[1] + pad), dtype)[:, : shape[1]]
 
-    def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
-        """Periodic convolution."""
-        return _Convolution(self.blocks, RealTransform(shape, self.threads_for(shape)), kernel, dtype)
-
-    def padded_convolution(
-        self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
+    def convolution(
+        self, kernel: RealArray, shape: tuple[int, int], dtype: str, padded: tuple[int, int] | None = None
     ) -> Convolution:
-        """Free convolution with pruned transforms."""
-        return _Convolution(self.blocks, PaddedTransform(shape, padded, self.threads_for(padded)), kernel, dtype)
+        """Periodic convolution, or free with pruned transforms."""
+        threads = self.threads_for(padded or shape)
+        if padded is None:
+            return _Convolution(self.blocks, RealTransform(shape, threads), kernel, dtype)
+        return _Convolution(self.blocks, PaddedTransform(shape, padded, threads), kernel, dtype)
 
     def threads_for(self, shape: tuple[int, int]) -> int:
         """Threads for transforms of this ``shape``."""

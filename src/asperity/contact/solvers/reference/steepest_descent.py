@@ -87,7 +87,7 @@ def descend(qp: ContactQP, state: SolverState, pixel_step: float) -> SolverState
     length = length or pixel_step
     applications = state.applications + 1
     for _ in range(_HALVINGS):
-        trial = p - length * gradient  # then made feasible, with the least sum of squares
+        trial: RealArray = p - length * gradient  # then made feasible, with the least sum of squares
         if isinstance(constraint, FixedOffset):
             trial = np.clip(trial, 0.0, qp.cap)
         else:
