@@ -206,7 +206,9 @@ def _all_results(
     chains = min(_MOST_CHAINS, len(numbered) // _CHAIN)
     alone = state is None and prepared.progress is None and isinstance(prepared.solver, ActiveSet)
     pressed = all(isinstance(step.normal, MeanPressure | Force) for step in history)
-    if chains < 2 or not (alone and pressed and prepared.remembers_nothing and isinstance(engine, CpuEngine)):
+    # each step depends on its own load alone: elastic contact without other physics
+    elastic = isinstance(problem.law, HardWall) and len(prepared.couplings) == 1 and prepared.in_time is None
+    if chains < 2 or not (alone and pressed and elastic and isinstance(engine, CpuEngine)):
         return tuple(_results(prepared, numbered, state, on_failure))
     ended, threads = Event(), max(1, engine.threads // chains)
 
@@ -271,11 +273,6 @@ class Prepared:
         self._measured: tuple[RealArray, float] | None = None
         relaxing = relaxes(problem.body) or relaxes(problem.counter_body)
         self.in_time: InTime | None = home(IN_TIME)(self) if relaxing else None
-
-    @property
-    def remembers_nothing(self) -> bool:
-        """Whether each step depends on its own load alone: elastic contact without other physics."""
-        return isinstance(self.problem.law, HardWall) and len(self.couplings) == 1 and self.in_time is None
 
     def settled(
         self,

@@ -25,7 +25,7 @@ from ..solvers.protocol import (
     error_for_pressure,
     run,
 )
-from .position import Position
+from .position import Position, without_bracket
 from .protocol import Contact, Coupling, Exchange, Foreseeing, Memory, Posed
 
 REMEMBERED = 3
@@ -339,16 +339,11 @@ class _Iteration:
         position = self.couplings[Position.name]
         assert isinstance(position, Position)
         self.couplings[Position.name], self.nested = replace(position, alone=True, nested=True), True
-        self._forget_bracket()
+        self.exchanges[Position.name] = without_bracket(self.exchanges[Position.name])
         self.mixing.forget()
         for name, exchange in self.exchanges.items():
             if not exchange.smooth:
                 self.exchanges[name] = self.couplings[name].begin(self.posed, self.memories.get(name, {}))
-
-    def _forget_bracket(self) -> None:
-        position = self.couplings[Position.name]
-        assert isinstance(position, Position)
-        self.exchanges[Position.name] = position.without_bracket(self.exchanges[Position.name])
 
     def _posed(self) -> ContactQP:
         """Discrete problem with the shares of all couplings; those that cannot bear the load are raised."""
@@ -536,7 +531,7 @@ class _Iteration:
                 self.mixing.forget()  # one of them has turned out not to be smooth
             moved |= dict(zip(smooth, self.mixing.ahead(at, move, scales), strict=True))
         if self.nested and not moves:
-            self._forget_bracket()
+            self.exchanges[Position.name] = without_bracket(self.exchanges[Position.name])
         for name, x in moved.items():
             exchange = self.exchanges[name]
             if exchange.smooth or not exchange.settled:

@@ -196,11 +196,6 @@ class Position(Coupling):
         note = replace(note, low=min(low, note.low), high=min(note.high, x))
         return replace(exchange, x=np.asarray(0.5 * (low + note.high)), note=note)
 
-    def without_bracket(self, exchange: Exchange) -> Exchange:
-        """The same without the bracket, found with other couplings as they were."""
-        note = replace(exchange.note, low=-np.inf, high=np.inf, misses=(), last=None)
-        return replace(exchange, note=note)
-
     def settled(self, exchange: Exchange) -> str:
         """That it is reached."""
         return "The prescribed position is reached"
@@ -226,6 +221,11 @@ class Position(Coupling):
         if max(closeness, wanted) < _PERSSON * rms / _LIGHT:
             return float(np.log(wanted / closeness)) / _LIGHT
         return (wanted - closeness) / (_PERSSON * rms)
+
+
+def without_bracket(exchange: Exchange) -> Exchange:
+    """``exchange`` of a position without the bracket, found with other couplings as they were."""
+    return replace(exchange, note=replace(exchange.note, low=-np.inf, high=np.inf, misses=(), last=None))
 
 
 def closeness_wanted(posed: Posed, *, elastic: bool) -> tuple[float, float]:

@@ -184,24 +184,8 @@ class Solver(Protocol):
         """
 
 
-class Iterative(Protocol):
-    """What a method that is repeated until its error is small says of itself."""
-
-    @property
-    def name(self) -> str:
-        """Name for reports."""
-
-    @property
-    def tolerance(self) -> float:
-        """Error to reach."""
-
-    @property
-    def max_iterations(self) -> int:
-        """Iterations at most."""
-
-
-def require_settings(solver: Iterative) -> None:
-    """Check tolerance (in (0, 1)) and iteration limit (whole, >= 1) of ``solver``; InputError names the wrong one."""
+def require_settings(solver: Any) -> None:
+    """Check tolerance (in (0, 1)) and iteration limit (whole, >= 1) of ``solver``, of any problem; InputError names the wrong one."""
     require.between(solver.tolerance, 0.0, 1.0, f"tolerance of the solver {solver.name}")
     require.integer(solver.max_iterations, 1, f"iteration limit of the solver {solver.name}")
 
