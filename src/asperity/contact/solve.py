@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -372,7 +373,10 @@ def settled_with(
     """
     names = {coupling.name for coupling in couplings}
     together = [place for pair, place in PAIRS.items() if pair <= names]
-    way = home(together[0]) if together and posed.balances_force else settle_position
+    way = settle_position
+    if together:  # and the force has to come out right: a prescribed one, or that of a machine that gives way
+        gives = isinstance(posed.control, FixedGrips) and math.isfinite(posed.control.stiffness)
+        way = home(together[0]) if gives or posed.external_force is not None else settle_position
     settled: Settled = way(posed, couplings, memories, solver, **options)
     return settled
 

@@ -241,6 +241,7 @@ class _Iteration:
         """Rounds until all couplings are settled by a solve to the full tolerance, or it must be given up."""
         tolerance, lowest, progressed = self._next_tolerance(np.inf, self.active), np.inf, 0
         status: Status | None = None
+        joint = Position.name in self.active and len(self.active) > 1  # the position is one of several unknowns
         alone = self.couplings[self.active[0]] if len(self.active) == 1 else None
         if isinstance(alone, Foreseeing):
             # it may find the contact by a method of its own, from which rounds then start
@@ -282,7 +283,7 @@ class _Iteration:
                 lowest, progressed = min(worst, lowest), count
             elif count - progressed >= self.rounds.patience or any(self.exchanges[name].stuck for name in concerned):
                 break
-            elif count - progressed >= _JOINT_PATIENCE and not self.nested and self._joint:
+            elif count - progressed >= _JOINT_PATIENCE and not self.nested and joint:
                 lowest, progressed, moves = np.inf, count, True
                 self._nest()
             idle = 0 if self.active == [Position.name] else count - progressed
@@ -324,11 +325,6 @@ class _Iteration:
         self.loosest = min(_LOOSEST, needed)
         finest = min(self.solver.tolerance, _FINER * needed, final, self.for_pressure)
         self.finest = max(finest, self.reached)
-
-    @property
-    def _joint(self) -> bool:
-        """Whether the position is one of several unknowns."""
-        return Position.name in self.active and len(self.active) > 1
 
     def _nest(self) -> None:
         """From now on search for the position anew whenever the others have moved.
@@ -395,7 +391,7 @@ class _Iteration:
             rescued = self.couplings[name].rescued(self.exchanges[name], mean)
             if rescued is not None:
                 self.exchanges[name] = rescued
-                if name == Position.name and not self.nested and self._joint:
+                if name == Position.name and not self.nested and len(self.active) > 1:
                     self._nest()
                 return
         error = NoSolutionError(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -109,12 +108,6 @@ class Posed:
         if isinstance(self.control, MeanPressure | Force):
             return mean_pressure(self.control, self.operator.grid) * self.operator.grid.area
         return None
-
-    @property
-    def balances_force(self) -> bool:
-        """Whether the force has to come out right: a prescribed one, or that of a machine that gives way."""
-        gives = isinstance(self.control, FixedGrips) and math.isfinite(self.control.stiffness)
-        return self.external_force is not None or gives
 
 
 def height_scale(virgin: RealArray, control: Control, operator: Operator) -> float:
