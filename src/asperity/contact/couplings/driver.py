@@ -415,10 +415,8 @@ class _Iteration:
             if solver.tolerance != tolerance and is_dataclass(solver):
                 settable: Any = {item.name for item in fields(solver) if item.init}
                 solver = replace(solver, tolerance=tolerance) if "tolerance" in settable else solver
-            posed, lone = (
-                self.posed,
-                self.last is None and not self.active and not isinstance(self.posed.retarded, np.ndarray),
-            )
+            posed, lone = self.posed, self.last is None and not self.active
+            lone = lone and not isinstance(posed.retarded, np.ndarray)
             before = [pressure for pressure in (posed.start, posed.earlier) if pressure is not None]
             if isinstance(solver, ActiveSet) and lone and len(before) == 2 and (ratio := self._ahead(qp)) is not None:
                 known = [None if posed.deflections is None else posed.deflections.by(p, qp.operator) for p in before]
