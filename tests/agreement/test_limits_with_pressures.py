@@ -9,9 +9,9 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.contact.solvers.active_set import yielding
-from asperity.contact.solvers.active_set.yielding import Followed
 from asperity.physics.hardness import coupling as hardness
+from asperity.physics.hardness import solver as yielding
+from asperity.physics.hardness.solver import Followed
 from asperity.solvers import ActiveSet
 
 LIMIT_TOLERANCE = 1e-5

@@ -5,7 +5,7 @@ import pytest
 
 import asperity as asp
 from asperity.contact.operators import prepare_operator
-from asperity.contact.solvers.pressure_error import pressure_error
+from asperity.contact.solvers.protocol import pressure_error
 from asperity.solvers import ActiveSet, ContactQP, FixedMean, run
 
 ALLOWED = 1e-3

@@ -66,7 +66,6 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
     return (
         *_slope(profile),
         *_resolution(profile),
-        *_asperity_radius(profile),
         *_edges(problem, profile),
         *_load(problem, control),
         *_layers(problem),
@@ -79,7 +78,6 @@ def review(result: ContactResult) -> tuple[Advice, ...]:
     return (
         *doubts(result),
         *_contact_pixels(result),
-        *_nearly_full(result),
         *_room(result),
         *_seam(result),
         *_plastic(result),
@@ -102,8 +100,12 @@ def _slope(profile: Surface) -> Iterator[Advice]:
 
 
 def _resolution(profile: Surface) -> Iterator[Advice]:
-    """Shortest effective wavelength 2 pi sqrt(m2/m4), of a sine exactly its wavelength, against the pixel."""
-    wavelengths = {axis: pixels for axis in "xy" if (pixels := _shortest_wavelength(profile, axis)) < PIXELS_PER_WAVE}
+    """Shortest effective wavelength 2 pi sqrt(m2/m4), of a sine exactly its wavelength, and mean summit radius 3/8 sqrt(pi/m4) of a Gaussian surface (Nayak 1971), against the pixel."""
+    wavelengths = {}
+    for axis in "xy":
+        m2, m4 = (_mean_square(profile, axis, order) for order in (1, 2))
+        if m4 > 0.0 and (pixels := 2.0 * math.pi * math.sqrt(m2 / m4)) < PIXELS_PER_WAVE:
+            wavelengths[axis] = pixels
     if wavelengths:
         shown = {axis: math.floor(10.0 * pixels) / 10.0 for axis, pixels in wavelengths.items()}  # 5.97 is not 6.0
         found = " and ".join(f"{pixels:.1f} pixels along {axis}" for axis, pixels in shown.items())
@@ -114,10 +116,6 @@ def _resolution(profile: Surface) -> Iterator[Advice]:
             "are not resolved, so contact area and peak pressure depend on the pixel size. Resample to a finer grid or "
             "give the surface a short-wavelength cut-off.",
         )
-
-
-def _asperity_radius(profile: Surface) -> Iterator[Advice]:
-    """Mean summit radius 3/8 sqrt(pi/m4) of a Gaussian surface (Nayak 1971) against the pixel."""
     if min(profile.shape) < 3:
         return
     m4 = 0.5 * sum(rms_profile_curvature(profile, axis=axis) ** 2 for axis in "xy")
@@ -129,12 +127,6 @@ def _asperity_radius(profile: Surface) -> Iterator[Advice]:
             f"The mean asperity radius 3/8 √(π/m4) is {radius / pixel:.2g} pixels (at least {PIXELS_PER_RADIUS:g} "
             "wanted): asperities are spikes of single pixels. Check the height unit, refine the grid or smooth the surface.",
         )
-
-
-def _shortest_wavelength(profile: Surface, axis: str) -> float:
-    """Effective wavelength along ``axis`` in pixels; infinite where differences vanish or there are too few points."""
-    m2, m4 = (_mean_square(profile, axis, order) for order in (1, 2))
-    return 2.0 * math.pi * math.sqrt(m2 / m4) if m4 > 0.0 else math.inf
 
 
 def _edges(problem: ContactProblem, profile: Surface) -> Iterator[Advice]:
@@ -159,7 +151,10 @@ def _edges(problem: ContactProblem, profile: Surface) -> Iterator[Advice]:
 def _load(problem: ContactProblem, control: Control) -> Iterator[Advice]:
     if not isinstance(control, MeanPressure | Force):
         return
-    ratio = mean_pressure(control, problem.grid) / _softest_contact_modulus(problem)
+    # E* as if each body consisted of its softest material, layers and base included
+    bodies = (materials_of(body) for body in (problem.body, problem.counter_body))
+    softest = (max((1.0 / solid.plane_strain_modulus for solid in solids), default=0.0) for solids in bodies)
+    ratio = mean_pressure(control, problem.grid) / (1.0 / sum(softest))
     if ratio > LARGEST_LOAD_RATIO:
         yield Advice(
             "warning",
@@ -167,12 +162,6 @@ def _load(problem: ContactProblem, control: Control) -> Iterator[Advice]:
             f"The mean pressure is {ratio:.2g} of the contact modulus E* of the softest materials; linear elasticity holds up to about "
             f"{LARGEST_LOAD_RATIO:g}. Check unit and value of the load.",
         )
-
-
-def _softest_contact_modulus(problem: ContactProblem) -> float:
-    """E* (Pa) as if each body consisted of its softest material, layers and base included."""
-    bodies = (materials_of(body) for body in (problem.body, problem.counter_body))
-    return 1.0 / sum(max((1.0 / solid.plane_strain_modulus for solid in solids), default=0.0) for solids in bodies)
 
 
 def _memory(problem: ContactProblem) -> Iterator[Advice]:
@@ -204,18 +193,15 @@ def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
             f"The contact has {pixels} pixel{'s' if pixels > 1 else ''} (at least {FEWEST_CONTACT_PIXELS} wanted): area "
             "and peak pressure are set by the pixel size. Raise the load or refine the grid.",
         )
-        return
-    correction = 1.0 - result.area_fraction_corrected / result.area_fraction if pixels else 0.0
-    if correction > LARGEST_AREA_CORRECTION:
+    elif (
+        pixels and (correction := 1.0 - result.area_fraction_corrected / result.area_fraction) > LARGEST_AREA_CORRECTION
+    ):
         yield Advice(
             "warning",
             "contact pixels",
             f"The real contact area is {100 * correction:.0f} % less than that of the pixels in contact (more than "
             f"{100 * LARGEST_AREA_CORRECTION:.0f} %): contact spots are only a few pixels wide. Refine the grid.",
         )
-
-
-def _nearly_full(result: ContactResult) -> Iterator[Advice]:
     if result.area_fraction > NEARLY_FULL:
         yield Advice(
             "note",
@@ -309,64 +295,46 @@ def _mean_square(profile: Surface, axis: str, order: int) -> float:
 
 def _layers(problem: ContactProblem) -> Iterator[Advice]:
     """Layers thinner than a pixel, or so thick that what lies below hardly matters in a periodic cell; softer ones below."""
-    for body in (problem.body, problem.counter_body):
-        if isinstance(body, Layered):
-            yield from _against_pixel(problem, body.reduced)
-            yield from _against_period(problem, body.reduced)
-            yield from _softer_below(problem, body.reduced)
-
-
-def _against_pixel(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
     pixel = max(problem.grid.pixels)
-    thin = [layer for layer in body.layers if layer.thickness < PIXELS_PER_LAYER * pixel]
-    if thin:
-        least = min(layer.thickness for layer in thin)
-        count = f"{len(thin)} layers are" if len(thin) > 1 else "A layer is"
-        yield Advice(
-            "note",
-            "layer against pixel",
-            f"{count} thinner than a pixel (the thinnest {least / pixel:.2g} pixels, at least {PIXELS_PER_LAYER:g} wanted): "
-            "deflections of resolved waves are right, but peak pressures and stresses on the scale of the layer are not "
-            "resolved. Refine the grid to the scale of the layer.",
-        )
-
-
-def _against_period(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
-    """The longest wave along an axis that wraps; no finding for a base as soft as the layers, which makes no difference."""
-    lengths = [
-        problem.grid.size[axis] for axis in (0, 1) if problem.boundary.wraps[axis] and problem.grid.shape[axis] > 1
+    periods = [
+        L
+        for L, n, wraps in zip(problem.grid.size, problem.grid.shape, problem.boundary.wraps, strict=True)
+        if wraps and n > 1
     ]
-    if not lengths or not body.layers:
-        return
-    share = body.thickness / max(lengths)
-    if share > LARGEST_THICKNESS and _differs(body):
-        yield Advice(
-            "note",
-            "layer against period",
-            f"The layers are {share:.2g} of the period thick (more than {LARGEST_THICKNESS:g}): even the longest wave hardly "
-            "reaches the base, whose material then makes little difference. Use a larger map, or the free boundary for a "
-            "single contact.",
-        )
-
-
-def _softer_below(problem: ContactProblem, body: Layered) -> Iterator[Advice]:
-    """A pressure limit does not concern what lies below the surface, where a softer material may yield first."""
-    if isinstance(problem.law, LimitByDepth):
-        return
-    limit = float(np.max(problem.law.pressure_cap()))
-    surface, *below = (part.strength.hardness for part in materials_of(body))
-    if math.isfinite(limit) and any(hardness < min(limit, surface) for hardness in below):
-        yield Advice(
-            "note",
-            "softer layers below",
-            f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
-            f"{show(min(h for h in below if h == h), 'Pa')}: under contacts wide against the layers it yields first, at a "
-            "lower pressure. Limit the pressure by the effective hardness, LayeredHardness(body) (--hardness effective), or compute "
-            "the stresses, which tell the load factor of each layer.",
-        )
-
-
-def _differs(body: Layered) -> bool:
-    """Whether the base is of another plane-strain modulus than the lowest layer."""
-    base = body.base.plane_strain_modulus if isinstance(body.base, Elastic) else math.inf
-    return base != body.layers[-1].material.plane_strain_modulus
+    for given in (problem.body, problem.counter_body):
+        if not isinstance(given, Layered):
+            continue
+        body = given.reduced
+        thin = [layer.thickness for layer in body.layers if layer.thickness < PIXELS_PER_LAYER * pixel]
+        if thin:
+            count = f"{len(thin)} layers are" if len(thin) > 1 else "A layer is"
+            yield Advice(
+                "note",
+                "layer against pixel",
+                f"{count} thinner than a pixel (the thinnest {min(thin) / pixel:.2g} pixels, at least {PIXELS_PER_LAYER:g} wanted): "
+                "deflections of resolved waves are right, but peak pressures and stresses on the scale of the layer are not "
+                "resolved. Refine the grid to the scale of the layer.",
+            )
+        # the longest wave along an axis that wraps; a base as soft as the lowest layer makes no difference
+        share = body.thickness / max(periods) if periods and body.layers else 0.0
+        base = body.base.plane_strain_modulus if isinstance(body.base, Elastic) else math.inf
+        if share > LARGEST_THICKNESS and base != body.layers[-1].material.plane_strain_modulus:
+            yield Advice(
+                "note",
+                "layer against period",
+                f"The layers are {share:.2g} of the period thick (more than {LARGEST_THICKNESS:g}): even the longest wave hardly "
+                "reaches the base, whose material then makes little difference. Use a larger map, or the free boundary for a "
+                "single contact.",
+            )
+        # a pressure limit does not concern what lies below the surface, where a softer material may yield first
+        limit = math.inf if isinstance(problem.law, LimitByDepth) else float(np.max(problem.law.pressure_cap()))
+        surface, *below = (part.strength.hardness for part in materials_of(body))
+        if math.isfinite(limit) and any(hardness < min(limit, surface) for hardness in below):
+            yield Advice(
+                "note",
+                "softer layers below",
+                f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
+                f"{show(min(h for h in below if h == h), 'Pa')}: under contacts wide against the layers it yields first, at a "
+                "lower pressure. Limit the pressure by the effective hardness, LayeredHardness(body) (--hardness effective), or compute "
+                "the stresses, which tell the load factor of each layer.",
+            )

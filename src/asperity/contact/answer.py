@@ -124,17 +124,6 @@ def outside(answers: Iterable[Answer], force: float) -> float:
     return force
 
 
-def imprint_of(answers: Iterable[Answer]) -> RealArray | None:
-    """Sum (nx, ny) in m of the imprints of the ``answers``; None if there is none."""
-    return added(answer.imprint() for answer in answers)
-
-
-def added(fields: Iterable[RealArray | None]) -> RealArray | None:
-    """Sum (nx, ny) of the ``fields`` that are there; None if there is none."""
-    there = [field for field in fields if field is not None]
-    return sum(there[1:], there[0]) if there else None
-
-
 class WithOutcomes:
     """Attributes of a result by the names of its couplings, None where it has none; ``require_name()`` refuses None."""
 

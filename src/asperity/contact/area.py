@@ -13,6 +13,9 @@ from .edge_tables import PATCHES, WAVES
 from .edges import Edges, Kind, Setting, edges_of
 from .problem import ContactProblem
 
+SAME_LIMIT = 1e-6
+"""Relative difference of two pressures at the same limit."""
+
 LEAST_SPOT = 1.0 / 16.0
 """Least area in pixels of a spot: what single pixels, barely in contact, hold is not told apart from nothing."""
 
@@ -41,16 +44,12 @@ class RealArea:
         return float(self.spots.sum())
 
 
-def kind_of(problem: ContactProblem) -> Kind:
-    """What the edges of contacts of ``problem`` are like."""
-    kinds = (physics.edges(problem) for physics in problem.physics)
-    return next((kind for kind in kinds if kind is not None), Kind.elastic)
-
-
 def edges_in(problem: ContactProblem, pressure: RealArray, gap: RealArray, plastic: BoolArray) -> Edges:
     """Edges of a contact of ``problem`` with these fields, (nx, ny) each."""
     table = WAVES if problem.boundary.name == "periodic" else PATCHES
-    setting = Setting(problem.grid, problem.boundary.wraps, problem.contact_modulus, table, kind_of(problem))
+    kinds = (physics.edges(problem) for physics in problem.physics)
+    kind = next((found for found in kinds if found is not None), Kind.elastic)
+    setting = Setting(problem.grid, problem.boundary.wraps, problem.contact_modulus, table, kind)
     return edges_of(pressure, gap, plastic, setting)
 
 
@@ -76,24 +75,16 @@ def real_area(problem: ContactProblem, pressure: RealArray, plastic: BoolArray, 
     least = np.full(count + 1, LEAST_SPOT)
     if plastic.any():
         force = np.bincount(flat, pressure.ravel().astype(np.float64), minlength=count + 1)
-        limits = _limits(pressure.ravel(), plastic.ravel(), flat, count)
+        # pressure (count + 1,) that no point of a spot exceeds; infinite where the limit varies and none of its pixels is at it
+        p, capped = pressure.ravel(), plastic.ravel()
+        at_limit = p[capped].astype(np.float64)
+        limits = np.full(count + 1, float(at_limit.max()))
+        if float(at_limit.min()) < float(at_limit.max()) * (1.0 - SAME_LIMIT):
+            highest, reached = np.zeros(count + 1), np.zeros(count + 1, dtype=bool)
+            np.maximum.at(highest, flat, p)
+            reached[flat[capped]] = True
+            limits = np.where(reached, highest, np.inf)
         np.maximum(least, force / limits, out=least)
     spots = np.sort(np.maximum(found, least)[1:])[::-1]
     spots *= min(1.0, grid.n_points / spots.sum())
     return RealArea(spots * grid.pixel_area, edges.area_error() * grid.pixel_area, edges.perimeter())
-
-
-def _limits(p: RealArray, plastic: BoolArray, labels: measure.Labels, count: int) -> RealArray:
-    """Pressure (count + 1,) in Pa that no point of a spot exceeds; infinite where the limit varies and none of its pixels is at it."""
-    at_limit = p[plastic].astype(np.float64)
-    highest = float(at_limit.max())
-    if float(at_limit.min()) >= highest * (1.0 - SAME_LIMIT):
-        return np.full(count + 1, highest)
-    found, reached = np.zeros(count + 1), np.zeros(count + 1, dtype=bool)
-    np.maximum.at(found, labels, p)
-    reached[labels[plastic]] = True
-    return np.where(reached, found, np.inf)
-
-
-SAME_LIMIT = 1e-6
-"""Relative difference of two pressures at the same limit."""

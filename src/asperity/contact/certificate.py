@@ -12,7 +12,6 @@ from ..core.status import peak_memory
 from .controls import FixedGrips
 from .couplings.driver import CouplingCheck
 from .couplings.protocol import Contact
-from .solvers.pressure_error import pressure_error
 from .solvers.protocol import (
     ROUNDING,
     ContactQP,
@@ -22,6 +21,7 @@ from .solvers.protocol import (
     heights_near_contact,
     least_length,
     level_of,
+    pressure_error,
 )
 
 LARGEST_DUALITY_GAP = 1e-3
@@ -67,7 +67,7 @@ class Certificate:
         De Saxcé's residual of gap, slip and friction together, see ``StickSlip``; zero without stick and slip.
     pressure_error
         Rigorous bound on the relative error of the pressure, |p - p*| / |p| over all points, from the duality gap (or its rounding) and the compliance of the wave
-        that gives way least (``solvers.pressure_error``); infinite where it is not known. Usual contacts have 1e-3, at true errors of 1e-7.
+        that gives way least (``solvers.protocol.pressure_error``); infinite where it is not known. Usual contacts have 1e-3, at true errors of 1e-7.
     """
 
     duality_gap: float

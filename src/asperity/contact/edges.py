@@ -109,7 +109,8 @@ class Edges:
     @property
     def cosine(self) -> RealArray:
         """Cosine of normal and axis, (n,); one beyond the border of the grid."""
-        return _cosine(self.axis, self.normal, self.beyond)
+        along = np.where(self.axis == 0, self.normal[:, 0], self.normal[:, 1])
+        return np.where(self.beyond, 1.0, np.abs(along))
 
     @property
     def excess(self) -> RealArray:
@@ -127,10 +128,6 @@ class Edges:
         shared = abs(float((weight * spread).sum())) + float((weight * self.factor).sum())
         scatter = np.where(self.beyond, 0.0, weight**2 * (self.spread**2 + RANDOM**2))
         return float(np.hypot(shared, 2.0 * np.sqrt(scatter.sum())))
-
-
-def _cosine(axis: NDArray[np.int8], normal: RealArray, beyond: BoolArray) -> RealArray:
-    return np.where(beyond, 1.0, np.abs(np.where(axis == 0, normal[:, 0], normal[:, 1])))
 
 
 class Outside(NamedTuple):
@@ -225,29 +222,6 @@ def _normals(at: Indices, p: RealArray, grid: Grid, wraps: tuple[bool, bool]) ->
     return -np.stack([along_x / length, along_y / length], axis=1)
 
 
-class _Ratios:
-    """Place of an edge in pixels beyond the centre of the last one in contact, by ratios that do not contain its k; from the ``table`` of a discretisation."""
-
-    def __init__(self, table: EdgePixels) -> None:
-        d, last, second, gap = table
-        self._distance = d
-        self._inwards = np.sqrt(last / second)
-        self._across = (gap / np.cbrt(second))[::-1]
-        self._single = last / (last + gap**3)
-
-    def inwards(self, last: RealArray, second: RealArray) -> RealArray:
-        """By the last two pressures."""
-        return np.interp(last / second, self._inwards, self._distance)
-
-    def across(self, gap: RealArray, second: RealArray) -> RealArray:
-        """By the ``gap`` of the first pixel outside, as the square root of its cube in units of pressure, and the second pressure."""
-        return np.interp(np.cbrt((gap / second) ** 2), self._across, self._distance[::-1])
-
-    def single(self, gap: RealArray, last: RealArray) -> RealArray:
-        """By that and the last pressure."""
-        return np.interp(last**2 / (last**2 + gap**2), self._single, self._distance)
-
-
 class Kind(Enum):
     """What an edge is like."""
 
@@ -280,11 +254,12 @@ def edges_of(p: RealArray, gap: RealArray, plastic: BoolArray, setting: Setting)
     at, first = np.unique(pairs.inner, return_inverse=True)
     normal = _normals(at, p, grid, wraps)[first]
     normal = np.where(np.any(normal != 0.0, axis=1)[:, None], normal, np.sqrt(0.5))
-    cosine = _cosine(pairs.axis, normal, pairs.beyond)
+    along = np.where(pairs.axis == 0, normal[:, 0], normal[:, 1])
+    cosine = np.where(pairs.beyond, 1.0, np.abs(along))
     weight = cosine**2
     none = np.zeros(weight.size)
     if setting.kind is Kind.elastic:
-        places = _Pressed(pairs, cosine, setting).places(p, gap, plastic)
+        places = _pressed(pairs, cosine, setting, p, gap, plastic)
     elif setting.kind is Kind.pinned:
         weight = np.ones(weight.size)
         places = Places(none + 0.5 + PINNED, none, none + PINNED_ERROR, none > 0.0, none > 0.0)
@@ -308,34 +283,33 @@ class Places(NamedTuple):
     deep: BoolArray
 
 
-class _Pressed(NamedTuple):
-    """``Outside`` pairs at the edges of a pressed contact, with the ``cosine`` of their normals."""
-
-    pairs: Outside
-    cosine: RealArray
-    setting: Setting
-
-    def places(self, p: RealArray, gap: RealArray, plastic: BoolArray) -> Places:
-        """Where the edges are."""
-        pairs, flat, (grid, wraps, modulus, table, _) = self.pairs, plastic.ravel(), self.setting
-        steps = -pairs.sign * (pairs.axis == 0), -pairs.sign * (pairs.axis == 1)
-        behind, inside = neighbours(pairs.inner, steps, grid.shape, wraps)
-        last, second = (p.ravel()[number].astype(np.float64) for number in (pairs.inner, behind))
-        deep = inside & (second > 0.0)
-        pixel = np.asarray(grid.spacing)[pairs.axis]
-        opening = 0.75 * modulus * gap.ravel()[pairs.outer] / (np.maximum(self.cosine, LEAST_COSINE) * pixel)
-        ratios = _Ratios(table)
-        single, below = ratios.single(opening, last), np.where(deep, second, last)
-        inwards, across = ratios.inwards(last, below), ratios.across(opening, below)
-        distance = np.where(deep, 0.5 * (inwards + across), single)
-        spread = np.where(deep, 0.5 * (inwards - across), SINGLE)
-        factor = np.where(deep, FACTOR, SINGLE_FACTOR)
-        if not flat.any():
-            return Places(distance, spread, factor, deep, deep)
-        here = flat[pairs.inner]
-        next_one = deep & flat[behind] & ~here
-        rigid = np.maximum(last / below - 0.5, LEAST_RIGID)  # pressure at its limit up to an edge within the pixel
-        distance = np.where(here, 0.5, np.where(next_one, single, distance))
-        spread = np.where(here, CAPPED, np.where(next_one, 0.5 * (single - rigid), spread))
-        factor = np.where(here, CAPPED_FACTOR, factor)
-        return Places(distance, spread, factor, deep & ~here, deep)
+def _pressed(
+    pairs: Outside, cosine: RealArray, setting: Setting, p: RealArray, gap: RealArray, plastic: BoolArray
+) -> Places:
+    """Where the edges of a pressed contact are, from the ``cosine`` of their normals, in pixels beyond the centre of the last one in contact."""
+    flat, (grid, wraps, modulus, table, _) = plastic.ravel(), setting
+    steps = -pairs.sign * (pairs.axis == 0), -pairs.sign * (pairs.axis == 1)
+    behind, inside = neighbours(pairs.inner, steps, grid.shape, wraps)
+    last, second = (p.ravel()[number].astype(np.float64) for number in (pairs.inner, behind))
+    deep = inside & (second > 0.0)
+    pixel = np.asarray(grid.spacing)[pairs.axis]
+    opening = 0.75 * modulus * gap.ravel()[pairs.outer] / (np.maximum(cosine, LEAST_COSINE) * pixel)
+    # by ratios that do not contain k of the edge: of the last two pressures, of the gap of the first pixel outside, as the square root of its
+    # cube in units of pressure, and the second pressure, and of that and the last pressure
+    beyond, one, two, free = table
+    below = np.where(deep, second, last)
+    inwards = np.interp(last / below, np.sqrt(one / two), beyond)
+    across = np.interp(np.cbrt((opening / below) ** 2), (free / np.cbrt(two))[::-1], beyond[::-1])
+    single = np.interp(last**2 / (last**2 + opening**2), one / (one + free**3), beyond)
+    distance = np.where(deep, 0.5 * (inwards + across), single)
+    spread = np.where(deep, 0.5 * (inwards - across), SINGLE)
+    factor = np.where(deep, FACTOR, SINGLE_FACTOR)
+    if not flat.any():
+        return Places(distance, spread, factor, deep, deep)
+    here = flat[pairs.inner]
+    next_one = deep & flat[behind] & ~here
+    rigid = np.maximum(last / below - 0.5, LEAST_RIGID)  # pressure at its limit up to an edge within the pixel
+    distance = np.where(here, 0.5, np.where(next_one, single, distance))
+    spread = np.where(here, CAPPED, np.where(next_one, 0.5 * (single - rigid), spread))
+    factor = np.where(here, CAPPED_FACTOR, factor)
+    return Places(distance, spread, factor, deep & ~here, deep)

@@ -136,21 +136,15 @@ def ramps(kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> 
     if any(low == high for low, high in itertools.pairwise(points)):
         raise InputError(f"neighbouring turning points of a load path must differ, but are {values}.")
     graded = kind in (MeanPressure, Force)
-    legs = [_leg(start, end, steps, graded=graded) for start, end in itertools.pairwise(points)]
-    course = [*(points[:1] if kind is MeanGap else []), *(float(value) for leg in legs for value in leg)]
+    course = points[:1] if kind is MeanGap else []
+    for start, end in itertools.pairwise(points):
+        share = np.arange(1, steps + 1) / steps
+        if graded and start == 0.0:
+            share = share**2
+        elif graded and end == 0.0:
+            share = 1.0 - (1.0 - share) ** 2
+        course = [*course, *(start + share * (end - start)).tolist()[:-1], end]
     return tuple(kind(value) if value > 0.0 or kind is MeanGap else Unloaded() for value in course)
-
-
-def _leg(start: float, end: float, steps: int, *, graded: bool) -> RealArray:
-    """Values after each of the ``steps`` from ``start`` to ``end``; ``graded`` ones are denser towards a zero."""
-    share = np.arange(1, steps + 1) / steps
-    if graded and start == 0.0:
-        share = share**2
-    elif graded and end == 0.0:
-        share = 1.0 - (1.0 - share) ** 2
-    values: RealArray = start + share * (end - start)
-    values[-1] = end
-    return values
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -261,7 +255,54 @@ class HistoryResult(Stored):
     @cached_property
     def energies(self) -> EnergyBalance:
         """Where the work goes, see ``EnergyBalance``."""
-        return _balance(self)
+        from scipy.integrate import cumulative_trapezoid
+
+        steps, start = self.steps, self.start
+        problem, approach = steps[0].problem, self.approach
+        attraction = [[each.pulls() for each in step.answers if each.traction_beside() is not None] for step in steps]
+        attracted, from_first = np.array([sum(pulls) for pulls in attraction]), bool(attraction[0])
+        by_answers = [
+            next((w for w in (each.worked() for each in step.answers) if w is not None), None) for step in steps
+        ]
+        force = self.force - attracted
+        pull = force - self.external_force
+        elastic = self.elastic_energy + [
+            sum(each.stores(relaxing=worked is not None) for each in step.answers)
+            for step, worked in zip(steps, by_answers, strict=True)
+        ]
+        plastic = np.cumsum(self.plastic_work + [sum(each.flows() for each in step.answers) for step in steps])
+        terms = {name: np.cumsum(each) for item in problem.physics for name, each in item.works(steps).items()}
+        loaded = start is not None and bool(start.pressure.any())
+        if not from_first and not loaded:
+            virgin = problem.profile()
+            dented = virgin if start is None else virgin - start.permanent_indentation - start.imprint
+            approach = np.concatenate([[float(virgin.max() - dented.max())], approach])
+            work, pulled = (cumulative_trapezoid(np.concatenate([[0.0], f]), approach) for f in (force, pull))
+        else:
+            work, pulled = (cumulative_trapezoid(f, approach, initial=0) for f in (force, pull))
+            for known in (item.work(steps) for item in problem.physics):
+                work = work if known is None else known + pulled
+            elastic, plastic = elastic - elastic[0], plastic - plastic[0]
+            terms = {name: each - each[0] for name, each in terms.items()}
+        viscous = np.cumsum([sum(each.heat() for each in step.answers) for step in steps])
+        if None not in by_answers:
+            work = np.cumsum(np.array(by_answers))
+            if from_first or loaded:
+                work, viscous = work - work[0], viscous - viscous[0]
+        supplying = {name for item in problem.physics for name in item.supplies}
+        found = EnergyBalance(
+            work,
+            elastic,
+            plastic,
+            viscous,
+            supplied={name: each for name, each in terms.items() if name in supplying},
+            taken={name: each for name, each in terms.items() if name not in supplying},
+            included={item.pull_term: pulled for item in problem.physics if item.pull_term},
+        )
+        for item in problem.physics:
+            lost = item.losses(steps, found.residual)
+            found = replace(found, taken={**found.taken, **lost}) if lost else found
+        return found
 
     def scalars(self, name: str) -> RealArray:
         """Attribute ``name`` of every step."""
@@ -340,52 +381,3 @@ class EnergyBalance(EnergyNames):
         """Largest magnitude of the residual over the largest external or tangential work; zero where no work was done."""
         largest = max(float(np.abs(work).max()) for work in (self.external_work, *self.supplied.values()))
         return float(np.abs(self.residual).max()) / largest if largest > 0.0 else 0.0
-
-
-def _balance(history: HistoryResult) -> EnergyBalance:
-    from scipy.integrate import cumulative_trapezoid
-
-    steps, start = history.steps, history.start
-    problem, approach = steps[0].problem, history.approach
-    attraction = [[each.pulls() for each in step.answers if each.traction_beside() is not None] for step in steps]
-    attracted, from_first = np.array([sum(pulls) for pulls in attraction]), bool(attraction[0])
-    by_answers = [next((w for w in (each.worked() for each in step.answers) if w is not None), None) for step in steps]
-    force = history.force - attracted
-    pull = force - history.external_force
-    elastic = history.elastic_energy + [
-        sum(each.stores(relaxing=worked is not None) for each in step.answers)
-        for step, worked in zip(steps, by_answers, strict=True)
-    ]
-    plastic = np.cumsum(history.plastic_work + [sum(each.flows() for each in step.answers) for step in steps])
-    terms = {name: np.cumsum(each) for item in problem.physics for name, each in item.works(steps).items()}
-    loaded = start is not None and bool(start.pressure.any())
-    if not from_first and not loaded:
-        virgin = problem.profile()
-        dented = virgin if start is None else virgin - start.permanent_indentation - start.imprint
-        approach = np.concatenate([[float(virgin.max() - dented.max())], approach])
-        work, pulled = (cumulative_trapezoid(np.concatenate([[0.0], f]), approach) for f in (force, pull))
-    else:
-        work, pulled = (cumulative_trapezoid(f, approach, initial=0) for f in (force, pull))
-        for known in (item.work(steps) for item in problem.physics):
-            work = work if known is None else known + pulled
-        elastic, plastic = elastic - elastic[0], plastic - plastic[0]
-        terms = {name: each - each[0] for name, each in terms.items()}
-    viscous = np.cumsum([sum(each.heat() for each in step.answers) for step in steps])
-    if None not in by_answers:
-        work = np.cumsum(np.array(by_answers))
-        if from_first or loaded:
-            work, viscous = work - work[0], viscous - viscous[0]
-    supplying = {name for item in problem.physics for name in item.supplies}
-    found = EnergyBalance(
-        work,
-        elastic,
-        plastic,
-        viscous,
-        supplied={name: each for name, each in terms.items() if name in supplying},
-        taken={name: each for name, each in terms.items() if name not in supplying},
-        included={item.pull_term: pulled for item in problem.physics if item.pull_term},
-    )
-    for item in problem.physics:
-        lost = item.losses(steps, found.residual)
-        found = replace(found, taken={**found.taken, **lost}) if lost else found
-    return found

@@ -25,7 +25,10 @@ def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = Fals
     Pixels are joined by edges, with ``diagonal`` by corners too; along x and along y also across the border where the
     map ``wraps``.
     """
-    labels, count = _within(mask, diagonal=diagonal)
+    from scipy.ndimage import label
+
+    found, islands = label(mask, np.ones((3, 3)) if diagonal else None)  # without regard to what lies across the border
+    labels, count = np.asarray(found), int(islands)
     if count == 0 or not any(wraps):
         return labels, count
     whole, merged = _merged(labels, count, wraps, diagonal=diagonal)
@@ -46,17 +49,17 @@ def island_sizes(mask: BoolArray, *, wraps: tuple[bool, bool]) -> Labels:
     return sizes[:count].copy()
 
 
-def _within(mask: BoolArray, *, diagonal: bool) -> tuple[Labels, int]:
-    """Labels (nx, ny) of the islands of ``mask`` without regard to what lies across its border, and their number."""
-    from scipy.ndimage import label
-
-    found, count = label(mask, np.ones((3, 3)) if diagonal else None)
-    return np.asarray(found), int(count)
-
-
 def _merged(labels: Labels, count: int, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, int]:
     """Number from 0 of the island to which each of the ``count`` labels belongs across the border, and of islands."""
-    first, last = _across(labels, wraps, diagonal=diagonal)
+    pairs: list[tuple[Labels, Labels]] = []  # of neighbours on both sides of the borders that wrap
+    for axis in (axis for axis in (0, 1) if wraps[axis]):
+        low_side, high_side = np.asarray(labels.take(0, axis)), np.asarray(labels.take(-1, axis))
+        pairs.append((low_side, high_side))
+        if diagonal and wraps[1 - axis]:
+            pairs += [(low_side, np.roll(high_side, shift)) for shift in (1, -1)]
+        elif diagonal:
+            pairs += [(low_side[1:], high_side[:-1]), (low_side[:-1], high_side[1:])]
+    first, last = (np.concatenate(lines) for lines in zip(*pairs, strict=True))
     joined = (first > 0) & (last > 0)
     parent: dict[int, int] = {}  # an island joined to one of a smaller label; those without are on their own
 
@@ -66,8 +69,8 @@ def _merged(labels: Labels, count: int, wraps: tuple[bool, bool], *, diagonal: b
             island = parent[island]
         return island
 
-    pairs = np.unique((first[joined] - 1) * np.int64(count) + (last[joined] - 1))  # each once, as one number
-    for pair in pairs.tolist():
+    numbers = np.unique((first[joined] - 1) * np.int64(count) + (last[joined] - 1))  # each once, as one number
+    for pair in numbers.tolist():
         low, high = sorted((root(pair // count), root(pair % count)))
         if low != high:
             parent[high] = low
@@ -77,23 +80,6 @@ def _merged(labels: Labels, count: int, wraps: tuple[bool, bool], *, diagonal: b
     for island in parent:
         whole[island] = whole[root(island)]
     return whole, count - len(parent)
-
-
-def _across(labels: Labels, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, Labels]:
-    """Labels of the neighbours on both sides of the borders that wrap, (n,) each."""
-    pairs: list[tuple[Labels, Labels]] = []
-    for axis in (0, 1):
-        if not wraps[axis]:
-            continue
-        first, last = np.asarray(labels.take(0, axis)), np.asarray(labels.take(-1, axis))
-        pairs.append((first, last))
-        if diagonal and wraps[1 - axis]:
-            pairs += [(first, np.roll(last, shift)) for shift in (1, -1)]
-        elif diagonal:
-            pairs += [(first[1:], last[:-1]), (first[:-1], last[1:])]
-    ends = zip(*pairs, strict=True)
-    first_side, last_side = (np.concatenate(lines) for lines in ends)
-    return first_side, last_side
 
 
 def spans(labels: Labels, *, wraps: tuple[bool, bool]) -> BoolArray:

@@ -50,27 +50,20 @@ def peak_pressure(p: RealArray, plastic: BoolArray, grid: Grid, wraps: tuple[boo
     if not (around > 0.0).all() or plastic[np.ix_(*lines)].any():
         return PeakPressure(highest, math.nan, x, y, "a pixel beside it is out of contact or at the hardness")
     square = around**2
-    shift, vertex, neighbours = _vertex(square)
-    value = math.sqrt(max(vertex, 0.0))
-    fall = 1.0 - float(np.mean(neighbours)) / highest**2 if neighbours else 0.0
-    error = abs(value - highest) + (LEAST_ERROR + CURVED * fall) * highest
-    return PeakPressure(value, error, x + shift[0] * dx, y + shift[1] * dy)
-
-
-def _vertex(square: RealArray) -> tuple[tuple[float, float], float, list[float]]:
-    """Shift in pixels along x and y and value of the vertex of the quadratic through values (3 or 1, 3 or 1), and those of the neighbours beside the middle."""
     middle = tuple(size // 2 for size in square.shape)
-    top = float(square[middle])
-    slope, curve, beside = np.zeros(2), -np.ones(2), list[float]()
+    top = vertex = float(square[middle])
+    slope, curve, shift, neighbours = np.zeros(2), -np.ones(2), np.zeros(2), list[float]()
     for axis in (0, 1):
         if square.shape[axis] == 3:
             low, _, high = np.take(square, middle[1 - axis], 1 - axis).tolist()
             slope[axis], curve[axis] = 0.5 * (high - low), high - 2.0 * top + low
-            beside += [low, high]
+            neighbours += [low, high]
     mixed = 0.25 * (square[2, 2] - square[2, 0] - square[0, 2] + square[0, 0]) if square.shape == (3, 3) else 0.0
     hessian = np.array([[curve[0], mixed], [mixed, curve[1]]])
-    if np.linalg.det(hessian) <= 0.0 or curve[0] >= 0.0:
-        return (0.0, 0.0), top, beside
-    shift = np.clip(-np.linalg.solve(hessian, slope), -LARGEST_SHIFT, LARGEST_SHIFT)
-    vertex = top + float(slope @ shift) + 0.5 * float(shift @ hessian @ shift)
-    return (float(shift[0]), float(shift[1])), vertex, beside
+    if np.linalg.det(hessian) > 0.0 and curve[0] < 0.0:
+        shift = np.clip(-np.linalg.solve(hessian, slope), -LARGEST_SHIFT, LARGEST_SHIFT)
+        vertex = top + float(slope @ shift) + 0.5 * float(shift @ hessian @ shift)
+    value = math.sqrt(max(vertex, 0.0))
+    fall = 1.0 - float(np.mean(neighbours)) / highest**2 if neighbours else 0.0
+    error = abs(value - highest) + (LEAST_ERROR + CURVED * fall) * highest
+    return PeakPressure(value, error, x + float(shift[0]) * dx, y + float(shift[1]) * dy)

@@ -145,20 +145,17 @@ def _joined(physics: Iterable[Physics], given: Mapping[str, Any]) -> tuple[Physi
         if keyword not in PHYSICS:
             raise TypeError(f"ContactProblem() got an unexpected keyword argument {keyword!r}")
         found.pop(keyword, None)
-        if value is not None:
-            found[keyword] = _of(keyword, value)
+        if value is None:
+            continue
+        try:
+            found[keyword] = home(PHYSICS[keyword].home).of(value)
+        except TypeError:
+            must_be = f"{PHYSICS[keyword].must_be} or None"
+            raise InputError(
+                f"{keyword} of a ContactProblem must be {must_be}, but is {type(value).__name__}."
+            ) from None
     order = list(PHYSICS)
     return tuple(sorted(found.values(), key=lambda p: order.index(p.keyword) if p.keyword in order else len(order)))
-
-
-def _of(keyword: str, value: Any) -> Physics:
-    try:
-        made: Physics = home(PHYSICS[keyword].home).of(value)
-    except TypeError:
-        raise InputError(
-            f"{keyword} of a ContactProblem must be {PHYSICS[keyword].must_be} or None, but is {type(value).__name__}."
-        ) from None
-    return made
 
 
 class WithPhysics:
@@ -262,7 +259,12 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
         for body, what in ((self.body, "body"), (self.counter_body, "counter_body")):
             _require(body, Body, what, "Elastic(...), a named material, Layered(...) or Rigid()")
         _require(self.law, InterfaceLaw, "law", "HardWall() or Hardness(...)")
-        self._check_materials()
+        for body in (self.body, self.counter_body):
+            layers = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
+            for solid in (*layers, body.base if isinstance(body, Layered) else body):
+                if isinstance(solid, Elastic):
+                    require.magnitude(solid.youngs_modulus, "Young's modulus (Pa)")
+        contact_modulus(self.body, self.counter_body)
         for spacing in self.grid.spacing:
             require.magnitude(spacing, "pixel size (m)")
         if isinstance(self.boundary, FreeLine):
@@ -289,14 +291,6 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
             raise InputError(
                 f"hardness array must have the shape {self.surface.shape} of the surface, but has {cap.shape}."
             )
-
-    def _check_materials(self) -> None:
-        for body in (self.body, self.counter_body):
-            layers = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
-            for solid in (*layers, body.base if isinstance(body, Layered) else body):
-                if isinstance(solid, Elastic):
-                    require.magnitude(solid.youngs_modulus, "Young's modulus (Pa)")
-        contact_modulus(self.body, self.counter_body)
 
     @property
     def attracts(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any, Generic, Literal, TypeVar
@@ -19,7 +19,7 @@ from ..core.status import Status
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from . import measure
-from .answer import Answer, WithOutcomes, imprint_of, outside
+from .answer import Answer, WithOutcomes, outside
 from .area import RealArea, edges_in, real_area
 from .certificate import Certificate
 from .controls import Control
@@ -326,6 +326,12 @@ class ContactResult(ResultNames, WithOutcomes, Stored):
         return before.with_heights(left, f"indented for good, last load {load}")
 
 
+def added(fields: Iterable[RealArray | None]) -> RealArray | None:
+    """Sum (nx, ny) of the ``fields`` that are there; None if there is none."""
+    there = [field for field in fields if field is not None]
+    return sum(there[1:], there[0]) if there else None
+
+
 def assemble(
     problem: ContactProblem,
     found: Contact,
@@ -345,24 +351,25 @@ def assemble(
     elastic displacement (nx, ny) in m that is not by pressure; with one the stiffness is left out, which would follow from both.
     ``attraction`` (nx, ny) in Pa is the part of the traction beside the pressure.
     """
-    p, u, grid = found.pressure, found.solution.state.deflection, problem.grid
-    offset = -found.level
-    displacement = u if lift is None else u + lift
+    p, u, grid, operator = found.pressure, found.solution.state.deflection, problem.grid, found.qp.operator
     answers = [outcome for outcome in outcomes.values() if isinstance(outcome, Answer)]
-    for retarded in (answer.retarded() for answer in answers):
-        displacement = displacement if retarded is None else displacement + retarded
+    beside = [lift, *(answer.retarded() for answer in answers)]
+    displacement = sum((part for part in beside if part is not None), u)
     springs = [energy for energy in (answer.springs() for answer in answers) if energy is not None]
+    pairs = [(p, u)]  # by the pressures from which the next one is extrapolated
+    if before is not None and before.deflections is not None:
+        known = before.deflections.by(before.pressure, operator)
+        pairs += [] if known is None else [(before.pressure, known)]
     capped = np.zeros(p.shape, dtype=bool) if found.qp.elastic else (p > 0.0) & (p >= found.cap)
     yielding = 0 if found.qp.elastic else int(np.count_nonzero(capped))
-    computed = found.qp.as_computed(found.solution.state)[0]
-    pixels = int(np.count_nonzero(computed > 0.0))  # where it was computed: a GPU takes a hundredth of the time
+    computed = found.qp.as_computed(found.solution.state)[0]  # a GPU takes a hundredth of the time
+    pixels = int(np.count_nonzero(computed > 0.0))
     load, work = found.totals.pressure, found.totals.deflected
     if lift is not None:
         work += float(np.multiply(p, lift, dtype=np.float64).sum())
     if attraction is not None:
         work -= float((attraction * displacement).sum())
-    engine = found.qp.operator.engine
-    later = Later(lambda result: stiffness_of(result, engine=engine)) if stiffness and lift is None else np.nan
+    later = Later(partial(stiffness_of, engine=operator.engine)) if stiffness and lift is None else np.nan
     return ContactResult(
         problem=problem,
         control=found.posed.control,
@@ -370,12 +377,12 @@ def assemble(
         displacement=displacement,
         gap=Later(partial(_gap, u, found.qp.profile)),
         plastic=capped,
-        offset=offset,
+        offset=-found.level,
         mean_pressure=load / grid.n_points,
         force=load * grid.pixel_area,
         area_fraction=pixels / grid.n_points,
         max_pressure=float(computed.max()),
-        approach=found.posed.top - offset,
+        approach=found.posed.top + found.level,
         mean_gap=Later(_mean_gap),
         elastic_energy=springs[0] if springs else 0.5 * work * grid.pixel_area,
         plastic_area_fraction=yielding / pixels if pixels else 0.0,
@@ -386,8 +393,8 @@ def assemble(
         couplings=outcomes,
         memory={name: memory for name, memory in memories.items() if memory and name != "hardness"},
         earlier=before.pressure if before is not None and before.pressure.any() else None,
-        deflections=_deflections(found, before) if found.qp.elastic and attraction is None else None,
-        **_indentation(problem, before, memories["hardness"], imprint_of(answers)),
+        deflections=Deflections(operator, tuple(pairs)) if found.qp.elastic and attraction is None else None,
+        **_indentation(problem, before, memories["hardness"], added(answer.imprint() for answer in answers)),
     )
 
 
@@ -406,15 +413,6 @@ def unindented(result: ContactResult) -> RealArray:
 def _mean_gap(result: ContactResult) -> float:
     gap = vars(result)["gap"]  # one that is not at hand is not kept: a path may hold many
     return float((gap.compute(result) if isinstance(gap, Later) else gap).mean())
-
-
-def _deflections(found: Contact, before: InterfaceState | None) -> Deflections:
-    """Displacements by the pressures from which the next one is extrapolated."""
-    operator, pairs = found.qp.operator, [(found.pressure, found.solution.state.deflection)]
-    if before is not None and before.deflections is not None:
-        known = before.deflections.by(before.pressure, operator)
-        pairs += [] if known is None else [(before.pressure, known)]
-    return Deflections(operator, tuple(pairs))
 
 
 def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operator: Operator | None = None) -> float:

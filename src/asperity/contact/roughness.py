@@ -51,6 +51,17 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
         found = near = difference_moments(surface)
         slopes = near.slope_tensor
         tensor = MomentTensor(slopes.xx, slopes.xy, slopes.yy, m40=near.m4_x, m04=near.m4_y)
+    peaks, covariance = summits(surface, neighbours), autocovariance(surface)
+    listed = None
+    if peaks.count:
+        listed = SummitList(
+            x=peaks.i * surface.dx,
+            y=peaks.j * surface.dy,
+            height=peaks.height,
+            curvature=peaks.curvature,
+            area=peaks.candidate_area,
+            period=surface.size if surface.periodic else None,
+        )
     radial = radial_spectrum(spectrum)
     shape = height_parameters(surface)
     return Roughness(
@@ -60,26 +71,12 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
         area=math.prod(surface.size),
         moments=tensor,
         spectrum=Spectrum(radial.q, radial.psd),
-        summits=_summit_list(surface, neighbours),
+        summits=listed,
         heights=deviations(surface),
         skewness=shape.Ssk,
         kurtosis=shape.Sku,
         fractal=_fractal(surface),
-        correlation_length=_correlation_length(surface),
-    )
-
-
-def _summit_list(surface: Surface, neighbours: int) -> SummitList | None:
-    found = summits(surface, neighbours)
-    if found.count == 0:
-        return None
-    return SummitList(
-        x=found.i * surface.dx,
-        y=found.j * surface.dy,
-        height=found.height,
-        curvature=found.curvature,
-        area=found.candidate_area,
-        period=surface.size if surface.periodic else None,
+        correlation_length=0.5 * sum(covariance.correlation_length(DROP_1E, axis=axis) for axis in ("x", "y")),
     )
 
 
@@ -94,9 +91,3 @@ def _fractal(surface: Surface) -> Fractal | None:
     roughness = math.exp(0.5 * sum(math.log(fit.roughness) for fit in found))
     lengths = max(fit.first_lag for fit in found), min(fit.last_lag for fit in found)
     return Fractal(0.5 * sum(fit.dimension for fit in found), roughness, *lengths)
-
-
-def _correlation_length(surface: Surface) -> float:
-    """Mean of the lags along x and y at which the autocorrelation has fallen to 1/e."""
-    covariance = autocovariance(surface)
-    return 0.5 * sum(covariance.correlation_length(DROP_1E, axis=axis) for axis in ("x", "y"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -19,7 +20,7 @@ from ..core.errors import ConvergenceError, InputError, NoSolutionError
 from ..core.registry import BY_DEPTH, IN_TIME, PAIRS, home
 from ..core.status import Outcome, Progress, Status
 from ..solids.layers import relaxes
-from .answer import Answer, added
+from .answer import Answer
 from .certificate import LARGEST_DUALITY_GAP, LARGEST_IMBALANCE, Certificate, certify, imbalance
 from .controls import (
     Approach,
@@ -31,18 +32,16 @@ from .controls import (
     Pull,
     Step,
     Unloaded,
-    as_step,
     mean_pressure,
 )
 from .couplings.driver import Rounds, Settled
 from .couplings.held import settle_position
-from .couplings.pressure_limit import ConstantHardness
 from .couplings.protocol import Coupling, Memory, Posed, height_scale
 from .history import History, HistoryResult
-from .law import HardWall, LimitByDepth
+from .law import ConstantHardness, HardWall, LimitByDepth
 from .operators import Operator, prepare_operator
 from .problem import ContactProblem, Preparing, require_borne
-from .result import ContactResult, assemble
+from .result import ContactResult, added, assemble
 from .solvers.active_set.solver import ActiveSet
 from .solvers.protocol import Solver
 from .state import InterfaceState
@@ -68,11 +67,6 @@ class _Options(TypedDict, total=False):
     rounds: Rounds
     time_steps: TimeSteps
     on_failure: Literal["raise", "return"]
-
-
-def _require_known(options: Mapping[str, object]) -> None:
-    for name in options:
-        require.one_of(name, _Options.__annotations__, "keyword of solve")
 
 
 @overload
@@ -139,7 +133,8 @@ def solve(
             f"problem must be a ContactProblem, but is a {type(problem).__name__}. Write ContactProblem(surface, body), such as "
             'ContactProblem(surface, material("steel")).'
         )
-    _require_known(options)
+    for name in options:
+        require.one_of(name, _Options.__annotations__, "keyword of solve")
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     if isinstance(control, History):
         return HistoryResult(_all_results(problem, control, on_failure, **options), options.get("state"))
@@ -148,9 +143,9 @@ def solve(
         raise InputError(f"control must be a {kinds}, but is {control!r}. Write for example MeanPressure(50e3).")
     state = options.pop("state", None)
     keep = options.pop("keep", None) or Keep()
-    step = as_step(control)
+    step = control if isinstance(control, Step) else Step(control)
     result = Prepared(problem, keep=keep, sticks=sticks(problem, [step], state), **options).step(step, state)
-    if on_failure == "raise" and not result.converged:
+    if on_failure == "raise" and not result.status.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
 
@@ -168,11 +163,11 @@ def steps(
 
     Arguments and errors are those of ``solve``; what is wrong with them is raised at the call, before any step.
     """
-    _require_known(options)
+    for name in options:
+        require.one_of(name, _Options.__annotations__, "keyword of solve")
     require.one_of(on_failure, ("raise", "return"), "on_failure")
     ordered = history if isinstance(history, History) else History(history)
     prepared = Prepared(problem, keep=keep or Keep(stiffness=False), sticks=sticks(problem, ordered, state), **options)
-
     return _results(prepared, enumerate(ordered, start=1), state, on_failure)
 
 
@@ -217,7 +212,9 @@ def _all_results(
     chains = min(_MOST_CHAINS, len(numbered) // _CHAIN)
     alone = state is None and prepared.progress is None and isinstance(prepared.solver, ActiveSet)
     pressed = all(isinstance(step.normal, MeanPressure | Force) for step in history)
-    if chains < 2 or not (alone and pressed and prepared.remembers_nothing and isinstance(engine, CpuEngine)):
+    # each step depends on its own load alone: elastic contact without other physics
+    elastic = isinstance(problem.law, HardWall) and len(prepared.couplings) == 1 and prepared.in_time is None
+    if chains < 2 or not (alone and pressed and elastic and isinstance(engine, CpuEngine)):
         return tuple(_results(prepared, numbered, state, on_failure))
     ended, threads = Event(), max(1, engine.threads // chains)
 
@@ -270,32 +267,32 @@ class Prepared:
         self.problem, self.keep, self.progress, self.rounds = problem, keep, progress, rounds
         self.solver = solver or default_solver(problem, sticks=sticks)
         self.operator = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-        _require_same_problem(self.operator, problem)
+        # one of another grid, solid or boundary would give a wrong answer without an error
+        for what in ("grid", "compliance", "boundary"):
+            prepared_for, wanted = getattr(self.operator, what), getattr(problem, what)
+            if prepared_for != wanted:
+                raise InputError(
+                    f"operator must be prepared for the {what} {wanted} of the problem, but is for {prepared_for}."
+                )
         self.couplings = couplings_of(problem, self.operator, rounds, sticks=sticks)
         self.profile, self.time_steps = problem.profile(), time_steps
         self._measured: tuple[RealArray, float] | None = None
         relaxing = relaxes(problem.body) or relaxes(problem.counter_body)
         self.in_time: InTime | None = home(IN_TIME)(self) if relaxing else None
 
-    @property
-    def remembers_nothing(self) -> bool:
-        """Whether each step depends on its own load alone: elastic contact without other physics."""
-        return isinstance(self.problem.law, HardWall) and len(self.couplings) == 1 and self.in_time is None
-
-    def settled(self, step: Step, state: InterfaceState | None = None) -> Settled:
-        """Contact under ``step`` that agrees with all couplings, started from ``state``; its duration does not matter."""
-        return self._settled(step, state, self.operator, None)
-
-    def _settled(
+    def settled(
         self,
         step: Step,
-        state: InterfaceState | None,
-        operator: Operator,
-        retarded: RealArray | None,
+        state: InterfaceState | None = None,
+        operator: Operator | None = None,
+        retarded: RealArray | None = None,
         ahead: float | None = None,
         couplings: tuple[Coupling, ...] | None = None,
     ) -> Settled:
-        """The same with the ``operator`` and ``couplings`` of a step of time, and the displacement that the past leaves at its end; ``ahead`` as of ``Posed``."""
+        """Contact under ``step`` that agrees with all couplings, started from ``state``; its duration does not matter.
+
+        A step of time gives its own ``operator`` and ``couplings``, and the displacement that the past leaves at its end; ``ahead`` as of ``Posed``.
+        """
         control, dented, start = step.normal, self.profile, None
         if state is not None:
             state.require_shape(self.profile.shape)
@@ -307,23 +304,31 @@ class Prepared:
             require.magnitude(control.value, f"{control.name} (m)")
         elif not isinstance(control, Unloaded | Pull | FixedGrips):
             require.magnitude(mean_pressure(control, self.problem.grid), "mean pressure (Pa)")
-        scale = self._rms() or height_scale(self.profile, control, self.operator)
+        if self._measured is None or self._measured[0] is not self.profile:  # once for the steps of a surface at rest
+            self._measured = self.profile, float(self.operator.engine.resident(self.profile).std())
+        scale = self._measured[1] or height_scale(self.profile, control, self.operator)
         earlier = None if state is None else state.earlier
         lift: RealArray | float = 0.0
         if retarded is not None:
             dented, lift = dented - retarded, retarded
         known = None if state is None else state.deflections
         tangential = step.tangential
-        posed = Posed(operator, self.profile, dented, control, scale, start, earlier, tangential, lift, known, ahead)
+        posed = Posed(
+            operator or self.operator,
+            self.profile,
+            dented,
+            control,
+            scale,
+            start,
+            earlier,
+            tangential,
+            lift,
+            known,
+            ahead,
+        )
         memories = {} if state is None else state.memory
         joined = self.couplings if couplings is None else couplings
         return settled_with(joined, posed, memories, self.solver, rounds=self.rounds, progress=self.progress)
-
-    def _rms(self) -> float:
-        """Rms height (m), computed once for the steps of a surface at rest."""
-        if self._measured is None or self._measured[0] is not self.profile:
-            self._measured = self.profile, float(self.operator.engine.resident(self.profile).std())
-        return self._measured[1]
 
     def step(self, step: Step, state: InterfaceState | None = None) -> ContactResult:
         """Result of ``step``, started from ``state``."""
@@ -372,8 +377,11 @@ def settled_with(
     Arguments and errors are those of ``settle``.
     """
     names = {coupling.name for coupling in couplings}
-    together = [place for pair, place in PAIRS.items() if pair <= names] if posed.balances_force else []
-    way = home(together[0]) if together else settle_position
+    together = [place for pair, place in PAIRS.items() if pair <= names]
+    way = settle_position
+    if together:  # and the force has to come out right: a prescribed one, or that of a machine that gives way
+        gives = isinstance(posed.control, FixedGrips) and math.isfinite(posed.control.stiffness)
+        way = home(together[0]) if gives or posed.external_force is not None else settle_position
     settled: Settled = way(posed, couplings, memories, solver, **options)
     return settled
 
@@ -399,7 +407,15 @@ def finished(
     attraction = added(answer.traction_beside() for answer in answers)
     if attraction is not None:
         lift = (0.0 if lift is None else lift) - contact.posed.operator.apply(attraction)
-    certificate = _certified(settled, solver, seconds)
+    certificate = certify(
+        contact.qp,
+        contact.solution,
+        contact.totals,
+        solver=solver.name,
+        tolerance=settled.tolerance,
+        wall_time=seconds,
+    )
+    certificate = replace(certificate, couplings=settled.checks, rounds=settled.rounds)
     if any(answer.pulls() for answer in answers):
         pulled = sum(answer.pulls() for answer in answers)
         certificate = replace(certificate, load_imbalance=imbalance(contact, pulled))
@@ -424,19 +440,6 @@ def finished(
     )
 
 
-def _certified(settled: Settled, solver: Solver, seconds: float) -> Certificate:
-    contact = settled.contact
-    found = certify(
-        contact.qp,
-        contact.solution,
-        contact.totals,
-        solver=solver.name,
-        tolerance=settled.tolerance,
-        wall_time=seconds,
-    )
-    return replace(found, couplings=settled.checks, rounds=settled.rounds)
-
-
 def sticks(problem: ContactProblem, ordered: Iterable[Step], state: InterfaceState | None) -> bool:
     """Whether surfaces stick and slip: where a step prescribes it, the interface remembers it, or the law knows no gross sliding.
 
@@ -457,7 +460,10 @@ def default_solver(problem: ContactProblem, *, sticks: bool = False) -> Solver:
     """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size, as tight as its physics need."""
     wanted = (physics.normal_tolerance(sticks=sticks) for physics in problem.physics)
     tolerance = min((each for each in wanted if each is not None), default=None)
-    return ActiveSet() if tolerance is None else ActiveSet(tolerance=tolerance)
+    return _USUAL if tolerance is None else ActiveSet(tolerance=tolerance)
+
+
+_USUAL = ActiveSet()
 
 
 def couplings_of(
@@ -485,14 +491,3 @@ def doubted(status: Status, certificate: Certificate) -> Status:
         return status
     message = f"Not converged: the energy is off by up to {certificate.duality_gap:.1e} of itself (duality gap)."
     return Status(Outcome.STAGNATED, message, "Use a smaller tolerance, and numbers that are not extreme.")
-
-
-def _require_same_problem(operator: Operator, problem: ContactProblem) -> None:
-    """An operator of another grid, solid or boundary would give a wrong answer without an error."""
-    for what, found, wanted in (
-        ("grid", operator.grid, problem.grid),
-        ("compliance", operator.compliance, problem.compliance),
-        ("boundary", operator.boundary, problem.boundary),
-    ):
-        if found != wanted:
-            raise InputError(f"operator must be prepared for the {what} {wanted} of the problem, but is for {found}.")

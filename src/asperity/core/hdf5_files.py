@@ -11,18 +11,6 @@ SIGNATURE = b"\x89HDF\r\n\x1a\n"
 """First bytes of the superblock, which stands at byte 0, 512, 1024 and so on, doubling (HDF5 file format specification, II.A)."""
 
 
-def is_hdf5(path: str | Path) -> bool:
-    """Whether the file ``path`` has a superblock of HDF5 where the library looks for one."""
-    size, place = Path(path).stat().st_size, 0
-    with Path(path).open("rb") as file:
-        while place + len(SIGNATURE) <= size:
-            file.seek(place)
-            if file.read(len(SIGNATURE)) == SIGNATURE:
-                return True
-            place = 2 * place or 512
-    return False
-
-
 def require_own_file(path: str | Path, what: str) -> None:
     """Refuse the file ``path`` if it is of HDF5 and ``require_own_data`` refuses it, or the library cannot list what it holds.
 
@@ -31,7 +19,12 @@ def require_own_file(path: str | Path, what: str) -> None:
     FileFormatError
         If there is any of this.
     """
-    if not is_hdf5(path):
+    size, place, found = Path(path).stat().st_size, 0, False
+    with Path(path).open("rb") as file:  # a superblock where the library looks for one
+        while place + len(SIGNATURE) <= size and not found:
+            file.seek(place)
+            found, place = file.read(len(SIGNATURE)) == SIGNATURE, 2 * place or 512
+    if not found:
         return
     import h5py
 

@@ -117,8 +117,19 @@ class LogTable:
         x = np.asarray(x, dtype=float)
         flat, out = x.ravel(), np.empty(x.size)
         for begin in range(0, x.size, _CHUNK):
-            part = slice(begin, begin + _CHUNK)
-            self._evaluate(flat[part], out[part])
+            at, values = flat[begin : begin + _CHUNK], out[begin : begin + _CHUNK]
+            logarithm = np.log((at / self.panels.start).astype(np.float32))  # near a break either panel will do
+            logarithm /= np.float32(self.panels.width)
+            panel = logarithm.astype(np.intp)
+            t = self._scales.take(panel, mode="clip")
+            t *= at
+            t -= 1.0 + 2.0 / math.expm1(self.panels.width)
+            highest = int(self._needed.take(panel, mode="clip").max(initial=0))
+            self.coefficients[highest].take(panel, out=values, mode="clip")
+            gathered = np.empty_like(values)
+            for coefficient in self.coefficients[:highest][::-1]:
+                values *= t
+                values += coefficient.take(panel, out=gathered, mode="clip")
         return out.reshape(x.shape)
 
     @cached_property
@@ -132,20 +143,6 @@ class LogTable:
     def _scales(self) -> RealArray:
         """dt/dx in each panel, (count,)."""
         return np.asarray(2.0 / (math.expm1(self.panels.width) * self.panels.breaks[:-1]))
-
-    def _evaluate(self, x: RealArray, out: RealArray) -> None:
-        logarithm = np.log((x / self.panels.start).astype(np.float32))  # near a break either panel will do
-        logarithm /= np.float32(self.panels.width)
-        panel = logarithm.astype(np.intp)
-        t = self._scales.take(panel, mode="clip")
-        t *= x
-        t -= 1.0 + 2.0 / math.expm1(self.panels.width)
-        highest = int(self._needed.take(panel, mode="clip").max(initial=0))
-        self.coefficients[highest].take(panel, out=out, mode="clip")
-        gathered = np.empty_like(out)
-        for coefficient in self.coefficients[:highest][::-1]:
-            out *= t
-            out += coefficient.take(panel, out=gathered, mode="clip")
 
     def integral(self, first: float = 0.0) -> LogTable:
         """Table of the integral over ln x, which is ``first`` at the start.

@@ -246,7 +246,15 @@ def _curve(kind: str, c0: float, c1: float, c2: float, delta: float) -> _Curve:
         four = _TypeIV(c0 / delta, c1 / delta, c2 / delta)
         return _Curve(four, lambda x, *_: four.relative(x))
     if kind == "V":
-        return _type_v(c1 / delta, c2 / delta)
+        c1, c2 = c1 / delta, c2 / delta
+        shape, low = 1.0 / c2 - 1.0, -0.5 * c1 / c2  # y^-(shape + 1) exp(-b/y), y = x - low
+        b = -(low + c1) / c2
+
+        def relative(x: RealArray, from_low: RealArray, _from_high: RealArray) -> RealArray:
+            y = np.maximum(from_low, _NEAREST)
+            return -b / low * (x / y) - (shape + 1.0) * _log_ratio(x, y, -low)
+
+        return _Curve(stats.invgamma(shape, low, b), relative, low)
     if kind == "VII":  # (1 + c2 x²/c0)^-m
         m = 0.5 * delta / c2
         law = stats.t(2.0 * m - 1.0, scale=math.sqrt(c0 / c2 / (2.0 * m - 1.0)))
@@ -260,20 +268,6 @@ def _curve(kind: str, c0: float, c1: float, c2: float, delta: float) -> _Curve:
         return _Curve(law, lambda x, y, _: m1 * _log_ratio(x, y + width, -a1) + m2 * _log_ratio(x, y, -a2), a2)
     law = _Beta(m1 + 1.0, m2 + 1.0, a1, width)  # (x - a1)^m1 (a2 - x)^m2
     return _Curve(law, lambda x, y, rest: m1 * _log_ratio(x, y, -a1) + m2 * _log_ratio(-x, rest, a2), a1, a2)
-
-
-def _type_v(c1: float, c2: float) -> _Curve:
-    """y^-(shape + 1) exp(-b/y), y = x - low."""
-    from scipy import stats
-
-    shape, low = 1.0 / c2 - 1.0, -0.5 * c1 / c2
-    b = -(low + c1) / c2
-
-    def relative(x: RealArray, from_low: RealArray, _from_high: RealArray) -> RealArray:
-        y = np.maximum(from_low, _NEAREST)
-        return -b / low * (x / y) - (shape + 1.0) * _log_ratio(x, y, -low)
-
-    return _Curve(stats.invgamma(shape, low, b), relative, low)
 
 
 def _log_ratio(x: RealArray, from_end: RealArray, distance: float) -> RealArray:

@@ -75,7 +75,11 @@ def at_most(value: float, high: float, what: str, fix: str = "") -> float:
 
 def magnitude(value: float, what: str) -> float:
     """Return the length, modulus or pressure ``value`` if it is within ``values.LEAST`` and ``LARGEST``."""
-    return within(positive(value, what), LEAST, LARGEST, what, "Use other units of length and pressure.")
+    number = positive(value, what)
+    if not LEAST < number <= LARGEST:
+        must_be = f"greater than {LEAST:g} and at most {LARGEST:g}"
+        raise InputError(_sentence(what, must_be, number, "Use other units of length and pressure."))
+    return number
 
 
 def integer(value: int, minimum: int, what: str, fix: str = "") -> int:

@@ -217,11 +217,7 @@ class Whole(Values):
     least: int = 1
     most: int | None = None
     odd: bool = False
-
-    @property
-    def metavar(self) -> str:
-        """What stands for a value in the help of a command."""
-        return "NUMBER"
+    metavar = "NUMBER"
 
     @property
     def rule(self) -> str:
@@ -263,11 +259,7 @@ class Choice(Values):
 
     words: Mapping[str, Any]
     others: bool = False
-
-    @property
-    def metavar(self) -> str:
-        """What stands for a value in the help of a command."""
-        return "WORD"
+    metavar = "WORD"
 
     @property
     def rule(self) -> str:

@@ -18,11 +18,11 @@ from asperity.contact.solvers.active_set.linear_system import (
     Stopping,
     conjugate_gradients,
 )
-from asperity.contact.solvers.active_set.nested_cells import hierarchies
 from asperity.contact.solvers.active_set.spline_model import merges_of, pixel_compliance, spline_compliance
 from asperity.core.arrays import RealArray
 from asperity.core.engine import Engine, FreeSet, spline_levels
 from asperity.core.engine.vectors import Hierarchy
+from asperity.physics.friction.solver.nested_cells import hierarchies
 from asperity.solids.compliance.halfspace import Compliance, HalfSpace
 
 BODY = HalfSpace(2.0)

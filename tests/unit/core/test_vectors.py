@@ -5,9 +5,9 @@ import pytest
 from contact_cases import rough
 
 import asperity as asp
-from asperity.contact.solvers.active_set.nested_cells import PIXEL_SHARE, hierarchies
 from asperity.core.engine.vectors import VectorCells
 from asperity.physics.friction.operator import TangentialOperator
+from asperity.physics.friction.solver.nested_cells import PIXEL_SHARE, hierarchies
 
 
 def model(shape, hierarchy):

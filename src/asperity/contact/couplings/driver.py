@@ -14,9 +14,18 @@ from ...core.errors import NoSolutionError
 from ...core.status import NoProgress, Outcome, Progress, Status
 from ..controls import Approach
 from ..solvers.active_set.solver import ActiveSet, Loaded
-from ..solvers.pressure_error import error_for_pressure
-from ..solvers.protocol import Constraint, ContactQP, FixedMean, FixedOffset, Solution, Solver, SolverState, run
-from .position import Position
+from ..solvers.protocol import (
+    Constraint,
+    ContactQP,
+    FixedMean,
+    FixedOffset,
+    Solution,
+    Solver,
+    SolverState,
+    error_for_pressure,
+    run,
+)
+from .position import Position, without_bracket
 from .protocol import Contact, Coupling, Exchange, Foreseeing, Memory, Posed
 
 REMEMBERED = 3
@@ -230,13 +239,23 @@ class _Iteration:
 
     def settled(self) -> Settled:
         """Rounds until all couplings are settled by a solve to the full tolerance, or it must be given up."""
-        tolerance = self.finest if self._goes_ahead() else self._next_tolerance(np.inf, self.active)
-        lowest, progressed = np.inf, 0
+        tolerance, lowest, progressed = self._next_tolerance(np.inf, self.active), np.inf, 0
+        status: Status | None = None
+        joint = Position.name in self.active and len(self.active) > 1  # the position is one of several unknowns
+        alone = self.couplings[self.active[0]] if len(self.active) == 1 else None
+        if isinstance(alone, Foreseeing):
+            # it may find the contact by a method of its own, from which rounds then start
+            qp = self._posed()
+            found = alone.ahead(self.exchanges[alone.name], qp, self._start(qp), self.solver, self.watched)
+            self.spent = found.iterations, found.pairs
+            if found.exchange is not None:
+                self.exchanges[alone.name], tolerance = found.exchange, self.finest
         for count in range(1, self.rounds.most + 1):
             tolerance = self.finest if count == self.rounds.most else tolerance
             contact = self._solved(self._posed(), tolerance)
             if not contact.solution.status.converged:
-                return self._ended(contact, count, contact.solution.status)
+                status = contact.solution.status
+                break
             moves = self._reply(contact)
             if tolerance <= self.finest:
                 state, asked = contact.solution.state, self.solver.tolerance
@@ -248,7 +267,12 @@ class _Iteration:
             self.watched.round(worst)
             if worst <= 1.0:
                 if tolerance <= self.finest:
-                    return self._ended(contact, count, self._converged(contact, count))
+                    rounds = f"after {count} {'rounds' if count > 1 else 'round'}."
+                    settled = [self.couplings[name].settled(self.exchanges[name]) for name in self.active]
+                    message = contact.solution.status.message
+                    message = " ".join([message, *(f"{text} {rounds}" for text in settled)])
+                    status = Status(Outcome.CONVERGED, message)
+                    break
                 tolerance = self.finest
                 continue
             if self.nested and moves:
@@ -259,13 +283,22 @@ class _Iteration:
                 lowest, progressed = min(worst, lowest), count
             elif count - progressed >= self.rounds.patience or any(self.exchanges[name].stuck for name in concerned):
                 break
-            elif count - progressed >= _JOINT_PATIENCE and not self.nested and self._joint:
+            elif count - progressed >= _JOINT_PATIENCE and not self.nested and joint:
                 lowest, progressed, moves = np.inf, count, True
                 self._nest()
             idle = 0 if self.active == [Position.name] else count - progressed
             tolerance = max(self.finest, self._next_tolerance(worst, concerned) * _TIGHTER**idle)
             self._advance(moves)
-        return self._ended(contact, count, self._given_up(count))
+        if status is None:
+            farthest = max(self.active, key=self._ratio)
+            coupling, stagnated = self.couplings[farthest], count < self.rounds.most
+            message = f"{coupling.unsettled(self.exchanges[farthest])} after {count} rounds."
+            status = Status(Outcome.STAGNATED if stagnated else Outcome.ITERATION_LIMIT, message, coupling.remedy)
+        checks = []
+        for name in self.active:
+            rate = min(self._rate(name), _SLOWEST) if count > 1 else 0.0
+            checks.append(CouplingCheck(name, self.exchanges[name].residual, rate, self.exchanges[name].tolerance))
+        return Settled(contact, self.exchanges, tuple(checks), count, self.finest, status)
 
     def _reply(self, contact: Contact) -> bool:
         """Replies of the couplings to ``contact``; whether the position moves, for which when nested all others wait."""
@@ -285,20 +318,6 @@ class _Iteration:
                 found.append(exchange.residual)
         return moves
 
-    def _goes_ahead(self) -> bool:
-        """Whether the only coupling with feedback has found the contact by a method of its own, from which rounds then start."""
-        name = self.active[0] if len(self.active) == 1 else ""
-        coupling = self.couplings.get(name)
-        if not isinstance(coupling, Foreseeing):
-            return False
-        qp = self._posed()
-        found = coupling.ahead(self.exchanges[name], qp, self._start(qp), self.solver, self.watched)
-        self.spent = found.iterations, found.pairs
-        if found.exchange is None:
-            return False
-        self.exchanges[name] = found.exchange
-        return True
-
     def _need(self) -> None:
         """The largest and the smallest error of the normal solves that the couplings allow."""
         needed = min(exchange.accuracy for exchange in self.exchanges.values())
@@ -306,11 +325,6 @@ class _Iteration:
         self.loosest = min(_LOOSEST, needed)
         finest = min(self.solver.tolerance, _FINER * needed, final, self.for_pressure)
         self.finest = max(finest, self.reached)
-
-    @property
-    def _joint(self) -> bool:
-        """Whether the position is one of several unknowns."""
-        return Position.name in self.active and len(self.active) > 1
 
     def _nest(self) -> None:
         """From now on search for the position anew whenever the others have moved.
@@ -321,22 +335,18 @@ class _Iteration:
         position = self.couplings[Position.name]
         assert isinstance(position, Position)
         self.couplings[Position.name], self.nested = replace(position, alone=True, nested=True), True
-        self._forget_bracket()
+        self.exchanges[Position.name] = without_bracket(self.exchanges[Position.name])
         self.mixing.forget()
         for name, exchange in self.exchanges.items():
             if not exchange.smooth:
                 self.exchanges[name] = self.couplings[name].begin(self.posed, self.memories.get(name, {}))
 
-    def _forget_bracket(self) -> None:
-        position = self.couplings[Position.name]
-        assert isinstance(position, Position)
-        self.exchanges[Position.name] = position.without_bracket(self.exchanges[Position.name])
-
     def _posed(self) -> ContactQP:
         """Discrete problem with the shares of all couplings; those that cannot bear the load are raised."""
+        posed, external = self.posed, self.posed.external_force
         for _ in range(_RESCUES):
             shares = [coupling.share(self.exchanges[name]) for name, coupling in self.couplings.items()]
-            profile, self.indentation = self.posed.profile, sum(share.indentation for share in shares)
+            profile, self.indentation = posed.profile, sum(share.indentation for share in shares)
             cap: float | RealArray = np.inf
             self.attraction = sum(share.attraction for share in shares)
             for lift in (*(share.lift for share in shares), self.indentation):
@@ -345,27 +355,26 @@ class _Iteration:
             for share in shares:
                 unlimited = isinstance(cap, float) and cap == np.inf
                 cap = share.cap if unlimited else np.minimum(cap, share.cap)
-            qp = ContactQP(self.posed.operator, profile, cap, FixedOffset(0.0), self.posed.height_scale)
             given = [share.constraint for share in shares if share.constraint is not None]
-            constraint = given[0] if given else self._constraint(qp, sum(share.load for share in shares))
+            constraint: Constraint
+            if given:
+                constraint = given[0]
+            elif external is None and Position.name in self.exchanges:
+                constraint = FixedMean(float(np.exp(self.exchanges[Position.name].x)))
+            elif external is None:
+                constraint = FixedOffset(posed.top - posed.control.value)
+            else:
+                mean = (external + sum(share.load for share in shares)) / posed.operator.grid.area
+                # without any load the bodies touch at the highest point
+                constraint = FixedMean(mean) if mean > 0.0 else FixedOffset(float(profile.max()))
             if isinstance(constraint, FixedOffset):
-                return replace(qp, constraint=constraint)
+                return ContactQP(posed.operator, profile, cap, constraint, posed.height_scale)
             if isinstance(cap, float) and cap >= constraint.mean_pressure * profile.size:
                 cap = np.inf  # no point bears more than the whole load; a huge limit would hide the error in rounding
             if constraint.mean_pressure <= float(np.mean(cap)):
-                return replace(qp, cap=cap, constraint=constraint)
+                return ContactQP(posed.operator, profile, cap, constraint, posed.height_scale)
             self._rescue(constraint.mean_pressure, float(np.mean(cap)))
         raise NoSolutionError("hardness and load must agree, but do not. Lower the load or raise the hardness.")
-
-    def _constraint(self, qp: ContactQP, added: float) -> Constraint:
-        """Total load or position; without any load the bodies touch at the highest point."""
-        posed, external = self.posed, self.posed.external_force
-        if external is None:
-            if Position.name in self.exchanges:
-                return FixedMean(float(np.exp(self.exchanges[Position.name].x)))
-            return FixedOffset(posed.top - posed.control.value)
-        mean = (external + added) / posed.operator.grid.area
-        return FixedMean(mean) if mean > 0.0 else FixedOffset(float(qp.profile.max()))
 
     def _rescue(self, mean: float, bearable: float) -> None:
         """Ask the couplings to bear ``mean`` (Pa), first those that limit the pressure.
@@ -382,7 +391,7 @@ class _Iteration:
             rescued = self.couplings[name].rescued(self.exchanges[name], mean)
             if rescued is not None:
                 self.exchanges[name] = rescued
-                if name == Position.name and not self.nested and self._joint:
+                if name == Position.name and not self.nested and len(self.active) > 1:
                     self._nest()
                 return
         error = NoSolutionError(
@@ -402,31 +411,31 @@ class _Iteration:
             status = Status(Outcome.CONVERGED, "Unloaded: nothing to solve.")
             solution = Solution(SolverState(none, none, 0.0), status, (0.0,))
         else:
-            solver, begun = _to(self.solver, tolerance), None
-            if self.last is None and not self.active and isinstance(solver, ActiveSet):
-                begun = self._extrapolated(solver, qp)
+            solver, begun = self.solver, None
+            if solver.tolerance != tolerance and is_dataclass(solver):
+                settable: Any = {item.name for item in fields(solver) if item.init}
+                solver = replace(solver, tolerance=tolerance) if "tolerance" in settable else solver
+            posed, lone = self.posed, self.last is None and not self.active
+            lone = lone and not isinstance(posed.retarded, np.ndarray)
+            before = [pressure for pressure in (posed.start, posed.earlier) if pressure is not None]
+            if isinstance(solver, ActiveSet) and lone and len(before) == 2 and (ratio := self._ahead(qp)) is not None:
+                known = [None if posed.deflections is None else posed.deflections.by(p, qp.operator) for p in before]
+                last, earlier = (Loaded(*load) for load in zip(before, known, strict=True))
+                begun = solver.extrapolated(qp, last, earlier, ratio)  # with its deflection
             solution = run(solver, qp, None if begun is not None else self._start(qp), self.watched, begun)
-            solution = self._as_far_as_can_be(solution, tolerance)
-        contact = Contact(self.posed, qp, solution, self.indentation, self.attraction).with_work_of(self.last)
-        if self.last is None:
-            contact = contact.after(*self.spent)
+            error, asked = solution.state.error, self.solver.tolerance
+            if solution.status.outcome is Outcome.STAGNATED and tolerance < error <= asked:
+                # rounding keeps it from a tolerance below that of the solver, which couplings ask for: a strong attraction of short range
+                # is many times the pressure without it. Whether the error is small enough then the couplings say by their residuals
+                self.reached = error
+                text = f"Converged: relative error {error:.2e} by {self.solver.name}, as far as the arithmetic reaches, tolerance {asked:.0e}."
+                solution = replace(solution, status=Status(Outcome.CONVERGED, text))
+        contact = Contact(self.posed, qp, solution, self.indentation, self.attraction)
+        contact, self.spent = contact.with_work_of(self.last, *self.spent), (0, 0.0)
         if contact.pressure.any():
             self.pressures = [*self.pressures[-1:], contact.pressure]
         self.last = contact
         return contact
-
-    def _as_far_as_can_be(self, solution: Solution, tolerance: float) -> Solution:
-        """``solution``, converged also where rounding keeps it from a ``tolerance`` below that of the solver, which couplings ask for.
-
-        A strong attraction of short range is many times the pressure without it. Whether the error is small enough then the
-        couplings say by their residuals.
-        """
-        error, asked = solution.state.error, self.solver.tolerance
-        if solution.status.outcome is not Outcome.STAGNATED or not tolerance < error <= asked:
-            return solution
-        self.reached = error
-        text = f"Converged: relative error {error:.2e} by {self.solver.name}, as far as the arithmetic reaches, tolerance {asked:.0e}."
-        return replace(solution, status=Status(Outcome.CONVERGED, text))
 
     def _start(self, qp: ContactQP) -> RealArray | None:
         """Pressure that a coupling knows, else the last one, extrapolated in the load where that goes on in one direction.
@@ -460,18 +469,6 @@ class _Iteration:
         ratio = (qp.constraint.mean_pressure - mean) / step if abs(step) > 1e-12 * mean else 0.0
         return ratio if 0.0 < ratio <= _FARTHEST else None
 
-    def _extrapolated(self, solver: ActiveSet, qp: ContactQP) -> SolverState | None:
-        """State extrapolated from the loads before, with its deflection."""
-        posed, ratio = self.posed, self._ahead(qp)
-        if ratio is None or posed.start is None or posed.earlier is None or isinstance(posed.retarded, np.ndarray):
-            return None
-        known = posed.deflections
-        last, earlier = (
-            Loaded(pressure, None if known is None else known.by(pressure, qp.operator))
-            for pressure in (posed.start, posed.earlier)
-        )
-        return solver.extrapolated(qp, last, earlier, ratio)
-
     def _goes_on(self) -> bool:
         """Whether an unknown that is not smooth still moves and has never turned back: it is bounded, and so comes to rest."""
         on = False
@@ -493,15 +490,13 @@ class _Iteration:
         """Error of the next solve that is small against the residuals of ``names`` then expected, if they go on falling as they do."""
         if not self.active or any(exchange.exact for exchange in self.exchanges.values()):
             return self.finest
+        rates = {name: max(self._rate(name), self.exchanges[name].slowest) for name in names}
         expected = 0.0
-        for name in names:
+        for name, rate in rates.items():
             if not self.exchanges[name].settled:
-                expected = max(expected, self.exchanges[name].residual * max(min(self._expected_rate(name), 1.0), 0.1))
-        near = worst < np.inf and worst * max(self._expected_rate(name) for name in names) <= _NEAR
+                expected = max(expected, self.exchanges[name].residual * max(min(rate, 1.0), 0.1))
+        near = worst < np.inf and worst * max(rates.values()) <= _NEAR
         return self.finest if near else max(self.finest, min(self.loosest, _SHARE * expected**2))
-
-    def _expected_rate(self, name: str) -> float:
-        return max(self._rate(name), self.exchanges[name].slowest)
 
     def _rate(self, name: str) -> float:
         """Factor by which the residual falls from round to round."""
@@ -530,35 +525,11 @@ class _Iteration:
                 self.mixing.forget()  # one of them has turned out not to be smooth
             moved |= dict(zip(smooth, self.mixing.ahead(at, move, scales), strict=True))
         if self.nested and not moves:
-            self._forget_bracket()
+            self.exchanges[Position.name] = without_bracket(self.exchanges[Position.name])
         for name, x in moved.items():
             exchange = self.exchanges[name]
             if exchange.smooth or not exchange.settled:
                 self.exchanges[name] = replace(exchange, x=np.clip(x, exchange.lowest, exchange.highest))
-
-    def _converged(self, contact: Contact, count: int) -> Status:
-        if not self.active:
-            return contact.solution.status
-        settled = [self.couplings[name].settled(self.exchanges[name]) for name in self.active]
-        rounds = f"after {count} {'rounds' if count > 1 else 'round'}."
-        return Status(
-            Outcome.CONVERGED, " ".join([contact.solution.status.message, *(f"{text} {rounds}" for text in settled)])
-        )
-
-    def _given_up(self, count: int) -> Status:
-        """Why it was given up, in the words of the coupling that is farthest from its tolerance."""
-        worst = max(self.active, key=self._ratio)
-        coupling, ended = self.couplings[worst], count >= self.rounds.most
-        message = f"{coupling.unsettled(self.exchanges[worst])} after {count} rounds."
-        return Status(Outcome.ITERATION_LIMIT if ended else Outcome.STAGNATED, message, coupling.remedy)
-
-    def _ended(self, contact: Contact, count: int, status: Status) -> Settled:
-        checks = []
-        for name in self.active:
-            exchange = self.exchanges[name]
-            rate = min(self._rate(name), _SLOWEST) if count > 1 else 0.0
-            checks.append(CouplingCheck(name, exchange.residual, rate, exchange.tolerance))
-        return Settled(contact, self.exchanges, tuple(checks), count, self.finest, status)
 
 
 class _Told:
@@ -579,11 +550,3 @@ class _Told:
         self._before, self._latest, self._worst = self._before + self._latest, 0, worst
         if not self._lone:
             self._progress.update(self._before, min(worst * self._tolerance, 1.0), self._tolerance)
-
-
-def _to(solver: Solver, tolerance: float) -> Solver:
-    """The same method with another tolerance; a method that has no such setting as it is."""
-    if solver.tolerance == tolerance or not is_dataclass(solver):
-        return solver
-    settings: Any = {item.name for item in fields(solver) if item.init}
-    return replace(solver, tolerance=tolerance) if "tolerance" in settings else solver

@@ -49,9 +49,13 @@ def settle_position(
         As ``settle``.
     """
     searched = partial(settle, posed, couplings, memories, solver, rounds=rounds, progress=progress)
-    if not _can_be_held(posed, couplings):
-        return searched()
-
+    bounding: list[Coupling] = []
+    if isinstance(posed.control, Approach | MeanGap) and not any(coupling.positions for coupling in couplings):
+        bounding = [coupling for coupling in couplings if coupling.bounds]
+    if len(bounding) != 1 or any(coupling.feedback for coupling in couplings if coupling is not bounding[0]):
+        return (
+            searched()
+        )  # no position is prescribed, no hardness bounds the pressure, or something else reacts to the contact
     last: Contact | None = None
 
     def held(approach: float, start: RealArray | None) -> Settled:
@@ -73,20 +77,14 @@ def settle_position(
         last = found.contact
     except NoSolutionError as error:
         failure = error
-    instead = _held(posed, held, None if found is None else found.contact.pressure)
+    start = None if found is None else found.contact.pressure
+    at_gap = isinstance(posed.control, MeanGap)
+    instead = _at_gap(posed, held, start) if at_gap else held(posed.control.value, start)
     if instead.status.converged or found is None:
         if failure is not None and not (instead.status.converged and instead.contact.pressure.any()):
             raise failure
-        return _as_posed(instead, posed)
+        return replace(instead, contact=replace(instead.contact, posed=posed))
     return found
-
-
-def _can_be_held(posed: Posed, couplings: Sequence[Coupling]) -> bool:
-    """Whether a position is prescribed, a hardness bounds the pressure, and nothing else reacts to the contact."""
-    if not isinstance(posed.control, Approach | MeanGap) or any(coupling.positions for coupling in couplings):
-        return False
-    bounding = [coupling for coupling in couplings if coupling.bounds]
-    return len(bounding) == 1 and not any(coupling.feedback for coupling in couplings if coupling is not bounding[0])
 
 
 def _fully_yielded(posed: Posed, couplings: Sequence[Coupling]) -> RealArray | None:
@@ -101,13 +99,6 @@ def _fully_yielded(posed: Posed, couplings: Sequence[Coupling]) -> RealArray | N
     level = control.value - posed.top
     reached = bool(np.all(posed.operator.apply(pressure) - posed.dented <= level))
     return pressure if reached and control.value > 0.0 else None
-
-
-def _held(posed: Posed, held: _Holding, start: RealArray | None) -> Settled:
-    """Contact at the position that ``posed`` prescribes, started from the pressure ``start``."""
-    if isinstance(posed.control, Approach):
-        return held(posed.control.value, start)
-    return _at_gap(posed, held, start)
 
 
 def _at_gap(posed: Posed, held: _Holding, start: RealArray | None) -> Settled:
@@ -149,8 +140,3 @@ def _at_gap(posed: Posed, held: _Holding, start: RealArray | None) -> Settled:
             side = -1
     text = f"The mean gap prescribed is still missed by {abs(miss) / wanted:.1e} of itself; it jumps with the approach."
     return replace(found, status=Status(Outcome.STAGNATED, text, "Prescribe a load or an approach."))
-
-
-def _as_posed(settled: Settled, posed: Posed) -> Settled:
-    """``settled`` with the control that was prescribed."""
-    return replace(settled, contact=replace(settled.contact, posed=posed))

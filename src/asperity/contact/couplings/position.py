@@ -116,7 +116,7 @@ class Position(Coupling):
     remedy: ClassVar[str] = "Prescribe a load, or a position of less overlap."
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
-        """The load of the start, or a guess.
+        """The load of the start, or a guess, which is within a factor of three on self-affine surfaces.
 
         Raises
         ------
@@ -126,7 +126,19 @@ class Position(Coupling):
         control = posed.control
         touch, wanted = closeness_wanted(posed, elastic=self.elastic)
         known = 0.0 if posed.start is None else float(posed.start.mean())
-        x = np.asarray(np.log(known) if known > 0.0 else _first_guess(posed, touch, wanted))
+        if known > 0.0:
+            x = np.asarray(np.log(known))
+        else:  # Persson's law from the stiffness of the surface as a whole, in proportion to the load where few points touch
+            response = posed.operator.apply(posed.dented)
+            stiffness = float(posed.dented.std()) / float(response.std() or 1.0)
+            full = float(np.log(posed.height_scale * stiffness or 1.0)) + _AT_FULL
+            unit = _PERSSON * posed.height_scale
+            light = unit / _LIGHT
+            if wanted >= light:
+                guess = full + min((wanted - touch) / unit, _BEYOND)
+            else:
+                guess = full - max(touch - light, 0.0) / unit + float(np.log(wanted / light)) / _LIGHT
+            x = np.asarray(guess)
         size = min(wanted, control.value) if isinstance(control, MeanGap) else wanted
         accuracy = max(_SOLVER_SHARE * min(size / posed.height_scale, 1.0), _FINEST)
         return Exchange(x, x, np.inf, accuracy=accuracy, note=_Note(touch, wanted, size))
@@ -138,7 +150,10 @@ class Position(Coupling):
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """Step of the logarithm of the load, from how far the bodies are from the position."""
         note, x, posed = exchange.note, float(exchange.x), contact.posed
-        closeness = self._closeness(note, contact)
+        if isinstance(posed.control, Approach):  # since the dented surfaces touched
+            closeness = contact.level + float(posed.dented.max())
+        else:
+            closeness = note.touch - float(contact.gap.mean())
         miss = closeness - note.wanted
         noise = contact.solution.state.error * posed.height_scale
         low = x if miss < -noise else note.low
@@ -181,11 +196,6 @@ class Position(Coupling):
         note = replace(note, low=min(low, note.low), high=min(note.high, x))
         return replace(exchange, x=np.asarray(0.5 * (low + note.high)), note=note)
 
-    def without_bracket(self, exchange: Exchange) -> Exchange:
-        """The same without the bracket, found with other couplings as they were."""
-        note = replace(exchange.note, low=-np.inf, high=np.inf, misses=(), last=None)
-        return replace(exchange, note=note)
-
     def settled(self, exchange: Exchange) -> str:
         """That it is reached."""
         return "The prescribed position is reached"
@@ -203,13 +213,6 @@ class Position(Coupling):
         """Nothing to remember."""
         return {}, None
 
-    def _closeness(self, note: _Note, contact: Contact) -> float:
-        """Approach or decrease of the mean gap (m) since the dented surfaces touched."""
-        posed = contact.posed
-        if isinstance(posed.control, Approach):
-            return contact.level + float(posed.dented.max())
-        return note.touch - float(contact.gap.mean())
-
     def _step(self, note: _Note, closeness: float, rms: float) -> float:
         """Step of the logarithm of the load by Persson's law, mean gap = -0.45 rms ln p + ..., or by proportionality at light loads."""
         wanted = note.wanted
@@ -218,6 +221,11 @@ class Position(Coupling):
         if max(closeness, wanted) < _PERSSON * rms / _LIGHT:
             return float(np.log(wanted / closeness)) / _LIGHT
         return (wanted - closeness) / (_PERSSON * rms)
+
+
+def without_bracket(exchange: Exchange) -> Exchange:
+    """``exchange`` of a position without the bracket, found with other couplings as they were."""
+    return replace(exchange, note=replace(exchange.note, low=-np.inf, high=np.inf, misses=(), last=None))
 
 
 def closeness_wanted(posed: Posed, *, elastic: bool) -> tuple[float, float]:
@@ -256,19 +264,3 @@ def closeness_wanted(posed: Posed, *, elastic: bool) -> tuple[float, float]:
             f"mean gap must be less than {touch:.6g} m, the mean gap at first touch, but is {control.value:.6g} m."
         )
     return touch, wanted
-
-
-def _first_guess(posed: Posed, touch: float, wanted: float) -> float:
-    """Logarithm of the mean pressure (Pa) at which the surfaces are closer by ``wanted`` (m) than at first ``touch``.
-
-    Persson's law from the stiffness of the surface as a whole, with the constant of self-affine surfaces, where it is within a
-    factor of three; in proportion to the load where few points touch.
-    """
-    response = posed.operator.apply(posed.dented)
-    stiffness = float(posed.dented.std()) / float(response.std() or 1.0)
-    full = float(np.log(posed.height_scale * stiffness or 1.0)) + _AT_FULL
-    unit = _PERSSON * posed.height_scale
-    light = unit / _LIGHT
-    if wanted >= light:
-        return full + min((wanted - touch) / unit, _BEYOND)
-    return full - max(touch - light, 0.0) / unit + float(np.log(wanted / light)) / _LIGHT

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -110,12 +109,6 @@ class Posed:
             return mean_pressure(self.control, self.operator.grid) * self.operator.grid.area
         return None
 
-    @property
-    def balances_force(self) -> bool:
-        """Whether the force has to come out right: a prescribed one, or that of a machine that gives way."""
-        gives = isinstance(self.control, FixedGrips) and math.isfinite(self.control.stiffness)
-        return self.external_force is not None or gives
-
 
 def height_scale(virgin: RealArray, control: Control, operator: Operator) -> float:
     """Rms height (m); for flat bodies the length by which they deform, for there is no other."""
@@ -197,22 +190,16 @@ class Contact:
         same.__dict__["totals"] = self.totals  # cached there: a survey of all points is not made twice
         return same
 
-    def with_work_of(self, earlier: Contact | None) -> Contact:
-        """The same with the work of the rounds before it added."""
-        if earlier is None:
-            return self
-        before = earlier.solution.state
-        return self.after(before.iterations, before.extra_pairs, before.applications)
-
-    def after(self, iterations: int, pairs: float, applications: int = 0) -> Contact:
-        """The same with work done before it added: iterations, FFT pairs, products with the compliance."""
+    def with_work_of(self, earlier: Contact | None, iterations: int = 0, pairs: float = 0.0) -> Contact:
+        """The same with the work of the rounds before it added, and with ``iterations`` and FFT ``pairs`` of other methods."""
         own = self.solution.state
-        state = replace(
-            own,
-            iterations=own.iterations + iterations,
-            applications=own.applications + applications,
-            extra_pairs=own.extra_pairs + pairs,
-        )
+        iterations, applications, pairs = own.iterations + iterations, own.applications, own.extra_pairs + pairs
+        if earlier is not None:
+            before = earlier.solution.state
+            iterations += before.iterations
+            applications += before.applications
+            pairs += before.extra_pairs
+        state = replace(own, iterations=iterations, applications=applications, extra_pairs=pairs)
         return replace(self, solution=replace(self.solution, state=state))
 
 

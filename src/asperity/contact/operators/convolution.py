@@ -42,10 +42,10 @@ class Octaves:
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """Displacement per pressure (m/Pa) at each ``wavenumber`` (rad/m, one-dimensional), to 1e-9 of it."""
-        keys = [_key(q) for q in wavenumber.tolist()]
+        keys = [round(1e9 * math.log2(q)) for q in wavenumber.tolist()]  # equal where they differ by rounding
         if not all(key in self._known for key in keys):
             ahead = np.multiply.outer(2.0 ** np.arange(_OCTAVES_AHEAD + 1), wavenumber).ravel()
-            missing = {key: q for q in ahead.tolist() if (key := _key(q)) not in self._known}
+            missing = {key: q for q in ahead.tolist() if (key := round(1e9 * math.log2(q))) not in self._known}
             found = np.asarray(self._compliance.spectral(np.array(list(missing.values()))), dtype=float)
             self._known.update(zip(missing, found.tolist(), strict=True))
         return np.array([self._known[key] for key in keys])
@@ -55,11 +55,6 @@ class Octaves:
 def octaves_of(compliance: Spectral) -> Octaves:
     """The same for all operators of a ``compliance``."""
     return Octaves(compliance)
-
-
-def _key(wavenumber: float) -> int:
-    """Equal for wavenumbers that differ by rounding."""
-    return round(1e9 * math.log2(wavenumber))
 
 
 class Operator(Protocol):
@@ -185,20 +180,14 @@ class _Prepared:
             self.octaves.spectral(np.array([math.hypot(qx, qy) / 2.0**k for k in octaves])).min()
         )
 
-    @cached_property
-    def _convolutions(self) -> dict[tuple[str, float], Convolution]:
-        return {}
-
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
         """Prepared product with the compliance over ``scale`` in the precision ``dtype``."""
-        if (dtype, scale) not in self._convolutions:
+        known: dict[tuple[str, float], Convolution] = vars(self).setdefault("_convolutions", {})
+        if (dtype, scale) not in known:
             kernel, shape = self._resident if scale == 1.0 else self._resident / scale, self.grid.shape
-            if self.padded == shape:
-                made = self.engine.convolution(kernel, shape, dtype)
-            else:
-                made = self.engine.padded_convolution(kernel, shape, self.padded, dtype)
-            self._convolutions[dtype, scale] = made
-        return self._convolutions[dtype, scale]
+            padded = None if self.padded == shape else self.padded
+            known[dtype, scale] = self.engine.convolution(kernel, shape, dtype, padded)
+        return known[dtype, scale]
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (nx, ny) in m under ``pressure`` (nx, ny) in Pa in double precision, a new array.

@@ -86,12 +86,11 @@ class OperatorsInTime:
             return self.instantaneous
         key = weights.tobytes()
         if self._last is None or self._last[0] != key:
-            self._last = key, self._made(weights, added)
+            whole, made = self.instantaneous, self.instantaneous
+            if isinstance(self.creep, SharedCreep):
+                made = MultipleOperator(whole, 1.0 + float(self.creep.shares @ weights))
+            else:
+                assert added is not None
+                made = SummedOperator(whole, self.creep.with_terms(weights), whole.kernel + added)
+            self._last = key, made
         return self._last[1]
-
-    def _made(self, weights: RealArray, added: RealArray | None) -> Operator:
-        whole = self.instantaneous
-        if isinstance(self.creep, SharedCreep):
-            return MultipleOperator(whole, 1.0 + float(self.creep.shares @ weights))
-        assert added is not None
-        return SummedOperator(whole, self.creep.with_terms(weights), whole.kernel + added)

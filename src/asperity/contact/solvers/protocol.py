@@ -13,6 +13,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.engine import Engine, Survey, Totals, Violation
 from ...core.status import NoProgress, Outcome, Progress, Status
+from ...solids.compliance.halfspace import HalfSpace
 from ..operators import Operator
 
 
@@ -75,12 +76,6 @@ class ContactQP:
         profile = self.resident_profile
         return self if profile is self.profile else replace(self, profile=profile)
 
-    @property
-    def on_host(self) -> ContactQP:
-        """The same with the profile as a NumPy array."""
-        profile = self.operator.engine.numpy(self.profile)
-        return self if profile is self.profile else replace(self, profile=profile)
-
     def survey(self, state: SolverState) -> Survey:
         """Sums over ``state`` and the profile, in double precision."""
         return self.operator.engine.survey(*self._arrays(state))
@@ -100,11 +95,6 @@ class ContactQP:
         if state.resident is None:
             return state.pressure, state.deflection, self.profile
         return (*state.resident, self.resident_profile)
-
-    @cached_property
-    def largest_compliance(self) -> float:
-        """Deflection (m/Pa) under a unit pressure of the longest wave."""
-        return self.operator.largest
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,16 +146,6 @@ class SolverState:
             return self.memory.copied(self)
         return replace(self, pressure=self.pressure.copy(), deflection=self.deflection.copy())
 
-    @property
-    def finished(self) -> SolverState:
-        """The same as NumPy arrays, without the memory of the method: a result, and a start for ``init``."""
-        if self.engine is None:
-            return replace(self, memory=None)
-        own = self.pressure, self.deflection
-        pressure, deflection = (self.engine.numpy(values) for values in own)
-        kept = own if self.engine.separate_memory else None
-        return replace(self, pressure=pressure, deflection=deflection, memory=None, engine=None, resident=kept)
-
 
 @runtime_checkable
 class Borrowing(Protocol):
@@ -204,24 +184,8 @@ class Solver(Protocol):
         """
 
 
-class Iterative(Protocol):
-    """What a method that is repeated until its error is small says of itself."""
-
-    @property
-    def name(self) -> str:
-        """Name for reports."""
-
-    @property
-    def tolerance(self) -> float:
-        """Error to reach."""
-
-    @property
-    def max_iterations(self) -> int:
-        """Iterations at most."""
-
-
-def require_settings(solver: Iterative) -> None:
-    """Check tolerance (in (0, 1)) and iteration limit (whole, >= 1) of ``solver``; InputError names the wrong one."""
+def require_settings(solver: Any) -> None:
+    """Check tolerance (in (0, 1)) and iteration limit (whole, >= 1) of ``solver``, of any problem; InputError names the wrong one."""
     require.between(solver.tolerance, 0.0, 1.0, f"tolerance of the solver {solver.name}")
     require.integer(solver.max_iterations, 1, f"iteration limit of the solver {solver.name}")
 
@@ -249,29 +213,6 @@ count as lower. The error of such a method may rise for long: films of E 1000, 2
 go from 0.8 (uniform pressure) to 2000 in three steps, take some 80 to come back below 0.8, and converge in 100 to 500."""
 
 
-class _Best:
-    """Least error and energy so far, and the number of iterations since either fell."""
-
-    def __init__(self, state: SolverState, max_iterations: int) -> None:
-        self.error, self.energy, self.since = state.error, np.inf, 0
-        self.patience = min(PATIENCE, max(LEAST_PATIENCE, max_iterations // 4))
-
-    def add(self, state: SolverState) -> None:
-        """Take in the next iterate."""
-        self.since += 1
-        if state.error < _SMALLER * self.error:
-            self.error, self.since = state.error, 0
-        if state.energy is not None:
-            self.patience = min(self.patience, _DESCENT_PATIENCE)
-            if not state.energy >= self.energy - _LOWER * abs(self.energy):
-                self.energy, self.since = state.energy, 0
-
-    @property
-    def long_ago(self) -> bool:
-        """Whether it is so long ago that the method counts as stagnated."""
-        return self.since >= self.patience
-
-
 def run(
     solver: Solver,
     qp: ContactQP,
@@ -281,9 +222,30 @@ def run(
 ) -> Solution:
     """Iterate ``solver`` from the pressure ``start`` (Pa), if there is one, or the state ``begun``, until it converges, stagnates or gives up."""
     ended = iterated(solver, qp, start, progress, begun)
-    state, finished = ended.state, ended.state.finished
-    total = finished.pressure.sum() if state.engine is None else state.engine.total(state.pressure)
-    status = _status(solver, state, ended.stagnated) if np.isfinite(total) else _OVERFLOWN
+    state, engine = ended.state, ended.state.engine
+    finished = replace(state, memory=None)
+    if engine is None:
+        total = state.pressure.sum()
+    else:  # as NumPy arrays
+        total, own = engine.total(state.pressure), (state.pressure, state.deflection)
+        pressure, deflection = (engine.numpy(values) for values in own)
+        kept = own if engine.separate_memory else None
+        finished = replace(finished, pressure=pressure, deflection=deflection, engine=None, resident=kept)
+    reached = f"relative error {state.error:.2e} after {state.iterations} iterations of {solver.name}"
+    if not np.isfinite(total):
+        text, remedy = "The pressure is not a finite number.", "Check heights, moduli and load for extreme values."
+        status = Status(Outcome.STAGNATED, text, remedy)
+    elif state.error <= solver.tolerance:
+        text = f"Converged: relative error {state.error:.2e} by {solver.name}, tolerance {solver.tolerance:.0e}."
+        status = Status(Outcome.CONVERGED, text)
+    elif ended.stagnated:
+        text = f"Stagnated above the tolerance {solver.tolerance:.0e}: {reached}."
+        remedy = "Try another solver (conjugate_gradient is the most robust) or a tolerance the arithmetic can reach."
+        status = Status(Outcome.STAGNATED, text, remedy)
+    else:
+        text = f"Iteration limit before the tolerance {solver.tolerance:.0e}: {reached}."
+        remedy = f"Raise max_iterations above {solver.max_iterations} or loosen the tolerance."
+        status = Status(Outcome.ITERATION_LIMIT, text, remedy)
     return Solution(finished, status, ended.errors)
 
 
@@ -306,34 +268,22 @@ def iterated(
     report = progress or NoProgress()
     state = solver.init(qp, start) if begun is None else begun
     errors = [state.error]
-    best = _Best(state, solver.max_iterations)
+    least_error, least_energy, since = state.error, np.inf, 0  # iterations since either fell
+    patience = min(PATIENCE, max(LEAST_PATIENCE, solver.max_iterations // 4))
     while True:
         report.update(state.iterations, state.error, solver.tolerance)
-        stagnated = state.exhausted or best.long_ago
+        stagnated = state.exhausted or since >= patience
         if state.error <= solver.tolerance or stagnated or state.iterations >= solver.max_iterations:
             return Ended(state, tuple(errors), stagnated)
         state = solver.step(qp, state)
         errors.append(state.error)
-        best.add(state)
-
-
-_OVERFLOWN = Status(
-    Outcome.STAGNATED, "The pressure is not a finite number.", "Check heights, moduli and load for extreme values."
-)
-
-
-def _status(solver: Solver, state: SolverState, stagnated: bool) -> Status:
-    if state.error <= solver.tolerance:
-        text = f"Converged: relative error {state.error:.2e} by {solver.name}, tolerance {solver.tolerance:.0e}."
-        return Status(Outcome.CONVERGED, text)
-    reached = f"relative error {state.error:.2e} after {state.iterations} iterations of {solver.name}"
-    if stagnated:
-        remedy = "Try another solver (conjugate_gradient is the most robust) or a tolerance the arithmetic can reach."
-        return Status(Outcome.STAGNATED, f"Stagnated above the tolerance {solver.tolerance:.0e}: {reached}.", remedy)
-    remedy = f"Raise max_iterations above {solver.max_iterations} or loosen the tolerance."
-    return Status(
-        Outcome.ITERATION_LIMIT, f"Iteration limit before the tolerance {solver.tolerance:.0e}: {reached}.", remedy
-    )
+        since += 1
+        if state.error < _SMALLER * least_error:
+            least_error, since = state.error, 0
+        if state.energy is not None:
+            patience = min(patience, _DESCENT_PATIENCE)
+            if not state.energy >= least_energy - _LOWER * abs(least_energy):
+                least_energy, since = state.energy, 0
 
 
 # How far a feasible pressure is from the solution: multiplier, duality gap and the customary relative error.
@@ -434,7 +384,7 @@ def lightly_loaded(qp: ContactQP) -> bool:
     uneven = mean = qp.constraint.mean_pressure
     if qp.operator.zero_mean_mode and not qp.elastic:
         uneven = min(mean, np.sqrt(mean * max(float(np.max(qp.cap)) - mean, 0.0)))
-    return qp.largest_compliance * uneven < _LIGHT * qp.height_scale
+    return qp.operator.largest * uneven < _LIGHT * qp.height_scale
 
 
 def heights_near_contact(qp: ContactQP) -> RealArray:
@@ -446,19 +396,15 @@ def heights_near_contact(qp: ContactQP) -> RealArray:
     if isinstance(qp.constraint, FixedOffset):
         return qp.profile
     if lightly_loaded(qp):
-        return qp.profile - _rigid_level(qp, qp.constraint.mean_pressure)
+        if qp.elastic:
+            return qp.profile - float(qp.profile.max())
+        profile = qp.operator.engine.numpy(qp.profile) if isinstance(qp.cap, np.ndarray) else qp.profile
+        total = qp.constraint.mean_pressure * profile.size * (1.0 - 1e-12)
+        return qp.profile + _last_needed(-profile, qp.cap, total)
     mean = float(qp.profile.mean())
-    longest = qp.largest_compliance * qp.constraint.mean_pressure
+    longest = qp.operator.largest * qp.constraint.mean_pressure
     near = min(_OFF_CENTRE * qp.height_scale, _FAR_FROM_ZERO * longest)
     return qp.profile - mean if abs(mean) > near else qp.profile
-
-
-def _rigid_level(qp: ContactQP, mean: float) -> float:
-    """Height (m) of the last point that is needed to carry the load at the cap, the highest points first; without a cap the highest."""
-    if qp.elastic:
-        return float(qp.profile.max())
-    profile = qp.on_host.profile if isinstance(qp.cap, np.ndarray) else qp.profile
-    return -_last_needed(-profile, qp.cap, mean * profile.size * (1.0 - 1e-12))
 
 
 def scaled_error(qp: ContactQP, error: float, total: float, energy: float) -> float:
@@ -476,7 +422,8 @@ def scaled_error(qp: ContactQP, error: float, total: float, energy: float) -> fl
     """
     deflection = energy / total if total > 0.0 else 0.0
     length = min(qp.height_scale, MOST_DEFLECTIONS * (deflection + error))
-    return over(error, max(length, least_length(qp, total, energy)))
+    length = max(length, least_length(qp, total, energy))
+    return error / length if length > 0.0 else 0.0 if error == 0.0 else np.inf
 
 
 def least_length(qp: ContactQP, total: float, energy: float) -> float:
@@ -487,13 +434,8 @@ def least_length(qp: ContactQP, total: float, energy: float) -> float:
     which hardly deflect at all). An error of 1e-7 still bounds the pressure to some 1e-5 of its mean.
     """
     deflection = energy / total if total > 0.0 else 0.0
-    longest = qp.largest_compliance * total / qp.profile.size
+    longest = qp.operator.largest * total / qp.profile.size
     return max(_FEWEST_DEFLECTIONS * deflection, _UNRESOLVED * longest)
-
-
-def over(error: float, scale: float) -> float:
-    """``error`` over ``scale``; none is none on any scale, and any is infinite on a scale of zero."""
-    return error / scale if scale > 0.0 else 0.0 if error == 0.0 else np.inf
 
 
 ROUNDING = 4.0 * np.finfo(float).eps
@@ -522,6 +464,48 @@ def relative_error(qp: ContactQP, pressure: RealArray, deflection: RealArray) ->
     return scaled_error(qp, found / total, total, energy)
 
 
+# How far a pressure may be from the solution: the duality gap bounds the energy, and the stiffest wave of the bodies the pressure.
+
+
+def pressure_error(qp: ContactQP, pressure: RealArray, gap: float) -> float:
+    """Bound on the relative error of ``pressure`` (nx, ny) in Pa, in the L2 norm, from its duality ``gap`` (Pa·m); infinite where there is none.
+
+    An error e raises the energy by e·Ke/2 at least and by the gap at most, and e·Ke is at least c e·e, c being the compliance of the wave that
+    gives way least: |e| <= (2 gap/c)^1/2. At a prescribed position it is the error from the solution under the load reached.
+    """
+    squares = float((pressure * pressure).sum(dtype=np.float64))
+    if gap <= 0.0:
+        return 0.0
+    softest = qp.operator.smallest * squares
+    return math.sqrt(2.0 * gap / softest) if softest > 0.0 else math.inf
+
+
+_PRESSURE_BOUND = 0.05
+"""Bound on the error of the pressure that suffices: it is 1e-3 in usual contacts, and the true error is far below it, 1.4e-4 for 0.05
+on a stiff plate on a soft layer whose compliances are 6e6 apart."""
+
+_USUAL = 1e-7
+"""Relative error, that of the solvers unless told otherwise, at which pressures are to be bound so; bounds go with its root."""
+
+_FINEST = 1e-13
+"""Relative error below which none is asked for: rounding."""
+
+
+def error_for_pressure(qp: ContactQP, state: SolverState, totals: Totals, asked: float) -> float:
+    """Relative error at which the pressure of ``state``, of these ``totals``, is bound well enough; infinite where it is.
+
+    Waves that give way little, as those of a stiff plate on a soft layer, change the pressure much and the energy little. On a half-space they
+    give way in proportion to their length, and the error of the energy serves. Who has ``asked`` for a larger relative error gets one.
+    """
+    total, energy = totals.pressure, 0.5 * totals.deflected
+    if total <= 0.0 or state.error <= _FINEST or isinstance(qp.operator.compliance, HalfSpace):
+        return math.inf
+    length = max(min(qp.height_scale, MOST_DEFLECTIONS * energy / total), least_length(qp, total, energy))
+    bound = pressure_error(qp, state.pressure, state.error * length * total)
+    wanted = _PRESSURE_BOUND * max(math.sqrt(asked / _USUAL), 1.0)
+    return max(0.5 * state.error * (wanted / bound) ** 2, _FINEST) if bound > wanted else math.inf
+
+
 # Pressures that respect the bounds and the prescribed load.
 
 
@@ -542,7 +526,7 @@ def feasible_start(qp: ContactQP, start: RealArray | None) -> RealArray:
         return scaled_to_load(guess, qp.cap, mean)
     if start is not None and given:
         return np.asarray(np.clip(start, 0.0, qp.cap))
-    overlap = np.maximum(qp.on_host.profile - qp.constraint.offset, 0.0)
+    overlap = np.maximum(qp.operator.engine.numpy(qp.profile) - qp.constraint.offset, 0.0)
     response = float((overlap * qp.operator.apply(overlap)).sum())
     factor = float((overlap**2).sum()) / response if response > 0.0 else 0.0
     return np.asarray(np.clip(factor * overlap, 0.0, qp.cap))

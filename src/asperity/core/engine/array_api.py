@@ -191,11 +191,6 @@ class _ArraySurvey:
     h: Any
     cap: Any
 
-    @classmethod
-    def of(cls, library: Library, p: Any, u: Any, h: Any, cap: Any) -> _ArraySurvey:
-        """Survey of an iterate."""
-        return cls(library, _totals(library, p, u, h, cap), p, u, h, cap)
-
     @cached_property
     def squares(self) -> RealArray:
         r, movable = self.u - self.h, self._movable
@@ -304,15 +299,11 @@ class ArrayEngine:
         """New array equal to ``values``."""
         return self._library.xp.asarray(values, copy=True)
 
-    def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
-        """Periodic convolution."""
-        return _Convolution(self._fft, self.array(kernel, dtype), shape, shape)
-
-    def padded_convolution(
-        self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
+    def convolution(
+        self, kernel: RealArray, shape: tuple[int, int], dtype: str, padded: tuple[int, int] | None = None
     ) -> Convolution:
-        """Free convolution with pruned transforms."""
-        return _Convolution(self._fft, self.array(kernel, dtype), shape, padded)
+        """Periodic convolution, or free with pruned transforms."""
+        return _Convolution(self._fft, self.array(kernel, dtype), shape, padded or shape)
 
     def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> Splines:
         """Nested splines."""
@@ -345,7 +336,7 @@ class ArrayEngine:
         """Survey of an iterate."""
         double = self._library.xp.float64
         p, u, h = (self._library.xp.astype(values, double, copy=False) for values in (p, u, h))
-        return _ArraySurvey.of(self._library, p, u, h, cap)
+        return _ArraySurvey(self._library, _totals(self._library, p, u, h, cap), p, u, h, cap)
 
     def violation(self, p: Any, u: Any, h: Any, cap: Any, level: float) -> Violation:
         """How far an iterate is from the contact conditions."""

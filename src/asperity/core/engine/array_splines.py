@@ -36,16 +36,30 @@ class ArraySplines:
         passed, self._factors, self._overlaps = unit, [], []
         corrections = model.corrections or (0.0,) * len(model.merges)
         for merge, weight, share in zip(model.merges, model.inverse_weights, corrections, strict=True):
-            sums = self._summed(passed, merge)
+            sums, overlap = self._summed(passed, merge), None
             self._factors.append(1.0 / (1.0 + weight * sums))
-            self._overlaps.append(self._overlap(passed, share / (sums + 1e-30)) if share and all(merge) else None)
+            if share and all(merge):
+                between = passed
+                for axis in (0, 1):
+                    between = 0.5 * self._pairs_between(between, axis)
+                overlap = _Overlap(between, share / (sums + 1e-30))
+            self._overlaps.append(overlap)
             passed = self._factors[-1] * sums
 
     def solve(self, free: Any, r: Any, other: Any, out: Any) -> Products:
         """Inverse times ``r``, see ``protocol.Splines``."""
-        model = self._model
+        model, loads = self._model, [r]
+        for merge, g in zip(model.merges, self._factors, strict=True):
+            loads.append(g * self._summed(loads[-1], merge))
+        deflection = self._library.xp.zeros_like(loads[-1])
+        for depth in reversed(range(len(model.merges))):
+            overlap = self._overlaps[depth]
+            deflection = model.inverse_weights[depth] * loads[depth + 1] + self._factors[depth] * deflection
+            if overlap is not None:
+                deflection = deflection + overlap.per * self._missing(overlap, deflection)
+            deflection = self._spread(deflection, model.merges[depth], loads[depth].shape)
         z = self._alone * r + self._beside(r)
-        z = z - self._together * self._through_levels(r)
+        z = z - self._together * deflection
         found: Products = free.products(self._library.select(free.inside, model.stiffness * z), r, other)
         return found
 
@@ -59,12 +73,22 @@ class ArraySplines:
         return r - self._library.select(free.inside, self._deflected(change))
 
     def _deflected(self, load: Any) -> Any:
-        """Deflection of all points under the ``load``."""
+        """Deflection of all points under the ``load``, their own and that by the cells, averaged over neighbouring ones."""
         point, x, y, diagonal = self._model.own
         rows = self._moved(load, 0, 1) + self._moved(load, 0, -1)
         found = point * load + 0.5 * x * rows + 0.5 * y * (self._moved(load, 1, 1) + self._moved(load, 1, -1))
         found = found + 0.25 * diagonal * (self._moved(rows, 1, 1) + self._moved(rows, 1, -1))
-        return found + self._deflection(load)
+        model, loads = self._model, [load]
+        for merge in model.merges:
+            loads.append(self._summed(loads[-1], merge))
+        deflection = self._library.xp.zeros_like(loads[-1])
+        for depth in reversed(range(len(model.merges))):
+            total = loads[depth + 1]
+            for axis in (axis for axis in (0, 1) if model.averages[depth][axis]):
+                total = 0.5 * total + 0.25 * (self._moved(total, axis, 1) + self._moved(total, axis, -1))
+            deflection = model.weights[depth] * total + deflection
+            deflection = self._spread(deflection, model.merges[depth], loads[depth].shape)
+        return found + deflection
 
     def _beside(self, values: Any) -> Any:
         """Local stiffness of all points for the ``values`` at those beside them."""
@@ -86,40 +110,6 @@ class ArraySplines:
         if places > 0:
             return xp.concat([none, part_of(values, axis, 0, kept)], axis=axis)
         return xp.concat([part_of(values, axis, n - kept, n), none], axis=axis)
-
-    def _deflection(self, load: Any) -> Any:
-        """Deflection of all points by the cells under the ``load``, averaged over neighbouring cells."""
-        model, loads = self._model, [load]
-        for merge in model.merges:
-            loads.append(self._summed(loads[-1], merge))
-        deflection = self._library.xp.zeros_like(loads[-1])
-        for depth in reversed(range(len(model.merges))):
-            total = loads[depth + 1]
-            for axis in (axis for axis in (0, 1) if model.averages[depth][axis]):
-                total = 0.5 * total + 0.25 * (self._moved(total, axis, 1) + self._moved(total, axis, -1))
-            deflection = model.weights[depth] * total + deflection
-            deflection = self._spread(deflection, model.merges[depth], loads[depth].shape)
-        return deflection
-
-    def _through_levels(self, load: Any) -> Any:
-        """What the cells take from the inverse of the points under the ``load``."""
-        merges, loads = self._model.merges, [load]
-        for merge, g in zip(merges, self._factors, strict=True):
-            loads.append(g * self._summed(loads[-1], merge))
-        deflection = self._library.xp.zeros_like(loads[-1])
-        for depth in reversed(range(len(merges))):
-            overlap = self._overlaps[depth]
-            deflection = self._model.inverse_weights[depth] * loads[depth + 1] + self._factors[depth] * deflection
-            if overlap is not None:
-                deflection = deflection + overlap.per * self._missing(overlap, deflection)
-            deflection = self._spread(deflection, merges[depth], loads[depth].shape)
-        return deflection
-
-    def _overlap(self, passed: Any, per: Any) -> _Overlap:
-        """Overlap of the cells of a level whose parts pass up what is ``passed``."""
-        for axis in (0, 1):
-            passed = 0.5 * self._pairs_between(passed, axis)
-        return _Overlap(passed, per)
 
     def _pairs_between(self, values: Any, axis: int) -> Any:
         """Sum of the two parts between the middles of every cell and the next along the axis."""

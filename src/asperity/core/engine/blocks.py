@@ -14,10 +14,6 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
-import numpy as np
-
-from ..arrays import RealArray
-
 SERIAL_BELOW = 1 << 19
 """Points below which handing a pass of the solver, which takes some 0.1 ms, to another thread costs more than it saves. With two threads from 2^17 points on
 a solve took 61 ms at 512² instead of 47, and 198 ms at 1024² instead of 155 (one thread: 180; two-core virtual machine)."""
@@ -60,37 +56,26 @@ class Blocks:
         for job in jobs:
             job.result()
 
-    def sums(self, kernel: Callable[..., None], size: int, columns: int, *arguments: Any) -> RealArray:
-        """Per-block sums (blocks, columns) that ``kernel`` leaves in its last argument."""
-        blocks = -(-size // self.kernels.BLOCK)
-        partial = np.zeros((blocks, columns))
-        self.share(kernel, blocks, *arguments, partial, serial=size < SERIAL_BELOW)
-        return partial
-
 
 @cache
 def _compile_beside(first: Any) -> None:
     """Let a second process compile part of what a solve needs (``first_use``), unless ``first``, an early pass, has been compiled here before."""
     interpreter = None if getattr(sys, "frozen", False) else sys.executable
     # an application of its own, or Numba is told not to compile
-    if not interpreter or not hasattr(first, "stats") or _compiled_before(first):
+    if not interpreter or not hasattr(first, "stats"):
+        return
+    # whether the cache on disk holds the pass for this Python and as its source is now
+    function, version = first.py_func, sys.version_info
+    name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}"
+    indices = Path(first.stats.cache_path).glob(f"{name}-*.py{version.major}{version.minor}*.nbi")
+    try:
+        changed = Path(function.__code__.co_filename).stat().st_mtime
+        if any(index.stat().st_mtime >= changed for index in indices):
+            return
+    except OSError:  # the source is in an archive
         return
     options: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     options["creationflags"] = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # of Windows
     # the thread waits for its end, so that the system can forget it; the interpreter does not wait for the thread
     command = [interpreter, "-m", f"{__package__}.first_use"]
     Thread(target=subprocess.call, args=(command,), kwargs=options, daemon=True).start()
-
-
-def _compiled_before(kernel: Any) -> bool:
-    """Whether the cache on disk holds ``kernel`` for this Python and as its source is now."""
-    function, version = kernel.py_func, sys.version_info
-    module = function.__module__.rpartition(".")[2]
-    indices = Path(kernel.stats.cache_path).glob(
-        f"{module}.{function.__name__}-*.py{version.major}{version.minor}*.nbi"
-    )
-    try:
-        changed = Path(function.__code__.co_filename).stat().st_mtime
-        return any(index.stat().st_mtime >= changed for index in indices)
-    except OSError:  # the source is in an archive
-        return True

@@ -59,12 +59,9 @@ class _CpuFreeSet:
     start: RealArray
     sums: RealArray
     rows: Any
+    size: int
     entering: int
     kept: Any = None
-
-    @cached_property
-    def size(self) -> int:
-        return int(self.index.size)
 
     @cached_property
     def _index_in_padded_rows(self) -> Any:
@@ -113,10 +110,11 @@ class _CpuFreeSet:
         return Products(vector, *self._sums("products", 3, vector, a, b))
 
     def scatter(self, values: RealArray, field: RealArray) -> None:
-        self._run("scatter", self.place(field), values, memory(field))
+        self.blocks.run(self.blocks.kernels.scatter, self.size, self.place(field), values, memory(field))
 
     def scatter_add(self, values: RealArray, factor: float, field: RealArray) -> None:
-        self._run("scatter_add", self.place(field), values, values.dtype.type(factor), memory(field))
+        arguments = (self.place(field), values, values.dtype.type(factor), memory(field))
+        self.blocks.run(self.blocks.kernels.scatter_add, self.size, *arguments)
 
     def scatter_change(
         self, old: RealArray, values: RealArray, r: RealArray, field: RealArray
@@ -151,7 +149,8 @@ class _CpuFreeSet:
 
     def clear_tension(self, p: RealArray, factor: float, scale: float) -> RealArray:
         """p = factor max(p, 0) and the change over scale, in the memory of the residual."""
-        self._run("clear_tension", self.index, p.ravel(), factor, scale, self.start)
+        arguments = (self.index, p.ravel(), factor, scale, self.start)
+        self.blocks.run(self.blocks.kernels.clear_tension, self.size, *arguments)
         return self.start
 
     def loaded(self, values: RealArray, total: float | None, vector: RealArray) -> tuple[FreeSet, RealArray, RealArray]:
@@ -161,7 +160,8 @@ class _CpuFreeSet:
             values *= total / float(values.sum())
         rows = np.searchsorted(kept, self.rows)
         kept = kept if self.kept is None else self.kept.take(kept)
-        return _CpuFreeSet(self.blocks, self.shape, index, np.zeros_like(r), np.zeros(1), rows, 0, kept), values, r
+        residual, sums = np.zeros_like(r), np.zeros(1)
+        return _CpuFreeSet(self.blocks, self.shape, index, residual, sums, rows, r.size, 0, kept), values, r
 
     def spread(self, left: Any, values: RealArray) -> RealArray:
         found = np.zeros(self.size, values.dtype)
@@ -185,20 +185,15 @@ class _CpuFreeSet:
         return Load(total, movable, int(below))
 
     def interpolate(self, old: RealArray, share: float, values: RealArray) -> None:
-        self._run("interpolate", self.index, old, share, values.ravel())
-
-    def _run(self, kernel: str, *arguments: Any) -> None:
-        self.blocks.run(getattr(self.blocks.kernels, kernel), self.size, *arguments)
+        self.blocks.run(self.blocks.kernels.interpolate, self.size, self.index, old, share, values.ravel())
 
     def _sums(self, kernel: str, columns: int, *arguments: Any) -> list[float]:
-        found = self.blocks.sums(getattr(self.blocks.kernels, kernel), self.size, columns, *arguments)
+        """Sums over the set that a kernel leaves block by block in its last argument."""
+        kernels, serial = self.blocks.kernels, self.size < SERIAL_BELOW
+        found = np.zeros((-(-self.size // kernels.BLOCK), columns))
+        self.blocks.share(getattr(kernels, kernel), len(found), *arguments, found, serial=serial)
         sums: list[float] = (np.add.reduce(found) if len(found) != 1 else found[0]).tolist()
         return sums
-
-
-def _index_type(shape: tuple[int, int]) -> Any:
-    """Type of indices in arrays of ``shape`` and in fields with gaps between rows."""
-    return np.uint32 if shape[0] * (shape[1] + ROW_PAD) < 2**31 else np.int64
 
 
 def memory(field: RealArray) -> RealArray:
@@ -255,15 +250,14 @@ class CpuEngine:
         pad = ROW_PAD if dtype == "float32" and shape[1] >= _PADDED_FROM else 0
         return np.zeros((shape[0], shape[1] + pad), dtype)[:, : shape[1]]
 
-    def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
-        """Periodic convolution."""
-        return _Convolution(self.blocks, RealTransform(shape, self.threads_for(shape)), kernel, dtype)
-
-    def padded_convolution(
-        self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
+    def convolution(
+        self, kernel: RealArray, shape: tuple[int, int], dtype: str, padded: tuple[int, int] | None = None
     ) -> Convolution:
-        """Free convolution with pruned transforms."""
-        return _Convolution(self.blocks, PaddedTransform(shape, padded, self.threads_for(padded)), kernel, dtype)
+        """Periodic convolution, or free with pruned transforms."""
+        threads = self.threads_for(padded or shape)
+        if padded is None:
+            return _Convolution(self.blocks, RealTransform(shape, threads), kernel, dtype)
+        return _Convolution(self.blocks, PaddedTransform(shape, padded, threads), kernel, dtype)
 
     def threads_for(self, shape: tuple[int, int]) -> int:
         """Threads for transforms of this ``shape``."""
@@ -272,8 +266,8 @@ class CpuEngine:
     def points(self, shape: tuple[int, int], index: Any, dtype: str) -> FreeSet:
         """Free set of the points at the flat ``index`` (ascending) of a grid of ``shape``, with a residual of zero."""
         rows = np.searchsorted(index, np.arange(shape[0] + 1) * shape[1])
-        index = index.astype(_index_type(shape))
-        return _CpuFreeSet(self.blocks, shape, index, np.zeros(index.size, dtype), np.zeros(1), rows, 0)
+        index = index.astype(np.uint32 if shape[0] * (shape[1] + ROW_PAD) < 2**31 else np.int64)
+        return _CpuFreeSet(self.blocks, shape, index, np.zeros(index.size, dtype), np.zeros(1), rows, index.size, 0)
 
     def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> CpuSplines:
         """Nested splines, whose compiled sweeps are imported when they are first needed."""
@@ -321,7 +315,9 @@ class CpuEngine:
     def violation(self, p: RealArray, u: RealArray, h: RealArray, cap: RealArray | None, level: float) -> Violation:
         """How far an iterate is from the contact conditions."""
         arguments = (p.ravel(), u.ravel(), _read_only(h), bound(cap), level)
-        s = self.blocks.sums(self.blocks.kernels.violation, p.size, 3, *arguments)
+        kernels = self.blocks.kernels
+        s = np.zeros((-(-p.size // kernels.BLOCK), 3))
+        self.blocks.share(kernels.violation, len(s), *arguments, s, serial=p.size < SERIAL_BELOW)
         return Violation(float(s[:, 0].sum()), float(s[:, 1].sum()), float(s[:, 2].max()))
 
     def beyond(self, late: RealArray, early: RealArray, ratio: float) -> RealArray:
@@ -378,22 +374,25 @@ class _CpuSurvey:
         mask[size:] = 0
         rows = np.zeros(self.shape[0] + 1, np.int64)
         flat, found = (self.p, self.u, self.h), rows[1:]
+        bands, serial = len(self.squares), size < SERIAL_BELOW
+        marked: tuple[Any, ...]
         if self.cap is None:
-            lines = levels[..., 0].repeat(SQUARE_SIDE, axis=1)
-            self._share(kernels.mark_free_elastic, *flat, SQUARE_SIDE, lines, self.squares, mask, found, counts)
+            mark, lines = kernels.mark_free_elastic, levels[..., 0].repeat(SQUARE_SIDE, axis=1)
+            marked = (*flat, SQUARE_SIDE, lines, self.squares, mask, found, counts)
         else:
-            self._share(kernels.mark_free, *flat, bound(self.cap), SQUARE_SIDE, levels, mask, found, counts)
+            mark = kernels.mark_free
+            marked = (*flat, bound(self.cap), SQUARE_SIDE, levels, mask, found, counts)
+        self.blocks.share(mark, bands, *marked, serial=serial)
         np.cumsum(found, out=found)
         starts = np.empty(len(levels) + 1, np.int64)
         starts[:-1], starts[-1] = rows[:-1:SQUARE_SIDE], rows[-1]
-        index = np.empty(int(rows[-1]), _index_type(self.shape))
+        short = self.shape[0] * (row + ROW_PAD) < 2**31
+        index = np.empty(int(rows[-1]), np.uint32 if short else np.int64)
         residual, sums = np.empty(index.size, dtype), np.empty(len(levels))
         masks, length = (mask, mask.view(np.uint64)), SQUARE_SIDE // 8 * row  # words in a band of squares
-        self._share(kernels.fill_free, self.u, self.h, (level, scale), length, masks, starts, index, residual, sums)
-        return _CpuFreeSet(self.blocks, self.shape, index, residual, sums, rows, int(counts.sum()))
-
-    def _share(self, kernel: Any, *arguments: Any) -> None:
-        self.blocks.share(kernel, len(self.squares), *arguments, serial=self.p.size < SERIAL_BELOW)
+        filled = (self.u, self.h, (level, scale), length, masks, starts, index, residual, sums)
+        self.blocks.share(kernels.fill_free, bands, *filled, serial=serial)
+        return _CpuFreeSet(self.blocks, self.shape, index, residual, sums, rows, index.size, int(counts.sum()))
 
 
 class _Convolution:

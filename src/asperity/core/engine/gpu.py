@@ -374,7 +374,20 @@ class GpuEngine(ArrayEngine):
     separate_memory = True
 
     def __init__(self, cupy: Any = None) -> None:
-        self.cupy = cupy or _imported()
+        if cupy is None:
+            try:
+                cupy = import_module("cupy")
+            except ImportError:
+                raise InputError(
+                    "library of GpuEngine must be CuPy, but it is not installed. Install the one for your driver: pip install cupy-cuda12x or cupy-cuda13x."
+                ) from None
+            try:
+                cupy.cuda.runtime.getDeviceCount()
+            except cupy.cuda.runtime.CUDARuntimeError as error:
+                raise InputError(
+                    f"machine of GpuEngine must have a GPU, but CuPy finds none ({error}). Leave the engine out to compute on the CPU."
+                ) from None
+        self.cupy = cupy
         super().__init__(self.cupy)
         self._fft = self.cupy.fft
         self.name = f"gpu ({self._device()})"
@@ -456,8 +469,12 @@ class GpuEngine(ArrayEngine):
         """Sum of the ``values``."""
         return float(values.sum(dtype=np.float64))
 
-    def convolution(self, kernel: Any, shape: tuple[int, int], dtype: str) -> Convolution:
-        """Periodic convolution."""
+    def convolution(
+        self, kernel: Any, shape: tuple[int, int], dtype: str, padded: tuple[int, int] | None = None
+    ) -> Convolution:
+        """Periodic convolution, or free as of any library."""
+        if padded is not None:
+            return super().convolution(kernel, shape, dtype, padded)
         return _GpuConvolution(self.transforms(shape, dtype), self.array(kernel, dtype) / math.prod(shape))
 
     def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> _GpuSplines:
@@ -507,22 +524,6 @@ class GpuEngine(ArrayEngine):
     def clear_field(self, free: FreeSet, field: Any) -> None:
         """Zero everywhere."""
         field.fill(0.0)
-
-
-def _imported() -> Any:
-    try:
-        cupy = import_module("cupy")
-    except ImportError:
-        raise InputError(
-            "library of GpuEngine must be CuPy, but it is not installed. Install the one for your driver: pip install cupy-cuda12x or cupy-cuda13x."
-        ) from None
-    try:
-        cupy.cuda.runtime.getDeviceCount()
-    except cupy.cuda.runtime.CUDARuntimeError as error:
-        raise InputError(
-            f"machine of GpuEngine must have a GPU, but CuPy finds none ({error}). Leave the engine out to compute on the CPU."
-        ) from None
-    return cupy
 
 
 class _Transforms:

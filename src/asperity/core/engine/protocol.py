@@ -309,13 +309,10 @@ class Engine(Protocol):
     def field(self, shape: tuple[int, int], dtype: str) -> Any:
         """Field of zeros for convolutions and free sets, in whatever memory layout suits the transforms."""
 
-    def convolution(self, kernel: RealArray, shape: tuple[int, int], dtype: str) -> Convolution:
-        """Periodic convolution of fields of ``shape`` with the half-spectrum ``kernel``."""
-
-    def padded_convolution(
-        self, kernel: RealArray, shape: tuple[int, int], padded: tuple[int, int], dtype: str
+    def convolution(
+        self, kernel: RealArray, shape: tuple[int, int], dtype: str, padded: tuple[int, int] | None = None
     ) -> Convolution:
-        """Free convolution: fields of ``shape`` zero-padded to ``padded``, the grid of ``kernel``."""
+        """Periodic convolution of fields of ``shape`` with the half-spectrum ``kernel``, or free: zero-padded to ``padded``, the grid of ``kernel``."""
 
     def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> Splines:
         """Nested splines on points of ``shape``, for vectors of the precision ``dtype``."""

@@ -402,53 +402,47 @@ class CpuSplines:
         """
         unit = np.ones(free.size, self._points.dtype) if conductance is None else conductance
         self._alone, together = np.empty_like(unit), np.empty_like(unit)
-        self._load(free, unit)
+        self._rise(free, unit, FACTORISE, self._inverse)
         at = (free.rows, free.index), (self._found, self._under, self._points)
         stiffness = self._stencil, self._alone, together
-        self._share(local_stiffness, self._layout.levels, *at, *stiffness, serial=self._layout.large == 0)
+        self._blocks.share(local_stiffness, PARTS, self._layout.levels, *at, *stiffness, serial=self._layout.large == 0)
         self._alone *= self._stiffness
         if self._first:
             self._together = together
-        self._rise(FACTORISE, self._inverse)
         self._correct = self._first > 0 and conductance is None
         if self._correct:
             levels, _, larger, top = self._layout[:4]
             memory = self._wraps, self._shares, self._lines, self._points, self._sums, self._g, self._correction[1:3]
             for depth in range(self._first, larger + 1):
-                self._share(overlaps, levels, (depth, depth), *memory, serial=False)
+                self._blocks.share(overlaps, PARTS, levels, (depth, depth), *memory, serial=False)
             overlaps((0, PARTS), levels, (max(larger + 1, self._first), top), *memory)
 
-    def solve(self, free: Any, r: RealArray, other: RealArray, out: RealArray) -> Products:
-        """Inverse times ``r``, see ``protocol.Splines``."""
-        return self._solved(free, r, r, other, out)
-
-    def solve_with(self, free: Any, r: RealArray, conductance: RealArray) -> RealArray:
-        """Inverse times ``r`` after ``factorise`` with the same ``conductance``; not quite symmetric."""
-        found: RealArray = self._solved(free, r, conductance * r, r, np.empty_like(r)).vector
-        found *= conductance
-        return found
-
-    def _solved(self, free: Any, r: RealArray, yielding: RealArray, other: RealArray, out: RealArray) -> Products:
-        """Inverse times ``r``, which acts on other points by how they are ``yielding`` to it."""
-        self._load(free, yielding)
-        self._rise(SOLVE, self._inverse)
+    def solve(
+        self, free: Any, r: RealArray, other: RealArray, out: RealArray, yielding: RealArray | None = None
+    ) -> Products:
+        """Inverse times ``r``, see ``protocol.Splines``, which acts on other points by how they are ``yielding`` to it, if given."""
+        self._rise(free, r if yielding is None else yielding, SOLVE, self._inverse)
         if self._correct:
             self._fall_corrected()
         else:
             self._fall(SOLVE, self._inverse)
         return self._at_points(free, self._stiff, r, self._alone, self._together, r, other, out)
 
+    def solve_with(self, free: Any, r: RealArray, conductance: RealArray) -> RealArray:
+        """Inverse times ``r`` after ``factorise`` with the same ``conductance``; not quite symmetric."""
+        found: RealArray = self.solve(free, r, r, np.empty_like(r), conductance * r).vector
+        found *= conductance
+        return found
+
     def deflection(self, free: Any, t: RealArray, other: RealArray, out: RealArray) -> Products:
         """Deflection by ``t``, see ``protocol.Splines``."""
-        self._load(free, t)
-        self._rise(DEFLECT, self._weights)
+        self._rise(free, t, DEFLECT, self._weights)
         self._fall(DEFLECT, self._weights)
         return self._at_points(free, self._own, t, self._point, self._one, t, other, out)
 
     def predicted_residual(self, free: Any, r: RealArray, loaded: Any, change: RealArray) -> RealArray:
         """``r`` less the deflection of the points of ``free`` by ``change``."""
-        self._load(loaded, change)
-        self._rise(DEFLECT, self._weights)
+        self._rise(loaded, change, DEFLECT, self._weights)
         self._fall(DEFLECT, self._weights)
         at = free.empty()
         gather(free.rows, free.index, self._layout.levels, self._points, at)
@@ -467,30 +461,27 @@ class CpuSplines:
             partial(gather, *gathered),
         ]
 
-    def _rise(self, purpose: int, weights: RealArray) -> None:
-        """Sums of the loads on all levels."""
-        levels, large, _, top = self._layout[:4]
-        arguments = self._wraps, weights, self._lines, self._points, self._sums, self._g
-        for depth in range(1, large + 1):
-            self._share(rise, levels, (depth, depth, purpose), *arguments, serial=False)
-        if large < top:
-            self._share(rise, levels, (large + 1, top, purpose), *arguments, serial=True)
-
-    def _load(self, set_: Any, values: RealArray) -> None:
-        """Loads ``values`` of the set at its points, and none elsewhere."""
+    def _rise(self, set_: Any, values: RealArray, purpose: int, weights: RealArray) -> None:
+        """Loads ``values`` of the set at its points and none elsewhere, and the sums of the loads on all levels."""
         if self._loaded() is not set_:
             self._points[...] = 0.0
             self._loaded = ref(set_)
         place(set_.rows, set_.index, self._layout.levels, self._wraps, values, self._points)
+        levels, large, _, top = self._layout[:4]
+        arguments = self._wraps, weights, self._lines, self._points, self._sums, self._g
+        for depth in range(1, large + 1):
+            self._blocks.share(rise, PARTS, levels, (depth, depth, purpose), *arguments, serial=False)
+        if large < top:
+            self._blocks.share(rise, PARTS, levels, (large + 1, top, purpose), *arguments, serial=True)
 
     def _fall(self, purpose: int, weights: RealArray) -> None:
         """Deflections on all levels."""
         levels, _, larger, top = self._layout[:4]
         arguments = self._wraps, weights, self._lines, self._sums, self._g, self._cells, self._cells
         if larger < top:
-            self._share(fall, levels, (top, larger + 1, purpose), *arguments, serial=True)
+            self._blocks.share(fall, PARTS, levels, (top, larger + 1, purpose), *arguments, serial=True)
         for depth in range(larger, 0, -1):
-            self._share(fall, levels, (depth, depth, purpose), *arguments, serial=False)
+            self._blocks.share(fall, PARTS, levels, (depth, depth, purpose), *arguments, serial=False)
 
     def _fall_corrected(self) -> None:
         """Deflections on all levels to solve, corrected from the first level on that is."""
@@ -502,9 +493,11 @@ class CpuSplines:
             fall((0, PARTS), levels, (first - 1, small, SOLVE), *before, self._cells, self._cells)
         for depth in range(larger, 0, -1):
             way, target = (depth, depth, SOLVE), raw if depth >= first else self._cells
-            self._share(fall, levels, way, *before, self._cells, target, serial=False)
+            self._blocks.share(fall, PARTS, levels, way, *before, self._cells, target, serial=False)
             if depth >= first:
-                self._share(corrected, levels, depth, self._wraps, *self._correction, self._cells, serial=False)
+                self._blocks.share(
+                    corrected, PARTS, levels, depth, self._wraps, *self._correction, self._cells, serial=False
+                )
 
     def _at_points(
         self,
@@ -526,8 +519,5 @@ class CpuSplines:
             out,
             products,
         )
-        self._share(at_points, levels, self._wraps, *arguments, serial=self._layout.large == 0)
+        self._blocks.share(at_points, PARTS, levels, self._wraps, *arguments, serial=self._layout.large == 0)
         return Products(out, *np.add.reduce(products, axis=1).tolist())
-
-    def _share(self, kernel: Any, *arguments: Any, serial: bool) -> None:
-        self._blocks.share(kernel, PARTS, *arguments, serial=serial)

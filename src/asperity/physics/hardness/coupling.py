@@ -8,7 +8,7 @@ With a constant hardness this takes one round. A hardness that changes with dept
 indentation so far. Where the solid softens with depth (hard film), limits fall and the indentation grows from round to
 round towards the smallest that agrees: the one a growing load meets first, though others may agree, too. Where limits fall
 so steeply that a pixel may come to rest at several depths, one that yields by the error of a normal solve stays indented, so all
-solves are to the full tolerance. Where they fall gently, the fast solver finds limits and pressure together (``solvers.active_set.yielding``),
+solves are to the full tolerance. Where they fall gently, the fast solver finds limits and pressure together (``solver``),
 and one round confirms them: on self-affine surfaces of 512² points, with a film of hardness 0.6 E*, 4 pixels thick, on 0.3 E*, in as many FFT
 pairs as elastic contact takes. With other solvers, or beside other couplings with feedback, it takes rounds, in which solves follow the residual, and limits
 are foreseen: a point sinks by some compliance times the fall of its limit, at least twice its own since the points around it give way as well, later as
@@ -29,15 +29,14 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from ...contact.couplings.pressure_limit import added_indentation, indentation_before, indented
 from ...contact.couplings.protocol import Ahead, Contact, Coupling, Exchange, Memory, Posed, Share
-from ...contact.law import LimitByDepth
+from ...contact.law import LimitByDepth, added_indentation, indentation_before, indented
 from ...contact.operators.convolution import Operator
 from ...contact.solvers.active_set.solver import ActiveSet
-from ...contact.solvers.active_set.yielding import FallingLimit, follow
 from ...contact.solvers.protocol import ContactQP, Solver
 from ...core.arrays import RealArray
 from ...core.status import Progress
+from .solver import FallingLimit, follow
 
 TOLERANCE = 1e-5
 """Relative difference of the limit used and the limit at the indentation reached; the law itself is good to per cents."""

@@ -174,7 +174,7 @@ class InTime:
         operator = self.operators.at(weights.after, self.remembering.summed(weights))
         ahead = length / moment.length if moment.length else None
         couplings, step = self._couplings(operator, moment, weights), as_step(control)
-        settled = self._apart(step, moment.state, operator, retarded, couplings) or prepared._settled(
+        settled = self._apart(step, moment.state, operator, retarded, couplings) or prepared.settled(
             step, moment.state, operator, retarded, ahead, couplings
         )
         contact = settled.contact

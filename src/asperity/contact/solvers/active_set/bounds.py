@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ....core.arrays import RealArray
-from ....core.engine import FreeSet, Load, Survey, Totals
+from ....core.engine import FreeSet, Survey, Totals
 from ..protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedOffset, multiplier
 from .linear_system import LinearSystem, PressureChange, Workspace
 
@@ -110,8 +110,9 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, rounds: int = 1) -> Narr
     left, values, after, change = free, before, before, None
     for _ in range(rounds):
         predicted = r if change is None else splines.predicted_residual(left, r, free, change)
-        system = LinearSystem(work.scaled, left, work.load_prescribed)
-        z = system.preconditioned(system.prepared(predicted), predicted, left.empty())
+        system = LinearSystem(work.scaled, left, work.load is not None)
+        splines.factorise(left)
+        z = system.preconditioned(predicted, predicted, left.empty())
         # beyond single precision the step fails, and says so, as others do
         with np.errstate(over="ignore", invalid="ignore"):
             d = left.shifted(z.vector, -system.mean(z.total))
@@ -154,24 +155,17 @@ def add_clipped(work: Workspace, free: FreeSet, d: Any, part: float, elsewhere: 
     """Add ``part`` of ``d``, clipped and scaled to the load, of which ``elsewhere`` is outside ``free``; the number of points clipped."""
     found, clipped = free.add_clipped(work.pressure, d, part * work.unit, work.cap)
     if work.load is not None:
-        _restore_load(free, work.pressure, work.cap, found, max(work.load - elsewhere, 0.0))
+        target = max(work.load - elsewhere, 0.0)
+        for _ in range(LOAD_SWEEPS):
+            missing = target - found.pressure
+            if abs(missing) <= LOAD_ROUNDING * target:
+                break
+            if found.movable > 0.0 and found.movable + missing > 0.0:
+                found = free.rescale(work.pressure, (found.movable + missing) / found.movable, 0.0, work.cap)
+            elif missing < 0.0:
+                found = free.rescale(work.pressure, target / found.pressure, 0.0, None)
+            elif found.below == 0:
+                break  # all are at their cap: what is missing is rounding of the sum over all points
+            else:  # every loaded point is at its cap: the rest of the load is spread over those below it
+                found = free.rescale(work.pressure, 1.0, missing / found.below, work.cap)
     return clipped
-
-
-def _restore_load(free: FreeSet, pressure: Any, cap: Any, found: Load, target: float) -> None:
-    """Scale the clipped ``pressure`` on ``free`` (in place), where its sums are ``found``, to the sum ``target``.
-
-    Where every loaded point is at its cap, the rest of the load is spread over the points below it.
-    """
-    for _ in range(LOAD_SWEEPS):
-        missing = target - found.pressure
-        if abs(missing) <= LOAD_ROUNDING * target:
-            break
-        if found.movable > 0.0 and found.movable + missing > 0.0:
-            found = free.rescale(pressure, (found.movable + missing) / found.movable, 0.0, cap)
-        elif missing < 0.0:
-            found = free.rescale(pressure, target / found.pressure, 0.0, None)
-        elif found.below == 0:
-            break  # all are at their cap: what is missing is rounding of the sum over all points
-        else:
-            found = free.rescale(pressure, 1.0, missing / found.below, cap)

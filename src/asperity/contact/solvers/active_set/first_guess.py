@@ -89,7 +89,7 @@ def nested_start(qp: ContactQP, solver: Adjustable) -> Start:
     Pairs are counted in pairs of the grid of ``qp``: those of half as many points per side count a quarter.
     """
     if min(qp.profile.shape) <= COARSEST:
-        qp = qp.on_host
+        qp = replace(qp, profile=qp.operator.engine.numpy(qp.profile))
         return Start(feasible_start(qp, highest_points(qp)), narrowed=_NARROWED[0])
     rises = qp.elastic and steepness(qp.operator, _RISING_CELLS) > _RISING_FROM
     settles = qp.elastic and steepness(qp.operator) > _SETTLING_FROM
@@ -122,7 +122,7 @@ def settle(work: Workspace, rounds: int) -> None:
     qp = work.qp
     survey = work.survey()
     free = free_set(survey, plane_level(qp, survey.totals), qp.height_scale, work.scaled.dtype, wide=True)
-    narrowed(work, free, free.residual(centred=work.load_prescribed), rounds=rounds)
+    narrowed(work, free, free.residual(centred=work.load is not None), rounds=rounds)
 
 
 _AREA_PER_LOAD = 2.0

@@ -16,7 +16,7 @@ import numpy as np
 from ....core.arrays import RealArray
 from ....core.engine import Convolution, Engine, FreeSet, Products, Splines, Survey
 from ...operators import Operator
-from ..protocol import ContactQP, FixedMean, FixedOffset, heights_near_contact
+from ..protocol import ContactQP, FixedOffset, heights_near_contact
 from .spline_model import SplineCompliance, spline_compliance
 
 # The compliance and the arrays of a problem.
@@ -31,6 +31,7 @@ class ScaledOperator:
     """
 
     operator: Operator
+    engine: Engine
     dtype: str
     scale: float
     product: Convolution
@@ -42,12 +43,7 @@ class ScaledOperator:
         """Scaled ``operator`` with work arrays of its own."""
         engine, shape = operator.engine, operator.grid.shape
         fields = engine.field(shape, dtype), engine.field(shape, dtype)
-        return cls(operator, dtype, scale, operator.convolution(dtype, scale), *fields)
-
-    @property
-    def engine(self) -> Engine:
-        """Machine that computes it."""
-        return self.operator.engine
+        return cls(operator, engine, dtype, scale, operator.convolution(dtype, scale), *fields)
 
     @cached_property
     def modelled(self) -> SplineCompliance:
@@ -59,21 +55,20 @@ class ScaledOperator:
         """Nested splines that model it."""
         return self.engine.splines(self.operator.grid.shape, self.modelled.model, self.dtype)
 
-    @property
-    def model_steps(self) -> int:
-        """Steps of conjugate gradients on the model for one use of the preconditioner; one is its approximate inverse."""
-        return _MODEL_STEPS if self.modelled.refined else 1
-
 
 @dataclass(frozen=True, eq=False)
 class Workspace:
     """Arrays of one problem and the scaled operator for its corrections.
 
     ``pressure`` and ``deflection`` (Pa, m; in the precision ``dtype``) are the iterate, changed in place; ``exact`` is
-    the convolution that makes the one from the other. A deflection over ``scaled.scale`` is a pressure in units of ``unit``.
+    the convolution that makes the one from the other. A deflection over ``scaled.scale`` is a pressure in units of ``unit`` (Pa).
+    ``load`` is the sum of the pressure (Pa) that is prescribed, so that corrections must sum to zero; None at a prescribed position.
     """
 
     qp: ContactQP
+    engine: Engine
+    unit: float
+    load: float | None
     scaled: ScaledOperator
     dtype: str
     heights: Any
@@ -96,38 +91,26 @@ class Workspace:
             exact.apply(pressure, begun)
         else:
             begun = engine.array(deflection, dtype)
-        scale = operator.largest or 1.0
+        scale, constraint = operator.largest or 1.0, qp.constraint
+        if isinstance(constraint, FixedOffset):
+            load, heights = None, qp.profile - constraint.offset if constraint.offset else qp.profile
+        else:
+            load, heights = constraint.mean_pressure * qp.profile.size, heights_near_contact(qp)
+            if precision == "single" and heights is qp.profile:
+                heights = heights - float(heights.mean())
         return cls(
             qp=qp,
+            engine=engine,
+            unit=qp.height_scale / scale,
+            load=load,
             scaled=ScaledOperator.of(operator, "float64" if precision == "double" else "float32", scale),
             dtype=dtype,
-            heights=engine.array(_heights(qp, centred=precision == "single"), dtype),
+            heights=engine.array(heights, dtype),
             cap=None if qp.elastic else engine.array(np.asarray(qp.cap, dtype=float).reshape(-1), dtype),
             exact=exact,
             pressure=pressure,
             deflection=begun,
         )
-
-    @property
-    def unit(self) -> float:
-        """Pressure (Pa) of one in a correction."""
-        return self.qp.height_scale / self.scaled.scale
-
-    @property
-    def engine(self) -> Engine:
-        """Machine it is on."""
-        return self.scaled.engine
-
-    @property
-    def load(self) -> float | None:
-        """Sum of the pressure (Pa) that is prescribed; None at a prescribed position."""
-        constraint = self.qp.constraint
-        return constraint.mean_pressure * self.qp.profile.size if isinstance(constraint, FixedMean) else None
-
-    @property
-    def load_prescribed(self) -> bool:
-        """Whether corrections must sum to zero."""
-        return self.load is not None
 
     def survey(self) -> Survey:
         """Sums over the iterate."""
@@ -137,14 +120,6 @@ class Workspace:
         """Workspace with arrays of its own for the iterate; the work arrays of corrections are shared."""
         pressure, deflection = self.engine.copy(self.pressure), self.engine.copy(self.deflection)
         return replace(self, pressure=pressure, deflection=deflection)
-
-
-def _heights(qp: ContactQP, *, centred: bool) -> RealArray:
-    """Heights from a level near the contact; ``centred`` in any case if the load is prescribed."""
-    if isinstance(qp.constraint, FixedOffset):
-        return qp.profile - qp.constraint.offset if qp.constraint.offset else qp.profile
-    heights = heights_near_contact(qp)
-    return heights - float(heights.mean()) if centred and heights is qp.profile else heights
 
 
 # The linear system of a step, and its preconditioner.
@@ -179,32 +154,10 @@ class LinearSystem:
         """Mean of a vector that sums to ``total``, where it is to be taken out."""
         return total / self.free.size if self.zero_sum and self.free.size else 0.0
 
-    @property
-    def pairs(self) -> float:
-        """FFT pairs of a product."""
-        return 0.0 if self.modelled else self.scaled.operator.pairs_per_application
-
-    def prepared(self, r: Any, pending: PressureChange | None = None) -> Any:
-        """Residual that the ``pending`` change leaves of ``r``, as the model predicts it, with the preconditioner prepared for the set."""
-        splines = self.scaled.splines
-        if pending is not None:
-            r = splines.predicted_residual(self.free, r, pending.free, pending.values)
-        if not self.modelled:
-            splines.factorise(self.free)
-        return r
-
-    def times(self, t: Any, out: Any) -> Products:
-        """K t, of the vector ``t`` that lies in the field, and twice its product with it."""
-        scaled = self.scaled
-        if self.modelled:
-            return scaled.splines.deflection(self.free, t, t, out)
-        scaled.product.apply(scaled.field, scaled.response)
-        return self.free.gather_products(scaled.response, t, t, out)
-
     def preconditioned(self, r: Any, other: Any, out: Any, *, more: int = 0) -> Products:
         """Approximate inverse of K times ``r``, better by some ``more`` steps on the model, and its products with ``r`` and ``other``."""
         scaled = self.scaled
-        steps = scaled.model_steps + more
+        steps = (_MODEL_STEPS if scaled.modelled.refined else 1) + more  # one is the approximate inverse of the model
         if self.modelled or steps == 1:
             return scaled.splines.solve(self.free, r, other, out)
         model, stopping = replace(self, modelled=True), Stopping(0.0, steps - 1)
@@ -274,19 +227,36 @@ def conjugate_gradients(
     ``on_step`` receives the length of every step while its product with the compliance is in ``response``.
     ``further``: length of one more step without a product, over that before; for changes whose deflection is computed anyway. None if zero.
     """
-    free = system.free
+    free, scaled = system.free, system.scaled
+    pairs = 0.0 if system.modelled else scaled.operator.pairs_per_application
     last: _Direction | None = None
-    predicted = system.prepared(r, pending)
+    # what the pending change leaves of the residual, as the model predicts it
+    predicted = r if pending is None else scaled.splines.predicted_residual(free, r, pending.free, pending.values)
+    if not system.modelled:
+        scaled.splines.factorise(free)
     if stopping.max_steps == 0:
-        begun = Correction(free.zeros(), 0.0, True, open=stopping.ending is not None)
-        return _unmeasured(system, predicted, None, _STEP_LENGTH, begun, stopping.more)
+        none = Correction(free.zeros(), 0.0, True, open=stopping.ending is not None)
+        return _unmeasured(system, predicted, None, _STEP_LENGTH, none, stopping.more)
     ending = None if stopping.ending is None else stopping.ending * free.largest(r)
     enough = stopping.reduction**2 * free.square(predicted) if stopping.reduction and stopping.max_steps > 1 else 0.0
-    d, r, first, left = _first_step(system, r, predicted, pending, on_step)
-    taken, z, length, reached = int(pending is not None), free.empty(), _STEP_LENGTH, False
+    d, z, first, left = free.zeros(), free.empty(), 0.0, 0.0
+    if pending is not None:
+        # a step by one product with the compliance, which gives the deflection by the pending change as well: its direction t is
+        # the preconditioned residual that the change will leave, and the field holds t + change / length
+        begun = system.preconditioned(predicted, predicted, z, more=_FIRST_STEPS)
+        t, _ = _next_direction(system, r, begun, None)
+        pending.free.scatter_add(pending.values, 1.0 / _STEP_LENGTH, scaled.field)
+        scaled.product.apply(scaled.field, scaled.response)
+        scaled.engine.clear_field(pending.free, scaled.field)
+        z, total, _, _ = free.gather_products(scaled.response, t, t, begun.vector)
+        if on_step is not None:
+            on_step(_STEP_LENGTH)
+        d, r, left = free.update_solution(_STEP_LENGTH, t, z, system.mean(total), d, r)
+        first = begun.first
+    taken, length, reached = int(pending is not None), _STEP_LENGTH, False
     while taken < stopping.max_steps:
         if taken > 0 and ending is not None and free.largest(r) <= ending:
-            return _unmeasured(system, r, last, length, Correction(d, taken * system.pairs, True, open=True))
+            return _unmeasured(system, r, last, length, Correction(d, taken * pairs, True, open=True))
         if reached := taken > 0 and left < enough:
             break
         preconditioned = system.preconditioned(r, r if last is None else last.kt, z)
@@ -295,7 +265,12 @@ def conjugate_gradients(
             break
         first = first or product
         t, slope = _next_direction(system, r, preconditioned, last)
-        kt, total, curvature, _ = system.times(t, free.empty() if last is None else last.kt)
+        out = free.empty() if last is None else last.kt
+        if system.modelled:
+            kt, total, curvature, _ = scaled.splines.deflection(free, t, t, out)
+        else:
+            scaled.product.apply(scaled.field, scaled.response)
+            kt, total, curvature, _ = free.gather_products(scaled.response, t, t, out)
         if curvature <= 0.0:
             break
         last = _Direction(t, kt, curvature, total)
@@ -303,7 +278,7 @@ def conjugate_gradients(
         if on_step is not None:
             on_step(length)
         d, r, left = free.update_solution(length, t, kt, system.mean(total), d, r)
-    found = Correction(d if taken else None, taken * system.pairs, reached)
+    found = Correction(d if taken else None, taken * pairs, reached)
     return _unmeasured(system, r, last, further * length, found) if further and taken else found
 
 
@@ -329,39 +304,3 @@ def _next_direction(system: LinearSystem, r: Any, z: Products, last: _Direction 
     t = system.free.zeros() if last is None else last.t
     field = None if system.modelled else system.scaled.field
     return system.free.update_direction(z.vector, mean, ratio, t, r, field)
-
-
-class _FirstStep(NamedTuple):
-    """Vector ``d``, the residual ``r`` after it, of the square ``left``; the product ``first`` of the predicted residual with its preconditioned self."""
-
-    d: Any
-    r: Any
-    first: float
-    left: float
-
-
-def _first_step(
-    system: LinearSystem,
-    r: Any,
-    predicted: Any,
-    pending: PressureChange | None,
-    on_step: Callable[[float], None] | None,
-) -> _FirstStep:
-    """Step by one product with the compliance, which gives the deflection by the ``pending`` change as well; none where there is no such change.
-
-    Its direction t is the preconditioned residual ``predicted`` that the change will leave; the field holds t + change / length.
-    """
-    scaled, free = system.scaled, system.free
-    if pending is None:
-        return _FirstStep(free.zeros(), r, 0.0, 0.0)
-    z = system.preconditioned(predicted, predicted, free.empty(), more=_FIRST_STEPS)
-    t, _ = _next_direction(system, r, z, None)
-    pending.free.scatter_add(pending.values, 1.0 / _STEP_LENGTH, scaled.field)
-    scaled.product.apply(scaled.field, scaled.response)
-    scaled.engine.clear_field(pending.free, scaled.field)
-    response = free.gather_products(scaled.response, t, t, free.empty())
-    if on_step is not None:
-        on_step(_STEP_LENGTH)
-    mean = system.mean(response.total)
-    d, r, left = free.update_solution(_STEP_LENGTH, t, response.vector, mean, free.zeros(), r)
-    return _FirstStep(d, r, z.first, left)

@@ -42,15 +42,15 @@ from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradient
 def relative_error(work: Workspace, totals: Totals) -> float:
     """``protocol.relative_error`` from the sums over the iterate; infinite where a step has let go of every point of a load."""
     qp, total, energy = work.qp, totals.pressure, 0.5 * totals.deflected
-    if work.load_prescribed and total <= 0.0:
+    if work.load is not None and total <= 0.0:
         return math.inf
-    if work.load_prescribed and work.cap is None:
+    if work.load is not None and work.cap is None:
         lifted = totals.lowest * total
         rounding = ROUNDING * (abs(totals.work) + abs(lifted))  # the difference below is not known any better
         return scaled_error(qp, max(totals.work - lifted, rounding) / total, total, energy)
     iterate, level = (work.pressure, work.deflection, work.heights, work.cap), plane_level(qp, totals)
     found = work.engine.violation(*iterate, level)
-    if work.load_prescribed:
+    if work.load is not None:
         lowest = work.engine.violation(*iterate, totals.lowest)
         gap = min(found.above + found.below, lowest.above + lowest.below)
         return scaled_error(qp, gap / total, total, energy)
@@ -179,26 +179,9 @@ class _Memory:
     pairs: float = 0.0
     exhausted: bool = False
 
-    def changed(self, free: FreeSet) -> int:
-        """Number of points that enter the set ``free`` or were taken beyond their bounds."""
-        return free.entering + self.clipped
-
     def settled(self, free: FreeSet) -> bool:
-        """Whether few points change."""
-        return self.changed(free) <= _SETTLED * free.size
-
-    def record(self, error: float) -> None:
-        """Count unclipped steps that do not lower the ``error``; after some in a row they are made more accurate, and at last end."""
-        if self.unsuccessful is None:
-            return
-        if error < self.lowest:
-            self.lowest, self.unsuccessful = error, 0
-        elif self.unsuccessful < _MOST_UNSUCCESSFUL:
-            self.unsuccessful += 1
-        elif self.refinements < _MOST_REFINEMENTS:
-            self.refinements, self.lowest, self.unsuccessful = self.refinements + 1, error, 0
-        else:
-            self.unsuccessful = None
+        """Whether few points enter the set or were taken beyond their bounds."""
+        return free.entering + self.clipped <= _SETTLED * free.size
 
     def copied(self, state: SolverState) -> SolverState:
         """``state``, whose memory this is, with arrays of its own."""
@@ -337,30 +320,27 @@ class ActiveSet:
         memory.iterations += 1
         level = plane_level(qp, memory.survey.totals)
         clips = memory.unsuccessful is None
-        wide = not clips and self._wide(memory, state.error)
+        if clips:
+            wide = False
+        elif memory.narrowed:  # prolonged starts only: the coarsest grid begins with the highest points, not with pressures of 2 x 2 points
+            wide = min(qp.profile.shape) > COARSEST
+        else:  # a last step, if the one before made few points tensile
+            few = memory.tensile is not None and memory.clipped <= _SETTLED * memory.tensile.size
+            near = _MARGIN * self.tolerance >= _SINGLE * state.error
+            wide = few and near and not (self.monotone or self._guess)
         free = free_set(memory.survey, level, qp.height_scale, memory.work.scaled.dtype, wide=wide)
         step = self._clipped_step if clips else self._unclipped_step
         following = step(memory, free, state.error)
         memory.work.engine.clear_field(free, memory.work.scaled.field)
         del free
-        if following.work.load_prescribed and following.survey.totals.pressure <= 0.0:
-            return self._begun_anew(qp, following)
-        return self._state(following)
-
-    def _wide(self, memory: _Memory, error: float) -> bool:
-        """Whether a free set is to hold points that do not stand out: before it is narrowed, and for a last step if the one before made few points tensile."""
-        if memory.narrowed:  # prolonged starts only: the coarsest grid begins with the highest points, not with pressures of 2 x 2 points
-            return bool(min(memory.work.qp.profile.shape) > COARSEST)
-        if memory.tensile is None or memory.clipped > _SETTLED * memory.tensile.size:
-            return False
-        return self._ends and self._wanted(error) >= _SINGLE
-
-    def _begun_anew(self, qp: ContactQP, spent: _Memory) -> SolverState:
-        """State at a uniform pressure, with clipped steps from there on: a step has let go of every point of a load."""
-        state = self._started(qp, Start(feasible_start(qp, None), spent.pairs), spent.applications + 1)
-        assert isinstance(state.memory, _Memory)
-        state.memory.unsuccessful, state.memory.iterations = None, spent.iterations
-        return replace(state, iterations=spent.iterations)
+        if following.work.load is None or following.survey.totals.pressure > 0.0:
+            return self._state(following)
+        # the step has let go of every point of a load: clipped steps from a uniform pressure on
+        begin = Start(feasible_start(qp, None), following.pairs)
+        anew = self._started(qp, begin, following.applications + 1)
+        assert isinstance(anew.memory, _Memory)
+        anew.memory.unsuccessful, anew.memory.iterations = None, following.iterations
+        return replace(anew, iterations=following.iterations)
 
     def _unclipped_step(self, memory: _Memory, free: FreeSet, error: float) -> _Memory:
         """(3) Step after which points may be tensile.
@@ -370,7 +350,7 @@ class ActiveSet:
         computed from scratch instead.
         """
         work = memory.work
-        stopping, r = self._stopping(memory, free, error), free.residual(centred=work.load_prescribed)
+        stopping, r = self._stopping(memory, free, error), free.residual(centred=work.load is not None)
         pending = None
         if memory.tensile is not None and memory.clipped:
             pending = clear_tension(work, memory.tensile, memory.survey.totals.pressure)
@@ -378,7 +358,7 @@ class ActiveSet:
         elif memory.narrowed and not memory.settled(free):
             free, r, pending = narrowed(work, free, r, rounds=memory.narrowed)
             stopping = Stopping(_REDUCTION, max_steps=1)
-        system = LinearSystem(work.scaled, free, work.load_prescribed)
+        system = LinearSystem(work.scaled, free, work.load is not None)
         memory.narrowed, last = 0, stopping.ending is not None
 
         def add(length: float) -> None:
@@ -399,8 +379,8 @@ class ActiveSet:
     def _clipped_step(self, memory: _Memory, free: FreeSet, error: float) -> _Memory:
         """(4) Step clipped to the bounds and shortened where the energy would rise."""
         work = memory.work
-        stopping, r = self._stopping(memory, free, error), free.residual(centred=work.load_prescribed)
-        system = LinearSystem(work.scaled, free, work.load_prescribed)
+        stopping, r = self._stopping(memory, free, error), free.residual(centred=work.load is not None)
+        system = LinearSystem(work.scaled, free, work.load is not None)
         found = conjugate_gradients(system, free.copy(r), stopping, further=_FURTHER)
         memory.pairs += found.pairs
         if found.d is None:
@@ -432,7 +412,8 @@ class ActiveSet:
     def _gradient_step(self, memory: _Memory) -> _Memory:
         """(4) Step along the projected gradient from the iterate in the arrays; exhausted if not even that goes down."""
         work = memory.work
-        qp, engine = work.qp.on_host, work.engine
+        engine = work.engine
+        qp = replace(work.qp, profile=engine.numpy(work.qp.profile))
         _compute_from_scratch(memory)
         pressure, deflection = engine.numpy(work.pressure).copy(), engine.numpy(work.deflection).copy()
         lower = descend(qp, SolverState(pressure, deflection, memory.computed_at), levelling_step(qp))
@@ -455,12 +436,23 @@ class ActiveSet:
         if memory.tension:
             load = memory.survey.totals.pressure
             error = error + memory.tension / load if load > 0.0 else math.inf
-        memory.record(error)
+        if memory.unsuccessful is None:
+            pass
+        elif error < memory.lowest:
+            memory.lowest, memory.unsuccessful = error, 0
+        elif memory.unsuccessful < _MOST_UNSUCCESSFUL:
+            memory.unsuccessful += 1
+        elif memory.refinements < _MOST_REFINEMENTS:  # systems are solved more closely from now on
+            memory.refinements, memory.lowest, memory.unsuccessful = memory.refinements + 1, error, 0
+        else:
+            memory.unsuccessful = None
         ends = error <= self.tolerance or memory.iterations >= self.max_iterations
         due = ends or error < _REFRESH * memory.computed_at
         due = due or (memory.unsuccessful is None and memory.tensile is not None)
         if memory.iterations and ends and self._guess:
-            _clear_tensile(memory)
+            if memory.tensile is not None:
+                clear_tension(work, memory.tensile, memory.survey.totals.pressure)
+            memory.tensile = None
         elif memory.iterations and due and not memory.from_scratch:
             _compute_from_scratch(memory)
             error = memory.computed_at
@@ -479,24 +471,18 @@ class ActiveSet:
             work.engine,
         )
 
-    @property
-    def _ends(self) -> bool:
-        """Whether the last step may be one whose length is not measured."""
-        return not (self.monotone or self._guess)
-
-    def _wanted(self, error: float) -> float:
-        """Reduction of the ``error`` that reaches the tolerance, with some margin."""
-        return _MARGIN * self.tolerance / error if error > 0.0 else 1.0
-
     def _stopping(self, memory: _Memory, free: FreeSet, error: float) -> Stopping:
         """(2) When to stop a correction.
 
         Accuracy is wasted on a set that will change: only once few points enter or leave is it worth having, and only
         once none does is the system solved to what the tolerance needs.
         """
-        changed, clips = memory.changed(free), memory.unsuccessful is None
-        settled, alone, wanted = memory.settled(free), clips and not memory.fallbacks, self._wanted(error)
-        ends = self._ends
+        changed, settled = free.entering + memory.clipped, memory.settled(free)
+        wanted = (
+            _MARGIN * self.tolerance / error if error > 0.0 else 1.0
+        )  # reduction of the error that reaches the tolerance
+        alone = memory.unsuccessful is None and not memory.fallbacks
+        ends = not (self.monotone or self._guess)  # the last step may be one whose length is not measured
         if ends and wanted >= _SINGLE and (settled or alone):
             return _LAST if wanted >= _CLOSELY else _LAST_CLOSELY
         if alone:
@@ -519,17 +505,12 @@ class _Guess(ActiveSet):
 
 
 def _compute_from_scratch(memory: _Memory, total: float | None = None) -> None:
-    """Clear tensile points, and compute the deflection anew instead of from its updates; ``total`` as for ``_clear_tensile``."""
+    """Compute the deflection anew instead of from its updates, tensile points cleared and the others, of the sum ``total`` (by default that of the survey), scaled to the load."""
     work = memory.work
-    _clear_tensile(memory, total)
+    if memory.tensile is not None:
+        clear_tension(work, memory.tensile, memory.survey.totals.pressure if total is None else total)
+    memory.tensile = None
     work.exact.apply(work.pressure, work.deflection)
     memory.applications += 1
     memory.survey, memory.tension, memory.from_scratch = work.survey(), 0.0, True
     memory.computed_at = relative_error(work, memory.survey.totals)
-
-
-def _clear_tensile(memory: _Memory, total: float | None = None) -> None:
-    """Clear tensile points and scale the others, of the sum ``total`` (by default that of the survey), to the load."""
-    if memory.tensile is not None:
-        clear_tension(memory.work, memory.tensile, memory.survey.totals.pressure if total is None else total)
-    memory.tensile = None

@@ -255,9 +255,22 @@ def _fit(body: Octaves, boundary: Boundary, grid: Grid, scale: float) -> SplineC
     samples = _samples(grid)
     first, levels, steep = _levels(body, boundary, grid)
     parts = _fitted(samples.parts, samples.waves.compliance(body, boundary, first), np.diff(levels))
-    steepness, near = _steepest(steep), _STEEP if all(merges[0]) else _STIFF
+    steepness, near = float(steep[: _NEAR + 1].max()), _STEEP if all(merges[0]) else _STIFF
     wraps, finest = boundary.wraps, min(grid.spacing)
-    inverse = _stiff_inverse(parts[_LOCAL:], steep) if float(steep.max()) > _STIFF else _plain_inverse(levels)
+    # the inverse: rises of the compliance from level to level in m/Pa, that of a point being one
+    corrections: tuple[float, ...] = ()
+    if float(steep.max()) > _STIFF:
+        middle, fall, bend = _STIFF_MIDDLE, _STIFF_FALL, _STIFF_BEND
+        rises = parts[_LOCAL:] / middle
+        ahead = np.minimum(np.arange(1, len(steep)) + _AHEAD, len(steep) - 1)
+        corrected = np.maximum.accumulate(steep)[ahead] > _RISEN
+        corrections = tuple(np.where(corrected, _CORRECTION, 0.0).tolist())
+    else:
+        middle, fall, bend = _MIDDLE, _FALL, _BEND
+        relative = np.full(len(levels), _RELATIVE[-1])
+        relative[: len(_RELATIVE)] = _RELATIVE[: len(levels)]
+        relative[1:] = 1.0 + (relative[1:] - 1.0) * np.clip(levels[1:] / levels[:-1] - 1.0, 0.0, 1.0)
+        rises = np.diff(relative * levels)
     local = [
         min(1.0, _OBLONG * finest / side) if n > 1 else 0.0 for side, n in zip(grid.spacing, grid.shape, strict=True)
     ]
@@ -267,47 +280,18 @@ def _fit(body: Octaves, boundary: Boundary, grid: Grid, scale: float) -> SplineC
         averages=averages_of(grid),
         weights=tuple((parts[_LOCAL:] / (points[1:] * scale)).tolist()),
         own=tuple((parts[:_LOCAL] / scale).tolist()),
-        inverse_weights=tuple((inverse.rises / (points[1:] * levels[0])).tolist()),
-        stiffness=scale / (inverse.middle * float(levels[0])),
-        fall=(inverse.fall * local[0], inverse.fall * local[1]),
-        bend=(inverse.bend * local[0], inverse.bend * local[1]),
-        corrections=inverse.corrections,
+        inverse_weights=tuple((rises / (points[1:] * levels[0])).tolist()),
+        stiffness=scale / (middle * float(levels[0])),
+        fall=(fall * local[0], fall * local[1]),
+        bend=(bend * local[0], bend * local[1]),
+        corrections=corrections,
     )
     return SplineCompliance(model, steepness, steepness > near)
 
 
-class _Inverse(NamedTuple):
-    """Coefficients of the inverse: ``rises`` (levels,) of the compliance from level to level in m/Pa, that of a point being one; the others as in ``SplineModel``."""
-
-    middle: float
-    fall: float
-    bend: float
-    rises: RealArray
-    corrections: tuple[float, ...] = ()
-
-
-def _plain_inverse(levels: RealArray) -> _Inverse:
-    """That of a body of these compliances of the ``levels`` (levels + 1,)."""
-    relative = np.full(len(levels), _RELATIVE[-1])
-    relative[: len(_RELATIVE)] = _RELATIVE[: len(levels)]
-    relative[1:] = 1.0 + (relative[1:] - 1.0) * np.clip(levels[1:] / levels[:-1] - 1.0, 0.0, 1.0)
-    return _Inverse(_MIDDLE, _FALL, _BEND, np.diff(relative * levels))
-
-
-def _stiff_inverse(weights: RealArray, steep: RealArray) -> _Inverse:
-    """That of a stiff body whose model has these ``weights`` (levels,) in m/Pa, and whose c(q) q rises like ``steep`` (levels + 1,)."""
-    ahead = np.minimum(np.arange(1, len(steep)) + _AHEAD, len(steep) - 1)
-    corrected = np.maximum.accumulate(steep)[ahead] > _RISEN
-    shares = tuple(np.where(corrected, _CORRECTION, 0.0).tolist())
-    return _Inverse(_STIFF_MIDDLE, _STIFF_FALL, _STIFF_BEND, weights / _STIFF_MIDDLE, shares)
-
-
 def steepness(operator: Operator, level: int = _NEAR) -> float:
     """That of ``spline_compliance``, without the rest of it; or up to waves of twice the side of the cells of another ``level``."""
-    return _steepest(_levels(operator.octaves, operator.boundary, operator.grid)[2], level)
-
-
-def _steepest(steep: RealArray, level: int = _NEAR) -> float:
+    steep = _levels(operator.octaves, operator.boundary, operator.grid)[2]
     return float(steep[: level + 1].max())
 
 

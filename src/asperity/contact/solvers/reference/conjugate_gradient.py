@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ....core.arrays import BoolArray, RealArray
+from ....core.arrays import RealArray
 from ..protocol import (
     ContactQP,
     FixedMean,
@@ -84,12 +84,21 @@ def _conjugate_step(qp: ContactQP, state: SolverState, memory: _Memory) -> Solve
     """Polonsky & Keer (1999), steps 1-8; the pressures leaving and entering the bounds treated alike at both."""
     p = state.pressure
     working = (p > 0.0) & (p < qp.cap)
-    gap = _gap(qp, state, working)
+    gap: RealArray = state.deflection - qp.profile  # under load relative to its mean over the working points
+    if isinstance(qp.constraint, FixedOffset):
+        gap = gap + qp.constraint.offset
+    else:
+        gap = gap - (gap[working].mean() if working.any() else gap.mean())
     norm = float((gap[working] ** 2).sum())
     ratio = norm / memory.norm if memory.conjugate else 0.0
     direction = np.where(working, gap + ratio * memory.direction, 0.0)
     response = qp.operator.apply(direction)
-    length = _step_length(qp, gap, direction, response, working) or memory.pixel_step
+    # pressure per gap (Pa/m) that minimises the energy along the direction
+    centred = isinstance(qp.constraint, FixedMean) and working.any()
+    along = response - response[working].mean() if centred else response
+    curvature = float((along[working] * direction[working]).sum())
+    length = float((gap[working] * direction[working]).sum()) / curvature if curvature > 0.0 else 0.0
+    length = length or memory.pixel_step
 
     trial: RealArray = p - length * direction
     bounded: RealArray = np.clip(trial, 0.0, qp.cap)
@@ -116,19 +125,3 @@ def _conjugate_step(qp: ContactQP, state: SolverState, memory: _Memory) -> Solve
         state.applications + (1 if linear else 2),
         memory=replace(memory, direction=direction, norm=norm, conjugate=not re_entered),
     )
-
-
-def _gap(qp: ContactQP, state: SolverState, working: BoolArray) -> RealArray:
-    """Gap (m), under load relative to its mean over the working points; pressure must fall where it is positive."""
-    r: RealArray = state.deflection - qp.profile
-    if isinstance(qp.constraint, FixedOffset):
-        return np.asarray(r + qp.constraint.offset)
-    return np.asarray(r - (r[working].mean() if working.any() else r.mean()))
-
-
-def _step_length(qp: ContactQP, gap: RealArray, direction: RealArray, response: RealArray, working: BoolArray) -> float:
-    """Pressure per gap (Pa/m) that minimises the energy along ``direction``; 0 where it has no curvature."""
-    if isinstance(qp.constraint, FixedMean) and working.any():
-        response = response - response[working].mean()
-    curvature = float((response[working] * direction[working]).sum())
-    return float((gap[working] * direction[working]).sum()) / curvature if curvature > 0.0 else 0.0

@@ -82,8 +82,8 @@ def dense_form(qp: ContactQP, *, near_contact: bool = False) -> DenseQP:
         If the grid is too large for a dense matrix.
     """
     compliance = qp.operator.matrix()
-    length = _power_of_two(qp.height_scale)
-    unit = _power_of_two(length / float(compliance[0, 0]))
+    length = math.ldexp(1.0, math.frexp(qp.height_scale)[1])  # powers of two
+    unit = math.ldexp(1.0, math.frexp(length / float(compliance[0, 0]))[1])
     light, total = near_contact and lightly_loaded(qp), None
     profile = heights_near_contact(qp) if light else qp.profile
     plane = 0.0 if light else float(qp.profile.max())
@@ -100,10 +100,6 @@ def dense_form(qp: ContactQP, *, near_contact: bool = False) -> DenseQP:
         unit=unit,
         light=light,
     )
-
-
-def _power_of_two(value: float) -> float:
-    return math.ldexp(1.0, math.frexp(value)[1])
 
 
 def solve_on(qp: DenseQP, free: BoolArray, capped: BoolArray) -> OnSet:
@@ -259,10 +255,16 @@ def one_by_one(qp: DenseQP, start: RealArray, limit: int) -> Pivoted:
     moved = True
     for count in range(limit):
         trial = solve_on(qp, free, capped)
-        fraction, blocking = _way_to(qp, x, trial)
-        if blocking is not None:
-            upper = bool(trial.x[blocking] > x[blocking])
-            x += np.where(free, fraction * (trial.x - x), 0.0)
+        # largest fraction of the way to the free part of the trial within bounds, and the point that stops it
+        target, ways = trial.x, np.full(x.shape, np.inf)
+        out_low, out_high = trial.free & (target < 0.0), trial.free & (target > qp.cap)
+        ways[out_low] = x[out_low] / (x - target)[out_low]
+        ways[out_high] = (qp.cap - x)[out_high] / (target - x)[out_high]
+        blocking = int(np.argmin(ways))
+        fraction = float(ways[blocking])
+        if fraction <= 1.0:
+            upper = bool(target[blocking] > x[blocking])
+            x += np.where(free, fraction * (target - x), 0.0)
             np.clip(x, 0.0, qp.cap, out=x)
             x[blocking] = qp.cap[blocking] if upper else 0.0
             free[blocking], capped[blocking] = False, upper
@@ -274,17 +276,6 @@ def one_by_one(qp: DenseQP, start: RealArray, limit: int) -> Pivoted:
             return Pivoted(x, count + 1, optimal=True)
         free[entering], capped[entering] = True, False
     return Pivoted(x, limit, optimal=False)
-
-
-def _way_to(qp: DenseQP, x: RealArray, trial: OnSet) -> tuple[float, int | None]:
-    """Largest fraction of the way from ``x`` to the free part of ``trial`` within bounds, and the point that stops it."""
-    target = trial.x
-    out_low, out_high = trial.free & (target < 0.0), trial.free & (target > qp.cap)
-    fraction = np.full(x.shape, np.inf)
-    fraction[out_low] = x[out_low] / (x - target)[out_low]
-    fraction[out_high] = (qp.cap - x)[out_high] / (target - x)[out_high]
-    index = int(np.argmin(fraction))
-    return (float(fraction[index]), index) if fraction[index] <= 1.0 else (1.0, None)
 
 
 def _entering(qp: DenseQP, x: RealArray, trial: OnSet, *, worst_first: bool) -> list[int]:
@@ -414,7 +405,11 @@ def solve_lcp(matrix: RealArray, vector: RealArray, limit: int) -> tuple[BoolArr
         return np.zeros(m, dtype=bool), 0
     entering, row = artificial, _lexicographic_least(np.column_stack([vector, np.eye(m)]), np.arange(m))
     for count in range(limit):
-        _pivot(tableau, row, entering)
+        tableau[row] /= tableau[row, entering]
+        factors = tableau[:, entering].copy()
+        factors[row] = 0.0
+        others = np.flatnonzero(factors)
+        tableau[others] -= factors[others, None] * tableau[row]
         leaving, basis[row] = int(basis[row]), entering
         if leaving == artificial:
             return np.isin(np.arange(m, 2 * m), basis), count + 1
@@ -427,14 +422,6 @@ def solve_lcp(matrix: RealArray, vector: RealArray, limit: int) -> tuple[BoolArr
             )
         row = found
     return None, limit
-
-
-def _pivot(tableau: RealArray, row: int, column: int) -> None:
-    tableau[row] /= tableau[row, column]
-    factors = tableau[:, column].copy()
-    factors[row] = 0.0
-    others = np.flatnonzero(factors)
-    tableau[others] -= factors[others, None] * tableau[row]
 
 
 def _leaving_row(tableau: RealArray, basis: IntArray, entering: int, artificial: int) -> int | None:

@@ -68,7 +68,11 @@ def _solve(qp: DenseQP, start: RealArray, limit: int, shape: tuple[int, ...]) ->
     """
     start, near = _from_coarser(qp, start, limit, shape)
     low, high = -np.inf, np.inf
-    level = _first_level(qp, start)
+    if qp.total is None:
+        level = qp.shift * float(start.sum())
+    else:
+        r = qp.matrix @ start - qp.heights
+        level = float((start * r).sum() / start.sum()) + qp.shift * qp.total
     for count in range(limit):
         trial = _bounded(qp, qp.heights + level, near)
         near = near | (trial.x > 0.0)
@@ -130,13 +134,6 @@ def _beyond_next_kink(qp: DenseQP, trial: OnSet, *, rising: bool) -> float:
     free[nearest], capped[nearest] = True, False
     following = solve_on(qp, free, capped)
     return following.level + qp.shift * float(following.x.sum())
-
-
-def _first_level(qp: DenseQP, start: RealArray) -> float:
-    if qp.total is None:
-        return qp.shift * float(start.sum())
-    r = qp.matrix @ start - qp.heights
-    return float((start * r).sum() / start.sum()) + qp.shift * qp.total
 
 
 def _bounded(qp: DenseQP, heights: RealArray, near: BoolArray) -> OnSet:

@@ -107,7 +107,12 @@ class QuasiNewton:
         nearer = False
         if isinstance(qp.constraint, FixedMean):
             load_error = float(p.sum()) - qp.constraint.mean_pressure * p.size
-            kink = _next_kink(qp, p, memory, rising=load_error < 0.0)
+            # level (m) up (or down) to which the load stays as it is when every pressure is at a bound
+            kink, rising, capped = math.inf, load_error < 0.0, (p > 0.0) & (p >= qp.cap)
+            candidates = (p <= 0.0) if rising else capped
+            if not ((p > 0.0) & ~capped).any() and candidates.any():
+                r = qp.operator.apply(p) - qp.profile + memory.load_stiffness * float(p.sum())
+                kink = float(r[candidates].min() if rising else r[candidates].max())
             applications += int(math.isfinite(kink))
             p = scaled_to_load(p, qp.cap, qp.constraint.mean_pressure)
             nearer = abs(load_error) < memory.nearest
@@ -140,6 +145,10 @@ class QuasiNewton:
             response = factor * (qp.operator.apply(x.reshape(shape)).ravel() + memory.load_stiffness * x.sum())
             return float(x @ gap + 0.5 * (x @ response)), gap + response
 
+        # mean over largest pressure: where a cap is far away, even small overlaps weigh in the duality gap
+        leverage = 1.0
+        if isinstance(qp.constraint, FixedMean) and not qp.elastic:
+            leverage = min(1.0, qp.constraint.mean_pressure / float(np.mean(qp.cap)))
         upper = np.broadcast_to((np.asarray(qp.cap) - reference) / memory.unit, shape).ravel()
         lower = -reference.ravel() / memory.unit
         fit = minimize(
@@ -153,30 +162,13 @@ class QuasiNewton:
                 "maxfun": 10 * self.max_iterations,
                 "maxcor": _PAIRS,
                 "ftol": 0.0,
-                "gtol": 0.1 * self.tolerance * _cap_leverage(qp),
+                "gtol": 0.1 * self.tolerance * leverage,
             },
         )
         moved = reference + memory.unit * fit.x.reshape(shape)
         moved = np.where(fit.x.reshape(shape) >= upper.reshape(shape), qp.cap, np.clip(moved, 0.0, qp.cap))
         moved = np.where(fit.x.reshape(shape) <= lower.reshape(shape), 0.0, moved)
         return _Minimum(moved, int(fit.nit), int(fit.nfev))
-
-
-def _cap_leverage(qp: ContactQP) -> float:
-    """Mean over largest pressure, at most 1: where a cap is far away, even small overlaps weigh in the duality gap."""
-    if qp.elastic or not isinstance(qp.constraint, FixedMean):
-        return 1.0
-    return min(1.0, qp.constraint.mean_pressure / float(np.mean(qp.cap)))
-
-
-def _next_kink(qp: ContactQP, pressure: RealArray, memory: _Memory, *, rising: bool) -> float:
-    """Level (m) up (or down) to which the load stays as it is when every pressure is at a bound; else infinite."""
-    capped = (pressure > 0.0) & (pressure >= qp.cap)
-    candidates = (pressure <= 0.0) if rising else capped
-    if ((pressure > 0.0) & ~capped).any() or not candidates.any():
-        return math.inf
-    r = qp.operator.apply(pressure) - qp.profile + memory.load_stiffness * float(pressure.sum())
-    return float(r[candidates].min() if rising else r[candidates].max())
 
 
 def _next_level(memory: _Memory, load_error: float, kink: float) -> _Memory:

@@ -26,13 +26,6 @@ _HALVINGS = 40
 """Halvings of a step at most, to 1e-12 of it: any decrease is then hidden by rounding."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Memory:
-    """Step of last resort in Pa/m: the one that levels a single pixel."""
-
-    pixel_step: float
-
-
 @dataclass(frozen=True)
 class SteepestDescent:
     """Steepest descent of the complementary energy: clip the pressure to its bounds, shift it to carry the load.
@@ -61,13 +54,13 @@ class SteepestDescent:
         """State at ``start``."""
         begin = feasible_start(qp, start)
         deflection = qp.operator.apply(begin)
-        memory = _Memory(levelling_step(qp))
-        return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=2, memory=memory)
+        error = relative_error(qp, begin, deflection)
+        return SolverState(begin, deflection, error, applications=2, memory=levelling_step(qp))
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """One step along the projected gradient."""
-        assert isinstance(state.memory, _Memory)
-        return descend(qp, state, state.memory.pixel_step)
+        assert isinstance(state.memory, float)
+        return descend(qp, state, state.memory)
 
 
 def descend(qp: ContactQP, state: SolverState, pixel_step: float) -> SolverState:
@@ -75,15 +68,31 @@ def descend(qp: ContactQP, state: SolverState, pixel_step: float) -> SolverState
 
     ``pixel_step`` (Pa/m) is the step of last resort, see ``levelling_step``.
     """
-    p = state.pressure
+    p, constraint = state.pressure, qp.constraint
     gradient = state.deflection - qp.profile
-    downhill = _free_gradient(qp, p, gradient)
+    if isinstance(constraint, FixedOffset):
+        relative = gradient + constraint.offset
+    else:
+        working = (p > 0.0) & (p < qp.cap)
+        relative = gradient - (gradient[working].mean() if working.any() else gradient.mean())
+    # the points that can follow the gradient of the energy (m), freed of its mean there under load
+    movable = ((p > 0.0) | (relative < 0.0)) & ((p < qp.cap) | (relative > 0.0))
+    if isinstance(constraint, FixedMean) and movable.any():
+        relative = relative - relative[movable].mean()
+    downhill = np.where(movable, relative, 0.0)
     # at fixed load a constant is irrelevant to the energy, but rounding grows with it
-    gradient += qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else -gradient.mean()
-    length = _exact_length(qp, downhill) or pixel_step
+    gradient += constraint.offset if isinstance(constraint, FixedOffset) else -gradient.mean()
+    curvature = float((downhill * qp.operator.apply(downhill)).sum())
+    length = float((downhill**2).sum()) / curvature if curvature > 0.0 else 0.0  # to the least energy along it
+    length = length or pixel_step
     applications = state.applications + 1
     for _ in range(_HALVINGS):
-        trial = _projected(qp, p - length * gradient)
+        trial: RealArray = p - length * gradient  # then made feasible, with the least sum of squares
+        if isinstance(constraint, FixedOffset):
+            trial = np.clip(trial, 0.0, qp.cap)
+        else:
+            mean = constraint.mean_pressure
+            trial = scaled_to_load(shifted_to_load(trial, qp.cap, mean), qp.cap, mean)
         deflection = qp.operator.apply(trial)
         applications += 1
         change = trial - p
@@ -113,33 +122,6 @@ def levelling_step(qp: ContactQP) -> float:
     impulse[0, 0] = 1.0
     compliance = float(qp.operator.apply(impulse)[0, 0])
     return 1.0 / compliance if compliance > 0.0 else 0.0
-
-
-def _free_gradient(qp: ContactQP, pressure: RealArray, gradient: RealArray) -> RealArray:
-    """Energy gradient (m) on the points that can follow it, freed of its mean there under load; zero elsewhere."""
-    if isinstance(qp.constraint, FixedOffset):
-        relative = gradient + qp.constraint.offset
-    else:
-        working = (pressure > 0.0) & (pressure < qp.cap)
-        relative = gradient - (gradient[working].mean() if working.any() else gradient.mean())
-    movable = ((pressure > 0.0) | (relative < 0.0)) & ((pressure < qp.cap) | (relative > 0.0))
-    if isinstance(qp.constraint, FixedMean) and movable.any():
-        relative = relative - relative[movable].mean()
-    return np.where(movable, relative, 0.0)
-
-
-def _exact_length(qp: ContactQP, downhill: RealArray) -> float:
-    """Step in Pa/m to the least energy along ``downhill``; 0 where the energy has no curvature along it."""
-    curvature = float((downhill * qp.operator.apply(downhill)).sum())
-    return float((downhill**2).sum()) / curvature if curvature > 0.0 else 0.0
-
-
-def _projected(qp: ContactQP, values: RealArray) -> RealArray:
-    """Feasible pressure (Pa) nearest to ``values`` in the sum of squares."""
-    if isinstance(qp.constraint, FixedOffset):
-        return np.clip(values, 0.0, qp.cap)
-    mean = qp.constraint.mean_pressure
-    return scaled_to_load(shifted_to_load(values, qp.cap, mean), qp.cap, mean)
 
 
 def shifted_to_load(values: RealArray, cap: float | RealArray, mean: float) -> RealArray:

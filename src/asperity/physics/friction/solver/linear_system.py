@@ -16,12 +16,12 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ....contact.solvers.active_set.nested_cells import PIXEL_SHARE, hierarchies
 from ....contact.solvers.active_set.spline_model import pixel_compliance
 from ....core.arrays import BoolArray, RealArray
 from ....core.engine import FreeSet
 from ....core.engine.vectors import VectorCells
 from ..operator import TangentialOperator
+from .nested_cells import PIXEL_SHARE, hierarchies
 from .problem import Points, Sets, free_part
 
 

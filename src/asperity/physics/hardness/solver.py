@@ -22,15 +22,15 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ....core.arrays import BoolArray, RealArray
-from ....core.engine import CpuEngine
-from ....core.status import NoProgress, Progress
-from ...operators.convolution import restricted
-from ..protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedMean, feasible_start
-from .bounds import free_set, plane_level
-from .first_guess import COARSEST, coarse_tolerance, coarsened
-from .linear_system import Workspace
-from .solver import ActiveSet, relative_error
+from ...contact.operators.convolution import restricted
+from ...contact.solvers.active_set.bounds import free_set, plane_level
+from ...contact.solvers.active_set.first_guess import COARSEST, coarse_tolerance, coarsened
+from ...contact.solvers.active_set.linear_system import Workspace
+from ...contact.solvers.active_set.solver import ActiveSet, relative_error
+from ...contact.solvers.protocol import LOAD_ROUNDING, LOAD_SWEEPS, ContactQP, FixedMean, feasible_start
+from ...core.arrays import BoolArray, RealArray
+from ...core.engine import CpuEngine
+from ...core.status import NoProgress, Progress
 
 _REDUCTION = 0.05
 """Reduction of the residual of the model in a solution. FFT pairs, mean of 27 contacts of 256² points with three films, for 0.1, 0.2: 1 %, 6 % more."""
@@ -148,15 +148,6 @@ class _Points(NamedTuple):
     points: Any
 
 
-class _Equations(NamedTuple):
-    """Diagonal -``stiff`` added to K; conductance of the points in nested splines; weights of squares; residual. All (n,), scaled."""
-
-    stiff: RealArray
-    conductance: Any
-    weights: RealArray
-    residual: RealArray
-
-
 class _Iteration:
     """Steps on one grid. ``unit`` is the deflection of a yielding point under its own load, over the scale of the operator."""
 
@@ -179,7 +170,8 @@ class _Iteration:
             survey = self.work.survey()
             level, error = plane_level(self.work.qp, survey.totals), relative_error(self.work, survey.totals)
             set_ = self._points(survey, level)
-            off = self._disagreement(set_)
+            limits = set_.limits[set_.yields]
+            off = float(np.max(np.abs(set_.pressure[set_.yields] - limits) / limits, initial=0.0))
             if not (np.isfinite(error) and np.isfinite(off)):
                 break
             if progress:
@@ -191,7 +183,14 @@ class _Iteration:
                 return Followed(pairs + self.pairs, count, self.work.pressure, cap.reshape(self.work.pressure.shape))
             if count == most or not set_.index.size or set_.yields.all():
                 break
-            self._add(set_, self._step(set_, level))
+            new, work, scaled, index = self._step(set_, level), self.work, self.work.scaled, set_.index
+            self.pressure[index] = new
+            self.cap[index] = np.where(set_.yields, self.pressure[index], self.highest[index])
+            set_.points.scatter(((new - set_.pressure) / work.unit).astype(scaled.dtype), scaled.field)
+            scaled.product.apply(scaled.field, scaled.response)
+            self.engine.clear_field(set_.points, scaled.field)
+            self.pairs += scaled.operator.pairs_per_application
+            self.engine.add(scaled.response, work.qp.height_scale, work.deflection)
         return Followed(pairs + self.pairs, count)
 
     def _points(self, survey: Any, level: float) -> _Points:
@@ -213,43 +212,37 @@ class _Iteration:
         points = self.engine.points(self.work.qp.profile.shape, index, self.work.scaled.dtype)
         return _Points(index, pressure, r, yields, limits, points)
 
-    def _disagreement(self, set_: _Points) -> float:
-        """Largest relative difference of pressure and limit where points yield."""
-        if not set_.yields.any():
-            return 0.0
-        limits = set_.limits[set_.yields]
-        return float(np.max(np.abs(set_.pressure[set_.yields] - limits) / limits))
+    def _correction(self, set_: _Points, level: float) -> RealArray:
+        """Solution d (n,) of the joint system with the model of K by preconditioned conjugate residuals, in units of ``Workspace.unit``.
 
-    def _equations(self, set_: _Points, level: float) -> _Equations:
-        """The joint system, over the scale of the operator, its residual over the rms height."""
-        work = self.work
+        The system is over the scale of the operator, its residual over the rms height; ``stiff`` is what the diagonal of K is less, ``w`` the weights of squares.
+        """
+        work, load_prescribed = self.work, self.work.load is not None
         scaled, scale = work.scaled, work.qp.height_scale
-        index, at, r = set_.index, set_.yields, set_.r
-        residual, stiff, unit = (level - r) / scale, np.zeros(index.size), self.unit
-        depth = np.maximum(level - r[at], 0.0)
+        index, at = set_.index, set_.yields
+        residual, stiff, unit = (level - set_.r) / scale, np.zeros(index.size), self.unit
+        depth = np.maximum(level - set_.r[at], 0.0)
         step = np.maximum(_DIFFERENCE[0] * depth, _DIFFERENCE[1] * scale)
         slope = (set_.limits[at] - self.limit.at(index[at], depth + step)) / step
         slope = np.maximum(slope * scaled.scale, _FLATTEST / unit)  # over the stiffness 1/scale
         residual[at] = (set_.pressure[at] - set_.limits[at]) / slope / work.unit
         stiff[at] = 1.0 / slope
         softer = stiff / unit
-        return _Equations(stiff, (1.0 / (1.0 - softer)).astype(scaled.dtype), 1.0 / (1.0 + softer) ** 2, residual)
-
-    def _correction(self, set_: _Points, system: _Equations) -> RealArray:
-        """Solution d (n,) of the system with the model of K by preconditioned conjugate residuals, in units of ``Workspace.unit``."""
-        w, load_prescribed = system.weights, self.work.load_prescribed
+        conductance, w = (1.0 / (1.0 - softer)).astype(scaled.dtype), 1.0 / (1.0 + softer) ** 2
         heavy = w / w.sum()
-        self.splines.factorise(set_.points, system.conductance)
+        self.splines.factorise(set_.points, conductance)
 
         def centred(values: RealArray) -> RealArray:
             return values - float(heavy @ values) if load_prescribed else values
 
-        r = centred(system.residual)
+        r = centred(residual)
         d, before = np.zeros(r.size), list[tuple[RealArray, RealArray, float]]()
         target = _REDUCTION**2 * float(w @ (r * r))
         for _ in range(_MOST_PRODUCTS):
-            z = self._preconditioned(set_, system, r)
-            az = centred(self._by_model(set_, z) - system.stiff * z)
+            z = self.splines.solve_with(set_.points, r.astype(scaled.dtype), conductance).astype(float)
+            if load_prescribed:  # at a sum of zero
+                z[~at] -= z.sum() / np.count_nonzero(~at)
+            az = centred(self._by_model(set_, z) - stiff * z)
             for other, product, square in before:
                 share = float((w * az) @ product) / square
                 z -= share * other
@@ -264,14 +257,6 @@ class _Iteration:
                 break
             before.append((z, az, square))
         return d
-
-    def _preconditioned(self, set_: _Points, system: _Equations, r: RealArray) -> RealArray:
-        """Inverse of nested splines times ``r`` (n,), summing to zero where the load is prescribed."""
-        free, single = ~set_.yields, r.astype(system.conductance.dtype)
-        z = self.splines.solve_with(set_.points, single, system.conductance).astype(float)
-        if self.work.load_prescribed:
-            z[free] -= z.sum() / np.count_nonzero(free)
-        return z
 
     def _by_model(self, set_: _Points, values: RealArray) -> RealArray:
         """K times ``values`` (n,) on the set, over its scale, by the model of nested splines."""
@@ -289,16 +274,15 @@ class _Iteration:
         if isinstance(constraint, FixedMean):
             elsewhere = float(self.pressure.sum(dtype=float) - set_.pressure.sum())
             load = constraint.mean_pressure * self.pressure.size - elsewhere
-        new = self._within(set_, self._correction(set_, self._equations(set_, level)), load)
+        new = self._within(set_, self._correction(set_, level), load)
         free = ~set_.yields & (new > 0.0) & (new < self.highest[set_.index])
         if not free.any():
             return new
         left, change = free | set_.yields, (new - set_.pressure) / work.unit
         r = set_.r + work.qp.height_scale * self._by_model(set_, change)
-        level = float(r[free].mean()) if work.load_prescribed else level
+        level = float(r[free].mean()) if work.load is not None else level
         rest = self._set(set_.index[left], new[left], r[left], set_.yields[left], level)
-        correction = self._correction(rest, self._equations(rest, level))
-        new[left] = self._within(rest, correction, load - float(new[~left].sum()))
+        new[left] = self._within(rest, self._correction(rest, level), load - float(new[~left].sum()))
         return new
 
     def _within(self, set_: _Points, d: RealArray, load: float) -> RealArray:
@@ -306,36 +290,20 @@ class _Iteration:
         free, highest = ~set_.yields, self.highest[set_.index]
         new = set_.pressure + self.work.unit * d
         inside = np.clip(new, np.where(free, 0.0, self.lowest[set_.index]), highest)
-        if self.work.load_prescribed:
-            _restore(inside, free, highest, load)
+        if self.work.load is not None:
+            for _ in range(LOAD_SWEEPS):  # all of them where scaling the free ones does not suffice
+                missing = load - float(inside.sum())
+                if abs(missing) <= LOAD_ROUNDING * load:
+                    break
+                below = free & (inside > 0.0) & (inside < highest)
+                movable = float(inside[below].sum())
+                if movable > 0.0 and movable + missing > 0.0:
+                    inside[below] = np.minimum(inside[below] * ((movable + missing) / movable), highest[below])
+                elif missing < 0.0:
+                    inside *= load / (load - missing)
+                else:
+                    below = free & (inside < highest)
+                    if not below.any():
+                        break
+                    inside[below] = np.minimum(inside[below] + missing / np.count_nonzero(below), highest[below])
         return inside
-
-    def _add(self, set_: _Points, new: RealArray) -> None:
-        """Set the pressures of the set to ``new`` (n,) in Pa, and add the deflection by the change."""
-        work, scaled, index = self.work, self.work.scaled, set_.index
-        self.pressure[index] = new
-        self.cap[index] = np.where(set_.yields, self.pressure[index], self.highest[index])
-        set_.points.scatter(((new - set_.pressure) / work.unit).astype(scaled.dtype), scaled.field)
-        scaled.product.apply(scaled.field, scaled.response)
-        self.engine.clear_field(set_.points, scaled.field)
-        self.pairs += scaled.operator.pairs_per_application
-        self.engine.add(scaled.response, work.qp.height_scale, work.deflection)
-
-
-def _restore(pressure: RealArray, free: BoolArray, highest: RealArray, target: float) -> None:
-    """Scale the ``free`` pressures below their limit (in place) so that all sum to ``target``; all of them where that does not suffice."""
-    for _ in range(LOAD_SWEEPS):
-        missing = target - float(pressure.sum())
-        if abs(missing) <= LOAD_ROUNDING * target:
-            return
-        below = free & (pressure > 0.0) & (pressure < highest)
-        movable = float(pressure[below].sum())
-        if movable > 0.0 and movable + missing > 0.0:
-            pressure[below] = np.minimum(pressure[below] * ((movable + missing) / movable), highest[below])
-        elif missing < 0.0:
-            pressure *= target / (target - missing)
-        else:
-            below = free & (pressure < highest)
-            if not below.any():
-                return
-            pressure[below] = np.minimum(pressure[below] + missing / np.count_nonzero(below), highest[below])

@@ -15,16 +15,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from ....contact.solvers.active_set.spline_model import Spectral, octaves
 from ....core.engine.vectors import Hierarchy, Merge
 from ....core.grid import Grid
-from .spline_model import Spectral, octaves
 
 PIXEL_SHARE = 0.6
 """Share of c(pi / a) that a pixel of side a is given of its own in the model.
 
 Points on both sides of a border between cells are coupled less in the model than in truth, so that it deflects too much by what differs between them; a
 smaller compliance of each point of its own compensates. At 512² the residual falls by 0.20 instead of 0.28 a step, on films of E 10, h 4 and 20 pixels by 0.39
-and 0.34 instead of 0.43 and 0.40. Pairs (cases: see ``solver``) for 0.4, 0.5, 0.7, 0.8, 1: elastic 15.1, 14.7, 14.9, 14.7, 16.7; free 44.5, 44.5, 43.8, 46.4,
+and 0.34 instead of 0.43 and 0.40. Pairs (cases: see ``contact.solvers.active_set.solver``) for 0.4, 0.5, 0.7, 0.8, 1: elastic 15.1, 14.7, 14.9, 14.7, 16.7; free 44.5, 44.5, 43.8, 46.4,
 44.2; cap 17.9, 16.5, 16.1, 15.7, 15.9; tight 25.2, 23.4, 25.2, 24.7, 25.7.
 """
 
