@@ -15,7 +15,7 @@ from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
 from ...core.units import show
 from ...core.values import Choice, Count, Fraction, Length, NonNegative, Number, Positive, Size, Whole
-from ...parts.part import Found, Part, Rows, Solved, Words
+from ...parts.part import Found, Part, Solved, Words
 
 if TYPE_CHECKING:
     from ...contact.problem import ContactProblem
@@ -237,15 +237,22 @@ class Dynamics(Part):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """What the motion comes to."""
-        return dynamics_words(found.values)
+        from ...io.words import value_text
+
+        values = found.values
+        headline = [("natural frequency", show(values["normal_frequency"], "Hz", 3))]
+        if "apparent_friction" in values:
+            friction = f"{values['apparent_friction']:.3g} / {values['peak_friction']:.3g}"
+            headline.append(("mean / largest friction", friction))
+        rows = [
+            (item.label, value_text(item, values[item.name]))
+            for item in self.quantities
+            if not item.dims and item.name in values and not math.isnan(values[item.name])
+        ]
+        return Words(_sentence(values), headline, rows, remarks=(REMARK,))
 
 
 # In figures and words, from stored values alone.
-
-
-def dynamics_words(values: Mapping[str, Any]) -> Words:
-    """Sentence, headline and rows, from the ``values`` of the quantities."""
-    return Words(_sentence(values), _headline(values), _rows(values), remarks=(REMARK,))
 
 
 REMARK = (
@@ -267,20 +274,3 @@ def _sentence(values: Mapping[str, Any]) -> str:
     period = values.get("stick_slip_period", math.nan)
     slips = "" if math.isnan(period) else f"; stick-slip with a period of {show(period, 's', 3)}"
     return f"{steady}{slips}; the apparent friction is {mean:.3g}, at most {largest:.3g}."
-
-
-def _headline(values: Mapping[str, Any]) -> Rows:
-    rows = [("natural frequency", show(values["normal_frequency"], "Hz", 3))]
-    if "apparent_friction" in values:
-        rows.append(("mean / largest friction", f"{values['apparent_friction']:.3g} / {values['peak_friction']:.3g}"))
-    return rows
-
-
-def _rows(values: Mapping[str, Any]) -> Rows:
-    from ...io.words import value_text
-
-    return [
-        (item.label, value_text(item, values[item.name]))
-        for item in Dynamics().quantities
-        if not item.dims and item.name in values and not math.isnan(values[item.name])
-    ]
