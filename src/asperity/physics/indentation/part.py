@@ -157,7 +157,20 @@ class Indentation(Part):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Hardness by both ways, what stays, zones by layer, tensions."""
-        return indentation_words(found)
+        values, facts = found.values, found.detail.facts
+        paraboloid = f"paraboloid of radius {show(float(values['indent_radius']), 'm', 3)}"
+        rows: Rows = [
+            ("indenter", "cone" if facts["cone"] else paraboloid),
+            ("material of the indenter", str(facts.get("of_indenter", "rigid"))),
+            ("friction coefficient of the indentation", f"{float(facts.get('friction', 0.0)):g}"),
+            *number_rows(SCALARS, values),
+        ]
+        tables = (
+            ("Plastic zones", zones_table(facts)),
+            ("Tension and shear that may crack layers", tension_table(values, "indent")),
+        )
+        hard = show(float(values["indent_hardness"]), "Pa", 3)
+        return Words(_sentence(values), [("hardness by indentation", hard)], rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers, the fitted unloading and the table of zones."""
@@ -207,10 +220,10 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
     Raises
     ------
     InputError
-        If the surface has no summits, or the strains are not small.
+        If the surface has no summits, or the strains are not small: the contact radius is beyond 0.4 of that of a ball.
     """
     from ..plastic_flow.part_values import summit_radius
-    from .work import Indenter, require_depth
+    from .work import Indenter
 
     if ask.indenter == "cone":
         return Indenter(half_angle=float(ask.half_angle or BERKOVICH_ANGLE))
@@ -218,7 +231,13 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
         found = Indenter(float(ask.radius))
     else:
         found = Indenter(summit_radius(problem, "Give indentation.radius (--indenter-radius 10um)."))
-    require_depth(float(ask.depth or 0.0), found)
+    depth = float(ask.depth or 0.0)
+    if found.reach(depth) > 0.4 * found.radius:
+        raise InputError(
+            f"depth of indentation (m) must be at most {0.08 * found.radius:.3g}, 0.08 of the radius of the indenter, but is {depth:.3g}. "
+            "Beyond that strains are not small.",
+            subject="depth of indentation (m)",
+        )
     return found
 
 
@@ -229,26 +248,6 @@ REMARK = (
     "read from the unloading; the other divides the force by the true area. Tensions are means over an element at the place of the maximum."
 )
 """What the model is."""
-
-
-def indentation_words(found: Found) -> Words:
-    """Sentence, headline, rows and tables."""
-    values, facts = found.values, found.detail.facts
-    rows: Rows = [
-        (
-            "indenter",
-            "cone" if facts["cone"] else f"paraboloid of radius {show(float(values['indent_radius']), 'm', 3)}",
-        ),
-        ("material of the indenter", str(facts.get("of_indenter", "rigid"))),
-        ("friction coefficient of the indentation", f"{float(facts.get('friction', 0.0)):g}"),
-        *number_rows(SCALARS, values),
-    ]
-    tables = (
-        ("Plastic zones", zones_table(facts)),
-        ("Tension and shear that may crack layers", tension_table(values, "indent")),
-    )
-    hard = show(float(values["indent_hardness"]), "Pa", 3)
-    return Words(_sentence(values), [("hardness by indentation", hard)], rows, tables, (REMARK,))
 
 
 def _sentence(values: Mapping[str, Any]) -> str:

@@ -20,7 +20,6 @@ from ..plastic_flow.part_quantities import Detail, number_rows, quantities_of, t
 if TYPE_CHECKING:
     from ...contact.problem import ContactProblem
     from ...plots.picture import Figure
-    from .work_passes import Course
 
 Shape = Annotated[str, Choice({name: name for name in ("cylinder", "sphere")})]
 Motion = Annotated[str, Choice({name: name for name in ("one way", "to and fro", "in place")})]
@@ -195,17 +194,18 @@ class Passes(Part):
     def check(self, ask: Passing, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
         from ..plastic_flow.part_values import require_flow
-        from .work_passes import require_course
+        from .work_passes import course_of, require_course
 
         body = _body(ask, problem)
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
-        require_course(_course(ask, problem), body)
+        require_course(course_of(ask.settings, body, problem, ask.coefficient), body)
 
     def compute(self, ask: Passing, solved: Solved) -> Found:
         """All passes, and what they leave."""
-        from .work_passes import found_of, passed
+        from .work_passes import course_of, found_of, passed
 
-        body, course = _body(ask, solved.problem), _course(ask, solved.problem)
+        body = _body(ask, solved.problem)
+        course = course_of(ask.settings, body, solved.problem, ask.coefficient)
         with solved.stage("passes") as progress:
             run = passed(body, course, unknown_is_elastic=ask.settings.unknown_is_elastic, progress=progress)
         return found_of(run, body, course)
@@ -219,16 +219,36 @@ class Passes(Part):
         from ...plots.picture import figures_by
         from ..plastic_flow.figures import plots_of
         from ..plastic_flow.part_values import picture_of
-        from .figures import pass_plots
-        from .work_passes import pass_picture
+        from .figures import pass_figures
 
         shown = picture_of(PREFIX, found.values, found.detail.facts)
-        passes = pass_picture(found)
-        return (*figures_by(plots_of(shown, "passes"), shown), *figures_by(pass_plots(passes), passes))
+        return (*figures_by(plots_of(shown, "passes"), shown), *pass_figures(found.values))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Whether flow ceases, zones by layer, tensions, and what each pass adds."""
-        return passes_words(found)
+        import numpy as np
+
+        values, facts = found.values, found.detail.facts
+        columns = [np.atleast_1d(values[item.name]) for item in EACH]
+        count = columns[0].size
+        passes = []
+        for number in (n for n in range(count) if n < 10 or n >= count - 10):
+            growth, onward, work, forward, groove = (float(column[number]) for column in columns)
+            shares = (percent(growth), percent(onward), percent(work))
+            passes.append((str(number + 1), *shares, show(forward, "m", 3), show(groove, "m", 3)))
+        strains = ("Growth of the strain", "Change of the strain", "Plastic work / that of the first")
+        tables = (
+            ("What each pass adds", Table(("Pass", *strains, "Forward", "Groove"), tuple(passes))),
+            ("Plastic zones of the passes", zones_table(facts)),
+            ("Tension and shear that may crack layers in a pass", tension_table(values, "pass")),
+        )
+        rows: Rows = [
+            ("indenter", str(facts["indenter"])),
+            ("motion", str(facts["motion"])),
+            ("pressure", str(facts["pressure"])),
+            *number_rows(SCALARS, values),
+        ]
+        return Words(_sentence(values, facts), [("repeated passes", verdict(values))], rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers, the motion and the table of zones."""
@@ -249,18 +269,6 @@ def _body(ask: Passing, problem: ContactProblem) -> Any:
     return meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
 
 
-def _course(ask: Passing, problem: ContactProblem) -> Course:
-    """What passes, with the radius of the summits where none is given; InputError if there are none."""
-    from ..plastic_flow.part_values import summit_radius
-    from .work_passes import course_of
-
-    table = ask.settings
-    radius = table.radius
-    if radius is None:
-        radius = summit_radius(problem, "Give passes.radius (--pass-radius 10um).")
-    return course_of(table, _body(ask, problem), float(radius), ask.coefficient)
-
-
 # In words and tables.
 
 REMARK = (
@@ -268,23 +276,6 @@ REMARK = (
     "those in the middle of the track. Flow that goes on in closed cycles wears by fatigue, strain that adds up from pass to pass by ratchetting."
 )
 """What the model is."""
-
-
-def passes_words(found: Found) -> Words:
-    """Sentence, headline, rows and tables."""
-    values, facts = found.values, found.detail.facts
-    rows: Rows = [
-        ("indenter", str(facts["indenter"])),
-        ("motion", str(facts["motion"])),
-        ("pressure", str(facts["pressure"])),
-        *number_rows(SCALARS, values),
-    ]
-    tables = (
-        ("What each pass adds", _pass_table(values)),
-        ("Plastic zones of the passes", zones_table(facts)),
-        ("Tension and shear that may crack layers in a pass", tension_table(values, "pass")),
-    )
-    return Words(_sentence(values, facts), [("repeated passes", verdict(values))], rows, tables, (REMARK,))
 
 
 def verdict(values: Mapping[str, Any]) -> str:
@@ -322,26 +313,3 @@ def _sentence(values: Mapping[str, Any], facts: Mapping[str, Any]) -> str:
     if found == "one pass":
         return f"{start} {reached}."
     return f"{start} {reached}; the last pass adds {percent(last)} in the middle of the track, {percent(float(values['pass_growth_ratio']))} of the first: {found}."
-
-
-def _pass_table(values: Mapping[str, Any]) -> Table:
-    """One row for each pass, at most the first and the last ten."""
-    import numpy as np
-
-    columns = [np.atleast_1d(values[item.name]) for item in EACH]
-    count = columns[0].size
-    rows = [number for number in range(count) if number < 10 or number >= count - 10]
-    cells = []
-    for number in rows:
-        growth, onward, work, forward, groove = (float(column[number]) for column in columns)
-        texts = (percent(growth), percent(onward), percent(work), show(forward, "m", 3), show(groove, "m", 3))
-        cells.append((str(number + 1), *texts))
-    heads = (
-        "Pass",
-        "Growth of the strain",
-        "Change of the strain",
-        "Plastic work / that of the first",
-        "Forward",
-        "Groove",
-    )
-    return Table(heads, tuple(cells))
