@@ -11,7 +11,7 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..solids.layers import Bonded, Layered, RigidBase
 from .elements import GAUSS, Elements, mean_dilatation
-from .mesh import IntArray, Mesh, Resolution, depths_of, graded_line
+from .mesh import IntArray, Mesh, Resolution, graded_line
 
 BRICK = np.array([[i, j, k] for i in (-1.0, 1.0) for j in (-1.0, 1.0) for k in (-1.0, 1.0)])
 """Corners of a brick, z running fastest."""
@@ -65,7 +65,7 @@ def track_lines(
     right = graded_line(np.array([middle, last + far]), along)
     left = graded_line(np.array([-middle, far - first]), lambda x: along(-x))
     x = np.concatenate([-left[:0:-1], right])
-    steps = depths_of(reduced)
+    steps = np.cumsum([layer.thickness for layer in reduced.layers])
     bounds = np.concatenate(
         [[0.0], steps, [] if isinstance(reduced.base, RigidBase) else [max(far, 4.0 * steps.max(initial=0.0))]]
     )

@@ -261,29 +261,53 @@ class _Newton:
 
     def solve(self) -> Equilibrium:
         """Iterate until forces balance and no point changes its set."""
+        surface = self.surface
         residuals: list[float] = []
         for count in range(MOST_ITERATIONS):
             response, forces, stiffness = self.body.respond(self.u, self.start.state)
             changed = self._sort(forces) if count else False
-            error, scale = self._unbalanced(forces)
+            rows = self._slip_rows()
+            left = forces if rows is None else rows @ forces
+            push = forces[surface.normal]
+            pushed = push[self.touching]
+            error = float(np.abs(left[~self._prescribed()]).max())
+            scale = max(float(np.abs(pushed).sum()), self.start.largest)
+            if self.target.approach is None:
+                error = max(error, abs(float(pushed.sum()) - self.target.force))
+                scale = max(scale, self.target.force)
+            scale = max(scale, error * 1e-300)
             residuals.append(error / scale if scale > 0.0 else 0.0)
-            met = self._met()
+            # Touching points must lie on the indenter, and sticking ones move with it.
+            near = 1e-9 * max(float(np.abs(self.u).max()), 1e-300)
+            away = np.abs(self.u[surface.normal] - (self.approach - self.target.heights))[self.touching]
+            loose = self._slid()[self.touching & ~self.slipping] if surface.friction else np.zeros(0)
+            met = bool((away <= near).all() and (np.abs(loose) <= near).all())
             if not math.isfinite(residuals[-1]) or residuals[-1] > 1e12:
                 raise ConvergenceError("Newton's method diverges.")
             if residuals[-1] <= TOLERANCE and not changed and met:
-                return self._found(response, forces, tuple(residuals))
+                return Equilibrium(
+                    self.u,
+                    response.state,
+                    self.touching,
+                    self.slipping & self.touching,
+                    self.approach,
+                    self.shift,
+                    np.where(self.touching, push, 0.0),
+                    np.where(self.touching[:, None], forces[surface.tangential], 0.0),
+                    response.forces,
+                    response.stress,
+                    tuple(residuals),
+                    largest=max(self.start.largest, float(pushed.sum())),
+                )
             self._settle(forces, stiffness)
         raise ConvergenceError(f"Newton's method leaves an unbalanced force of {residuals[-1]:.1e} of the load.")
 
     # The sets.
 
-    def _wanted(self) -> RealArray:
-        return self.approach - self.target.heights
-
     def _sort(self, forces: RealArray) -> bool:
         """Move points between the sets by the forces and displacements of the last iterate; whether one was moved."""
         surface, normal = self.surface, forces[self.surface.normal]
-        depth = self.u[surface.normal] - self._wanted()
+        depth = self.u[surface.normal] - (self.approach - self.target.heights)
         small = 1e-12 * max(float(np.abs(self.u).max()), 1e-300)
         weak = -1e-10 * float(np.abs(normal).max(initial=0.0))
         touching = np.where(self.touching, normal > weak, depth < -small)
@@ -314,19 +338,13 @@ class _Newton:
         found: RealArray = self.u[tangential] - self.start.displacement[tangential] - (self.shift - self.start.shift)
         return found
 
-    def _sticking(self) -> IntArray:
-        return (
-            self.surface.tangential[self.touching & ~self.slipping]
-            if self.surface.friction
-            else np.zeros((0, 0), np.intp)
-        )
-
     # Balance.
 
     def _prescribed(self) -> BoolArray:
         found = self.surface.fixed.copy()
         found[self.surface.normal[self.touching]] = True
-        found[self._sticking().ravel()] = True
+        if self.surface.friction:
+            found[self.surface.tangential[self.touching & ~self.slipping].ravel()] = True
         return found
 
     def _slip_rows(self) -> sparse.csc_array | None:
@@ -340,26 +358,6 @@ class _Newton:
         moved = sparse.coo_array((entries.ravel(), (tangential.ravel(), normal.ravel())), shape=(unknowns, unknowns))
         return sparse.csc_array(sparse.eye_array(unknowns, format="csc") + moved)
 
-    def _unbalanced(self, forces: RealArray) -> tuple[float, float]:
-        """Largest unbalanced force and the largest contact force in N."""
-        rows = self._slip_rows()
-        left = forces if rows is None else rows @ forces
-        free = ~self._prescribed()
-        touching = forces[self.surface.normal]
-        scale = max(float(np.abs(touching[self.touching]).sum()), self.start.largest)
-        error = float(np.abs(left[free]).max())
-        if self.target.approach is None:
-            error = max(error, abs(float(touching[self.touching].sum()) - self.target.force))
-            scale = max(scale, self.target.force)
-        return error, max(scale, error * 1e-300)
-
-    def _met(self) -> bool:
-        """Whether touching points lie on the indenter and sticking ones moved with it."""
-        near = 1e-9 * max(float(np.abs(self.u).max()), 1e-300)
-        away = np.abs(self.u[self.surface.normal] - self._wanted())[self.touching]
-        loose = self._slid()[self.touching & ~self.slipping] if self.surface.friction else np.zeros(0)
-        return bool((away <= near).all() and (np.abs(loose) <= near).all())
-
     def _move(self, forces: RealArray, stiffness: sparse.csc_array) -> None:
         """One step of Newton's method, at a given approach or force."""
         surface, prescribed, rows = self.surface, self._prescribed(), self._slip_rows()
@@ -369,7 +367,7 @@ class _Newton:
             matrix.sort_indices()
         known = np.zeros((len(self.u), 1 if self.target.approach is not None else 2))
         normal = surface.normal[self.touching]
-        known[normal, 0] = (self._wanted() - self.u[surface.normal])[self.touching]
+        known[normal, 0] = (self.approach - self.target.heights - self.u[surface.normal])[self.touching]
         if surface.friction:
             stuck = self.touching & ~self.slipping
             known[surface.tangential[stuck], 0] = -self._slid()[stuck]
@@ -387,21 +385,3 @@ class _Newton:
         further = (self.target.force - float(forces[normal].sum()) - pushed[0]) / pushed[1]
         self.approach += float(further)
         self.u += found[:, 0] + further * found[:, 1]
-
-    def _found(self, response: Response, forces: RealArray, residuals: tuple[float, ...]) -> Equilibrium:
-        surface = self.surface
-        pressed = float(forces[surface.normal[self.touching]].sum())
-        return Equilibrium(
-            self.u,
-            response.state,
-            self.touching,
-            self.slipping & self.touching,
-            self.approach,
-            self.shift,
-            np.where(self.touching, forces[surface.normal], 0.0),
-            np.where(self.touching[:, None], forces[surface.tangential], 0.0),
-            response.forces,
-            response.stress,
-            residuals,
-            largest=max(self.start.largest, pressed),
-        )

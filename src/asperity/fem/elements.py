@@ -129,20 +129,6 @@ GAUSS = 1.0 / np.sqrt(3.0)
 CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
-def shapes_of_quadrilaterals(corners: RealArray) -> tuple[RealArray, RealArray, RealArray]:
-    """Bilinear shape functions (points, 4) at 2 x 2 Gauss points, their gradients (cells, points, 4, 2) and the areas (cells, points).
-
-    ``corners``: (cells, 4, 2) in m.
-    """
-    places = CORNERS * GAUSS
-    linear = 1.0 + places[:, None, :] * CORNERS
-    values = 0.25 * linear[..., 0] * linear[..., 1]
-    slopes = 0.25 * np.stack([CORNERS[:, 0] * linear[..., 1], CORNERS[:, 1] * linear[..., 0]], axis=-1)
-    jacobian = np.einsum("pka,ckb->cpab", slopes, corners)
-    gradients = np.einsum("cpba,pka->cpkb", np.linalg.inv(jacobian), slopes)
-    return values, gradients, np.linalg.det(jacobian)
-
-
 def mean_dilatation(strain_of: RealArray, weights: RealArray) -> RealArray:
     """B with the change of volume at every point replaced by its mean over the element (B-bar, Hughes 1980): flow that keeps the volume does not lock.
 
@@ -156,8 +142,14 @@ def mean_dilatation(strain_of: RealArray, weights: RealArray) -> RealArray:
 
 
 def _in_the_plane(mesh: Mesh, axisymmetric: bool) -> Elements:
+    """Bilinear shape functions at 2 x 2 Gauss points."""
     corners = mesh.points[mesh.cells]
-    values, gradients, weights = shapes_of_quadrilaterals(corners)
+    linear = 1.0 + (CORNERS * GAUSS)[:, None, :] * CORNERS
+    values = 0.25 * linear[..., 0] * linear[..., 1]
+    slopes = 0.25 * np.stack([CORNERS[:, 0] * linear[..., 1], CORNERS[:, 1] * linear[..., 0]], axis=-1)
+    jacobian = np.einsum("pka,ckb->cpab", slopes, corners)
+    gradients = np.einsum("cpba,pka->cpkb", np.linalg.inv(jacobian), slopes)
+    weights = np.linalg.det(jacobian)
     places = np.einsum("pk,ckx->cpx", values, corners)
     strain_of = np.zeros((*weights.shape, 4, 8))
     strain_of[:, :, 0, 0::2] = gradients[..., 0]

@@ -8,7 +8,7 @@ from scipy import sparse
 from ..core.arrays import RealArray
 from ..core.quadrature import rule
 from ..solids.elastic import Elastic
-from .mesh import IntArray, Mesh
+from .mesh import Mesh
 
 
 def point_load(r: RealArray, z: RealArray, solid: Elastic) -> tuple[RealArray, RealArray]:
@@ -27,9 +27,19 @@ def exterior(mesh: Mesh, solid: Elastic) -> sparse.csc_array:
     The boundary is pushed back by its forces f under a unit load when it moves, weighed by f, as far as under a unit load: f f^T/(f^T u). What is left out falls as
     the square of contact radius over distance or faster, where a fixed boundary errs by 0.6 of the first power.
     """
-    forces = np.zeros(2 * len(mesh.points))
-    for line, normal in ((mesh.lower, 1), (mesh.side(), 0)):
-        _add_forces(forces, mesh.points, line[np.argsort(mesh.points[line, 1 - normal])], normal, solid)
+    pushed = np.zeros((len(mesh.points), 2))
+    places, weights = rule(4)
+    for line, normal in ((mesh.lower, 1), (mesh.side(), 0)):  # whose outer normal is z or r
+        line = line[np.argsort(mesh.points[line, 1 - normal])]
+        start, end = mesh.points[line[:-1]], mesh.points[line[1:]]
+        for place, weight in zip(0.5 * (1.0 + places), 0.5 * weights, strict=True):
+            at = start + place * (end - start)
+            _, stress = point_load(at[:, 0], at[:, 1], solid)
+            traction = stress[:, [2, 1]] if normal else stress[:, [0, 2]]
+            area = 2.0 * np.pi * at[:, 0] * np.linalg.norm(end - start, axis=1) * weight
+            np.add.at(pushed, line[:-1], ((1.0 - place) * area)[:, None] * traction)
+            np.add.at(pushed, line[1:], (place * area)[:, None] * traction)
+    forces = pushed.ravel()
     edge = np.union1d(mesh.lower, mesh.side())
     places = mesh.points[edge]
     moved, _ = point_load(np.maximum(places[:, 0], 1e-9 * places.max()), places[:, 1], solid)
@@ -39,17 +49,3 @@ def exterior(mesh: Mesh, solid: Elastic) -> sparse.csc_array:
     rows, columns = np.repeat(unknowns, len(own)), np.tile(unknowns, len(own))
     size = len(forces)
     return sparse.csc_array(sparse.coo_array((block.ravel(), (rows, columns)), shape=(size, size)))
-
-
-def _add_forces(forces: RealArray, points: RealArray, line: IntArray, normal: int, solid: Elastic) -> None:
-    """Forces of the traction under a unit load on the ``line`` of points, whose outer normal is r (0) or z (1)."""
-    places, weights = rule(4)
-    start, end = points[line[:-1]], points[line[1:]]
-    for place, weight in zip(0.5 * (1.0 + places), 0.5 * weights, strict=True):
-        at = start + place * (end - start)
-        _, stress = point_load(at[:, 0], at[:, 1], solid)
-        traction = stress[:, [2, 1]] if normal else stress[:, [0, 2]]
-        area = 2.0 * np.pi * at[:, 0] * np.linalg.norm(end - start, axis=1) * weight
-        for share, points_of in ((1.0 - place, line[:-1]), (place, line[1:])):
-            for direction in range(2):
-                np.add.at(forces, 2 * points_of + direction, share * area * traction[:, direction])

@@ -174,12 +174,24 @@ class Indentation:
             parts.append(axisymmetric(upper))
             supports.append(_support(upper, other))
             fixed.append(_held(upper, other))
-            solid = Solid(
-                _joined(parts[0], parts[1], len(laws)),
-                (*laws, *regions_of(other)),
-                sparse.csc_array(sparse.block_diag(supports)),
+            low, high = parts  # each in its own coordinates with z into it
+            joined = Elements(
+                np.concatenate([low.strain_of, high.strain_of]),
+                np.concatenate([low.weights, high.weights]),
+                np.concatenate([low.unknowns, high.unknowns + low.size]),
+                np.concatenate([low.places, high.places]),
+                np.concatenate([low.region, high.region + len(laws)]),
+                low.size + high.size,
+                low.components,
             )
-            relative = _relative(mesh, upper)
+            support = sparse.csc_array(sparse.block_diag(supports))
+            solid = Solid(joined, (*laws, *regions_of(other)), support)
+            # The approach of the surfaces is stored in place of the displacement of the lower one.
+            below, above = 2 * mesh.surface, low.size + 2 * upper.surface
+            pairs = np.concatenate([below, below + 1]), np.concatenate([above, above + 1])
+            signs = np.repeat([1.0, -1.0], len(below))
+            moved = sparse.coo_array((signs, pairs), shape=(joined.size, joined.size))
+            relative = sparse.csc_array(sparse.eye_array(joined.size, format="csc") + moved)
         nodes = mesh.surface[mesh.points[mesh.surface, 0] < 2.0 * radius]
         heights = indenter(mesh.points[nodes, 0])
         along = 2 * nodes[:, None] if friction else np.zeros((len(nodes), 0), dtype=np.intp)
@@ -210,7 +222,10 @@ class Indentation:
         """
         if len(steps) == 0:
             raise InputError("steps must be at least one, but is none.")
-        state = self._virgin() if start is None else start
+        if start is None:
+            zones = tuple(PlasticZone(number, 0.0) for number in range(int(self.mesh.region.max()) + 1))
+            start = IndentationState(self.pressed.undeformed(), zones=zones)
+        state = start
         if state.equilibrium.displacement.shape != (self.pressed.solid.elements.size,):
             raise InputError(
                 f"start must be a state of the same mesh with {self.pressed.solid.elements.size} unknowns, but is one of "
@@ -239,10 +254,6 @@ class Indentation:
             now.state.accumulated[:own],
         )
 
-    def _virgin(self) -> IndentationState:
-        empty = tuple(PlasticZone(number, 0.0) for number in range(int(self.mesh.region.max()) + 1))
-        return IndentationState(self.pressed.undeformed(), zones=empty)
-
     def _step(self, before: IndentationState, aim: IndentationTarget) -> tuple[IndentationState, IndentationStep]:
         last = before.equilibrium
         now = self.pressed.advance(last, lambda part: self._target(last, aim, part))
@@ -268,21 +279,37 @@ class Indentation:
         return Target(self.heights, last.approach + part * (approach - last.approach))
 
     def _report(self, state: IndentationState) -> IndentationStep:
-        now, surface = state.equilibrium, self.pressed.surface
-        moved = self.pressed.elements_move(now.displacement)[surface.normal]
+        """Numbers of a step; energy held by the back stress is 3/(4 H_k) α : α, ∫ Y dq is by Gauss' rule of 8 points."""
+        now, solid = state.equilibrium, self.pressed.solid
+        moved = self.pressed.elements_move(now.displacement)
+        elastic = float(solid.elastic_energy(now.stress).sum())
+        if solid.support is not None:
+            elastic += 0.5 * float(moved @ (solid.support @ moved))
+        stored = hardening = 0.0
+        places, shares = rule(8)
+        for number, law in enumerate(solid.laws):
+            if not isinstance(law, J2):
+                continue
+            inside = solid.elements.region == number
+            q, weights = now.state.accumulated[inside], solid.elements.weights[inside]
+            if law.kinematic != 0.0:
+                held = 0.75 / law.kinematic * (now.state.back_stress[inside] ** 2 @ WEIGHTS)
+                stored += float((held * weights).sum())
+            hardened = 0.5 * q * (law.hardening.yield_stress(0.5 * q[..., None] * (1.0 + places)) @ shares)
+            hardening += float((hardened * weights).sum())
         return IndentationStep(
             approach=now.approach,
             load=now.force,
             contact_radius=self._contact_radius(now),
             contact_stiffness=self._stiffness(now),
             work=state.work,
-            elastic_energy=self._elastic_energy(now),
+            elastic_energy=elastic,
             plastic_work=state.plastic_work,
-            stored_energy=self._over_laws(now, _stored),
-            hardening_work=self._over_laws(now, _hardened),
+            stored_energy=stored,
+            hardening_work=hardening,
             zones=state.zones,
             pressure=now.normal_force / ring_areas(np.append(self.r, 2.0 * self.r[-1] - self.r[-2]))[:-1],
-            surface=moved,
+            surface=moved[self.pressed.surface.normal],
             touching=now.touching,
             iterations=len(now.residuals),
             cuts=now.cuts,
@@ -322,25 +349,6 @@ class Indentation:
         found = factorised(without(stiffness, prescribed))(right) + moved
         return float((stiffness @ found)[normal].sum())
 
-    def _elastic_energy(self, now: Equilibrium) -> float:
-        solid = self.pressed.solid
-        found = float(solid.elastic_energy(now.stress).sum())
-        if solid.support is not None:
-            moved = self.pressed.elements_move(now.displacement)
-            found += 0.5 * float(moved @ (solid.support @ moved))
-        return found
-
-    def _over_laws(self, now: Equilibrium, density: object) -> float:
-        """Sum over the flowing regions of a ``density`` in J/m³ of law and state."""
-        assert callable(density)
-        total, elements = 0.0, self.pressed.solid.elements
-        for number, law in enumerate(self.pressed.solid.laws):
-            if isinstance(law, J2):
-                inside = elements.region == number
-                found = density(law, now.state.accumulated[inside], now.state.back_stress[inside])
-                total += float((found * elements.weights[inside]).sum())
-        return total
-
     def _zone(self, before: PlasticZone, now: Equilibrium) -> PlasticZone:
         own = len(self.mesh.cells)
         elements, q = self.pressed.solid.elements, now.state.accumulated[:own]
@@ -366,55 +374,34 @@ class Indentation:
         return zone
 
 
-def _stored(law: J2, accumulated: RealArray, back_stress: RealArray) -> RealArray:
-    """Energy held by the back stress: 3/(4 H_k) α : α in J/m³."""
-    if law.kinematic == 0.0:
-        return np.zeros_like(accumulated)
-    found: RealArray = 0.75 / law.kinematic * (back_stress**2 @ WEIGHTS)
-    return found
-
-
-def _hardened(law: J2, accumulated: RealArray, back_stress: RealArray) -> RealArray:
-    """∫ Y dq in J/m³, by Gauss' rule of 8 points."""
-    places, weights = rule(8)
-    q = 0.5 * accumulated[..., None] * (1.0 + places)
-    found: RealArray = 0.5 * accumulated * (law.hardening.yield_stress(q) @ weights)
-    return found
-
-
 # The mesh and what holds it.
 
 
 def _largest_radius(indenter: Indenter, steps: Sequence[IndentationTarget], laws: tuple[Elastic | J2, ...]) -> float:
-    """Radius in m at which the indenter cuts the undeformed surface at its deepest step, that of a load from the softest region."""
+    """Radius in m at which the indenter cuts the undeformed surface at its deepest step.
+
+    The approach under a load is that on the softest region, elastic or fully plastic, by halving; it need only be near.
+    """
     depths = [aim.approach if isinstance(aim, Depth) else aim for aim in steps if not isinstance(aim, Load)]
     deepest = max((require.finite(depth, "approach of a step (m)") for depth in depths), default=0.0)
     force = max((aim.force for aim in steps if isinstance(aim, Load)), default=0.0)
     if force > 0.0:
-        deepest = max(deepest, _depth_of(indenter, force, laws))
+        modulus = min((law.elastic if isinstance(law, J2) else law).plane_strain_modulus for law in laws)
+        yields = [float(law.hardening.yield_stress(np.zeros(()))) for law in laws if isinstance(law, J2)]
+        low, high = -60.0, 5.0
+        for _ in range(50):
+            middle = 0.5 * (low + high)
+            depth = math.exp(middle)
+            radius = radius_at(indenter, depth)
+            elastic = 4.0 / 3.0 * modulus * radius / math.sqrt(2.0) * depth
+            borne = min(elastic, 2.0 * math.pi * radius**2 * min(yields, default=math.inf))
+            low, high = (middle, high) if borne < force else (low, middle)
+        deepest = max(deepest, math.exp(high))
     if deepest <= 0.0:
         raise InputError(
             "steps must be a load or approach greater than zero somewhere, but is none. Give resolution.radius to start from a state."
         )
     return radius_at(indenter, deepest)
-
-
-def _depth_of(indenter: Indenter, force: float, laws: tuple[Elastic | J2, ...]) -> float:
-    """Approach in m under ``force`` on the softest region, elastic or fully plastic, by halving; it need only be near."""
-    solids = [law.elastic if isinstance(law, J2) else law for law in laws]
-    modulus = min(solid.plane_strain_modulus for solid in solids)
-    yields = [float(law.hardening.yield_stress(np.zeros(()))) for law in laws if isinstance(law, J2)]
-
-    def borne(depth: float) -> float:
-        radius = radius_at(indenter, depth)
-        elastic = 4.0 / 3.0 * modulus * radius / math.sqrt(2.0) * depth
-        return min(elastic, 2.0 * math.pi * radius**2 * min(yields, default=math.inf))
-
-    low, high = -60.0, 5.0
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if borne(math.exp(middle)) < force else (low, middle)
-    return math.exp(high)
 
 
 def _held(mesh: Mesh, body: Layered) -> np.ndarray:
@@ -431,29 +418,3 @@ def _support(mesh: Mesh, body: Layered) -> sparse.csc_array:
     if isinstance(base, RigidBase):
         return sparse.csc_array((2 * len(mesh.points), 2 * len(mesh.points)))
     return exterior(mesh, base)
-
-
-def _joined(lower: Elements, upper: Elements, regions: int) -> Elements:
-    """Elements of both bodies, each in its own coordinates with z into it."""
-    return Elements(
-        np.concatenate([lower.strain_of, upper.strain_of]),
-        np.concatenate([lower.weights, upper.weights]),
-        np.concatenate([lower.unknowns, upper.unknowns + lower.size]),
-        np.concatenate([lower.places, upper.places]),
-        np.concatenate([lower.region, upper.region + regions]),
-        lower.size + upper.size,
-        lower.components,
-    )
-
-
-def _relative(lower: Mesh, upper: Mesh) -> sparse.csc_array:
-    """Displacements of both bodies, from the approach of their surfaces (stored in place of those of the lower body) and those of the upper body."""
-    size = 2 * len(lower.points)
-    below, above = lower.surface, upper.surface
-    along = size + 2 * above
-    rows = np.concatenate([2 * below, 2 * below + 1])
-    columns = np.concatenate([along, along + 1])
-    signs = np.repeat([1.0, -1.0], len(below))
-    total = size + 2 * len(upper.points)
-    moved = sparse.coo_array((signs, (rows, columns)), shape=(total, total))
-    return sparse.csc_array(sparse.eye_array(total, format="csc") + moved)

@@ -94,11 +94,6 @@ class Mesh:
         return np.flatnonzero(x == x.max())
 
 
-def depths_of(body: Layered) -> RealArray:
-    """Depths of all interfaces of the reduced ``body`` in m."""
-    return np.cumsum([layer.thickness for layer in body.reduced.layers])
-
-
 def layered_mesh(body: Layered, radius: float, resolution: Resolution, *, both_sides: bool = False) -> Mesh:
     """Quadrilaterals from the axis (``both_sides``: from the far left) to the far boundary, beneath a contact of at most ``radius`` in m.
 
@@ -110,41 +105,31 @@ def layered_mesh(body: Layered, radius: float, resolution: Resolution, *, both_s
     reduced, fine = body.reduced, radius / resolution.across
     if not all(isinstance(layer.interface, Bonded) for layer in reduced.layers):
         raise InputError("interface of a meshed layer must be Bonded(), but is Frictionless().")
-    steps = depths_of(reduced)
+    steps = np.cumsum([layer.thickness for layer in reduced.layers])
     far = radius * resolution.distance + 10.0 * float(steps.max(initial=0.0))
-    size = _Size(fine, radius, resolution)
-    across = graded_line(np.array([0.0, radius, far]), lambda x: size.beside(x, 1.0))
-    if both_sides:
-        across = np.concatenate([-across[:0:-1], across])
     ends = steps if isinstance(reduced.base, RigidBase) else np.append(steps, far)
     starts = np.append(0.0, ends)
-    down = graded_line(starts, lambda z: size.below(z, starts, len(steps)))
+
+    def beside(x: RealArray, reach: float) -> RealArray:
+        """Wanted size of elements in m at the distance ``x`` from the contact, whose fine mesh reaches ``reach`` radii."""
+        size: RealArray = fine + (resolution.growth - 1.0) * np.maximum(np.abs(x) - reach * radius, 0.0)
+        return size
+
+    def below(z: RealArray) -> RealArray:
+        """At the depth ``z``, fine enough for every layer."""
+        size = beside(z, resolution.depth)
+        for top, bottom in pairwise(starts[: len(steps) + 1]):
+            away = np.maximum(np.maximum(top - z, z - bottom), 0.0)
+            own = (bottom - top) / resolution.per_layer + (resolution.growth - 1.0) * away
+            size = np.minimum(size, own)
+        return size
+
+    across = graded_line(np.array([0.0, radius, far]), lambda x: beside(x, 1.0))
+    if both_sides:
+        across = np.concatenate([-across[:0:-1], across])
+    down = graded_line(starts, below)
     region = np.searchsorted(ends, 0.5 * (down[1:] + down[:-1]))
     return tensor_mesh(across, down, region)
-
-
-@dataclass(frozen=True)
-class _Size:
-    """Wanted size of elements in m."""
-
-    fine: float
-    radius: float
-    resolution: Resolution
-
-    def beside(self, x: RealArray, reach: float) -> RealArray:
-        """At the distance ``x`` from the contact, whose fine mesh reaches ``reach`` radii."""
-        beyond = np.maximum(np.abs(x) - reach * self.radius, 0.0)
-        found: RealArray = self.fine + (self.resolution.growth - 1.0) * beyond
-        return found
-
-    def below(self, z: RealArray, bounds: RealArray, layers: int) -> RealArray:
-        """At the depth ``z``, fine enough for every layer between ``bounds``."""
-        found = self.beside(z, self.resolution.depth)
-        for top, bottom in pairwise(bounds[: layers + 1]):
-            own = (bottom - top) / self.resolution.per_layer
-            away = np.maximum(np.maximum(top - z, z - bottom), 0.0)
-            found = np.minimum(found, own + (self.resolution.growth - 1.0) * away)
-        return found
 
 
 def graded_line(bounds: RealArray, size: Callable[[RealArray], RealArray]) -> RealArray:

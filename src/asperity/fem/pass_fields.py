@@ -42,34 +42,26 @@ class RegionFindings:
 def region_findings(track: Track, state: PassState) -> tuple[RegionFindings, ...]:
     """Findings of every region from the surface down, at the Gauss points."""
     stress, elements = track.response(state).stress, track.solid.elements
-    return tuple(
-        _findings(
-            stress[track.mesh.region == number],
-            state.plastic.accumulated[track.mesh.region == number],
-            elements.places[track.mesh.region == number],
-            elements.weights[track.mesh.region == number],
+    found = []
+    for number in range(int(track.mesh.region.max()) + 1):
+        inside = track.mesh.region == number
+        xx, yy, zz, xy, xz, yz = np.moveaxis(stress[inside], -1, 0)
+        matrix = np.stack([np.stack(row, axis=-1) for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))], axis=-2)
+        tension, flow = np.linalg.eigvalsh(matrix)[..., -1], state.plastic.accumulated[inside]
+        places, flowed = elements.places[inside], flow > 0.0
+        depths = places[flowed][:, -1]
+        weakest, deepest = (np.unravel_index(int(np.argmax(values)), values.shape) for values in (tension, flow))
+        found.append(
+            RegionFindings(
+                float(tension[weakest]),
+                places[weakest],
+                float(flow[deepest]),
+                places[deepest] if depths.size else np.full(places.shape[-1], np.nan),
+                float(elements.weights[inside][flowed].sum()),
+                (float(depths.min()), float(depths.max())) if depths.size else (np.nan, np.nan),
+            )
         )
-        for number in range(int(track.mesh.region.max()) + 1)
-    )
-
-
-def _findings(stress: RealArray, flow: RealArray, places: RealArray, weights: RealArray) -> RegionFindings:
-    xx, yy, zz, xy, xz, yz = np.moveaxis(stress, -1, 0)
-    matrix = np.stack([np.stack(row, axis=-1) for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))], axis=-2)
-    principal = np.linalg.eigvalsh(matrix)[..., -1]
-    most, deepest = (np.unravel_index(int(np.argmax(values)), values.shape) for values in (principal, flow))
-    flowed = flow > 0.0
-    any_ = bool(flowed.any())
-    depths = places[flowed][:, -1]
-    nowhere = np.full(places.shape[-1], np.nan)
-    return RegionFindings(
-        float(principal[most]),
-        places[most],
-        float(flow[deepest]),
-        places[deepest] if any_ else nowhere,
-        float(weights[flowed].sum()),
-        (float(depths.min()), float(depths.max())) if any_ else (np.nan, np.nan),
-    )
+    return tuple(found)
 
 
 @dataclass(frozen=True, eq=False)

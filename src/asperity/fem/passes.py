@@ -267,9 +267,6 @@ class _Step:
         self.free = ~track.fixed
         self.friction, self.error = 0.0, math.inf
 
-    def _respond(self) -> Response:
-        return self.track.solid.respond(self.u, self.start.plastic, stiffness=True)
-
     def under(self, normal: RealArray, tangential: RealArray) -> PassState:
         """Balance under given forces."""
         loads = np.zeros_like(self.u)
@@ -277,7 +274,7 @@ class _Step:
         scale = max(float(np.abs(normal).sum()), float(np.abs(self.start.normal).sum()), 1e-300)
         nobody, nothing = np.zeros(len(self.normal), dtype=bool), np.zeros(0)
         for _ in range(MOST_ITERATIONS):
-            response = self._respond()
+            response = self.track.solid.respond(self.u, self.start.plastic, stiffness=True)
             left = np.where(self.free, loads - response.forces, 0.0)
             self.error = error = float(np.abs(left).max()) / scale
             if error <= TOLERANCE:
@@ -296,7 +293,7 @@ class _Step:
         scale = max(force or 0.0, float(self.start.normal.sum()), 1e-300)
         error = math.inf
         for count in range(MOST_ITERATIONS):
-            response = self._respond()
+            response = self.track.solid.respond(self.u, self.start.plastic, stiffness=True)
             push = response.forces[self.normal]
             gap = self.u[self.normal] - (level - heights)
             changed = False

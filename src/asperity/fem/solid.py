@@ -12,7 +12,6 @@ from ..core.errors import InputError
 from ..solids.elastic import Elastic
 from ..solids.plasticity import J2, UNIT, WEIGHTS, PlasticState, von_mises
 from .elements import Elements
-from .mesh import IntArray
 
 AT_YIELD = 1e-9
 """Excess over the yield stress up to which a point counts as elastic: at rounding, points that have flowed would change sides at random where a step begins."""
@@ -61,7 +60,7 @@ class Solid:
         regions = int(self.elements.region.max()) + 1
         if len(self.laws) < regions:
             raise InputError(f"laws must be one for each of {regions} regions, but is {len(self.laws)} laws.")
-        tensors = np.stack([elastic_tensor(_elastic(law)) for law in self.laws])
+        tensors = np.stack([elastic_tensor(law.elastic if isinstance(law, J2) else law) for law in self.laws])
         matrices = self.elements.stiffnesses(tensors[self.elements.region][:, None])
         object.__setattr__(self, "moduli", tensors)
         object.__setattr__(self, "matrices", matrices)
@@ -86,28 +85,45 @@ class Solid:
         """
         strain = self.elements.strains(displacement)
         stress = self.elastic_stress(strain - state.plastic_strain)
-        changed: list[tuple[IntArray, RealArray]] = []
+        entries = self.entries
         for number, law in enumerate(self.laws):
-            flowing = self._flowing(number, law, stress, state) if isinstance(law, J2) else np.zeros(0, np.intp)
-            if not isinstance(law, J2) or not len(flowing):
+            if not isinstance(law, J2):
                 continue
-            elements, points = np.divmod(flowing, self.elements.shape[1])
-            before = PlasticState(*(_at(part, flowing) for part in _parts(state)))
-            step = law.step(_at(strain, flowing), before, tangent=stiffness)
-            state = PlasticState(
-                *(_put(part, flowing, new) for part, new in zip(_parts(state), _parts(step.state), strict=True))
+            # points whose elastic trial stress is beyond yield
+            inside = np.flatnonzero(self.elements.region == number)
+            trial = von_mises(stress[inside] - state.back_stress[inside])
+            beyond = trial > law.hardening.yield_stress(state.accumulated[inside]) * (1.0 + AT_YIELD)
+            row, point = np.nonzero(beyond)
+            element = inside[row]
+            if not len(element):
+                continue
+            before = PlasticState(
+                state.plastic_strain[element, point],
+                state.back_stress[element, point],
+                state.accumulated[element, point],
             )
-            stress.reshape(-1, 6)[flowing] = step.stress
+            step = law.step(strain[element, point], before, tangent=stiffness)
+            state = PlasticState(state.plastic_strain.copy(), state.back_stress.copy(), state.accumulated.copy())
+            state.plastic_strain[element, point] = step.state.plastic_strain
+            state.back_stress[element, point] = step.state.back_stress
+            state.accumulated[element, point] = step.state.accumulated
+            stress[element, point] = step.stress
             if step.tangent is not None:
-                chosen, place = np.unique(elements, return_inverse=True)
+                chosen, place = np.unique(element, return_inverse=True)
                 tangent = np.repeat(self.moduli[number][None, None], len(chosen), axis=0)
                 tangent = np.repeat(tangent, self.elements.shape[1], axis=1)
-                tangent[place, points] = step.tangent
-                changed.append((chosen, tangent))
+                tangent[place, point] = step.tangent
+                softer = self.elements.stiffnesses(tangent, chosen) - self.matrices[chosen]
+                entries = entries + self.elements.pattern.sum(softer, chosen)
         forces = self.elements.forces(stress)
         if self.support is not None:
             forces = forces + self.support @ displacement
-        return Response(forces, stress, state, self._stiffness(changed) if stiffness else None)
+        if not stiffness:
+            return Response(forces, stress, state)
+        whole = self.elements.pattern.matrix(entries)
+        return Response(
+            forces, stress, state, whole if self.support is None else sparse.csc_array(whole + self.support)
+        )
 
     def elastic_stress(self, strain: RealArray) -> RealArray:
         """Stress (elements, points, 6) in Pa of elastic ``strain``."""
@@ -121,30 +137,13 @@ class Solid:
         """Elastic energy (elements,) in J of a ``stress``."""
         density = np.empty(self.elements.shape)
         for number, law in enumerate(self.laws):
-            own, inside = _elastic(law), self.elements.region == number
+            own, inside = law.elastic if isinstance(law, J2) else law, self.elements.region == number
             trace = stress[inside] @ UNIT
             squares = stress[inside] ** 2 @ WEIGHTS
             nu, E = own.poisson_ratio, own.youngs_modulus
             density[inside] = 0.5 * ((1.0 + nu) * squares - nu * trace**2) / E
         found: RealArray = (density * self.elements.weights).sum(axis=1)
         return found
-
-    def _flowing(self, number: int, law: J2, stress: RealArray, state: PlasticState) -> IntArray:
-        """Flat numbers of the points of region ``number`` whose elastic trial stress is beyond yield."""
-        inside = np.flatnonzero(self.elements.region == number)
-        trial = von_mises(stress[inside] - state.back_stress[inside])
-        beyond = trial > law.hardening.yield_stress(state.accumulated[inside]) * (1.0 + AT_YIELD)
-        element, point = np.nonzero(beyond)
-        found: IntArray = inside[element] * self.elements.shape[1] + point
-        return found
-
-    def _stiffness(self, changed: list[tuple[IntArray, RealArray]]) -> sparse.csc_array:
-        entries = self.entries
-        for chosen, tangent in changed:
-            softer = self.elements.stiffnesses(tangent, chosen) - self.matrices[chosen]
-            entries = entries + self.elements.pattern.sum(softer, chosen)
-        found = self.elements.pattern.matrix(entries)
-        return found if self.support is None else sparse.csc_array(found + self.support)
 
 
 def elastic_tensor(solid: Elastic) -> RealArray:
@@ -160,24 +159,3 @@ def elastic_tensor(solid: Elastic) -> RealArray:
         raise InputError(f"Poisson's ratio of a meshed solid must be less than 0.5, but is {nu:g}. Use 0.499.")
     G = solid.shear_modulus
     return 2.0 * G * (np.diag(1.0 / WEIGHTS) + nu / (1.0 - 2.0 * nu) * np.outer(UNIT, UNIT))
-
-
-def _elastic(law: Elastic | J2) -> Elastic:
-    return law.elastic if isinstance(law, J2) else law
-
-
-def _parts(state: PlasticState) -> tuple[RealArray, RealArray, RealArray]:
-    return state.plastic_strain, state.back_stress, state.accumulated
-
-
-def _at(values: RealArray, points: IntArray) -> RealArray:
-    """Values (elements, points, …) at flat numbers of points."""
-    found: RealArray = values.reshape(-1, *values.shape[2:])[points]
-    return found
-
-
-def _put(values: RealArray, points: IntArray, new: RealArray) -> RealArray:
-    """Copy of ``values`` (elements, points, …) with the ``new`` ones at flat numbers of points."""
-    found = values.copy()
-    found.reshape(-1, *values.shape[2:])[points] = new
-    return found

@@ -231,33 +231,9 @@ class BeltOscillator(Declared):
     # States: displacement, velocity, work of the belt, heat.
 
     def _stick_slip(self, law: StaticKinetic, times: RealArray, start: Sequence[float], tolerance: float) -> Motion:
+        """Phases stick, and slip behind and ahead of the belt."""
         x0, v0 = started(start)
         bound, kinetic = law.static * self.normal_force, law.kinetic * self.normal_force
-        phases = self._phases(bound, kinetic)
-        first = "slip" if v0 < self.speed else "slip ahead" if v0 > self.speed else self._after_stop(x0, bound)
-        reach = max(bound / self.stiffness, abs(x0), self.speed / self.natural_frequency)
-        swift = max(self.speed, reach * self.natural_frequency)
-        scales = np.array([reach, swift, bound * reach, bound * reach])
-        course = integrated(
-            phases, first, [x0, v0, 0.0, 0.0], times, method="DOP853", tolerance=tolerance, scales=scales
-        )
-        x, v = course.states[:, 0], course.states[:, 1]
-        named = np.array(course.phases)
-        friction = np.where(
-            named == "stick", self.stiffness * x + self.damping * v, np.where(named == "slip", kinetic, -kinetic)
-        )
-        values = self._values(course.states, friction)
-        return Motion(times, values, course.events, (float(x[-1]), float(v[-1])), course.evaluations)
-
-    def _after_stop(self, x: float, bound: float) -> str:
-        """Phase after the block has come to rest on the belt."""
-        needed = self._held(x, self.speed)
-        if abs(needed) <= bound:
-            return "stick"
-        return "slip" if needed > 0.0 else "slip ahead"
-
-    def _phases(self, bound: float, kinetic: float) -> dict[str, Phase]:
-        """Stick, and slip behind and ahead of the belt."""
         U, M, c = self.speed, self.mass, self.damping
         # the block is ahead of the belt for this long at the end of a slip; a step across it would miss that it sticks
         lead = 2.0 * math.atan((bound - kinetic) / self.stiffness * self.natural_frequency / U)
@@ -285,11 +261,32 @@ class BeltOscillator(Declared):
 
         behind = Guard(lambda time, s: self._held(float(s[0]), U) - bound, 1.0, "slip", lambda time, s: "slip")
         ahead = Guard(lambda time, s: self._held(float(s[0]), U) + bound, -1.0, "slip", lambda time, s: "slip ahead")
-        return {
+        phases = {
             "stick": Phase(sticks, (behind, ahead), on_entry=with_belt),
             "slip": slides(kinetic),
             "slip ahead": slides(-kinetic),
         }
+        first = "slip" if v0 < self.speed else "slip ahead" if v0 > self.speed else self._after_stop(x0, bound)
+        reach = max(bound / self.stiffness, abs(x0), self.speed / self.natural_frequency)
+        swift = max(self.speed, reach * self.natural_frequency)
+        scales = np.array([reach, swift, bound * reach, bound * reach])
+        course = integrated(
+            phases, first, [x0, v0, 0.0, 0.0], times, method="DOP853", tolerance=tolerance, scales=scales
+        )
+        x, v = course.states[:, 0], course.states[:, 1]
+        named = np.array(course.phases)
+        friction = np.where(
+            named == "stick", self.stiffness * x + self.damping * v, np.where(named == "slip", kinetic, -kinetic)
+        )
+        values = self._values(course.states, friction)
+        return Motion(times, values, course.events, (float(x[-1]), float(v[-1])), course.evaluations)
+
+    def _after_stop(self, x: float, bound: float) -> str:
+        """Phase after the block has come to rest on the belt."""
+        needed = self._held(x, self.speed)
+        if abs(needed) <= bound:
+            return "stick"
+        return "slip" if needed > 0.0 else "slip ahead"
 
     # States: displacement, ln(V/V_0) of the sliding speed V, ln(V_0 θ/D), work of the belt, heat.
 

@@ -7,7 +7,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -53,10 +52,17 @@ class BlockRun:
 
     def numbers(self, start: float = 0.0) -> dict[str, float]:
         """``BLOCK_SCALARS`` by name, of the motion from the time ``start`` in s on; the peak is that of the whole motion."""
+        from scipy.signal import find_peaks
+
         late, block = self.motion.after(start), self.block
         reference, load, unit = block.reference_displacement, block.load, block.rest
-        spring, normal = late["spring_force"], late["normal_force"]
-        peaks, valleys = self._turns(late)
+        spring, normal, x = late["spring_force"], late["normal_force"], late["displacement"]
+        scaled = x / max(reference, 1e-300)
+        peaks, _ = find_peaks(scaled, prominence=PROMINENCE)
+        valleys, _ = find_peaks(-scaled, prominence=PROMINENCE)
+        # the base is at rest on the belt; of smoothed friction, to within its smoothing
+        rests = late["sliding_speed"] >= -max(self.smoothing, NO_SLIP * block.speed)
+        sticks = all(bool(rests[first:last].any()) for first, last in itertools.pairwise(peaks))
         swing = float(late["penetration"].std())
         mean = float(np.trapezoid(spring, late.time)) / float(np.ptp(late.time)) if late.time.size > 1 else spring[0]
         found = {
@@ -74,29 +80,13 @@ class BlockRun:
             "stick_slip_valley": math.nan,
             "stick_slip_period": math.nan,
         }
-        if peaks.size >= 2 and valleys.size and self._sticks(late, peaks):
-            x = late["displacement"]
+        if peaks.size >= 2 and valleys.size and sticks:
             found |= {
                 "stick_slip_peak": float(x[peaks].mean()) / reference,
                 "stick_slip_valley": float(x[valleys].mean()) / reference,
                 "stick_slip_period": float(np.diff(late.time[peaks]).mean()),
             }
         return found
-
-    def _sticks(self, late: Motion, peaks: Any) -> bool:
-        """Whether the base has come to rest on the belt between each peak and the next; of smoothed friction, to within its smoothing."""
-        least = -max(self.smoothing, NO_SLIP * self.block.speed)
-        speed = late["sliding_speed"]
-        return all(bool((speed[first:last] >= least).any()) for first, last in itertools.pairwise(peaks))
-
-    def _turns(self, late: Motion) -> tuple[Any, Any]:
-        """Places of the peaks and valleys of the displacement that stand out."""
-        from scipy.signal import find_peaks
-
-        scaled = late["displacement"] / max(self.block.reference_displacement, 1e-300)
-        peaks, _ = find_peaks(scaled, prominence=PROMINENCE)
-        valleys, _ = find_peaks(-scaled, prominence=PROMINENCE)
-        return peaks, valleys
 
 
 BLOCK_SCALARS = (
@@ -234,18 +224,14 @@ class _Solving:
             states, count = self._integrated(times, state)
             return self._motion(times, states, np.full(times.size, 2.0), (), count)
         before, first = self._integrated(times[: place + 1], state)
-        after, second = self._integrated(times[place:], self._struck(before[-1], disturbance))
+        struck = before[-1].copy()  # by an impulse, whose work is supplied from outside
+        kick, rate = disturbance * block.rest * block.normal_frequency, float(struck[4] * self.scales[4])
+        struck[4] += kick / self.scales[4]
+        struck[6] += block.mass * kick * (rate + 0.5 * kick) / self.scales[6]
+        after, second = self._integrated(times[place:], struck)
         events = (Event(float(times[place]), "disturbance"),)
         states = np.vstack([before[:-1], after])
         return self._motion(times, states, np.full(times.size, 2.0), events, first + second)
-
-    def _struck(self, state: RealArray, disturbance: float) -> RealArray:
-        """The state after an impulse on the block, whose work is supplied from outside."""
-        block, struck = self.block, state.copy()
-        kick, rate = disturbance * block.rest * block.normal_frequency, float(state[4] * self.scales[4])
-        struck[4] += kick / self.scales[4]
-        struck[6] += block.mass * kick * (rate + 0.5 * kick) / self.scales[6]
-        return struck
 
     def _integrated(self, times: RealArray, state: RealArray) -> tuple[RealArray, int]:
         """States at the ``times`` with smoothed friction, and the number of evaluations of the rates."""

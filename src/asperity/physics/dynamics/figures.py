@@ -53,14 +53,10 @@ def plot_compliance(values: Mapping[str, Any], ax: Axes) -> Axes:
 
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_formatter(FuncFormatter(lambda value, place: f"{value:g}"))
-        axis.set_minor_formatter(FuncFormatter(_few_digits) if _is_short(axis) else NullFormatter())
+        low, high = axis.get_view_interval()
+        # minor ticks need numbers on less than one power of ten
+        axis.set_minor_formatter(FuncFormatter(_few_digits) if high / low < 10.0 else NullFormatter())
     return legend_above(ax)
-
-
-def _is_short(axis: Any) -> bool:
-    """Whether a logarithmic ``axis`` has less than one power of ten, so that its minor ticks need numbers."""
-    low, high = axis.get_view_interval()
-    return bool(high / low < 10.0)
 
 
 def _few_digits(value: float, place: int | None) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -260,7 +260,16 @@ def fit_compliance(
     """
     u, p = np.asarray(approach, dtype=float), np.asarray(pressure, dtype=float)
     order = np.argsort(p)
-    u, p = _curve(u, p, order)
+    if u.ndim != 1 or u.shape != p.shape or u.size < FEWEST:
+        raise InputError(
+            f"approach and pressure must be one-dimensional, of one length and have at least {FEWEST} points, but have the shapes {u.shape} and "
+            f"{p.shape}."
+        )
+    if not (np.isfinite(u).all() and np.isfinite(p).all() and (p > 0.0).all()):
+        raise InputError("approach must be finite and pressure greater than zero at every point, but some are not.")
+    u, p = u[order], p[order]
+    if np.any(np.diff(u) <= 0.0) or np.any(np.diff(p) <= 0.0):
+        raise InputError("pressure must grow with the approach from point to point, but does not.")
     if offset is None:
         g = _best_offset(u, np.log(p))
     else:
@@ -273,27 +282,26 @@ def fit_compliance(
             f"power of the approach that the pressure follows must be 0.5 to 10 for a law of normal compliance, but is {slope:.3g}. Fit a smaller range of "
             "pressures, or give the offset."
         )
-    errors = _errors(u, g, slope, scatter, free=offset is None)
+    # standard errors from the linearised fit of ln p = ln c + m ln(u - g)
+    columns, scale = [np.ones_like(u), np.log(u - g)], float(u[-1] - u[0])
+    if offset is None:
+        columns.append(-slope * scale / (u - g))
+    linear = np.stack(columns, axis=1)
+    covariance = np.linalg.pinv(linear.T @ linear) * scatter / (u.size - len(columns))
+    exponent_error = math.sqrt(abs(covariance[1, 1]))
+    offset_error = math.sqrt(abs(covariance[2, 2])) * scale if offset is None else 0.0
     law = NormalCompliance(math.exp(level), slope)
     if shear is not None:
-        law = _with_shear(law, u - g, np.asarray(shear, dtype=float), order)
+        tau = np.asarray(shear, dtype=float)
+        if tau.shape != u.shape or not np.isfinite(tau).all() or np.any(tau < 0.0):
+            raise InputError("shear must hold one finite value >= 0 for each point of the curve, but does not.")
+        if tau.any() and not tau.all():
+            raise InputError("shear must be zero at all points of the curve or at none, but is zero at some.")
+        if tau.any():
+            power, level, _ = _line(np.log(u - g), np.log(tau[order]))
+            law = replace(law, friction_coefficient=math.exp(level), friction_exponent=power)
     misfit = float(np.max(np.abs(law.pressure(u - g) / p - 1.0)))
-    return ComplianceFit(law, g, *errors, misfit, u, p)
-
-
-def _curve(u: RealArray, p: RealArray, order: Any) -> tuple[RealArray, RealArray]:
-    """The points in ``order`` of the pressure, once they are seen to be a growing curve."""
-    if u.ndim != 1 or u.shape != p.shape or u.size < FEWEST:
-        raise InputError(
-            f"approach and pressure must be one-dimensional, of one length and have at least {FEWEST} points, but have the shapes {u.shape} and "
-            f"{p.shape}."
-        )
-    if not (np.isfinite(u).all() and np.isfinite(p).all() and (p > 0.0).all()):
-        raise InputError("approach must be finite and pressure greater than zero at every point, but some are not.")
-    u, p = u[order], p[order]
-    if np.any(np.diff(u) <= 0.0) or np.any(np.diff(p) <= 0.0):
-        raise InputError("pressure must grow with the approach from point to point, but does not.")
-    return u, p
+    return ComplianceFit(law, g, exponent_error, offset_error, misfit, u, p)
 
 
 def _line(x: RealArray, y: RealArray) -> tuple[float, float, float]:
@@ -322,26 +330,3 @@ def _best_offset(u: RealArray, log_p: RealArray) -> float:
     low, high = scan[max(best - 1, 0)], scan[min(best + 1, scan.size - 1)]
     found = minimize_scalar(scatter, bounds=(low, high), method="bounded", options={"xatol": 1e-10})
     return float(u[0] - span * math.exp(float(found.x)))
-
-
-def _errors(u: RealArray, g: float, slope: float, scatter: float, *, free: bool) -> tuple[float, float]:
-    """Standard errors of the exponent and of g, from the linearised fit of ln p = ln c + m ln(u - g)."""
-    columns = [np.ones_like(u), np.log(u - g)]
-    scale = float(u[-1] - u[0])
-    if free:
-        columns.append(-slope * scale / (u - g))
-    degrees = u.size - len(columns)
-    covariance = np.linalg.pinv(np.stack(columns, axis=1).T @ np.stack(columns, axis=1)) * scatter / degrees
-    return math.sqrt(abs(covariance[1, 1])), math.sqrt(abs(covariance[2, 2])) * scale if free else 0.0
-
-
-def _with_shear(law: NormalCompliance, depth: RealArray, shear: RealArray, order: Any) -> NormalCompliance:
-    """``law`` with the power of ``depth`` that the ``shear`` traction follows; without friction where that is zero."""
-    if shear.shape != depth.shape or not np.isfinite(shear).all() or np.any(shear < 0.0):
-        raise InputError("shear must hold one finite value >= 0 for each point of the curve, but does not.")
-    if not shear.any():
-        return law
-    if not shear.all():
-        raise InputError("shear must be zero at all points of the curve or at none, but is zero at some.")
-    slope, level, _ = _line(np.log(depth), np.log(shear[order]))
-    return replace(law, friction_coefficient=math.exp(level), friction_exponent=slope)

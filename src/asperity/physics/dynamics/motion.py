@@ -197,13 +197,25 @@ def integrated(
     ConvergenceError
         If the solver fails, or phases follow each other without end.
     """
+    import scipy.integrate
+
+    solve: Any = scipy.integrate.solve_ivp
     current = phases[first].on_entry(np.array(state, dtype=float))
     now, name, done, evaluations = float(times[0]), first, 0, 0
     kept, names, events = np.empty((times.size, current.size)), [first] * times.size, list[Event]()
     for _ in range(MOST_PHASES):
         phase = phases[name]
-        options = {"method": method, "rtol": tolerance, "atol": tolerance * scales}
-        found = _solved(phase, current, (now, float(times[-1])), times[done:], options)
+        found = solve(
+            phase.rates,
+            (now, float(times[-1])),
+            current,
+            t_eval=times[done:],
+            events=[_terminal(guard) for guard in phase.guards] or None,
+            max_step=phase.longest,
+            method=method,
+            rtol=tolerance,
+            atol=tolerance * scales,
+        )
         evaluations += found.nfev
         if found.status < 0:
             raise ConvergenceError(f"The motion could not be integrated beyond {now:.6g} s: {found.message}")
@@ -222,17 +234,6 @@ def integrated(
         f"The motion changes between {first} and other phases more than {MOST_PHASES} times before {times[-1]:g} s. Shorten the "
         "duration, or smooth the friction."
     )
-
-
-def _solved(
-    phase: Phase, state: RealArray, span: tuple[float, float], samples: RealArray, options: Mapping[str, Any]
-) -> Any:
-    """Motion in one ``phase`` from ``state``, until a guard ends it or the ``span`` does, as SciPy gives it."""
-    import scipy.integrate
-
-    crossings = [_terminal(guard) for guard in phase.guards]
-    solve: Any = scipy.integrate.solve_ivp
-    return solve(phase.rates, span, state, t_eval=samples, events=crossings or None, max_step=phase.longest, **options)
 
 
 def _terminal(guard: Guard) -> Any:

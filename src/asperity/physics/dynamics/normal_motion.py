@@ -131,20 +131,6 @@ class NormalOscillator(Declared):
         unit, time_unit = self.rest, 1.0 / self.natural_frequency
         touching = y0 > 0.0 or (y0 == 0.0 and rate0 > 0.0)
         scales = np.array([unit, unit / time_unit, self.load * unit, self.load * unit])
-        course = integrated(
-            self._phases(),
-            "contact" if touching else "flight",
-            [y0, rate0, 0.0, 0.0],
-            times,
-            method="DOP853",
-            tolerance=tolerance,
-            scales=scales,
-        )
-        return Motion(
-            times, self._values(times, course.states), course.events, tuple(course.states[-1, :2]), course.evaluations
-        )
-
-    def _phases(self) -> dict[str, Phase]:
         c, m, A, M = self.law.normal_coefficient, self.law.normal_exponent, self.area, self.mass
         b, power = self.law.damping_coefficient, self.law.exponents[1]
 
@@ -167,11 +153,17 @@ class NormalOscillator(Declared):
 
         leaves = Guard(depth, -1.0, "loss of contact", lambda time, s: "flight")
         lands = Guard(depth, 1.0, "contact", lambda time, s: "contact")
-        return {"contact": Phase(in_contact, (leaves,)), "flight": Phase(in_flight, (lands,))}
-
-    def _values(self, times: RealArray, states: RealArray) -> dict[str, RealArray]:
-        y, rate, supplied, dissipated = states.T
-        return {
+        course = integrated(
+            {"contact": Phase(in_contact, (leaves,)), "flight": Phase(in_flight, (lands,))},
+            "contact" if touching else "flight",
+            [y0, rate0, 0.0, 0.0],
+            times,
+            method="DOP853",
+            tolerance=tolerance,
+            scales=scales,
+        )
+        y, rate, supplied, dissipated = course.states.T
+        values = {
             "penetration": y,
             "penetration_rate": rate,
             "normal_force": self.area * self.law.pressure(y, rate),
@@ -180,6 +172,7 @@ class NormalOscillator(Declared):
             "supplied": supplied,
             "dissipated": dissipated,
         }
+        return Motion(times, values, course.events, tuple(course.states[-1, :2]), course.evaluations)
 
 
 def started(start: Sequence[float]) -> tuple[float, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from pydantic import model_validator
 
@@ -13,6 +13,9 @@ from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
 from ...core.values import Choice, Count, Fraction, Length, NonNegative, Number, Positive, Size, Whole
 from ...parts.part import Part
+
+if TYPE_CHECKING:
+    pass
 
 MODELS = ("block", "mass", "belt")
 """What moves: a block that may tilt, a mass that vibrates normally, a block on a belt that only slides."""

@@ -241,14 +241,13 @@ def stability_map(block: SlidingBlock, axes: Mapping[str, Sequence[float]]) -> S
     if len(axes) != 2:
         raise InputError(f"axes must be two parameters with their values, but are {', '.join(axes) or 'none'}.")
     (first, second), sides = tuple(axes), [np.asarray(list(values), dtype=float) for values in axes.values()]
-    rows = [_growth(varied(varied(block, first, float(a)), second, float(b))) for a, b in itertools.product(*sides)]
+    rows = []
+    for a, b in itertools.product(*sides):
+        case = varied(varied(block, first, float(a)), second, float(b))
+        try:
+            modes = case.stability
+            rows.append((modes.margin, float(modes.frequencies[int(np.argmax(modes.growth_rates))])))
+        except NoSolutionError:
+            rows.append((np.nan, np.nan))
     growth, frequency = np.array(rows).T.reshape(2, sides[0].size, sides[1].size)
     return StabilityMap((first, second), (sides[0], sides[1]), growth, frequency)
-
-
-def _growth(block: SlidingBlock) -> tuple[float, float]:
-    try:
-        modes = block.stability
-    except NoSolutionError:
-        return np.nan, np.nan
-    return modes.margin, float(modes.frequencies[int(np.argmax(modes.growth_rates))])

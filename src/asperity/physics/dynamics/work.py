@@ -9,7 +9,7 @@ from typing import Any
 from ...contact.problem import ContactProblem
 from ...core.units import show
 from ...io.words import value_text
-from ...parts.part import Found, Rows, Solved, Words, Work
+from ...parts.part import Found, Solved, Words, Work
 from ...plots.picture import Figure
 from .block import SlidingBlock
 from .figures import figures_of
@@ -39,12 +39,17 @@ class DynamicsWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """What the motion comes to."""
-        return dynamics_words(found.values)
-
-
-def dynamics_words(values: Mapping[str, Any]) -> Words:
-    """Sentence, headline and rows, from the ``values`` of the quantities."""
-    return Words(_sentence(values), _headline(values), _rows(values), remarks=(REMARK,))
+        values = found.values
+        headline = [("natural frequency", show(values["normal_frequency"], "Hz", 3))]
+        if "apparent_friction" in values:
+            friction = f"{values['apparent_friction']:.3g} / {values['peak_friction']:.3g}"
+            headline.append(("mean / largest friction", friction))
+        rows = [
+            (item.label, value_text(item, values[item.name]))
+            for item in Dynamics().quantities
+            if not item.dims and item.name in values and not math.isnan(values[item.name])
+        ]
+        return Words(_sentence(values), headline, rows, remarks=(REMARK,))
 
 
 REMARK = (
@@ -66,18 +71,3 @@ def _sentence(values: Mapping[str, Any]) -> str:
     period = values.get("stick_slip_period", math.nan)
     slips = "" if math.isnan(period) else f"; stick-slip with a period of {show(period, 's', 3)}"
     return f"{steady}{slips}; the apparent friction is {mean:.3g}, at most {largest:.3g}."
-
-
-def _headline(values: Mapping[str, Any]) -> Rows:
-    rows = [("natural frequency", show(values["normal_frequency"], "Hz", 3))]
-    if "apparent_friction" in values:
-        rows.append(("mean / largest friction", f"{values['apparent_friction']:.3g} / {values['peak_friction']:.3g}"))
-    return rows
-
-
-def _rows(values: Mapping[str, Any]) -> Rows:
-    return [
-        (item.label, value_text(item, values[item.name]))
-        for item in Dynamics().quantities
-        if not item.dims and item.name in values and not math.isnan(values[item.name])
-    ]

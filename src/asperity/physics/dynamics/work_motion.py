@@ -67,7 +67,13 @@ def fitted_law(ask: Moving, solved: Solved) -> ComplianceFit:
             "Raise the load (control, --pressure), or refine the grid.",
             subject="control",
         )
-    path = [] if solved.path is None else list(_loading(solved.path.steps))
+    path: list[Any] = []
+    last = (0.0, -math.inf)
+    for step in () if solved.path is None else solved.path.steps:  # as long as pressure and approach grow
+        if step.mean_pressure <= last[0] or step.approach <= last[1]:
+            break
+        last = (step.mean_pressure, step.approach)
+        path.append(step)
     if len(path) < ask.settings.points:
         loads = np.geomspace(pressure / WIDEST, pressure * WIDEST, ask.settings.points)
         path = list(steps(solved.problem, [MeanPressure(float(p)) for p in loads], on_failure="return"))
@@ -75,16 +81,6 @@ def fitted_law(ask: Moving, solved: Solved) -> ComplianceFit:
         raise ConvergenceError("The contact curve that the law is fitted to did not converge at every load.")
     offset = 0.0 if ask.settings.law_begins == "first touch" else None
     return fit_compliance([step.approach for step in path], [step.mean_pressure for step in path], offset=offset)
-
-
-def _loading(found: Any) -> Any:
-    """The steps of a path as long as pressure and approach grow."""
-    last = (0.0, -math.inf)
-    for step in found:
-        if step.mean_pressure <= last[0] or step.approach <= last[1]:
-            return
-        last = (step.mean_pressure, step.approach)
-        yield step
 
 
 @dataclass(frozen=True, eq=False)
@@ -258,14 +254,22 @@ class Made:
         return found
 
     def _of_model(self) -> dict[str, Any]:
-        model = self.ask.settings.model
+        """What the model comes to; of a block also growth rates over friction and damping, both from nothing to twice what is asked, or what
+        flutters at all, and its friction against speed."""
+        settings, model = self.ask.settings, self.ask.settings.model
         if model == "belt":
-            spring = self.motion["spring_force"] / self.load
+            motion, spring = self.motion, self.motion["spring_force"] / self.load
+            kinds = ["stick" if motion["sliding_speed"][0] == 0.0 else "slip", *(event.kind for event in motion.events)]
+            begun = [
+                event.time
+                for event, before in zip(motion.events, kinds, strict=False)
+                if (before, event.kind) == ("stick", "slip")
+            ]
             return {
                 "growth_rate": self.belt.growth_rate,
                 "peak_friction": float(spring.max()),
-                "apparent_friction": float(np.trapezoid(spring, self.motion.time) / np.ptp(self.motion.time)),
-                **_cycles(self.motion),
+                "apparent_friction": float(np.trapezoid(spring, motion.time) / np.ptp(motion.time)),
+                "stick_slip_period": float(np.diff(begun).mean()) if len(begun) > 1 else math.nan,
             }
         if model == "mass":
             late = self.motion.after(0.5 * self.duration)
@@ -275,14 +279,29 @@ class Made:
                 "vibration_frequency": late.dominant_frequency("penetration"),
             }
         block = self.block
-        found = {
+        axes = {
+            "friction": list(np.linspace(0.0, 2.0 * self.friction, MAP_POINTS)[1:]),
+            "damping_ratio": list(np.linspace(0.0, max(2.0 * settings.damping_ratio, 0.05), MAP_POINTS)),
+        }
+        found: dict[str, Any] = {
             "growth_rate": block.stability.margin,
             "critical_friction": block.critical_friction(),
-            **self._map(),
         }
+        made = stability_map(block, axes)
+        found |= {"map_friction": made.axis_values[0], "map_damping": made.axis_values[1]}
+        found["map_growth_rate"] = made.growth_rate
         if self.slides:
             found |= self._late_numbers
-        return found | self._sweep()
+        if settings.speeds is not None:
+            speeds = np.geomspace(0.1, 10.0, settings.speeds) * self.ask.speed
+            period = 2.0 * math.pi / self.normal.natural_frequency
+            sweep = sweep_block(block, "speed", list(speeds), duration=USUAL_PERIODS * period)
+            found |= {
+                "sweep_speed": sweep.axis_values,
+                "sweep_mean_friction": sweep.numbers["apparent_friction"],
+                "sweep_largest_friction": sweep.numbers["peak_friction"],
+            }
+        return found
 
     @property
     def _window(self) -> float:
@@ -290,41 +309,10 @@ class Made:
         window = max(0.0, self.duration - 0.5 * USUAL_PERIODS * 2.0 * math.pi / self.normal.natural_frequency)
         return min(window, 0.75 * self.duration)
 
-    @property
-    def _late(self) -> Motion:
-        """The end of the motion of a block."""
-        return self.motion.after(self._window)
-
     @cached_property
     def _late_numbers(self) -> dict[str, float]:
         """What the end of the motion of a block comes to."""
         return self.run.numbers(self._window)
-
-    def _map(self) -> dict[str, Any]:
-        """Growth rates over friction and damping, both from nothing to twice what is asked, or what flutters at all."""
-        damping = max(2.0 * self.ask.settings.damping_ratio, 0.05)
-        axes = {
-            "friction": list(np.linspace(0.0, 2.0 * self.friction, MAP_POINTS)[1:]),
-            "damping_ratio": list(np.linspace(0.0, damping, MAP_POINTS)),
-        }
-        made = stability_map(self.block, axes)
-        return {
-            "map_friction": made.axis_values[0],
-            "map_damping": made.axis_values[1],
-            "map_growth_rate": made.growth_rate,
-        }
-
-    def _sweep(self) -> dict[str, Any]:
-        if self.ask.settings.speeds is None:
-            return {}
-        speeds = np.geomspace(0.1, 10.0, self.ask.settings.speeds) * self.ask.speed
-        period = 2.0 * math.pi / self.normal.natural_frequency
-        made = sweep_block(self.block, "speed", list(speeds), duration=USUAL_PERIODS * period)
-        return {
-            "sweep_speed": made.axis_values,
-            "sweep_mean_friction": made.numbers["apparent_friction"],
-            "sweep_largest_friction": made.numbers["peak_friction"],
-        }
 
     def findings(self) -> tuple[Advice, ...]:
         """A poor law, vibration beyond its range, instability that the run is too short to show."""
@@ -369,7 +357,7 @@ class Made:
 
     def _of_the_end(self) -> list[Advice]:
         """Whether the apparent friction is that of a steady state, and the phase of the vibration one of the equations."""
-        made, late, numbers = [], self._late, self._late_numbers
+        made, late, numbers = [], self.motion.after(self._window), self._late_numbers
         spring = late["spring_force"]
         slope = np.polyfit(late.time - late.time[0], spring, 1)[0]
         change = float(slope * np.ptp(late.time)) / max(abs(float(spring.mean())), 1e-12 * self.load)
@@ -390,10 +378,3 @@ class Made:
             text = f"{why}: its phase hangs on rounding. Only means and extremes can be relied on, not the time of an event."
             made.append(Advice("note", "phase of the motion", text))
         return made
-
-
-def _cycles(motion: Motion) -> dict[str, float]:
-    """Mean period of stick-slip, from the times at which slip begins after the block has stuck; NaN without at least two."""
-    kinds = ["stick" if motion["sliding_speed"][0] == 0.0 else "slip", *(event.kind for event in motion.events)]
-    starts = [e.time for e, before in zip(motion.events, kinds, strict=False) if (before, e.kind) == ("stick", "slip")]
-    return {"stick_slip_period": float(np.diff(starts).mean()) if len(starts) > 1 else math.nan}

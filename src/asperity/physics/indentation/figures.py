@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...core.arrays import RealArray
-from ...plots.picture import BLACK, BLUE, GREEN, VERMILLION, Plot, legend_above, scale
+from ...plots.picture import BLACK, BLUE, GREEN, VERMILLION, Plot, figures_by, legend_above, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from ...plots.picture import Figure
+
 
 LEAST = 1e-4
 """Share of the first pass below which curves end: there rounding and the tolerance of the balance are seen."""
@@ -115,9 +119,14 @@ PASS_MOTION = Plot(
 )
 
 
-def pass_plots(shown: PassPicture) -> tuple[Plot, ...]:
-    """Figures that ``shown`` has values for."""
-    made = [RESIDUAL_DEPTH]
+def pass_figures(values: Mapping[str, Any]) -> tuple[Figure, ...]:
+    """Figures of passes that ``values`` by the names of quantities allow."""
+    names = ("profile_depth", "residual_along", "residual_across", "interfaces")
+    columns = ("growth", "onward", "dissipation", "forward", "groove")
+    shown = PassPicture(
+        *(np.atleast_1d(np.asarray(values.get(f"passes_{name}", ()), float)) for name in (*names, *columns))
+    )
+    plots = [RESIDUAL_DEPTH]
     if shown.growth.size > 1 and shown.growth.max() > 0.0:
-        made += [PASS_FLOW, PASS_MOTION]
-    return tuple(made)
+        plots += [PASS_FLOW, PASS_MOTION]
+    return figures_by(plots, shown)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import model_validator
 
@@ -13,6 +13,9 @@ from ...core.settings import Settings, setting
 from ...core.values import Choice, Length, NonNegative, Number, Whole
 from ...parts.part import Part
 from ..plastic_flow.part_quantities import quantities_of
+
+if TYPE_CHECKING:
+    pass
 
 Shape = Annotated[str, Choice({name: name for name in ("sphere", "cone")})]
 HalfAngle = Annotated[float, Number("angle", above=0.0, below=0.5 * math.pi)]

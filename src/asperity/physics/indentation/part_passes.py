@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import model_validator
 
@@ -14,6 +14,9 @@ from ...core.settings import Settings, setting
 from ...core.values import Choice, Force, Length, NonNegative, Number, Pressure, Whole
 from ...parts.part import Part
 from ..plastic_flow.part_quantities import quantities_of
+
+if TYPE_CHECKING:
+    pass
 
 Shape = Annotated[str, Choice({name: name for name in ("cylinder", "sphere")})]
 Motion = Annotated[str, Choice({name: name for name in ("one way", "to and fro", "in place")})]

@@ -143,7 +143,9 @@ def indented(
     ConvergenceError
         If a step is not found.
     """
-    depths = _loading_depths(course, cone=indenter.is_cone)
+    # Approaches of a ball grow with the depth, so that first yield is seen; a cone yields at once.
+    even = np.linspace(0.0, 1.0, course.loading + 1)[1:]
+    depths = [float(depth) for depth in course.depth * (even if indenter.is_cone else even**1.5)]
     resolution = Resolution(across=course.across, per_layer=max(6, course.across // 3))
     laws = meshed_laws(body, unknown_is_elastic=unknown_is_elastic)
     pair: Any = {"counter_body": course.of, "friction": course.friction, "resolution": resolution}
@@ -158,14 +160,10 @@ def indented(
     progress.update(3, 0.05, 0.1)
     fields = [*(way_in.fields[n] for n in range(len(depths))), *(way_out.fields[n] for n in range(len(loads)))]
     steps = [*way_in.steps, *way_out.steps]
-    cut = _Cut.of(fields[0], LEFT * indenter.reach(course.depth), body)
+    r, z = (np.unique(fields[0].mesh.points[:, axis]) for axis in (0, 1))
+    wide, deep = (max(int(np.searchsorted(line, LEFT * indenter.reach(course.depth))), 3) for line in (r, z))
+    cut = _Cut(r[:wide], z[:deep], len(r) - 1, interfaces_of(body))
     return cut.found(steps, fields, len(depths), elastic.load, prepared.r)
-
-
-def _loading_depths(course: Course, *, cone: bool) -> list[float]:
-    """Approaches of the steps; of a ball they grow with the depth, so that first yield is seen, a cone yields at once."""
-    even = np.linspace(0.0, 1.0, course.loading + 1)[1:]
-    return [float(depth) for depth in course.depth * (even if cone else even**1.5)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,12 +174,6 @@ class _Cut:
     z: RealArray
     columns: int
     interfaces: RealArray
-
-    @classmethod
-    def of(cls, fields: SolidFields, reach: float, body: Elastic | Layered) -> _Cut:
-        r, z = (np.unique(fields.mesh.points[:, axis]) for axis in (0, 1))
-        wide, deep = (max(int(np.searchsorted(line, reach)), 3) for line in (r, z))
-        return cls(r[:wide], z[:deep], len(r) - 1, interfaces_of(body))
 
     def cells(self, values: RealArray) -> RealArray:
         """Means over elements (columns, rows) of ``values`` (elements, points)."""
@@ -236,15 +228,14 @@ class _Cut:
 # Values, facts and findings.
 
 
-def _numbers(run: Indented, body: Any, indenter: Indenter) -> dict[str, Any]:
-    """``SCALARS`` but for those of the unloading."""
+def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Found:
+    """Values, facts and findings of a ``run``."""
     curve, peak, shown = run.shown.curve, run.peak, run.shown
     area, force = float(curve["area"][peak]), float(curve["force"][peak])
     known = [flow_stress(material.strength).value for material in materials_of(body)]
     lowest = min((value for value in known if not math.isnan(value)), default=math.nan)
     rows = np.flatnonzero((shown.strain > 0.0).any(axis=0))
-    values: dict[str, Any] = {item.name: math.nan for item in SCALARS}
-    return values | {
+    values: dict[str, Any] = {item.name: math.nan for item in SCALARS} | {
         "indent_force": force,
         "indent_depth": float(curve["approach"][peak]),
         "indent_radius": indenter.radius,
@@ -256,12 +247,6 @@ def _numbers(run: Indented, body: Any, indenter: Indenter) -> dict[str, Any]:
         "indent_plastic_depth": float(shown.depth[rows[-1] + 1]) if rows.size else 0.0,
         **{f"indent_{name}": value for name, value in run.tensions.items()},
     }
-
-
-def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Found:
-    """Values, facts and findings of a ``run``."""
-    curve, shown, values = run.shown.curve, run.shown, _numbers(run, body, indenter)
-    area = float(curve["area"][run.peak])
     facts: dict[str, Any] = {"layers": layer_names(body), "axis": "r", "oliver_pharr": None, "cone": indenter.is_cone}
     facts |= {"of_indenter": " on ".join(layer_names(course.of)), "friction": course.friction}
     zones = zone_table(shown, body)
@@ -302,23 +287,6 @@ def _findings(run: Indented, indenter: Indenter, body: Body) -> tuple[Advice, ..
     if not run.shown.strain.max() > 0.0:
         made.append(Advice("note", "indentation", "Nothing flows at this depth: the indentation is elastic."))
     return tuple(made)
-
-
-def require_depth(depth: float, indenter: Indenter) -> float:
-    """``depth`` in m that small strains allow: a contact radius of at most 0.4 of the radius of a ball.
-
-    Raises
-    ------
-    InputError
-        If it is larger.
-    """
-    if not indenter.is_cone and indenter.reach(depth) > 0.4 * indenter.radius:
-        raise InputError(
-            f"depth of indentation (m) must be at most {0.08 * indenter.radius:.3g}, 0.08 of the radius of the indenter, but is {depth:.3g}. "
-            "Beyond that strains are not small.",
-            subject="depth of indentation (m)",
-        )
-    return depth
 
 
 SMALL_STRAIN = 0.15
@@ -362,7 +330,20 @@ class IndentationWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Hardness by both ways, what stays, zones by layer, tensions."""
-        return indentation_words(found)
+        values, facts = found.values, found.detail.facts
+        paraboloid = f"paraboloid of radius {show(float(values['indent_radius']), 'm', 3)}"
+        rows: Rows = [
+            ("indenter", "cone" if facts["cone"] else paraboloid),
+            ("material of the indenter", str(facts.get("of_indenter", "rigid"))),
+            ("friction coefficient of the indentation", f"{float(facts.get('friction', 0.0)):g}"),
+            *number_rows(SCALARS, values),
+        ]
+        tables = (
+            ("Plastic zones", zones_table(facts)),
+            ("Tension and shear that may crack layers", tension_table(values, "indent")),
+        )
+        hard = show(float(values["indent_hardness"]), "Pa", 3)
+        return Words(_sentence(values), [("hardness by indentation", hard)], rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers, the fitted unloading and the table of zones."""
@@ -407,7 +388,7 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
     Raises
     ------
     InputError
-        If the surface has no summits, or the strains are not small.
+        If the surface has no summits, or the strains are not small: the contact radius is beyond 0.4 of that of a ball.
     """
     if ask.indenter == "cone":
         return Indenter(half_angle=float(ask.half_angle or BERKOVICH_ANGLE))
@@ -415,7 +396,13 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
         found = Indenter(float(ask.radius))
     else:
         found = Indenter(summit_radius(problem, "Give indentation.radius (--indenter-radius 10um)."))
-    require_depth(float(ask.depth or 0.0), found)
+    depth = float(ask.depth or 0.0)
+    if found.reach(depth) > 0.4 * found.radius:
+        raise InputError(
+            f"depth of indentation (m) must be at most {0.08 * found.radius:.3g}, 0.08 of the radius of the indenter, but is {depth:.3g}. "
+            "Beyond that strains are not small.",
+            subject="depth of indentation (m)",
+        )
     return found
 
 
@@ -426,26 +413,6 @@ REMARK = (
     "read from the unloading; the other divides the force by the true area. Tensions are means over an element at the place of the maximum."
 )
 """What the model is."""
-
-
-def indentation_words(found: Found) -> Words:
-    """Sentence, headline, rows and tables."""
-    values, facts = found.values, found.detail.facts
-    rows: Rows = [
-        (
-            "indenter",
-            "cone" if facts["cone"] else f"paraboloid of radius {show(float(values['indent_radius']), 'm', 3)}",
-        ),
-        ("material of the indenter", str(facts.get("of_indenter", "rigid"))),
-        ("friction coefficient of the indentation", f"{float(facts.get('friction', 0.0)):g}"),
-        *number_rows(SCALARS, values),
-    ]
-    tables = (
-        ("Plastic zones", zones_table(facts)),
-        ("Tension and shear that may crack layers", tension_table(values, "indent")),
-    )
-    hard = show(float(values["indent_hardness"]), "Pa", 3)
-    return Words(_sentence(values), [("hardness by indentation", hard)], rows, tables, (REMARK,))
 
 
 def _sentence(values: Mapping[str, Any]) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ...core.units import percent, show
 from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
-from ...solids.layers import Body, Layered
+from ...solids.layers import Body, Layered, RigidBase
 from ...solids.strength import flow_stress
 from ...theories.subsurface.point_shakedown import sphere_shakedown
 from ...theories.subsurface.shakedown import cylinder_shakedown
@@ -26,11 +26,13 @@ from ..plastic_flow.work_values import (
     meshed_body,
     picture_of,
     require_flow,
-    summit_radius,
     zone_table,
 )
-from .figures import PassPicture, pass_plots
+from .figures import pass_figures
 from .part_passes import EACH, PREFIX, SCALARS, Passing
+
+if TYPE_CHECKING:
+    from ...contact.problem import ContactProblem
 from .work_passes_course import Course, Passed, course_of, passed, require_course
 
 LARGE_STRAIN = 0.1
@@ -44,7 +46,8 @@ def _numbers(run: Passed, body: Elastic | Layered, course: Course) -> dict[str, 
     rows = np.flatnonzero((shown.strain > 0.0).any(axis=0))
     depth, along, _ = run.profile
     lowest, strains = int(np.argmin(along)), run.numbers["strains"]
-    layers, base = (strains, math.nan) if _rigid_base(body) else (strains[:-1], strains[-1])
+    on_rigid = isinstance(body, Layered) and isinstance(body.reduced.base, RigidBase)
+    layers, base = (strains, math.nan) if on_rigid else (strains[:-1], strains[-1])
     growth = float(each["growth"][-1])
     own = {
         "pass_radius": course.radius,
@@ -69,10 +72,6 @@ def _numbers(run: Passed, body: Elastic | Layered, course: Course) -> dict[str, 
     }
     load, work = ("pass_force", "pass_dissipation") if course.sphere else ("pass_line_load", "pass_line_dissipation")
     return {item.name: math.nan for item in SCALARS} | own | {load: course.load, work: run.numbers["work"]}
-
-
-def _rigid_base(body: Elastic | Layered) -> bool:
-    return isinstance(body, Layered) and not isinstance(body.reduced.base, Elastic)
 
 
 def _limit(body: Elastic | Layered, course: Course) -> float:
@@ -105,15 +104,6 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
     names = ("profile_depth", "residual_along", "residual_across")
     values |= {f"{PREFIX}_{name}": column for name, column in zip(names, run.profile, strict=True)}
     return Found(values, Detail(facts, run), _findings(run, values, course, body), KEYS)
-
-
-def pass_picture(found: Found) -> PassPicture:
-    """What the figures of passes are drawn from."""
-    names = ("profile_depth", "residual_along", "residual_across", "interfaces")
-    columns = ("growth", "onward", "dissipation", "forward", "groove")
-    return PassPicture(
-        *(np.atleast_1d(np.asarray(found.values.get(f"{PREFIX}_{name}", ()), float)) for name in (*names, *columns))
-    )
 
 
 def _findings(run: Passed, values: dict[str, Any], course: Course, body: Body) -> tuple[Advice, ...]:
@@ -164,11 +154,12 @@ class PassesWork(Work):
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
         body = _body(ask, problem)
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
-        require_course(_course(ask, problem), body)
+        require_course(course_of(ask.settings, body, problem, ask.coefficient), body)
 
     def compute(self, ask: Passing, solved: Solved) -> Found:
         """All passes, and what they leave."""
-        body, course = _body(ask, solved.problem), _course(ask, solved.problem)
+        body = _body(ask, solved.problem)
+        course = course_of(ask.settings, body, solved.problem, ask.coefficient)
         with solved.stage("passes") as progress:
             run = passed(body, course, unknown_is_elastic=ask.settings.unknown_is_elastic, progress=progress)
         return found_of(run, body, course)
@@ -180,12 +171,31 @@ class PassesWork(Work):
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Zones, residual stress, stress under load, groove; residual stress against depth; what each pass adds."""
         shown = picture_of(PREFIX, found.values, found.detail.facts)
-        passes = pass_picture(found)
-        return (*figures_by(plots_of(shown, "passes"), shown), *figures_by(pass_plots(passes), passes))
+        return (*figures_by(plots_of(shown, "passes"), shown), *pass_figures(found.values))
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Whether flow ceases, zones by layer, tensions, and what each pass adds."""
-        return passes_words(found)
+        values, facts = found.values, found.detail.facts
+        columns = [np.atleast_1d(values[item.name]) for item in EACH]
+        count = columns[0].size
+        passes = []
+        for number in (n for n in range(count) if n < 10 or n >= count - 10):
+            growth, onward, work, forward, groove = (float(column[number]) for column in columns)
+            shares = (percent(growth), percent(onward), percent(work))
+            passes.append((str(number + 1), *shares, show(forward, "m", 3), show(groove, "m", 3)))
+        strains = ("Growth of the strain", "Change of the strain", "Plastic work / that of the first")
+        tables = (
+            ("What each pass adds", Table(("Pass", *strains, "Forward", "Groove"), tuple(passes))),
+            ("Plastic zones of the passes", zones_table(facts)),
+            ("Tension and shear that may crack layers in a pass", tension_table(values, "pass")),
+        )
+        rows: Rows = [
+            ("indenter", str(facts["indenter"])),
+            ("motion", str(facts["motion"])),
+            ("pressure", str(facts["pressure"])),
+            *number_rows(SCALARS, values),
+        ]
+        return Words(_sentence(values, facts), [("repeated passes", verdict(values))], rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers, the motion and the table of zones."""
@@ -204,15 +214,6 @@ def _body(ask: Passing, problem: ContactProblem) -> Any:
     return meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
 
 
-def _course(ask: Passing, problem: ContactProblem) -> Course:
-    """What passes, with the radius of the summits where none is given; InputError if there are none."""
-    table = ask.settings
-    radius = table.radius
-    if radius is None:
-        radius = summit_radius(problem, "Give passes.radius (--pass-radius 10um).")
-    return course_of(table, _body(ask, problem), float(radius), ask.coefficient)
-
-
 # In words and tables.
 
 REMARK = (
@@ -220,23 +221,6 @@ REMARK = (
     "those in the middle of the track. Flow that goes on in closed cycles wears by fatigue, strain that adds up from pass to pass by ratchetting."
 )
 """What the model is."""
-
-
-def passes_words(found: Found) -> Words:
-    """Sentence, headline, rows and tables."""
-    values, facts = found.values, found.detail.facts
-    rows: Rows = [
-        ("indenter", str(facts["indenter"])),
-        ("motion", str(facts["motion"])),
-        ("pressure", str(facts["pressure"])),
-        *number_rows(SCALARS, values),
-    ]
-    tables = (
-        ("What each pass adds", _pass_table(values)),
-        ("Plastic zones of the passes", zones_table(facts)),
-        ("Tension and shear that may crack layers in a pass", tension_table(values, "pass")),
-    )
-    return Words(_sentence(values, facts), [("repeated passes", verdict(values))], rows, tables, (REMARK,))
 
 
 def verdict(values: Mapping[str, Any]) -> str:
@@ -270,24 +254,3 @@ def _sentence(values: Mapping[str, Any], facts: Mapping[str, Any]) -> str:
     if found == "one pass":
         return f"{start} {reached}."
     return f"{start} {reached}; the last pass adds {percent(last)} in the middle of the track, {percent(float(values['pass_growth_ratio']))} of the first: {found}."
-
-
-def _pass_table(values: Mapping[str, Any]) -> Table:
-    """One row for each pass, at most the first and the last ten."""
-    columns = [np.atleast_1d(values[item.name]) for item in EACH]
-    count = columns[0].size
-    rows = [number for number in range(count) if number < 10 or number >= count - 10]
-    cells = []
-    for number in rows:
-        growth, onward, work, forward, groove = (float(column[number]) for column in columns)
-        texts = (percent(growth), percent(onward), percent(work), show(forward, "m", 3), show(groove, "m", 3))
-        cells.append((str(number + 1), *texts))
-    heads = (
-        "Pass",
-        "Growth of the strain",
-        "Change of the strain",
-        "Plastic work / that of the first",
-        "Forward",
-        "Groove",
-    )
-    return Table(heads, tuple(cells))

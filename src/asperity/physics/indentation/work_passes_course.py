@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.status import NoProgress, Progress
@@ -20,15 +21,19 @@ from ...fem.pass_fields import interface_tractions
 from ...fem.pass_histories import hertz_steps, sliding_steps
 from ...fem.passes import PassState, Track, cylinder_track, sphere_track
 from ...solids.elastic import Elastic
-from ...solids.layers import Layered
+from ...solids.layers import Layered, materials_of
 from ...solids.plasticity import J2, WEIGHTS, von_mises
 from ...theories.single.hertz import HertzLine, HertzPoint
 from ..plastic_flow.work_values import (
     PlasticValues,
     interfaces_of,
     meshed_laws,
+    summit_radius,
 )
 from .part_passes import EACH, PREFIX, PassesSettings
+
+if TYPE_CHECKING:
+    from ...contact.problem import ContactProblem
 
 REACH = 2.0
 """How far the cut reaches beyond the track, and half as far as it reaches into the body, in contact radii."""
@@ -117,10 +122,23 @@ class Course:
         return sliding_steps(track, start, self.heights, force, ends, **options)
 
 
-def course_of(table: PassesSettings, body: Elastic | Layered, radius: float, friction: float) -> Course:
-    """What ``table`` asks for, with the ``radius`` in m of the indenter and the coefficient of ``friction``."""
+def course_of(table: PassesSettings, body: Elastic | Layered, problem: ContactProblem, friction: float) -> Course:
+    """What ``table`` asks for, with the coefficient of ``friction``, and the radius of the summits of the ``problem`` where none is given.
+
+    Raises
+    ------
+    InputError
+        If there are no summits.
+    """
     sphere = table.indenter == "sphere"
-    theory = (HertzPoint if sphere else HertzLine)(_base(body).plane_strain_modulus, radius)
+    radius = table.radius
+    if radius is None:
+        radius = summit_radius(problem, "Give passes.radius (--pass-radius 10um).")
+    radius = float(radius)
+    base = body if isinstance(body, Elastic) else body.reduced.base
+    if not isinstance(base, Elastic):  # the outermost layer on a rigid base
+        base = materials_of(body)[0]
+    theory = (HertzPoint if sphere else HertzLine)(base.plane_strain_modulus, radius)
     load = table.force if sphere else table.line_load
     answer = theory.at_load(float(load)) if load is not None else theory.at_peak(float(table.peak_pressure or 0.0))
     width = float(answer.radius)
@@ -141,14 +159,6 @@ def course_of(table: PassesSettings, body: Elastic | Layered, radius: float, fri
         table.motion == "to and fro",
         table.pressure == "hertz",
     )
-
-
-def _base(body: Elastic | Layered) -> Elastic:
-    """Base of ``body``; its outermost layer on a rigid one."""
-    if isinstance(body, Elastic):
-        return body
-    reduced = body.reduced
-    return reduced.base if isinstance(reduced.base, Elastic) else reduced.layers[0].material
 
 
 def require_course(course: Course, body: Elastic | Layered) -> Course:
@@ -341,8 +351,11 @@ class _Record:
         self.labels: list[str] = []
         self.stride = -(-course.count * (course.steps * bool(course.length) + 2 * course.ramp) // FRAMES)
         self.loaded, self.at_edge, self.seen = self.state, False, 0
-        middle = np.hypot(*track.places.T) if track.dimension == 3 else np.abs(track.places[:, 0])
+        places = track.places
+        middle = np.hypot(*places.T) if track.dimension == 3 else np.abs(places[:, 0])
         self.middle = int(track.surface[int(np.argmin(middle))])
+        # points beyond which no point may touch
+        self.edge = (places == places.max(axis=0)).any(axis=1) | (places[:, 0] == places[:, 0].min())
 
     def follow(self, number: int, cut: _Cut) -> None:
         """One more pass."""
@@ -352,30 +365,25 @@ class _Record:
         for state in course.states(self.track, start, number):
             if float(state.normal.sum()) > full and abs(state.place) < nearest:
                 nearest, self.loaded = abs(state.place), state
-            self.at_edge |= self._reaches_edge(state)
+            self.at_edge |= not course.given and bool((state.normal[self.edge] > 0.0).any())
             self.seen += 1
             if (self.seen - 1) % self.stride == 0 or (number + 1 == course.count and not state.normal.any()):
                 self.strains.append(cut.cells(state.plastic.accumulated))
                 at = f", place {show(state.place, 'm', 3)}" if course.length else ""
                 self.labels.append(f"pass {number + 1}{at}, load {percent(float(state.normal.sum()) * 0.999 / full)}")
             self.state = state
-        self._read(start)
-
-    def _read(self, start: PassState) -> None:
-        """Numbers of the pass that led from ``start`` to the state."""
-        before, lag = self.columns[-1], 2 if self.course.to_and_fro else 1
+        before, lag = self.columns[-1], 2 if course.to_and_fro else 1
         self.columns.append(self._column(self.state))
         earlier = self.columns[max(len(self.columns) - 1 - lag, 0)]
         change = (self.columns[-1][1] - earlier[1]) / min(lag, len(self.columns) - 1)
-        moved = (self.state.displacement - start.displacement).reshape(-1, self.track.dimension)[self.middle]
+        now, then = (at.displacement.reshape(-1, self.track.dimension)[self.middle] for at in (self.state, start))
         self.work.append(self.state.dissipated - start.dissipated)
-        first = self.work[0]
         row = {
             "growth": float((self.columns[-1][0] - before[0]).max()),
             "onward": float(np.sqrt(2.0 / 3.0 * (change**2 @ WEIGHTS)).max()),
-            "dissipation": self.work[-1] / first if first > 0.0 else 0.0,
-            "forward": float(moved[0]),
-            "groove": float(self.state.displacement.reshape(-1, self.track.dimension)[self.middle, -1]),
+            "dissipation": self.work[-1] / self.work[0] if self.work[0] > 0.0 else 0.0,
+            "forward": float(now[0] - then[0]),
+            "groove": float(now[-1]),
         }
         for name, value in row.items():
             self.rows[name].append(value)
@@ -384,31 +392,16 @@ class _Record:
         """Accumulated plastic strain (n,) and plastic strain (n, 6) below the middle of the track."""
         return self.track.column(state.plastic.accumulated)[1], self.track.column(state.plastic.plastic_strain)[1]
 
-    def _reaches_edge(self, state: PassState) -> bool:
-        """Whether a point touches beyond which none may, of an indenter whose contact is solved."""
-        if self.course.given or not state.normal.any():
-            return False
-        places, far = self.track.places, False
-        for axis in range(places.shape[1]):
-            ends = [places[:, axis].max()] + ([places[:, axis].min()] if axis == 0 else [])
-            far |= any(bool((state.normal[places[:, axis] == end] > 0.0).any()) for end in ends)
-        return far
-
-    def _groove(self, cut: _Cut) -> tuple[RealArray, RealArray]:
-        """Places along y = 0 in m as far as the ``cut`` reaches, and heights of the surface there."""
-        points = self.track.mesh.points
-        line = np.flatnonzero((points[:, -1] == 0.0) & (points[:, 1:-1] == 0.0).all(axis=1))
-        line = line[np.argsort(points[line, 0])]
-        line = line[(points[line, 0] >= cut.x[0]) & (points[line, 0] <= cut.x[-1])]
-        return points[line, 0], -self.state.displacement.reshape(-1, self.track.dimension)[line, -1]
-
     def found(self, cut: _Cut) -> Passed:
         """Everything."""
         track, state, loaded = self.track, self.state, self.loaded
         stress = track.response(state).stress
         depth, column = track.column(stress)
         inside = depth < cut.z[-1]
-        place, height = self._groove(cut)
+        points = track.mesh.points
+        line = np.flatnonzero((points[:, -1] == 0.0) & (points[:, 1:-1] == 0.0).all(axis=1))
+        line = line[np.argsort(points[line, 0])]
+        line = line[(points[line, 0] >= cut.x[0]) & (points[line, 0] <= cut.x[-1])]
         shown = PlasticValues(
             cut.x,
             cut.z,
@@ -416,8 +409,8 @@ class _Record:
             cut.interfaces,
             cut.cells(stress[..., 0]),
             cut.cells(von_mises(track.response(loaded).stress)),
-            place=place,
-            imprint=height,
+            place=points[line, 0],
+            imprint=-state.displacement.reshape(-1, track.dimension)[line, -1],
         )
         share = 2.0 if self.course.sphere else 1.0
         numbers = {

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
 from ...core.values import Length, Number, Whole
 from ...parts.part import Part
 from .part_quantities import quantities_of
-
-if TYPE_CHECKING:
-    pass
 
 PREFIX = "plastic_flow"
 

@@ -160,7 +160,15 @@ def creep_curve(
     ConvergenceError
         If a point is not solved.
     """
-    at = _points(longitudinal, lateral, spin)
+    creepages = (np.atleast_1d(np.asarray(part, dtype=float)) for part in (longitudinal, lateral, spin))
+    try:
+        at = tuple(np.array(part) for part in np.broadcast_arrays(*creepages))
+    except ValueError:
+        raise InputError(
+            "longitudinal, lateral and spin must be numbers and arrays of one length, but are not."
+        ) from None
+    if at[0].ndim != 1 or not at[0].size:
+        raise InputError(f"longitudinal creepage must be a number or an array (n,), but has the shape {at[0].shape}.")
     progress = progress or NoProgress()
     rows: list[tuple[float, ...]] = []
     first: RollingContact | None = None
@@ -181,19 +189,6 @@ def creep_curve(
     points = {item.name: part for item, part in zip(CREEPAGES, at, strict=True)}
     columns = {item.name: column for item, column in zip(FORCES, np.array(rows).T, strict=True)}
     return CreepCurve(**points, **columns, first=first, rough=roughness is not None)
-
-
-def _points(*creepages: ArrayLike) -> tuple[RealArray, ...]:
-    """Creepages and spin as arrays of one length."""
-    try:
-        at = np.broadcast_arrays(*(np.atleast_1d(np.asarray(part, dtype=float)) for part in creepages))
-    except ValueError:
-        raise InputError(
-            "longitudinal, lateral and spin must be numbers and arrays of one length, but are not."
-        ) from None
-    if at[0].ndim != 1 or not at[0].size:
-        raise InputError(f"longitudinal creepage must be a number or an array (n,), but has the shape {at[0].shape}.")
-    return tuple(np.array(part) for part in at)
 
 
 def mean_forces(found: RollingContact, rough: RoughRolling | None) -> tuple[float, ...]:

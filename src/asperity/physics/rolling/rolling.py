@@ -268,7 +268,12 @@ def _balanced(
     for _ in range(rounds if coupled else 1):
         normal = bodies.pressed(profile, lift, control, None if normal is None else normal.state)
         qp = bodies.posed(friction.bound(normal.pressure), normal.pressure)
-        found = _direct(qp, traction, tolerance) if method == "direct" else _transient(qp, traction, tolerance)
+        if method == "direct":
+            steady = SteadyNewton(tolerance=min(0.01 * tolerance, 0.1)).solve(qp, traction)
+            error, settled = steady.deviation.error, steady.status.converged
+            found = _Found(steady.traction, steady.slip, error, steady.iterations, settled)
+        else:
+            found = _transient(qp, traction, tolerance)
         traction, total = found.traction, total + found.steps
         before, lift = lift, bodies.shear.lift(traction)
         size = float(np.linalg.norm(lift))
@@ -334,20 +339,23 @@ class RollingBodies:
     ) -> ContactResult:
         """The contact of a surface of these ``heights`` (nx, ny) in m that shear displaces by ``lift`` (nx, ny) in m, started from the state ``before``.
 
-        Approach and displacement are those of the surface without shear: gap = offset + displacement - heights.
+        Approach and displacement are those of the surface without shear: gap = offset + displacement - heights; an approach is counted from first touch without shear.
 
         NoSolutionError if shear parts the surfaces at a prescribed approach.
         """
         solver, keep = ActiveSet(tolerance=NORMAL_TOLERANCE), Keep(stiffness=False)
-        lowered = float((heights - lift).max()) - float(heights.max())
-        found = solve(
-            self._of(heights - lift),
-            _counted_from(control, lowered),
-            keep=keep,
-            solver=solver,
-            operator=self.operator,
-            state=before,
-        )
+        lowered, counted = float((heights - lift).max()) - float(heights.max()), control
+        if isinstance(control, Approach):
+            left = control.value + lowered
+            if left <= 0.0:
+                raise NoSolutionError(
+                    f"approach of a rolling contact must be more than {-lowered:.3g} m, by which shear lowers the surface, but is {control.value:.3g} m: "
+                    "the surfaces part. Prescribe a Force, a larger approach, or less friction.",
+                    subject="approach",
+                )
+            counted = Approach(left)
+        lifted = self._of(heights - lift)
+        found = solve(lifted, counted, keep=keep, solver=solver, operator=self.operator, state=before)
         if not lift.any():
             return found
         work = 0.5 * float(np.multiply(found.pressure, lift, dtype=np.float64).sum()) * self.problem.grid.pixel_area
@@ -374,20 +382,6 @@ class RollingBodies:
         return RollingQP(self.shear, bound, self.rigid, self.shear.drawn(pressure), self.direction)
 
 
-def _counted_from(control: Control, lowered: float) -> Control:
-    """``control`` of a surface whose highest point shear has moved by ``lowered`` (m): an approach is counted from first touch without shear."""
-    if not isinstance(control, Approach):
-        return control
-    left = control.value + lowered
-    if left <= 0.0:
-        raise NoSolutionError(
-            f"approach of a rolling contact must be more than {-lowered:.3g} m, by which shear lowers the surface, but is {control.value:.3g} m: "
-            "the surfaces part. Prescribe a Force, a larger approach, or less friction.",
-            subject="approach",
-        )
-    return Approach(left)
-
-
 @dataclass(frozen=True, eq=False)
 class _Found:
     """Steady traction (Pa) and slip during a move by one pixel (m), both (2, nx, ny), and how steady."""
@@ -399,44 +393,27 @@ class _Found:
     settled: bool
 
 
-def _direct(qp: RollingQP, start: RealArray | None, tolerance: float) -> _Found:
-    """Steady traction by Newton's method."""
-    found = SteadyNewton(tolerance=min(0.01 * tolerance, 0.1)).solve(qp, start)
-    return _Found(found.traction, found.slip, found.deviation.error, found.iterations, found.status.converged)
-
-
 def _transient(qp: RollingQP, start: RealArray | None, tolerance: float) -> _Found:
     """Steady traction by moves from ``start`` or from none, first of several pixels."""
     touched = np.flatnonzero(qp.direction.oriented(qp.bound).any(axis=1))
     length = int(touched[-1] - touched[0]) + 1 if touched.size else 0
+    solver, steps = StickSlipNewton(tolerance=min(0.01 * tolerance, 0.1)), 0
     traction: RealArray = np.zeros_like(qp.rigid) if start is None else start
-    found, steps = _Found(traction, np.zeros_like(qp.rigid), 0.0, 0, True), 0
     for stride in _STRIDES:
         if stride > 1 and (start is not None or length < _FEWEST * stride):
             continue
-        loose = 1.0 if stride == 1 else 10.0 * stride
-        found = _at_rest(qp, found.traction, stride, (-(-length // stride), loose * tolerance, 0.01 * tolerance))
-        steps += found.steps
-    return replace(found, steps=steps)
-
-
-def _at_rest(qp: RollingQP, traction: RealArray, stride: int, course: tuple[int, float, float]) -> _Found:
-    """Traction that moves by ``stride`` pixels change little.
-
-    ``course`` is the least number of moves, the largest change, and the tolerance of the solver.
-    """
-    least, change_allowed, solver_tolerance = course
-    solver, steadiness, slip = StickSlipNewton(tolerance=min(solver_tolerance, 0.1)), np.inf, np.zeros_like(traction)
-    for count in range(1, _MOST_LENGTHS * max(least, 1) + 1):
-        found = solver.solve(qp.moved(qp.displacement(traction), stride), traction if traction.any() else None)
-        size = float(np.linalg.norm(found.traction))
-        change = float(np.linalg.norm(found.traction - traction))
-        steadiness = change / size if size else 0.0
-        traction, slip = found.traction, found.slip / stride
-        # material that has not rolled through yet may look at rest
-        if steadiness <= change_allowed and (count >= least or change == 0.0):
-            break
-    return _Found(traction, slip, steadiness, count, steadiness <= change_allowed)
+        allowed, least = (1.0 if stride == 1 else 10.0 * stride) * tolerance, -(-length // stride)
+        for count in range(1, _MOST_LENGTHS * max(least, 1) + 1):
+            found = solver.solve(qp.moved(qp.displacement(traction), stride), traction if traction.any() else None)
+            size = float(np.linalg.norm(found.traction))
+            change = float(np.linalg.norm(found.traction - traction))
+            steadiness = change / size if size else 0.0
+            traction, slip = found.traction, found.slip / stride
+            # material that has not rolled through yet may look at rest
+            if steadiness <= allowed and (count >= least or change == 0.0):
+                break
+        steps += count
+    return _Found(traction, slip, steadiness, steps, steadiness <= allowed)
 
 
 def slip_of(qp: RollingQP, traction: RealArray, slip: RealArray, pressure: RealArray, before: RealArray) -> RealArray:

@@ -83,12 +83,9 @@ class RoughRolling:
     @property
     def traction_coefficient(self) -> RealArray:
         """(n,), force on the body along the rolling direction over the normal force."""
-        return self._along / self.normal_force
-
-    @property
-    def _along(self) -> RealArray:
         axis = DIRECTIONS[self.last.direction]
-        return axis.sign * (self.force_x if axis.axis == 0 else self.force_y)
+        along = self.force_x if axis.axis == 0 else self.force_y
+        return axis.sign * along / self.normal_force
 
     def mean(self, name: str) -> float:
         """Mean of the array ``name`` after the running-in; InputError if nothing was rolled after it."""
@@ -171,16 +168,7 @@ def roll_rough(
     friction = require_rolling(problem, creepage, direction)
     require.positive(tolerance, "tolerance of rolling")
     require.integer(rounds, 1, "number of rounds")
-    bodies = RollingBodies.of(problem, creepage, direction)
-    moves = _Moves(bodies, friction, control, _along(roughness, bodies), (tolerance, rounds))
-    if distance is not None:
-        require.positive(distance, "distance of rough rolling (m)")
-    return moves.rolled(distance, start, creepage, direction, progress or NoProgress())
-
-
-def _along(roughness: Surface, bodies: RollingBodies) -> RealArray:
-    """Heights (length, across) of the ``roughness``, the first index along the rolling direction."""
-    grid, axis = bodies.problem.grid, bodies.direction.axis
+    grid, axis = problem.grid, DIRECTIONS[direction].axis
     heights = np.asarray(roughness.heights, dtype=float)
     if roughness.n_missing:
         raise InputError("roughness must have no missing points, but has some. Fill them first: filled(surface).")
@@ -192,7 +180,12 @@ def _along(roughness: Surface, bodies: RollingBodies) -> RealArray:
         raise InputError(
             f"roughness must have {grid.shape[1 - axis]} points across the rolling direction as the contact, but has {heights.shape[1 - axis]}."
         )
-    return np.asarray(bodies.direction.oriented(heights))
+    bodies = RollingBodies.of(problem, creepage, direction)
+    along = np.asarray(bodies.direction.oriented(heights))
+    moves = _Moves(bodies, friction, control, along, (tolerance, rounds))
+    if distance is not None:
+        require.positive(distance, "distance of rough rolling (m)")
+    return moves.rolled(distance, start, creepage, direction, progress or NoProgress())
 
 
 class _Moves:
@@ -213,11 +206,9 @@ class _Moves:
         rough: RealArray,
         asked: tuple[float, int],
     ) -> None:
+        """``rough``: heights (length, across) of the roughness, the first index along the rolling direction."""
         self.bodies, self.friction, self.control, self.rough, self.asked = bodies, friction, control, rough, asked
-
-    @property
-    def pixel(self) -> float:
-        return float(self.bodies.problem.grid.spacing[self.bodies.direction.axis])
+        self.pixel = float(bodies.problem.grid.spacing[bodies.direction.axis])
 
     def rolled(
         self,
@@ -232,16 +223,43 @@ class _Moves:
         running_in = self._begun(first, start)
         total = distance if distance is not None else running_in * (start is None) + len(self.rough) * self.pixel
         count = max(1, round(total / self.pixel))
-        rows: list[tuple[float, ...]] = []
-        for number in range(1, count + 1):
-            slip = self._move(first + number)
-            rows.append(self._row((first + number) * self.pixel, slip))
-            progress.update(number, 1.0 - number / count, 0.0)
-        columns = np.array(rows).T
-        values = {item.name: column for item, column in zip(PATH, columns, strict=True)}
+        rows: list[tuple[float, ...]] = []  # columns are those of PATH
+        grid = self.bodies.problem.grid
+        for number in range(first + 1, first + count + 1):
+            slip = self._move(number)
+            touching = self.normal.pressure > 0.0
+            contact = float(np.count_nonzero(touching))
+            slips = float(np.count_nonzero(np.any(slip != 0.0, axis=0) & touching))
+            row = (
+                number * self.pixel,
+                *resultant(grid, self.traction),
+                float(self.normal.force),
+                float(self.bound.sum()) * grid.pixel_area,
+                float(self.normal.approach),
+                contact * grid.pixel_area,
+                slips / contact if contact else np.nan,
+                float(np.einsum("kij,kij->", self.traction, slip)) * grid.pixel_area / self.pixel,
+            )
+            rows.append(row)
+            progress.update(number - first, 1.0 - (number - first) / count, 0.0)
+        values = {item.name: column for item, column in zip(PATH, np.array(rows).T, strict=True)}
+        forces = ("force_x", "force_y", "torque", "friction_limit", "dissipated")
+        last = RollingContact(
+            normal=self.normal,
+            creepage=creepage,
+            traction=self.traction,
+            slip=slip / self.pixel,
+            power_density=np.einsum("kij,kij->ij", self.traction, slip / self.pixel),
+            steadiness=self.error,
+            steps=1,
+            status=Status(Outcome.CONVERGED, f"Last move solved to {self.error:.1e}."),
+            law=self.friction,
+            direction=direction,
+            **{name: float(values[name][-1]) for name in forces},
+        )
         if start is not None:
             values = {name: np.concatenate([getattr(start, name), column]) for name, column in values.items()}
-        return RoughRolling(**values, running_in=running_in, last=self._last(creepage, direction, slip, rows[-1]))
+        return RoughRolling(**values, running_in=running_in, last=last)
 
     def _begun(self, first: int, start: RoughRolling | None) -> float:
         """Pressure and displacement before the first move, without shear or those of ``start``; the running-in (m)."""
@@ -300,39 +318,3 @@ class _Moves:
         slip = slip_of(qp, traction, found.slip, normal.pressure, self.displaced)
         self.displaced, self.error = qp.displacement(traction), found.deviation.error
         return slip
-
-    def _row(self, distance: float, slip: RealArray) -> tuple[float, ...]:
-        """``PATH`` after a move with this ``slip``."""
-        grid = self.bodies.problem.grid
-        touching = self.normal.pressure > 0.0
-        slips = np.any(slip != 0.0, axis=0) & touching
-        contact = float(np.count_nonzero(touching))
-        heat = float(np.einsum("kij,kij->", self.traction, slip)) * grid.pixel_area / self.pixel
-        return (
-            distance,
-            *resultant(grid, self.traction),
-            float(self.normal.force),
-            float(self.bound.sum()) * grid.pixel_area,
-            float(self.normal.approach),
-            contact * grid.pixel_area,
-            float(np.count_nonzero(slips)) / contact if contact else np.nan,
-            heat,
-        )
-
-    def _last(self, creepage: Creepage, direction: Rolling, slip: RealArray, row: tuple[float, ...]) -> RollingContact:
-        """The contact after the last move."""
-        by_name = dict(zip((item.name for item in PATH), row, strict=True))
-        rate = slip / self.pixel
-        return RollingContact(
-            normal=self.normal,
-            creepage=creepage,
-            traction=self.traction,
-            slip=rate,
-            power_density=np.einsum("kij,kij->ij", self.traction, rate),
-            steadiness=self.error,
-            steps=1,
-            status=Status(Outcome.CONVERGED, f"Last move solved to {self.error:.1e}."),
-            law=self.friction,
-            direction=direction,
-            **{name: by_name[name] for name in ("force_x", "force_y", "torque", "friction_limit", "dissipated")},
-        )

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,9 +28,6 @@ from ..friction.operator import TangentialOperator
 from ..friction.solver.linear_system import Workspace
 from ..friction.solver.newton import COARSEST, StickSlipNewton
 from ..friction.solver.problem import Deviation, Points, Sets, TangentialQP, TangentialSolution, ended, size_of
-
-Index: TypeAlias = NDArray[np.int64]
-"""Places in a grid."""
 
 _REDUCTION = 0.01
 """Reduction of the residual in a linear system while points change between stick and slip."""
@@ -210,21 +207,16 @@ class _Iteration:
             sets = Sets.of(self.points, self.q, s)
             settled = np.count_nonzero(sets.slip != before) <= _SETTLED * len(before)
             before = sets.slip
-            if idle > _PATIENCE:
-                self._move()
-                idle = 0
+            if idle > _PATIENCE:  # the tractions after the material has moved by a pixel
+                idle, field = 0, self.points.scattered(self.q, self.qp.bound.shape)
+                moved = self.qp.moved(self.qp.displacement(field))
+                rolled = StickSlipNewton(max(settings.tolerance, 1e-8)).solve(moved, field)
+                self.pairs += rolled.pairs
+                self.q = self.points.gathered(rolled.traction)
                 continue
             wanted = max(_MARGIN * settings.tolerance / error, _FINEST) if settled else _REDUCTION
             self._step(sets, s, min(wanted, _REDUCTION))
         return found, (self.q, s, np.zeros(2)), count
-
-    def _move(self) -> None:
-        """Tractions after the material has moved by a pixel."""
-        field = self.points.scattered(self.q, self.qp.bound.shape)
-        moved = self.qp.moved(self.qp.displacement(field))
-        found = StickSlipNewton(max(self.settings.tolerance, 1e-8)).solve(moved, field)
-        self.pairs += found.pairs
-        self.q = self.points.gathered(found.traction)
 
     def _step(self, sets: Sets, s: RealArray, reduction: float) -> None:
         """One step of Newton's method: slipping tractions turn on their circles, sticking ones stay within their bounds."""
@@ -254,57 +246,41 @@ class _Iteration:
         self.q = np.where(slip, turned, self.points.projected(self.q + d))
 
     def _preconditioner(self, sets: Sets, curvature: RealArray) -> Callable[[RealArray], RealArray]:
-        """Approximate inverse of the system at ``sets``."""
+        """Approximate inverse of the system at ``sets``.
+
+        Residuals of sticking points are summed over themselves and those ahead, as far as their stretch of a row goes; where
+        the grid wraps rows are taken twice.
+        """
         sticks, tangent, share = ~sets.slip, sets.tangent, 1.0 / (1.0 + curvature)
         index, ones = self.points.index[sticks], np.ones(int(np.count_nonzero(sticks)))
-        shape = self.qp.bound.shape
+        shape, direction = self.qp.bound.shape, self.qp.direction
         free = self.qp.operator.engine.points(shape, index, self.work.dtype)
         cells, whole = self.work.cells, np.stack([ones, 0.0 * ones, ones])
         cells.factorise(free, whole)
-        sums = _Sums.of(index, shape, self.qp.direction, wraps=self.qp.operator.boundary.wraps[self.qp.direction.axis])
+        mask: BoolArray = np.zeros(shape[0] * shape[1], dtype=bool)
+        mask[index] = True
+        copies = 2 if self.qp.operator.boundary.wraps[direction.axis] else 1
+        along = np.concatenate([direction.oriented(mask.reshape(shape))] * copies)
+        place = np.where(along, len(along), np.arange(len(along))[:, None])
+        # first place ahead that does not belong to them, by rows along the direction
+        stop = np.minimum.accumulate(place[::-1], axis=0)[::-1][: len(along) // copies]
+
+        def summed(r: RealArray) -> RealArray:
+            field = np.zeros(shape[0] * shape[1])
+            field[index] = r
+            rows = np.concatenate([direction.oriented(field.reshape(shape))] * copies)
+            total = np.zeros((len(rows) + 1, rows.shape[1]))
+            total[:-1] = np.cumsum(rows[::-1], axis=0)[::-1]
+            out = np.empty(shape)
+            direction.oriented(out)[...] = total[: len(stop)] - np.take_along_axis(total, stop, axis=0)
+            return np.asarray(out.ravel()[index])
 
         def apply(values: RealArray) -> RealArray:
             r = values.reshape(2, -1)
             out = tangent * (np.einsum("ij,ij->j", r, tangent) * share)
             if len(index):
-                ahead = np.stack([sums.of_residual(component[sticks]) for component in r])
+                ahead = np.stack([summed(component[sticks]) for component in r])
                 out[:, sticks] = cells.solve(free, ahead, whole)
             return np.asarray(out.ravel())
 
         return apply
-
-
-@dataclass(frozen=True, eq=False)
-class _Sums:
-    """Sums at the points ``index`` of a grid of this ``shape`` over themselves and those ahead, as far as their stretch of a row goes.
-
-    ``stop`` is the first place ahead that does not belong to them, by rows along the direction; twice the grid where it wraps.
-    """
-
-    index: Index
-    shape: tuple[int, int]
-    direction: Direction
-    stop: Index
-    copies: int
-
-    @classmethod
-    def of(cls, index: Index, shape: tuple[int, int], direction: Direction, *, wraps: bool) -> _Sums:
-        mask: BoolArray = np.zeros(shape[0] * shape[1], dtype=bool)
-        mask[index] = True
-        copies = 2 if wraps else 1
-        along = np.concatenate([direction.oriented(mask.reshape(shape))] * copies)
-        place = np.where(along, len(along), np.arange(len(along))[:, None])
-        stop = np.minimum.accumulate(place[::-1], axis=0)[::-1]
-        return cls(index, shape, direction, stop[: len(along) // copies], copies)
-
-    def of_residual(self, r: RealArray) -> RealArray:
-        """Sums of ``r`` (n,)."""
-        field = np.zeros(self.shape[0] * self.shape[1])
-        field[self.index] = r
-        along = np.concatenate([self.direction.oriented(field.reshape(self.shape))] * self.copies)
-        total = np.zeros((len(along) + 1, along.shape[1]))
-        total[:-1] = np.cumsum(along[::-1], axis=0)[::-1]
-        sums = total[: len(self.stop)] - np.take_along_axis(total, self.stop, axis=0)
-        out = np.empty(self.shape)
-        self.direction.oriented(out)[...] = sums
-        return np.asarray(out.ravel()[self.index])

@@ -18,7 +18,6 @@ from ...plots.picture import Figure, figures_by
 from ...surfaces.prepare.extent import cropped, periodised
 from ...surfaces.prepare.level import filled, levelled
 from ...surfaces.read import read
-from ...surfaces.surface import Surface
 from ..friction.work_stick_slip import law_text
 from .creep_curve import CREEPAGES, FORCES, CreepCurve, creep_curve, mean_forces, theories_of, theory_forces
 from .figures import CURVE_PLOT, PATH_PLOT, ROLLING_PLOTS, RollingPicture
@@ -45,13 +44,33 @@ class RollingWork(Work):
 
     def compute(self, ask: Rolls, solved: Solved) -> Found:
         """Forces, fields and curves."""
-        problem = solved.problem.with_physics(friction=ask.law)
+        problem, way = solved.problem.with_physics(friction=ask.law), ask.settings.direction
         with solved.stage("rolling") as progress:
             rough = None if ask.roughness is None else _rolled(problem, solved.control, ask, progress)
-            contact = _smooth(problem, solved.control, ask) if rough is None else rough.last
+            contact = roll(problem, solved.control, ask.creepage, direction=way) if rough is None else rough.last  # type: ignore[arg-type]
             curve = _curve(problem, solved.control, ask) if ask.settings.points and solved.lines else None
-        values = {**_numbers(contact, rough), **_fields(contact), **_curve_values(curve), **_path_values(rough)}
-        facts = _facts(contact, ask, curve, rough)
+        values: dict[str, Any] = dict(_numbers(contact, rough))
+        for name, both in (("traction", contact.traction), ("slip", contact.slip)):
+            values |= {f"rolling_{name}_{axis}": part for axis, part in zip("xy", both, strict=True)}
+        values["rolling_bound"] = contact.law.bound(contact.normal.pressure)
+        beside = {}
+        if curve is not None:
+            values |= {f"creep_{item.name}": getattr(curve, item.name) for item in (*CREEPAGES, *FORCES)}
+            for name in (name for name in curve.theories if name != "linear"):
+                theory = curve.theory(name)
+                beside[name] = [np.asarray(part).tolist() for part in (theory.force_x, theory.force_y)]
+        if rough is not None:
+            values |= {f"rolled_{item.name}": getattr(rough, item.name) for item in MOVES}
+        motion, limit = contact.creepage, contact.friction_limit
+        facts = {  # what words and figures need beside the values, as in JSON
+            "direction": contact.direction,
+            "creepages": [motion.x, motion.y, motion.spin],
+            "law": law_text(ask.law),
+            "steadiness": contact.status.message,
+            "friction_limit": limit if math.isfinite(limit) else None,
+            "running_in": None if rough is None else rough.running_in,
+            "beside": beside,
+        }
         keys = contact.citation_keys if curve is None else curve.citation_keys
         return Found(values, facts, _findings(contact, ask), keys)
 
@@ -67,7 +86,25 @@ class RollingWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """What it transmits, what slips, what becomes heat, and the theories beside it."""
-        return rolling_words(found)
+        values, facts = found.values, found.detail
+        x, y, spin = facts["creepages"]
+        rows: Rows = [
+            ("friction", facts["law"]),
+            ("creepages, longitudinal and lateral", f"{percent(x)} and {percent(y)}"),
+            ("spin", f"{spin:.4g} rad/m"),
+            ("rolls towards", facts["direction"]),
+        ]
+        for item in SCALARS:
+            value = float(values[item.name])
+            if math.isfinite(value):
+                rows.append((item.label, value_text(item, value)))
+        rows.append(("solution", facts["steadiness"]))
+        tables = (("Creep-force curve", _curve_table(values, facts)),) if "creep_longitudinal" in values else ()
+        headline = [
+            ("longitudinal force / normal force", f"{float(values['traction_coefficient']):.3g}"),
+            ("heat per distance rolled", show(float(values["rolling_heat"]), "J/m", 3)),
+        ]
+        return Words(_sentence(values), headline, rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Direction, law and creepages."""
@@ -78,23 +115,16 @@ class RollingWork(Work):
         return dict(stored.facts)
 
 
-def _smooth(problem: ContactProblem, control: Control, ask: Rolls) -> RollingContact:
-    return roll(problem, control, ask.creepage, direction=ask.settings.direction)  # type: ignore[arg-type]
-
-
 def _rolled(problem: ContactProblem, control: Control, ask: Rolls, progress: Any) -> RoughRolling:
-    table = ask.settings
-    options: dict[str, Any] = {"distance": table.distance, "direction": table.direction, "progress": progress}
-    return roll_rough(problem, control, ask.creepage, roughness_of_wheel(ask, problem), **options)
-
-
-def roughness_of_wheel(ask: Rolls, problem: ContactProblem) -> Surface:
-    """The map of the file that is asked for: filled, levelled, cut to the width of the contact and made periodic."""
+    """Rolling with the map of the file that is asked for: filled, levelled, cut to the width of the contact and made periodic."""
     assert ask.roughness is not None
-    surface = levelled(filled(read(ask.roughness)))
-    across = "x" if ask.settings.direction in ("y", "-y") else "y"
-    width, room = (grid.size["xy".index(across)] for grid in (problem.grid, surface.grid))
-    return periodised(cropped(surface, **{across: (0.0, width)}) if room > width else surface)
+    table, roughness = ask.settings, levelled(filled(read(ask.roughness)))
+    across = "x" if table.direction in ("y", "-y") else "y"
+    width, room = (grid.size["xy".index(across)] for grid in (problem.grid, roughness.grid))
+    if room > width:
+        roughness = periodised(cropped(roughness, **{across: (0.0, width)}))
+    options: dict[str, Any] = {"distance": table.distance, "direction": table.direction, "progress": progress}
+    return roll_rough(problem, control, ask.creepage, roughness, **options)
 
 
 def _curve(problem: ContactProblem, control: Control, ask: Rolls) -> CreepCurve:
@@ -133,42 +163,6 @@ def _numbers(contact: RollingContact, rough: RoughRolling | None) -> dict[str, f
         size = math.nan if found is None else float(found.force_x if force == "longitudinal" else found.force_y)
         values[f"{name}_{force}_force"] = size
     return values
-
-
-def _fields(contact: RollingContact) -> dict[str, Any]:
-    """``FIELDS``."""
-    bound = contact.law.bound(contact.normal.pressure)
-    pairs = {"rolling_traction": contact.traction, "rolling_slip": contact.slip}
-    fields = {f"{name}_{axis}": part for name, both in pairs.items() for axis, part in zip("xy", both, strict=True)}
-    return {**fields, "rolling_bound": bound}
-
-
-def _curve_values(curve: CreepCurve | None) -> dict[str, Any]:
-    return {} if curve is None else {f"creep_{item.name}": getattr(curve, item.name) for item in (*CREEPAGES, *FORCES)}
-
-
-def _path_values(rough: RoughRolling | None) -> dict[str, Any]:
-    return {} if rough is None else {f"rolled_{item.name}": getattr(rough, item.name) for item in MOVES}
-
-
-def _facts(contact: RollingContact, ask: Rolls, curve: CreepCurve | None, rough: RoughRolling | None) -> dict[str, Any]:
-    """What words and figures need beside the values, as in JSON."""
-
-    beside = {}
-    if curve is not None:
-        for name in (name for name in curve.theories if name != "linear"):
-            found = curve.theory(name)
-            beside[name] = [np.asarray(part).tolist() for part in (found.force_x, found.force_y)]
-    motion = contact.creepage
-    return {
-        "direction": contact.direction,
-        "creepages": [motion.x, motion.y, motion.spin],
-        "law": law_text(ask.law),
-        "steadiness": contact.status.message,
-        "friction_limit": contact.friction_limit if math.isfinite(contact.friction_limit) else None,
-        "running_in": None if rough is None else rough.running_in,
-        "beside": beside,
-    }
 
 
 def _findings(contact: RollingContact, ask: Rolls) -> tuple[Advice, ...]:
@@ -220,29 +214,6 @@ REMARK = (
     "other one they are the opposite. Shear tractions that lift unlike surfaces are balanced with the pressure."
 )
 """What the model is."""
-
-
-def rolling_words(found: Found) -> Words:
-    """Sentence, scalars and curve."""
-    values, facts = found.values, found.detail
-    x, y, spin = facts["creepages"]
-    rows: Rows = [
-        ("friction", facts["law"]),
-        ("creepages, longitudinal and lateral", f"{percent(x)} and {percent(y)}"),
-        ("spin", f"{spin:.4g} rad/m"),
-        ("rolls towards", facts["direction"]),
-    ]
-    for item in SCALARS:
-        value = float(values[item.name])
-        if math.isfinite(value):
-            rows.append((item.label, value_text(item, value)))
-    rows.append(("solution", facts["steadiness"]))
-    tables = (("Creep-force curve", _curve_table(values, facts)),) if "creep_longitudinal" in values else ()
-    headline = [
-        ("longitudinal force / normal force", f"{float(values['traction_coefficient']):.3g}"),
-        ("heat per distance rolled", show(float(values["rolling_heat"]), "J/m", 3)),
-    ]
-    return Words(_sentence(values), headline, rows, tables, (REMARK,))
 
 
 def _sentence(values: Mapping[str, Any]) -> str:

@@ -29,7 +29,7 @@ from ...solids.layers import RigidBase
 from .kernels.coefficients import LineCoefficients, PlaneCoefficients
 from .kernels.patch import Load
 from .kernels.transfer import Transfers
-from .regions import Plane, Region, Selection, regions, slips, stack
+from .regions import Plane, Selection, regions, slips, stack
 from .tractions import ShearTraction, Tractions
 
 # The uniform part of a periodic load: uniaxial strain in every region, with shear that reaches through.
@@ -39,14 +39,6 @@ from .tractions import ShearTraction, Tractions
 
 
 _BALANCED = 1e-9  # mean over largest shear traction: rounding, in single precision that of a sum
-
-
-def mean_stress(loads: tuple[float, float, float], region: Region) -> tuple[float, ...]:
-    """Mean of xx, yy, zz, xy, xz, yz (Pa) in ``region`` under mean ``loads`` q_x, q_y, p: σ_xx = σ_yy = -ν/(1-ν) p."""
-    x, y, pressure = loads
-    nu = region.material.poisson_ratio
-    lateral = -nu / (1.0 - nu) * pressure
-    return lateral, lateral, -pressure, 0.0, -x, -y
 
 
 def mean_displacement(loads: tuple[float, float, float], body: object, plane: Plane) -> tuple[float, ...]:
@@ -87,19 +79,6 @@ def require_held(tractions: Tractions, body: object) -> None:
                 "layers above it, but is not. Use Bonded() interfaces, the boundary Free() (--boundary free), whose unloaded parts "
                 "hold the layers, a ShearTraction without its mean, or friction=0."
             )
-
-
-def require_displacement(tractions: Tractions, body: object) -> None:
-    """Refuse displacements that have no limit: of sheared layers that slip and are held at infinity only.
-
-    InputError if the boundary is not periodic and there is shear traction above a frictionless interface.
-    """
-    if tractions.boundary != "periodic" and tractions.sheared and stack(body).slips:
-        raise InputError(
-            "displacement under shear traction must not be asked of a body with a Frictionless() interface on the boundary "
-            f"{tractions.boundary}: its layers are held at infinity only and slip without end. Stresses are defined; use "
-            "displacement=False."
-        )
 
 
 # Fields on planes under a periodic load: multiplication in Fourier space, plane by plane.
@@ -158,7 +137,14 @@ class PeriodicPlanes:
         self._transfers = Transfers(stack(body), self._panels.points)
         self._sheared = tractions.sheared
         self._means = tractions.means
-        self._loads = self._transformed()
+        shear, fields, ratios = tractions.shear, [tractions.pressure], (0.0, 0.0)
+        if isinstance(shear, ShearTraction) and self._sheared:
+            fields += [shear.x, shear.y]
+        elif not isinstance(shear, ShearTraction):  # it follows the pressure
+            ratios = shear.ratios
+        spectra = [self._transform.forward(f.astype(self.dtype), self._blocks.threads) for f in fields]
+        x, y = spectra[1:] or (spectra[0], spectra[0])
+        self._loads = spectra[0], *ratios, len(fields) > 1, x, y
         self._between = self._transform.between(0, self._loads[0].dtype)
         self._filled = 0  # lines that are not zero
 
@@ -175,7 +161,7 @@ class PeriodicPlanes:
         """Give the stress (Pa) on ``plane`` to ``reader`` a few rows at a time, which stay in the cache."""
         make, means = self._stress_maker(plane)
         between = self._along_x(make, plane, means, _needed(plane))
-        self._share(self._read, self.tractions.grid.shape[0], between, plane, reader)
+        self._share(lambda span: reader(self._rows(span, between, plane)), self.tractions.grid.shape[0])
 
     def at(self, plane: Plane, places: Sequence[Selection]) -> list[RealArray]:
         """Stress (Pa) on ``plane`` at each of some ``places``, (6, …): waves are summed, and transformed along lines only."""
@@ -186,8 +172,7 @@ class PeriodicPlanes:
         rows = sorted({i for i, j in indices if isinstance(j, slice) and not isinstance(i, slice)})
         sums = _WaveSums(columns, rows, shape, self._between.dtype)
         made = self._transform.lines(len(means), _LINES, self._between.dtype)
-        for here in self._spans((0, self._reaching(plane))):
-            self._make(here, make, means, made)
+        for here in self._lines((0, self._reaching(plane)), make, means, made):
             sums.add(here, made[:, : here[1] - here[0], : shape[0]])
         along_x = sums.columns() if columns else np.zeros(0)
         along_y = sums.rows(shape[1]) if rows else np.zeros(0)
@@ -211,10 +196,11 @@ class PeriodicPlanes:
         return Displacement(*self._fields(make, plane, means, given, (slice(0, 3),)))
 
     def _stress_maker(self, plane: Plane) -> tuple[_Maker, tuple[float, ...]]:
-        """What makes the spectra of the stress on ``plane``, and its means."""
-        functions = _PRESSURE + _SHEAR if self._sheared else _PRESSURE
-        make = self._maker("stress_spectra", plane, functions, plane.region.material.poisson_ratio)
-        return make, mean_stress(self._means, plane.region)
+        """What makes the spectra of the stress on ``plane``, and its means: σ_xx = σ_yy = -ν/(1-ν) p under a mean pressure p."""
+        functions, nu = _PRESSURE + _SHEAR if self._sheared else _PRESSURE, plane.region.material.poisson_ratio
+        x, y, pressure = self._means
+        lateral = -nu / (1.0 - nu) * pressure
+        return self._maker("stress_spectra", plane, functions, nu), (lateral, lateral, -pressure, 0.0, -x, -y)
 
     def _maker(self, kernel: str, plane: Plane, functions: tuple[str, ...], *constants: float) -> _Maker:
         """What writes some lines of the spectra of a plane into an array (any, any, nx and a few)."""
@@ -254,8 +240,11 @@ class PeriodicPlanes:
 
     def _along_x(self, make: _Maker, plane: Plane, means: tuple[float, ...], needed: tuple[slice, ...]) -> ComplexArray:
         """Spectra that ``make`` writes after their transform along x, as far as ``needed``."""
-        lines = self._reaching(plane)
-        between = self._room(len(means), lines)
+        lines, count = self._reaching(plane), len(means)
+        if len(self._between) < count:
+            self._between, self._filled = self._transform.between(count, self._between.dtype), self._between.shape[2]
+        self._between[:, :, lines : self._filled] = 0.0  # the first lines are to be written
+        self._filled, between = lines, self._between[:count]
         self._share(self._first, lines, make, means, between, needed)
         return between
 
@@ -263,24 +252,16 @@ class PeriodicPlanes:
         """Number of lines of waves that reach ``plane``."""
         return int(np.count_nonzero(self._waves[0] < _limit(plane)))
 
-    def _room(self, count: int, lines: int) -> ComplexArray:
-        """Room for as many fields between the steps, zero but for the first ``lines``, which are to be written."""
-        if len(self._between) < count:
-            self._between, self._filled = self._transform.between(count, self._between.dtype), self._between.shape[2]
-        self._between[:, :, lines : self._filled] = 0.0
-        self._filled = lines
-        return self._between[:count]
-
-    def _spans(self, span: tuple[int, int]) -> Iterator[tuple[int, int]]:
-        """Lines ``span`` in parts of as many as are made at a time."""
+    def _lines(
+        self, span: tuple[int, int], make: _Maker, means: tuple[float, ...], made: ComplexArray
+    ) -> Iterator[tuple[int, int]]:
+        """Write the lines ``span`` of the spectra into ``made``, as many as are made at a time; gives which those are."""
         for start in range(*span, _LINES):
-            yield start, min(span[1], start + _LINES)
-
-    def _make(self, here: tuple[int, int], make: _Maker, means: tuple[float, ...], made: ComplexArray) -> None:
-        """Write the lines ``here`` of the spectra into ``made``."""
-        make(here, made)
-        if here[0] == 0:
-            made[:, 0, 0] = np.multiply(means, math.prod(self.tractions.grid.shape))
+            here = start, min(span[1], start + _LINES)
+            make(here, made)
+            if start == 0:
+                made[:, 0, 0] = np.multiply(means, math.prod(self.tractions.grid.shape))
+            yield here
 
     def _first(
         self,
@@ -292,8 +273,7 @@ class PeriodicPlanes:
     ) -> None:
         """Make the lines ``span`` of the spectra and transform them along x."""
         made = self._transform.lines(len(means), _LINES, between.dtype)
-        for here in self._spans(span):
-            self._make(here, make, means, made)
+        for here in self._lines(span, make, means, made):
             for some in needed:
                 self._transform.lines_back(made[some], here, between[some])
 
@@ -303,10 +283,6 @@ class PeriodicPlanes:
         """Transform along y to the rows ``span`` of the fields with the ``numbers``."""
         for number in numbers:
             self._transform.rows_back(between[number], span, fields[number][slice(*span)])
-
-    def _read(self, span: tuple[int, int], between: ComplexArray, plane: Plane, reader: Reader) -> None:
-        """Give the rows ``span`` to ``reader``."""
-        reader(self._rows(span, between, plane))
 
     def _rows(self, span: tuple[int, int], between: ComplexArray, plane: Plane) -> Rows:
         """Transform along y, a few rows of the stress on ``plane`` at a time."""
@@ -330,19 +306,6 @@ class PeriodicPlanes:
             (np.abs(qx[:half, 0]), np.abs(qy[0])) for qx, qy in (grid.wavevector(), grid.wavevector(odd=True))
         )
         return eta, eta_odd, xi, xi_odd
-
-    def _transformed(self) -> tuple[Any, ...]:
-        """Spectra of pressure and shear fields, with the ratios of the shear to the pressure where it follows it."""
-        shear = self.tractions.shear
-        fields = [self.tractions.pressure]
-        ratios = (0.0, 0.0)
-        if isinstance(shear, ShearTraction) and self._sheared:
-            fields += [shear.x, shear.y]
-        elif not isinstance(shear, ShearTraction):
-            ratios = shear.ratios
-        spectra = [self._transform.forward(f.astype(self.dtype), self._blocks.threads) for f in fields]
-        x, y = spectra[1:] or (spectra[0], spectra[0])
-        return spectra[0], *ratios, len(fields) > 1, x, y
 
 
 def _limit(plane: Plane) -> float:
@@ -444,9 +407,14 @@ class FreePlanes:
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
         """Displacement (m) of ``plane``, zero at infinity.
 
-        InputError if it has no limit, see ``require_displacement``.
+        InputError if it has no limit: of sheared layers that slip and are held at infinity only.
         """
-        require_displacement(self.tractions, self._body)
+        if self.tractions.sheared and self._body.slips:
+            raise InputError(
+                "displacement under shear traction must not be asked of a body with a Frictionless() interface on the boundary "
+                f"{self.tractions.boundary}: its layers are held at infinity only and slip without end. Stresses are defined; use "
+                "displacement=False."
+            )
         coefficients = self._coefficients(plane)
         by_load = {load: vars(coefficients.displacement(load)) for load in self._loads}
         return Displacement(*self._convolved(AXES, by_load, None if out is None else list(vars(out).values())))

@@ -122,7 +122,7 @@ class WithResidual:
         return [field + added[(slice(None), *place.index)] for field, place in found]
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
-        """Refused: see ``_require_known_displacement``."""
+        """Refused: that by the plastic strain is known at the surface alone."""
         raise _displaced()
 
 
@@ -207,35 +207,21 @@ def _planes_of(
             )
         return result.tractions, result.body
     tractions, body = tractions_on(result, friction, direction, of), getattr(result.problem, of)
-    if displacement:
-        _require_known_displacement(result, body, of)
+    if displacement:  # those that depend on the past are refused
+        if any(isinstance(material, Viscoelastic) for material in materials_of(body)):
+            raise InputError(
+                "displacement inside a body must be left out where it is viscoelastic, since it depends on the past, but is asked for. "
+                "The displacement of the surface is in the result."
+            )
+        if residual_of(result, of, None) is not None:
+            raise _displaced()
     return tractions, body
-
-
-def _require_as_elastic(result: Loaded, body: Any) -> None:
-    """Refuse bodies whose stresses depend on what has relaxed: layers that relax differently, a Poisson's ratio that does. At the first instant all
-    are elastic."""
-    materials, creep = materials_of(body), getattr(result, "creep", None)
-    if creep is not None and creep.column("time")[-1] > 0.0 and materials and not alike(materials):
-        raise InputError(
-            "moduli of a viscoelastic body in which stresses are asked must relax in proportion to one another, with a constant Poisson's "
-            "ratio, but do not: its stresses would depend on the past. Ask for those of an Elastic body with the moduli of that time."
-        )
-
-
-def _require_known_displacement(result: Loaded, body: Any, of: Of) -> None:
-    """Refuse displacements inside bodies that depend on the past."""
-    if any(isinstance(material, Viscoelastic) for material in materials_of(body)):
-        raise InputError(
-            "displacement inside a body must be left out where it is viscoelastic, since it depends on the past, but is asked for. "
-            "The displacement of the surface is in the result."
-        )
-    if residual_of(result, of, None) is not None:
-        raise _displaced()
 
 
 def tractions_on(result: Loaded, friction: float | Shear | None, direction: Direction, of: Of) -> Tractions:
     """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in the other direction.
+
+    Without ``friction`` the shear is that which the contact brings itself: found with stick and slip, or that of gross sliding.
 
     InputError if there are none, or the stresses by them depend on the past.
     """
@@ -244,8 +230,33 @@ def tractions_on(result: Loaded, friction: float | Shear | None, direction: Dire
             "result whose stresses are asked must be that of solve(problem, …) or LoadedBody(body, tractions), but is of "
             f"type {type(result).__name__}."
         )
-    _require_as_elastic(result, getattr(result.problem, of))
-    shear = _own_shear(result) if friction is None else _shear(friction, direction)
+    # Stresses must not depend on what has relaxed: layers that relax differently, a Poisson's ratio that does. At the first instant all are elastic.
+    materials, creep = materials_of(getattr(result.problem, of)), getattr(result, "creep", None)
+    if creep is not None and creep.column("time")[-1] > 0.0 and materials and not alike(materials):
+        raise InputError(
+            "moduli of a viscoelastic body in which stresses are asked must relax in proportion to one another, with a constant Poisson's "
+            "ratio, but do not: its stresses would depend on the past. Ask for those of an Elastic body with the moduli of that time."
+        )
+    found, own = getattr(result, "stick_slip", None), getattr(result.problem, "friction", None)
+    shear: Shear
+    if isinstance(friction, Sliding | ShearTraction):
+        shear = friction
+    elif friction is not None:
+        if isinstance(direction, tuple):
+            x, y = require.two(direction, "direction of sliding", "Write an angle in rad or a vector (x, y).")
+            direction = math.atan2(require.finite(y, "direction of sliding"), require.finite(x, "direction of sliding"))
+            if x == y == 0.0:
+                raise InputError("direction of sliding must be a vector of some length, but is (0, 0).")
+        shear = Sliding(friction, direction)
+    elif found is not None:
+        shear = ShearTraction(found.traction[0], found.traction[1])
+    elif own is None or not hasattr(own, "coefficient"):
+        shear = Sliding(0.0)
+    elif isinstance(own.coefficient, np.ndarray):
+        along = own.coefficient * result.pressure
+        shear = ShearTraction(along * math.cos(own.direction), along * math.sin(own.direction))
+    else:
+        shear = Sliding(own.coefficient, own.direction)
     if of == "counter_body":
         if isinstance(shear, Sliding):
             shear = Sliding(shear.coefficient, shear.direction + math.pi)
@@ -253,19 +264,6 @@ def tractions_on(result: Loaded, friction: float | Shear | None, direction: Dire
             shear = ShearTraction(-shear.x, -shear.y)
     grid, boundary = result.problem.grid, result.problem.boundary
     return Tractions(grid, result.pressure, shear, boundary.name, getattr(boundary, "datum", None))
-
-
-def _own_shear(result: Loaded) -> Shear:
-    """Shear traction on the body that the result of a contact brings itself: found with stick and slip, or that of gross sliding."""
-    found, own = getattr(result, "stick_slip", None), getattr(result.problem, "friction", None)
-    if found is not None:
-        return ShearTraction(found.traction[0], found.traction[1])
-    if own is None or not hasattr(own, "coefficient"):
-        return Sliding(0.0)
-    if isinstance(own.coefficient, np.ndarray):
-        along = own.coefficient * result.pressure
-        return ShearTraction(along * math.cos(own.direction), along * math.sin(own.direction))
-    return Sliding(own.coefficient, own.direction)
 
 
 def stress(
@@ -447,18 +445,6 @@ class StressPlanes:
         grid, keys = self._grid, self.citation_keys
         row = grid.shape[1] == 1
         return StressField(planes, tensor, moved, place.x, place.y, dims, grid.spacing, keys, single_row=row)
-
-
-def _shear(friction: float | Shear, direction: Direction) -> Shear:
-    if isinstance(friction, Sliding | ShearTraction):
-        return friction
-    if isinstance(direction, tuple):
-        x, y = require.two(direction, "direction of sliding", "Write an angle in rad or a vector (x, y).")
-        angle = math.atan2(require.finite(y, "direction of sliding"), require.finite(x, "direction of sliding"))
-        if x == y == 0.0:
-            raise InputError("direction of sliding must be a vector of some length, but is (0, 0).")
-        return Sliding(friction, angle)
-    return Sliding(friction, direction)
 
 
 def papers(body: object, boundary: str, *, sheared: bool) -> tuple[str, ...]:

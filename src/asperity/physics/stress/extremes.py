@@ -175,13 +175,14 @@ class Extremes:
         return found
 
     def regions(self) -> tuple[RegionMaxima, ...]:
-        """The largest stresses of each region."""
-        return tuple(RegionMaxima(r, *(self._largest(name, r.index) for name in _OF_REGIONS)) for r in self._yielding)
-
-    def _largest(self, quantity: str, region: int) -> Peak:
-        """The largest of a region, that at the surface with the edges of the contact."""
-        peak = self._peak(quantity, region)
-        return peak if self.surface is None or region > 0 else self.surface.joined(quantity, peak)
+        """The largest stresses of each region, those at the surface with the edges of the contact."""
+        found = []
+        for region in self._yielding:
+            peaks = {name: self._peak(name, region.index) for name in _OF_REGIONS}
+            if self.surface is not None and region.index == 0:
+                peaks = {name: self.surface.joined(name, peak) for name, peak in peaks.items()}
+            found.append(RegionMaxima(region, **peaks))
+        return tuple(found)
 
     def interfaces(self) -> tuple[InterfaceMaxima, ...]:
         """The largest tractions on each interface."""

@@ -329,11 +329,6 @@ class StressField(Stored):
         first, searched = (0, values) if plane is None else (plane, values[plane : plane + 1])
         number, *index = np.unravel_index(int(np.argmax(searched)), searched.shape)
         place = (int(number) + first, *map(int, index))
-        return peak_at(self, float(values[place]), place)
-
-
-def peak_at(field: StressField, value: float, place: tuple[int, ...]) -> Peak:
-    """``value`` of a quantity of ``field`` at the indices ``place``: plane, then those of its points."""
-    section, at = field.planes[place[0]], dict(zip(field.dims[1:], place[1:], strict=True))
-    x, y = (float(line[at[axis]]) if axis in at else float(line) for axis, line in (("x", field.x), ("y", field.y)))
-    return Peak(value, x, y, section.depth, section.region, section.side)
+        section, at = self.planes[place[0]], dict(zip(self.dims[1:], place[1:], strict=True))
+        x, y = (float(line[at[axis]]) if axis in at else float(line) for axis, line in (("x", self.x), ("y", self.y)))
+        return Peak(float(values[place]), x, y, section.depth, section.region, section.side)

@@ -103,7 +103,9 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     levels = _levels(in_unit(values), kind, log=log)
     contours = _contours(field, ax, (length(line), depth_unit, in_unit(values)), levels, kind)
     beside = _draw_interfaces(field, ax, depth_unit)
-    _mark_peak(field, ax, values if kind.name in TENSIONS else np.abs(values), (axis, length, depth_unit))
+    peak = field.peak(values if kind.name in TENSIONS else np.abs(values))
+    x = float(length(getattr(peak, axis) + 0.5 * field.spacing["xy".index(axis)]))
+    ax.plot(x, float(depth_unit(peak.depth)), "x", color=BLACK, markersize=5, clip_on=False)
     ax.set(
         xlabel=f"{axis} ({length.symbol})" + ("" if field.single_row else f", at {other} = {show(at, 'm')}"),
         ylabel=f"depth ({depth_unit.symbol})",
@@ -303,19 +305,6 @@ def _draw_interfaces(field: StressField, ax: Axes, depth_unit: Any) -> float:
     return 0.12 + 0.07 * max(len(name) for *_, name in thin) if thin else 0.0
 
 
-def _mark_peak(field: StressField, ax: Axes, values: RealArray, axes: tuple[str, Any, Any]) -> None:
-    axis, length, depth_unit = axes
-    peak = field.peak(values)
-    ax.plot(
-        float(length(getattr(peak, axis) + 0.5 * field.spacing["xy".index(axis)])),
-        float(depth_unit(peak.depth)),
-        "x",
-        color=BLACK,
-        markersize=5,
-        clip_on=False,
-    )
-
-
 # The figures of the stresses of a document: sections, depth profiles, maps of planes.
 
 
@@ -345,22 +334,17 @@ PEAK = 0.5
 """Share of the largest stress above which points about the maximum are enlarged."""
 
 
-def plane_field(plane: StressField) -> Field:
-    """The von Mises stress on a whole ``plane``, for a page that lets it be explored."""
-    section = plane.planes[0]
-    values = np.asarray(plane.von_mises[0], dtype=np.float32)  # without the other components
-    part, grid = section.region, Grid((plane.x.size, plane.y.size), plane.spacing)
-    place = Depth(section.depth, _place(section), (part.name, part.top, part.bottom))
-    return Field(values, grid, _look(QUANTITIES["von_mises"]), place)
-
-
 def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
     """Figure of the von Mises stress on a whole ``plane``, the ``number``-th, and of its maximum enlarged beside."""
     section = plane.planes[0]
     depth = "the surface" if section.side == "surface" else f"a depth of {show(section.depth, 'm')}"
     side = f", just {section.side} the interface" if section.side in ("above", "below") else ""
-    shown = plane_field(plane)  # all planes wait for their figures: without the other components
-    stress, grid, look = shown.values, shown.grid, _look(QUANTITIES["von_mises"], _place(section))
+    kind, part, grid = QUANTITIES["von_mises"], section.region, Grid((plane.x.size, plane.y.size), plane.spacing)
+    stress = np.asarray(
+        plane.von_mises[0], dtype=np.float32
+    )  # all planes wait for their figures: without the other components
+    place = Depth(section.depth, _place(section), (part.name, part.top, part.bottom))
+    shown, look = Field(stress, grid, _look(kind), place), _look(kind, _place(section))
 
     def draw() -> Drawing:
         enlarged: list[bool] = []

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...core.arrays import RealArray
 from ...plots.picture import BLUE, VERMILLION, legend_above
 from .shakedown import ShakedownCurve, ShakedownMap
 
@@ -35,9 +34,10 @@ def plot_shakedown_map(
     across: str = "coating thickness (m)",
 ) -> Axes:
     """Draw on ``ax`` the limit as contours, with dots where a layer below the outermost sets it; ``per`` and ``label`` as for the curve."""
-    colours = ax.contourf(
-        found.friction, found.across, per * found.limit, levels=_levels(per * found.limit), cmap="viridis"
-    )
+    factor = per * found.limit
+    low, high = float(np.min(factor)), float(np.max(factor))
+    levels = np.linspace(low, high, 13) if high > low else np.array([low * 0.99, low * 1.01])
+    colours = ax.contourf(found.friction, found.across, factor, levels=levels, cmap="viridis")
     ax.figure.colorbar(colours, ax=ax, label=label)
     friction, values = np.meshgrid(found.friction, found.across)
     deeper = found.region > 0
@@ -46,9 +46,3 @@ def plot_shakedown_map(
         legend_above(ax)
     ax.set(xlabel="friction coefficient", ylabel=across)
     return ax
-
-
-def _levels(values: RealArray) -> RealArray:
-    """Twelve steps over the values, which may be all the same."""
-    low, high = float(np.min(values)), float(np.max(values))
-    return np.linspace(low, high, 13) if high > low else np.array([low * 0.99, low * 1.01])

@@ -111,7 +111,10 @@ class LineLoad:
                     "line load on a grid of one point along y must run along y, but goes from x = "
                     f"{self.start[0]:g} to {self.end[0]:g} m."
                 )
-            return values / grid.spacing[0] * _along_x(grid, self.start[0], wraps=wraps)
+            nodes, shares = _neighbours(start[:1], grid, 0, wraps=wraps)
+            total = np.zeros(grid.shape)
+            np.add.at(total[:, 0], nodes[0], shares[0])
+            return values / grid.spacing[0] * total
         length = math.hypot(*(end - start))
         count = math.ceil(4.0 * length / min(grid.spacing))
         places = start + (np.arange(count)[:, None] + 0.5) / count * (end - start)
@@ -187,14 +190,6 @@ def _shared(grid: Grid, places: RealArray, amounts: RealArray, *, wraps: bool) -
     total = np.zeros(grid.shape)
     weights = amounts[:, None, None] * share_x[:, :, None] * share_y[:, None, :]
     np.add.at(total, (i[:, :, None], j[:, None, :]), weights)
-    return total
-
-
-def _along_x(grid: Grid, x: float, *, wraps: bool) -> RealArray:
-    """Shares (nx, 1) of the pixels of a row in a line at ``x`` in m."""
-    nodes, shares = _neighbours(np.array([x]), grid, 0, wraps=wraps)
-    total = np.zeros(grid.shape)
-    np.add.at(total[:, 0], nodes[0], shares[0])
     return total
 
 

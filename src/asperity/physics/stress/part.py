@@ -27,23 +27,6 @@ PLACES = ("max", "pressure")
 PlaceOfMaximum: TypeAlias = Annotated[float | str, Number("length", least=0.0, words=PLACES)]
 
 
-def positions_from_text(text: str) -> dict[str, str]:
-    """Positions in text such as ``"y=max"`` or ``"x=30nm, y=max"``, by axis.
-
-    Raises
-    ------
-    InputError
-        If a part is no position; the message lacks the name of the option or key at its beginning.
-    """
-    found: dict[str, str] = {}
-    for part in text.split(","):
-        axis, equals, position = (piece.strip() for piece in part.partition("="))
-        if axis not in ("x", "y") or not equals or not position or axis in found:
-            raise InputError(f' must be a position such as "y=max", "y=pressure" or "x=30nm", but is {text!r}.')
-        found[axis] = position
-    return found
-
-
 class Placed(Settings):
     """Positions ``x`` and ``y``, each a length or a word; both together may be text such as ``"y=max"``.
 
@@ -56,7 +39,16 @@ class Placed(Settings):
     @model_validator(mode="before")
     @classmethod
     def _from_text(cls, value: Any) -> Any:
-        return positions_from_text(value) if isinstance(value, str) else value
+        """Positions in text such as ``"y=max"`` or ``"x=30nm, y=max"``, by axis."""
+        if not isinstance(value, str):
+            return value
+        found: dict[str, str] = {}
+        for part in value.split(","):
+            axis, equals, position = (piece.strip() for piece in part.partition("="))
+            if axis not in ("x", "y") or not equals or not position or axis in found:
+                raise InputError(f' must be a position such as "y=max", "y=pressure" or "x=30nm", but is {value!r}.')
+            found[axis] = position
+        return found
 
 
 class SectionTable(Placed):

@@ -99,28 +99,23 @@ def planes(body: object, depths: Iterable[float]) -> tuple[Plane, ...]:
         depth = require.finite(value, "depth (m)")
         if depth < 0.0:
             raise InputError(f"depth (m) must be at least zero, but is {depth:g}; depths count from the surface down.")
-        found.extend(_planes_at(depth, parts))
+        count = len(found)
+        for region in parts:
+            if depth == 0.0 and region.top == 0.0:
+                found.append(Plane(0.0, region, "surface"))
+            elif region.top > 0.0 and math.isclose(depth, region.top, rel_tol=_SAME):
+                found.append(Plane(region.top, region, "below"))
+            elif math.isclose(depth, region.bottom, rel_tol=_SAME):
+                found.append(Plane(region.bottom, region, "above"))
+            elif region.top < depth < region.bottom:
+                found.append(Plane(depth, region, "inside"))
+        if len(found) == count:
+            raise InputError(
+                f"depth (m) must lie in the body, whose rigid base is at {parts[-1].bottom:g}, but is {depth:g}."
+            )
     if not found:
         raise InputError("depths must hold at least one depth (m), but are empty.")
     return tuple(sorted(found, key=lambda plane: (plane.depth, plane.region.index)))
-
-
-def _planes_at(depth: float, parts: tuple[Region, ...]) -> list[Plane]:
-    found: list[Plane] = []
-    for region in parts:
-        if depth == 0.0 and region.top == 0.0:
-            found.append(Plane(0.0, region, "surface"))
-        elif region.top > 0.0 and math.isclose(depth, region.top, rel_tol=_SAME):
-            found.append(Plane(region.top, region, "below"))
-        elif math.isclose(depth, region.bottom, rel_tol=_SAME):
-            found.append(Plane(region.bottom, region, "above"))
-        elif region.top < depth < region.bottom:
-            found.append(Plane(depth, region, "inside"))
-    if not found:
-        raise InputError(
-            f"depth (m) must lie in the body, whose rigid base is at {parts[-1].bottom:g}, but is {depth:g}."
-        )
-    return found
 
 
 _GRADING = 1.5  # power of the spacing below the lowest interface, where stresses vary ever more slowly

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -17,7 +17,6 @@ from ...theories.subsurface.point_shakedown import point_shakedown
 from ...theories.subsurface.shakedown import line_shakedown
 from .compute import Loaded, stress
 from .criteria import VonMises
-from .field import StressField
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,34 +64,25 @@ def shakedown(result: Loaded, depths: Iterable[float], friction: ArrayLike = 0.0
         require.not_negative(float(value), "friction coefficient")
     planes = list(depths)
     still, sliding = stress(result, planes, friction=0.0), stress(result, planes, friction=1.0)
-    strength = _shear_strength(still)
+    strengths = [VonMises().limit(plane.region.material).value for plane in still.planes]
+    for layer, known in zip((plane.region for plane in still.planes), strengths, strict=True):
+        if math.isnan(known):
+            raise NoSolutionError(
+                f"strength of {layer.name} must be known for a shakedown limit; give yield_stress or hardness.",
+                subject=f"strength of {layer.name}",
+            )
+    k = np.array(strengths) / math.sqrt(3.0)
     rows = []
     for value in coefficients:
-        field = replace(still, tensor=still.tensor * (1.0 - value) + sliding.tensor * value)
-        rows.append(_limits(field, strength))
+        tensor = still.tensor * (1.0 - value) + sliding.tensor * value
+        if still.single_row:
+            circles = line_shakedown(tensor.map(lambda part: part.reshape(len(still.planes), -1)), k)
+            rows.append((circles.limit, circles.limit, int(np.argmax(circles.radius))))
+        else:
+            spheres = point_shakedown(tensor, k, surface=still.depth == 0.0)
+            rows.append((spheres.limit, spheres.bound, int(np.argmax(spheres.radius))))
     limit, bound, plane = (np.array(column) for column in zip(*rows, strict=True))
     return ShakedownCurve(coefficients, limit, bound, still.depth[plane], still.region[plane])
-
-
-def _shear_strength(field: StressField) -> RealArray:
-    """k of each plane in Pa."""
-    values = [VonMises().limit(plane.region.material).value for plane in field.planes]
-    for plane, value in zip(field.planes, values, strict=True):
-        if math.isnan(value):
-            raise NoSolutionError(
-                f"strength of {plane.region.name} must be known for a shakedown limit; give yield_stress or hardness.",
-                subject=f"strength of {plane.region.name}",
-            )
-    return np.array(values) / math.sqrt(3.0)
-
-
-def _limits(field: StressField, strength: RealArray) -> tuple[float, float, int]:
-    """Limit, bound and number of the plane that sets the former."""
-    if field.single_row:
-        circles = line_shakedown(field.tensor.map(lambda part: part.reshape(len(field.planes), -1)), strength)
-        return circles.limit, circles.limit, int(np.argmax(circles.radius))
-    spheres = point_shakedown(field.tensor, strength, surface=field.depth == 0.0)
-    return spheres.limit, spheres.bound, int(np.argmax(spheres.radius))
 
 
 @dataclass(frozen=True, eq=False)

@@ -77,7 +77,9 @@ class AtEdges:
         attracted = any(answer.traction_beside() is not None for answer in answers)
         if not self.result.pressure.any() or (attracted and not self.result.edges.two.any()):
             return None
-        return _Surface.of(self).maxima()
+        surface = _Surface.of(self)
+        edge = _Edge.of(surface)
+        return SurfaceMaxima(*(surface.peak(edge, name) for name in _INVARIANTS))
 
 
 class _Fields(NamedTuple):
@@ -128,22 +130,25 @@ class _Surface:
         """Poisson's ratio at the surface."""
         return self.plane.region.material.poisson_ratio
 
-    def maxima(self) -> SurfaceMaxima:
-        """The largest stresses."""
-        edge = _Edge.of(self)
-        return SurfaceMaxima(*(self._peak(edge, name) for name in _INVARIANTS))
-
-    def _peak(self, edge: _Edge, name: str) -> Peak:
-        inside = self._inside(name)
+    def peak(self, edge: _Edge, name: str) -> Peak:
+        """The largest stress of this ``name``, at pixels or on the ``edge`` between them."""
+        points, doubts = self._points, self._doubt.ravel()
+        bound = np.abs(points.bound(name))
+        least = points.at(name, [int(np.argmax(points.bound(name)))])[0]
+        chosen = np.flatnonzero((1.0 + SHARE) * bound + doubts >= least)
+        inside = points.at(name, chosen)
+        inside_bars = doubts[chosen] + SHARE * np.abs(inside)
+        best = int(np.argmax(inside))
         function = _INVARIANTS[name]
         values = function(StressTensor(edge.stress[0], edge.stress[1], edge.none, edge.stress[2], edge.none, edge.none))
         bars = edge.bars
         more = SHEARED if getattr(self.result, "sliding", None) is not None else 0.0
         at_edge = int(np.argmax(values)) if values.size else -1
-        highest = max(inside.highest, float((values + bars).max(initial=-math.inf)))
-        if at_edge < 0 or values[at_edge] <= inside.value:
-            value, bar, doubt = inside.value, inside.bar, ""
-            x, y = (float(inside.at[k] * self.loads.grid.spacing[k]) for k in (0, 1))
+        highest = max(float((inside + inside_bars).max()), float((values + bars).max(initial=-math.inf)))
+        if at_edge < 0 or values[at_edge] <= inside[best]:
+            value, bar, doubt = float(inside[best]), float(inside_bars[best]), ""
+            place = np.unravel_index(int(chosen[best]), self.wrong.shape[1:])
+            x, y = (float(int(k) * step) for k, step in zip(place, self.loads.grid.spacing, strict=True))
         else:
             value, bar, doubt = float(values[at_edge]), float(bars[at_edge]), edge.doubt(at_edge)
             x, y = edge.place(at_edge)
@@ -151,18 +156,6 @@ class _Surface:
             value, x, y = self._raw(name)
         error = math.nan if doubt else max(bar, highest - value) + more * abs(value)
         return Peak(value, x, y, self.plane.depth, self.plane.region, self.plane.side, error, doubt)
-
-    def _inside(self, name: str) -> _Inside:
-        """The largest at pixels."""
-        points, doubt = self._points, self._doubt.ravel()
-        bound = np.abs(points.bound(name))
-        least = points.at(name, [int(np.argmax(points.bound(name)))])[0]
-        chosen = np.flatnonzero((1.0 + SHARE) * bound + doubt >= least)
-        values = points.at(name, chosen)
-        best = int(np.argmax(values))
-        bars = doubt[chosen] + SHARE * np.abs(values)
-        i, j = np.unravel_index(int(chosen[best]), self.wrong.shape[1:])
-        return _Inside(float(values[best]), float(bars[best]), float((values + bars).max()), (int(i), int(j)))
 
     @cached_property
     def _doubt(self) -> RealArray:
@@ -222,15 +215,6 @@ class _Points(NamedTuple):
     def at(self, name: str, places: Any) -> RealArray:
         """The stress at pixels by number."""
         return np.asarray(_INVARIANTS[name](StressTensor(*(c[places] for c in self.components))))
-
-
-class _Inside(NamedTuple):
-    """The largest stress at pixels: ``value``, ``bar``, ``highest`` of all values and their bars, and the place."""
-
-    value: float
-    bar: float
-    highest: float
-    at: tuple[int, int]
 
 
 _INVARIANTS: dict[str, Any] = {
@@ -360,34 +344,25 @@ def _slope_errors(result: Any) -> RealArray:
         spectrum = transform.forward(np.asarray(result.gap, dtype=np.float64))
         return -np.stack([transform.backward(1j * q * spectrum) for q in grid.wavevector(odd=True)])
     heights = problem.profile() - result.permanent_indentation
-    patches = _Patches(grid, np.asarray(result.pressure, dtype=np.float64))
+    nx, ny = (1 if n == 1 else fast_length(2 * n - 1) for n in grid.shape)
+    padded, whole = PaddedTransform(grid.shape, (nx, ny)), RealTransform((nx, ny))
+    pressed = np.asarray(result.pressure, dtype=np.float64)
+    loads = padded.forward(pressed, np.empty(padded.spectrum_shape, np.complex128))
+
+    def convolved(coefficients: RealArray, *, odd_x: bool = False, odd_y: bool = False) -> RealArray:
+        """Sum over pixels (nx, ny) of the pressure times ``coefficients`` at their offsets (0…nx-1, 0…ny-1)."""
+        spectrum = whole.forward(wrapped(coefficients, (nx, ny), odd_x=odd_x, odd_y=odd_y))
+        return padded.backward(spectrum * loads, np.empty(padded.shape))
+
     if not isinstance(problem.compliance, HalfSpace) or getattr(result, "creep", None) is not None:
         smooth = HalfSpace(problem.contact_modulus)  # the rest of the displacement has no steep slope at edges
         own = smooth.influence(grid) if problem.boundary.name == "free" else smooth.line_influence(grid, grid.size[0])
-        heights = heights - (result.displacement - patches.convolved(own))
+        heights = heights - (result.displacement - convolved(own))
     slopes = _slopes(heights, np.arange(grid.n_points), grid, problem.boundary.wraps, _SIXTH).reshape(2, *grid.shape)
     for axis, kernel in enumerate(_patch_slopes(grid, line=problem.boundary.name == "free line")):
         if grid.shape[axis] > 1:
-            slopes[axis] -= patches.convolved(kernel / problem.contact_modulus, odd_x=axis == 0, odd_y=axis == 1)
+            slopes[axis] -= convolved(kernel / problem.contact_modulus, odd_x=axis == 0, odd_y=axis == 1)
     return slopes
-
-
-class _Patches:
-    """Convolutions with constant pressures on pixels."""
-
-    def __init__(self, grid: Grid, p: RealArray) -> None:
-        nx, ny = (1 if n == 1 else fast_length(2 * n - 1) for n in grid.shape)
-        self._padded = nx, ny
-        self._transform, self._whole = (
-            PaddedTransform(grid.shape, self._padded),
-            RealTransform(self._padded),
-        )
-        self._loads = self._transform.forward(p, np.empty(self._transform.spectrum_shape, np.complex128))
-
-    def convolved(self, coefficients: RealArray, *, odd_x: bool = False, odd_y: bool = False) -> RealArray:
-        """Sum over pixels (nx, ny) of the pressure times ``coefficients`` at their offsets (0…nx-1, 0…ny-1)."""
-        kernel = wrapped(coefficients, self._padded, odd_x=odd_x, odd_y=odd_y)
-        return self._transform.backward(self._whole.forward(kernel) * self._loads, np.empty(self._transform.shape))
 
 
 def _patch_slopes(grid: Grid, *, line: bool) -> tuple[RealArray, RealArray]:

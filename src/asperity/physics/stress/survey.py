@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Literal, Protocol, TypeAlias, TypeVar
+from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from .boundaries import Reader, Rows, require_held
 from .compute import Loaded, StressPlanes, at_edges, papers, residual_of, tractions_on
 from .criteria import Criterion, VonMises
 from .extremes import Extremes, InterfaceMaxima, RegionMaxima
-from .field import Peak, StressField, SurfaceMaxima
+from .field import Peak, StressField
 from .regions import DepthProfile, Plane, Position, Section, Selection, Where, depths_through, planes, regions
 from .tractions import LoadedBody, Sliding, Tractions
 from .yielding import YieldReport
@@ -188,7 +188,7 @@ def survey_depths(request: StressRequest, result: Contact) -> RealArray:
 
     To the latter belong all interfaces, however deep.
     """
-    if not wants_lines(request):
+    if not (request.sections or request.profiles):
         return _distinct(np.array(request.depths), SAME)
     interfaces = [
         region.bottom for region in regions(getattr(result.problem, request.of)) if math.isfinite(region.bottom)
@@ -198,8 +198,13 @@ def survey_depths(request: StressRequest, result: Contact) -> RealArray:
 
 def line_depths(request: StressRequest, result: Contact) -> RealArray:
     """Increasing depths (m) of sections and profiles: dense against the contact spots, and both faces of each layer."""
-    body = getattr(result.problem, request.of)
-    small, large = _spot_radii(result)
+    body, grid, areas = getattr(result.problem, request.of), result.problem.grid, result.spot_areas
+    # mean and largest radius of circles as large as the contact spots; on a grid of one row half the widths of strips
+    small = large = 0.5 * min(grid.pixels)
+    if areas.size:
+        strips = 1 in grid.shape
+        radii = 0.5 * areas / grid.spacing[grid.shape.index(1)] if strips else np.sqrt(areas / math.pi)
+        small, large = max(float(radii.mean()), small), max(float(radii.max()), large)
     layers = [region.bottom for region in regions(body) if math.isfinite(region.bottom)]
     near = max((bottom for bottom in layers if bottom <= FAR_LAYERS * large), default=0.0)
     # where stresses have mostly decayed, below the layers that are not far below the contact
@@ -207,7 +212,7 @@ def line_depths(request: StressRequest, result: Contact) -> RealArray:
     layered = depths_through(body, bottom, per_region=max(1, min(4, INTERVALS // len(regions(body)))))
     asked = [depth for depth in request.depths if depth <= layered[-1]]
     needed = _distinct(np.array([*layered, *asked]), SAME)
-    shallow = max(SHALLOWEST * small, PIXELS * max(result.problem.grid.pixels))
+    shallow = max(SHALLOWEST * small, PIXELS * max(grid.pixels))
     count = max(0, math.ceil(math.log(layered[-1] / shallow, RATIO) - 0.5))
     graded = shallow * RATIO ** np.arange(count)
     flow = residual_of(result, request.of, None)
@@ -217,27 +222,6 @@ def line_depths(request: StressRequest, result: Contact) -> RealArray:
     if flow is not None:
         away = [depth for depth in away if flow.cell_at(depth, below=True) is None]
     return _distinct(np.array([*needed, *away, *cells]), SAME)
-
-
-def wants_lines(request: StressRequest) -> bool:
-    """Whether sections or profiles are asked for."""
-    return bool(request.sections or request.profiles)
-
-
-def _spot_radii(result: Contact) -> tuple[float, float]:
-    """Mean and largest radius (m) of circles as large as the contact spots, at least half a pixel.
-
-    On a grid of one row spots are strips, and half their widths take the place of radii.
-    """
-    grid = result.problem.grid
-    least = 0.5 * min(grid.pixels)
-    if not result.spot_areas.size:
-        return least, least
-    if 1 in grid.shape:
-        radii = 0.5 * result.spot_areas / grid.spacing[grid.shape.index(1)]
-    else:
-        radii = np.sqrt(result.spot_areas / math.pi)
-    return max(float(radii.mean()), least), max(float(radii.max()), least)
 
 
 def _distinct(depths: RealArray, tolerance: float) -> RealArray:
@@ -344,21 +328,32 @@ def survey(
         As of ``stress``.
     """
     depths = survey_depths(request, result)
-    shown = line_depths(request, result) if lines and wants_lines(request) else np.zeros(0)
+    drawing = lines and bool(request.sections or request.profiles)
+    shown = line_depths(request, result) if drawing else np.zeros(0)
     job = _job(request, result, depths, threads)
     residual = residual_of(result, request.of, threads)
-    flowed, edges = residual is not None, _edges(request, result, residual, threads)
-    at_depths = _job(request, result, depths, threads, over_cells=False).read if flowed else None
+    edges = None
+    if not isinstance(result, LoadedBody):
+        edges = at_edges(result, _loads(request, result, residual), request.of, residual, threads)
+    at_depths = None if residual is None else _job(request, result, depths, threads, over_cells=False).read
     again = planes(getattr(result.problem, request.of), shown) if shown.size else ()
-    tracked = _Tracked(progress, len(job.planes) + len(again))
+    done, total = 0, len(job.planes) + len(again)
+
+    def tracked(parts: Iterable[Plane]) -> Iterator[Plane]:
+        nonlocal done
+        for plane in parts:
+            yield plane
+            done += 1
+            progress.update(done, 1.0 - done / total, 0.0)
+
     extremes, passed = Extremes(result.problem.grid, request.criterion), _Passed(job)
     named: dict[Where, tuple[str, ...]] = {}
-    for plane in tracked.each(job.planes):
+    for plane in tracked(job.planes):
         extremes.take(plane, passed.cutting(list(named)) if plane in again else job.read, at_depths)
         named = wanted_lines(request, result, extremes.drawn) if again else {}
     if edges is not None and any(plane.side == "surface" for plane in job.planes):
         extremes.surface = edges()
-    parts = [passed.along(list(named), plane) for plane in tracked.each(again)]
+    parts = [passed.along(list(named), plane) for plane in tracked(again)]
     drawn = [
         (names, joined(list(fields))) for names, fields in zip(named.values(), zip(*parts, strict=True), strict=True)
     ]
@@ -395,8 +390,13 @@ class _Passed:
 
             def cut(rows: Rows) -> Rows:
                 for first, part in rows:
+                    count = part.shape[1]
                     for place, field in zip(places, fields, strict=True):
-                        _copy(place, first, part, field)
+                        i, j = place.index
+                        if isinstance(i, slice):
+                            field[:, first : first + count] = part[:, :, j]
+                        elif first <= i < first + count:
+                            field[...] = part[:, i - first, j]
                     yield first, part
 
             self._job.read(plane, lambda rows: reader(cut(rows)))
@@ -411,15 +411,6 @@ class _Passed:
         found = zip(missing, self._job.along(missing, plane), strict=True) if missing else ()
         self._cut |= {(line, plane): field for line, field in found}
         return [self._cut[line, plane] for line in lines]
-
-
-def _copy(place: Selection, first: int, rows: RealArray, field: RealArray) -> None:
-    """Copy what ``rows`` (6, rows, ny), the ``first`` of them of this number, hold of ``place`` into its ``field``."""
-    i, j = place.index
-    if isinstance(i, slice):
-        field[:, first : first + rows.shape[1]] = rows[:, :, j]
-    elif first <= i < first + rows.shape[1]:
-        field[...] = rows[:, i - first, j]
 
 
 def _job(
@@ -441,34 +432,8 @@ def _job(
     )
 
 
-def _edges(
-    request: StressRequest, result: Contact, residual: Any, threads: int | None
-) -> Callable[[], SurfaceMaxima | None] | None:
-    """What finds the largest stresses at the edges of the contact."""
-    if isinstance(result, LoadedBody):
-        return None
-    return at_edges(result, _loads(request, result, residual), request.of, residual, threads)
-
-
 def _loads(request: StressRequest, result: Contact, residual: Any) -> Tractions:
     """Tractions on the body in which stresses are asked."""
     found = residual is not None or getattr(result, "stick_slip", None) is not None  # with shear of its own
     friction = None if request.sheared and found else request.friction
     return tractions_on(result, friction, request.direction, request.of)
-
-
-_Item = TypeVar("_Item")
-
-
-class _Tracked:
-    """Count of planes done, passed on to the progress."""
-
-    def __init__(self, progress: Progress, total: int) -> None:
-        self._progress, self._total, self._done = progress, total, 0
-
-    def each(self, items: Iterable[_Item]) -> Iterator[_Item]:
-        """The same ``items``, one for each plane."""
-        for item in items:
-            yield item
-            self._done += 1
-            self._progress.update(self._done, 1.0 - self._done / self._total, 0.0)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from itertools import chain, groupby
-from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -42,12 +41,32 @@ class StressWork(Work):
         """Largest stresses; the survey with sections and profiles as detail."""
         with solved.stage("stresses") as progress:
             found = survey(ask, solved.result, lines=solved.lines, threads=solved.threads, progress=progress)
-        values = {
-            **_in_all(found),
-            "max_interface_shear": _largest(found, "interfaces", "shear"),
-            "max_interface_peel": _largest(found, "interfaces", "peel"),
-            **_by_layer(found),
+        values: dict[str, Any] = {}
+        attributes = ("von_mises", "tension", "shear")
+        for name, attribute in zip(_LARGEST, attributes, strict=True):
+            peak: Peak = max((getattr(part, attribute) for part in found.maxima), key=_value)
+            # x and y in the middle of a pixel, as in figures
+            spacing = solved.result.problem.grid.spacing
+            x, y = (at + 0.5 * step for at, step in zip((peak.x, peak.y), spacing, strict=True))
+            values |= {name: peak.value, f"{name}_error": peak.error}
+            values |= {f"{name}_x": x, f"{name}_y": y, f"{name}_depth": peak.depth}
+        regions, interfaces = [part.region for part in found.maxima], found.interfaces
+        values |= {
+            "max_interface_shear": max((item.shear.value for item in interfaces), default=math.nan),
+            "max_interface_peel": max((item.peel.value for item in interfaces), default=math.nan),
+            "layer": np.array([region.name for region in regions], object),
+            "layer_top": np.array([region.top for region in regions]),
+            "layer_bottom": np.array([region.bottom for region in regions]),
         }
+        for name, attribute in zip(_LARGEST, attributes, strict=True):
+            peaks = [getattr(part, attribute) for part in found.maxima]
+            values[f"layer_{name}"] = np.array([peak.value for peak in peaks])
+            values[f"layer_{name}_depth"] = np.array([peak.depth for peak in peaks])
+        if interfaces:
+            values["interface"] = np.array([f"{item.above} / {item.below}" for item in interfaces], object)
+            values["interface_depth"] = np.array([item.shear.depth for item in interfaces])
+            values["interface_max_shear"] = np.array([item.shear.value for item in interfaces])
+            values["interface_max_peel"] = np.array([item.peel.value for item in interfaces])
         return Found(values, found, (), found.citation_keys)
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
@@ -78,7 +97,14 @@ class StressWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Largest stresses of layers and interfaces."""
-        return stress_words(found.detail)
+        survey = found.detail
+        tables = (
+            ("Largest stresses inside each layer", maxima_table(survey)),
+            ("Interfaces", interface_table(survey)),
+            ("Given strengths", strength_table(survey)),
+        )
+        shown = tuple((heading, table) for heading, table in tables if table.cells)
+        return Words(rows=setting_rows(survey), tables=shown, remarks=tuple(remarks(survey)))
 
     def citations(self, ask: StressRequest, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the papers that the stresses will rest on."""
@@ -97,63 +123,23 @@ class YieldingWork(Work):
         return Found({"yield_load_factor": factor}, survey)
 
     def words(self, found: Found, solved: Solved) -> Words:
-        """Which part of the body yields first, and when."""
+        """Which part of the body yields first, and when; of a body whose plastic flow is solved, what has flowed."""
         return yield_words(found.detail)
-
-
-def _by_layer(survey: StressSurvey) -> dict[str, Any]:
-    """Largest stresses of each layer with their depths, and of each interface, by the names of their quantities."""
-    regions, interfaces = [part.region for part in survey.maxima], survey.interfaces
-    made: dict[str, Any] = {
-        "layer": np.array([region.name for region in regions], object),
-        "layer_top": np.array([region.top for region in regions]),
-        "layer_bottom": np.array([region.bottom for region in regions]),
-    }
-    for name, attribute in zip(_LARGEST, ("von_mises", "tension", "shear"), strict=True):
-        peaks = [getattr(part, attribute) for part in survey.maxima]
-        made[f"layer_{name}"] = np.array([peak.value for peak in peaks])
-        made[f"layer_{name}_depth"] = np.array([peak.depth for peak in peaks])
-    if interfaces:
-        made["interface"] = np.array([f"{item.above} / {item.below}" for item in interfaces], object)
-        made["interface_depth"] = np.array([item.shear.depth for item in interfaces])
-        made["interface_max_shear"] = np.array([item.shear.value for item in interfaces])
-        made["interface_max_peel"] = np.array([item.peel.value for item in interfaces])
-    return made
-
-
-def _in_all(survey: StressSurvey) -> dict[str, float]:
-    """Largest stresses of all layers with their errors and places, x and y in the middle of a pixel, as in figures."""
-    found: dict[str, float] = {}
-    for name, attribute in zip(_LARGEST, ("von_mises", "tension", "shear"), strict=True):
-        peak: Peak = max((getattr(part, attribute) for part in survey.maxima), key=_value)
-        x, y = (at + 0.5 * step for at, step in zip((peak.x, peak.y), survey.result.problem.grid.spacing, strict=True))
-        found |= {name: peak.value, f"{name}_error": peak.error}
-        found |= {f"{name}_x": x, f"{name}_y": y, f"{name}_depth": peak.depth}
-    return found
-
-
-def _largest(survey: StressSurvey, parts: str, peak: str) -> float:
-    """Largest value of the ``peak`` in all ``parts`` of the ``survey``; NaN where there are none."""
-    return max((getattr(part, peak).value for part in attrgetter(parts)(survey)), default=math.nan)
-
-
-def stress_words(survey: StressSurvey) -> Words:
-    """Settings, and the largest stresses of layers and interfaces."""
-    tables = (
-        ("Largest stresses inside each layer", maxima_table(survey)),
-        ("Interfaces", interface_table(survey)),
-        ("Given strengths", strength_table(survey)),
-    )
-    shown = tuple((heading, table) for heading, table in tables if table.cells)
-    return Words(rows=setting_rows(survey), tables=shown, remarks=tuple(remarks(survey)))
 
 
 def yield_words(survey: StressSurvey) -> Words:
     """Which part of the body yields first, and when; of a body whose plastic flow is solved, what has flowed."""
-    if has_flowed(survey):
-        return Words(flow_sentence(survey))
-    table = yield_table(survey)
-    return Words(yield_sentence(survey), tables=(("", table),) if table.cells else (), alarming=survey.yielding.yields)
+    if not has_flowed(survey):
+        table, yields = yield_table(survey), survey.yielding.yields
+        return Words(yield_sentence(survey), tables=(("", table),) if table.cells else (), alarming=yields)
+    zones = [zone for zone in survey.result.plastic_flow.zones if zone.volume > 0.0]  # type: ignore[attr-defined]
+    parts = " and ".join(
+        f"{zone.name} ({show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)} deep, strain up to {percent(zone.largest_strain)})"
+        for zone in zones
+    )
+    known = [zone.first_yield for zone in zones if math.isfinite(zone.first_yield)]
+    first = f" First yield is found in the step to a mean pressure of {show(min(known), 'Pa', 3)}." if known else ""
+    return Words(f"The body has flowed plastically in {parts}; the stresses hold that plastic strain.{first}")
 
 
 def setting_rows(survey: StressSurvey) -> Rows:
@@ -254,18 +240,6 @@ def has_flowed(survey: StressSurvey) -> bool:
     return flow is not None and flow.of == survey.request.of and bool(flow.flowed.points.size)
 
 
-def flow_sentence(survey: StressSurvey) -> str:
-    """Which parts have flowed, and from which load on."""
-    zones = [zone for zone in survey.result.plastic_flow.zones if zone.volume > 0.0]  # type: ignore[attr-defined]
-    parts = " and ".join(
-        f"{zone.name} ({show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)} deep, strain up to {percent(zone.largest_strain)})"
-        for zone in zones
-    )
-    known = [zone.first_yield for zone in zones if math.isfinite(zone.first_yield)]
-    first = f" First yield is found in the step to a mean pressure of {show(min(known), 'Pa', 3)}." if known else ""
-    return f"The body has flowed plastically in {parts}; the stresses hold that plastic strain.{first}"
-
-
 def yield_sentence(survey: StressSurvey) -> str:
     """Which part of the body yields first, and when."""
     report, first = survey.yielding, survey.yielding.first
@@ -298,9 +272,10 @@ def remarks(survey: StressSurvey) -> list[str]:
     doubts = dict.fromkeys(peak.doubt for peak in peaks if peak.doubt)
     found += [f"A largest stress at the surface is but a lower bound (>): {doubt}." for doubt in doubts]
     if has_flowed(survey):
+        first_cell = float(survey.result.plastic_flow.flowed.edges[1])  # type: ignore[attr-defined]
         found[0] = (
             "The stresses are those by the tractions and by the plastic strain. In layers that may flow they are means over the depth cells, which keep to the "
-            f"yield stress after hardening; the first cell is {show(_first_cell(survey), 'm', 3)} thick, and what changes within it at the surface is not resolved."
+            f"yield stress after hardening; the first cell is {show(first_cell, 'm', 3)} thick, and what changes within it at the surface is not resolved."
         )
     if survey.result.plastic.any():
         found.append(
@@ -308,11 +283,6 @@ def remarks(survey: StressSurvey) -> list[str]:
             "pressures: where they pass the yield stress they say that it yields, not how large they really are."
         )
     return found
-
-
-def _first_cell(survey: StressSurvey) -> float:
-    """Thickness (m) of the depth cell at the surface of a body that has flowed."""
-    return float(survey.result.plastic_flow.flowed.edges[1])  # type: ignore[attr-defined]
 
 
 def _prescribed(survey: StressSurvey) -> bool:

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...core import require
-from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
 from ...core.late import Shown
 from .criteria import Criterion, Limit, VonMises
@@ -236,12 +235,17 @@ def fracture_indicators(
     and the depths of the interfaces.
     """
     found: list[Indicator] = []
+
+    def add(name: str, peaks: Iterable[Peak], strength: float) -> None:
+        worst = max(peaks, key=lambda peak: peak.value)
+        found.append(Indicator(name, worst, worst.value / strength))
+
     surface = [number for number, plane in enumerate(field.planes) if plane.side == "surface"]
     if surface:
-        found.append(_tension("tension at the surface", field, surface, tensile))
+        add("tension at the surface", (field.largest("tension", plane=number) for number in surface), tensile)
     for region in field.regions:
         inside = [number for number, plane in enumerate(field.planes) if plane.region == region]
-        found.append(_tension(f"tension in {region.name}", field, inside, tensile))
+        add(f"tension in {region.name}", (field.largest("tension", plane=number) for number in inside), tensile)
     shear, peel = np.hypot(field.shear_xz, field.shear_yz), field.normal_zz
     for number, plane in enumerate(field.planes):
         if plane.side == "above":
@@ -249,17 +253,6 @@ def fracture_indicators(
                 (p.region.name for p in field.planes if p.region.index == plane.region.index + 1), "rigid base"
             )
             pair = f"{plane.region.name}/{below}"
-            found.append(_indicator(f"shear of the interface {pair}", field, shear, [number], interface_shear))
-            found.append(_indicator(f"peel of the interface {pair}", field, peel, [number], interface_peel))
+            add(f"shear of the interface {pair}", [field.peak(shear, plane=number)], interface_shear)
+            add(f"peel of the interface {pair}", [field.peak(peel, plane=number)], interface_peel)
     return tuple(found)
-
-
-def _tension(name: str, field: StressField, planes: list[int], strength: float) -> Indicator:
-    """Largest tension on some ``planes``, at the surface with the edges of the contact."""
-    peak = max((field.largest("tension", plane=number) for number in planes), key=lambda p: p.value)
-    return Indicator(name, peak, peak.value / strength)
-
-
-def _indicator(name: str, field: StressField, values: RealArray, planes: list[int], strength: float) -> Indicator:
-    peak = max((field.peak(values, plane=number) for number in planes), key=lambda p: p.value)
-    return Indicator(name, peak, peak.value / strength)

@@ -368,10 +368,13 @@ class LayeredPast:
                 kernels.append(transform.forward(influence, _spectrum(transform)).real.copy())
         free = None if isinstance(boundary, Periodic) else PaddedTransform(grid.shape, operator.padded, threads)
         stacked = np.stack(kernels)
-        whole = np.full(stacked.shape[:2], stacked.shape[2])
-        cuts = (
-            _cuts(stacked, operator.kernel) if creep.shear is None else whole
-        )  # what pressure hardly feels may move along the surface
+
+        cuts = np.full(stacked.shape[:2], stacked.shape[2])
+        if creep.shear is None:  # what pressure hardly feels may move along the surface
+            columns = np.arange(1, stacked.shape[2] + 1)
+            for each, cut in zip(stacked, cuts, strict=True):
+                cut[:] = np.where(np.abs(each) > _SHOWS * operator.kernel, columns, 0).max(axis=1)
+                each[columns > cut[:, None]] = 0.0
         return cls(creep, operator, stacked, free or transform, Passes(threads, cuts))
 
     @property
@@ -387,7 +390,12 @@ class LayeredPast:
         """The past in a ``memory``; a virgin one of an empty memory."""
         if memory:
             past = Past.of(memory)
-            _require_terms(past, self.times)
+            # That of another series of retardations, as of the same layers without shear, would be taken for what it is not.
+            if len(past.squares) != self.times.size:
+                raise InputError(
+                    f"state of viscoelastic layers must remember {self.times.size} retardation times, those of the bodies of this problem, but remembers {len(past.squares)}. "
+                    "Begin with a state of the same bodies, and of steps whose shear was solved for if it is solved for here."
+                )
             shear = past.shear and replace(past.shear, xi=_complex_view(memory["shear_xi"]))
             return replace(
                 past, response=_complex_view(memory["response"]), xi=_complex_view(memory["xi"]), shear=shear
@@ -468,27 +476,9 @@ class LayeredPast:
         return found * (self.operator.grid.pixel_area / (nx * ny))
 
 
-def _cuts(kernels: RealArray, first: RealArray) -> RealArray:
-    """Number of columns (terms, rows) up to the last at which ``kernels`` show beside the ``first``; they are set to zero beyond."""
-    columns = np.arange(1, first.shape[1] + 1)
-    cuts = np.stack([np.where(np.abs(each) > _SHOWS * first, columns, 0).max(axis=1) for each in kernels])
-    for each, cut in zip(kernels, cuts, strict=True):
-        each[columns > cut[:, None]] = 0.0
-    return cuts
-
-
 def _parts(spectra: RealArray | ComplexArray) -> RealArray:
     """Complex ``spectra`` with real and imaginary parts in turn along the last axis."""
     return np.ascontiguousarray(spectra, dtype=complex).view(float)
-
-
-def _require_terms(past: Past, times: RealArray) -> None:
-    """A past of another series of retardations, as of the same layers without shear, would be taken for what it is not."""
-    if len(past.squares) != times.size:
-        raise InputError(
-            f"state of viscoelastic layers must remember {times.size} retardation times, those of the bodies of this problem, but remembers {len(past.squares)}. "
-            "Begin with a state of the same bodies, and of steps whose shear was solved for if it is solved for here."
-        )
 
 
 VIRGIN = (0.0, 0.0, math.nan)

@@ -127,25 +127,22 @@ def accounted(begin: Moment, moments: list[Moment], found: Creeping) -> tuple[Cr
     missed in a step in which adhesive surfaces jump, since nothing else says what a jump loses. The first step of adhesive surfaces begins at no
     known approach.
     """
-    last, before = moments[-1], Account.of(begin.past)
-    jumped = any(answer.has_jumped() for moment in moments for answer in moment.answers)
-    stored = stored_in(last)
+    before, stored = Account.of(begin.past), stored_in(moments[-1])
     if before is None or not _begun(begin, moments[0]):
-        return _with(found, account := Account.begun(stored)), account
-    taken = stored - before.stored + sum(taken_by(*pair) for pair in pairwise([begin, *moments]))
-    error = force_work(found.records)[1]
-    if found.records[-1, 0] == found.records[0, 0] and not jumped:
-        found, error = replace(found, work=taken), 0.0
-    missed = before.missed + (0.0 if jumped else found.work - taken)
-    works = before.work + found.work, before.along + found.tangential_work
-    largest = max(before.largest, *map(abs, works))
-    explained = before.explained + error + 2.0 * found.time_error * largest
-    account = Account(stored, *works, largest, missed, explained)
-    return _with(found, account), account
-
-
-def _with(found: Creeping, account: Account) -> Creeping:
-    return replace(found, missed=account.missed, explained=account.explained, largest_work=account.largest)
+        account = Account.begun(stored)
+    else:
+        jumped = any(answer.has_jumped() for moment in moments for answer in moment.answers)
+        taken = stored - before.stored + sum(taken_by(*pair) for pair in pairwise([begin, *moments]))
+        error = force_work(found.records)[1]
+        if found.records[-1, 0] == found.records[0, 0] and not jumped:
+            found, error = replace(found, work=taken), 0.0
+        missed = before.missed + (0.0 if jumped else found.work - taken)
+        works = before.work + found.work, before.along + found.tangential_work
+        largest = max(before.largest, *map(abs, works))
+        explained = before.explained + error + 2.0 * found.time_error * largest
+        account = Account(stored, *works, largest, missed, explained)
+    found = replace(found, missed=account.missed, explained=account.explained, largest_work=account.largest)
+    return found, account
 
 
 def balanced(status: Status, found: Creeping) -> Status:

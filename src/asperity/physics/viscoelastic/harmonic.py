@@ -14,7 +14,7 @@ import numpy as np
 from ...contact.operators import prepare_operator
 from ...contact.result import ContactResult, stiffness_of
 from ...core import require
-from ...core.arrays import BoolArray, ComplexArray
+from ...core.arrays import ComplexArray
 from ...core.errors import ConvergenceError, InputError
 from ...solids.compliance.creep import SharedCreep, contact_creep
 from .coupling import LayeredPast
@@ -62,6 +62,8 @@ class HarmonicResponse:
 def harmonic(result: ContactResult, frequency: float) -> HarmonicResponse:
     """Complex stiffness of the contact ``result`` under a small oscillation of ``frequency`` (Hz, > 0) about it.
 
+    Of layers it is the mean pressure (Pa) that displaces all points that move by 1 m.
+
     The area of contact stays as it is, plastic points carry what they carried. Bodies that creep by one factor need no further solve
     than their instantaneous stiffness; layers one linear problem.
 
@@ -83,20 +85,14 @@ def harmonic(result: ContactResult, frequency: float) -> HarmonicResponse:
     if isinstance(creep, SharedCreep):
         growth = complex(creep.ratio.complex_compliance(omega))
         return HarmonicResponse(frequency, stiffness_of(result, operator=operator) / growth, problem.grid.area)
+    from scipy.sparse.linalg import LinearOperator, gmres
+
     past = LayeredPast.prepared(creep, operator)
     flows = np.isinf(creep.times)
     each = np.where(flows, 1.0 / (1j * omega), 1.0 / (1.0 + 1j * omega * np.where(flows, 0.0, creep.times)))
     kernel = operator.kernel + np.tensordot(each, past.kernels, 1)
-    stiffness = _stiffness(past, kernel, np.asarray(result.contact & ~result.plastic))
-    return HarmonicResponse(frequency, stiffness, problem.grid.area)
-
-
-def _stiffness(past: LayeredPast, kernel: ComplexArray, moves: BoolArray) -> complex:
-    """Mean pressure (Pa) that displaces all points that move by 1 m."""
-    from scipy.sparse.linalg import LinearOperator, gmres
-
-    points = np.flatnonzero(moves)
-    scale = float(np.abs(kernel).max())
+    moves = np.asarray(result.contact & ~result.plastic)
+    points, scale = np.flatnonzero(moves), float(np.abs(kernel).max())
 
     def product(values: ComplexArray) -> ComplexArray:
         field = np.zeros(moves.shape, dtype=complex)
@@ -113,4 +109,4 @@ def _stiffness(past: LayeredPast, kernel: ComplexArray, moves: BoolArray) -> com
         raise ConvergenceError(
             f"The linear problem of the oscillation has still a residual of {residual:.1e}. Use a coarser grid."
         )
-    return complex(found.sum()) / (scale * moves.size)
+    return HarmonicResponse(frequency, complex(found.sum()) / (scale * moves.size), problem.grid.area)

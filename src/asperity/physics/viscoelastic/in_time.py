@@ -47,33 +47,29 @@ class InTime:
         sheared = any(isinstance(coupling, StickSlipCoupling | SlidingCoupling) for coupling in prepared.couplings)
         creep = contact_creep(problem.body, problem.counter_body, shear=sheared)
         assert creep is not None
+        self.sticks = any(isinstance(coupling, StickSlipCoupling) for coupling in prepared.couplings)
         self.prepared, self.remembering = prepared, remembering(creep, operator)
         self.operators = OperatorsInTime(creep, operator)
-        self.shear: ShearMemory | LayeredShear | None = self._prepared_shear() if sheared else None
-        lifting = (self._lifting(coupling) if sheared else coupling for coupling in prepared.couplings)
+        self.shear: ShearMemory | LayeredShear | None = None
+        if sheared:
+            threads = getattr(operator.engine, "threads", None)
+            if isinstance(self.remembering, LayeredPast):
+                self.shear = LayeredShear.prepared(problem, self.remembering, threads)
+            else:
+                assert isinstance(creep, SharedCreep)
+                self.shear = ShearMemory.prepared(problem, creep, threads)
+        lifting: list[Coupling] = []
+        for coupling in prepared.couplings:
+            # Shear lifts the surfaces now or later, as that of bodies which are equal at the first instant only.
+            if isinstance(coupling, StickSlipCoupling):
+                assert self.shear is not None
+                coupling = coupling.lifting(coupled=any(each.coupled for each in self.shear.operators))
+            elif isinstance(coupling, SlidingCoupling):
+                assert self.shear is not None
+                largest = max(each.coupling.largest for each in self.shear.operators)
+                coupling = replace(coupling, feedback=largest > NO_COUPLING * operator.largest)
+            lifting.append(coupling)
         prepared.couplings = (*lifting, CreepCoupling())
-
-    @property
-    def _sticks(self) -> bool:
-        return any(isinstance(coupling, StickSlipCoupling) for coupling in self.prepared.couplings)
-
-    def _prepared_shear(self) -> ShearMemory | LayeredShear:
-        threads = getattr(self.prepared.operator.engine, "threads", None)
-        if isinstance(self.remembering, LayeredPast):
-            return LayeredShear.prepared(self.prepared.problem, self.remembering, threads)
-        creep = self.operators.creep
-        assert isinstance(creep, SharedCreep)
-        return ShearMemory.prepared(self.prepared.problem, creep, threads)
-
-    def _lifting(self, coupling: Coupling) -> Coupling:
-        """Shear that lifts the surfaces now or later, as that of bodies which are equal at the first instant only."""
-        assert self.shear is not None
-        if isinstance(coupling, StickSlipCoupling):
-            return coupling.lifting(coupled=any(operator.coupled for operator in self.shear.operators))
-        if isinstance(coupling, SlidingCoupling):
-            largest = max(operator.coupling.largest for operator in self.shear.operators)
-            return replace(coupling, feedback=largest > NO_COUPLING * self.prepared.operator.largest)
-        return coupling
 
     @property
     def area(self) -> float:
@@ -91,26 +87,37 @@ class InTime:
                 "Allow more of them, or a larger tolerance."
             )
         last, before = moments[-1], state if len(moments) < 2 else moments[-2].state
-        settled = self._ended(last, begin.past.time + step.duration, tries)
-        creeping, account = accounted(begin, moments, _creeping(begin, moments, tries))
-        last = replace(last, ends=_summed(moments))
-        settled = replace(settled, status=balanced(settled.status, creeping))
-        last = replace(last, past=replace(last.past, account=account.numbers))
-        ends = with_creep(last, creeping)
+        settled, end = last.settled, begin.past.time + step.duration
+        assert settled is not None
+        status = settled.status
+        if status.converged and last.past.time < end * (1.0 - 1e-9):
+            message = f"{tries} steps of time led to {last.past.time:.6g} s of the {end:.6g} s at the end of the step."
+            remedy = "Allow more steps of time, or a larger tolerance of theirs."
+            status = Status(Outcome.ITERATION_LIMIT, message, remedy)
+        records = np.stack([begin.record, *(moment.record for moment in moments)])
+        happened = Creeping(
+            records,
+            np.broadcast_to(last.retarded, last.past.pressure.shape),
+            last.stored,
+            last.past.dissipated - begin.past.dissipated,
+            force_work(records)[0],
+            tries,
+            sum(moment.shear_works[0] for moment in moments),
+            sum(moment.shear_works[1] for moment in moments),
+            sum(moment.lift_work for moment in moments),
+        )
+        creeping, account = accounted(begin, moments, happened)
+        settled = replace(settled, status=balanced(status, creeping))
+        ends = dict(last.ends)
+        for name, (memory, found) in ends.items():
+            if isinstance(found, Answer) and len(moments) > 1:  # slip, heat and jumps are those of all moments
+                earlier = [one for one in (moment.ends[name][1] for moment in moments[:-1]) if isinstance(one, Answer)]
+                ends[name] = memory, found.summed(earlier)
+        ends["creep"] = replace(last.past, account=account.numbers).memory, creeping
         result = prepared.result(settled, before, time.perf_counter() - started, ends)
         if before is not state:  # the work since the step began, not since the last moment
             vars(result)["plastic_work"] = result.total_plastic_work - (0.0 if state is None else state.plastic_work)
         return result
-
-    def _ended(self, last: Moment, end: float, tries: int) -> Settled:
-        """What settled in the ``last`` moment; not converged if the ``end`` (s) was not reached."""
-        settled = last.settled
-        assert settled is not None
-        if not settled.status.converged or last.past.time >= end * (1.0 - 1e-9):
-            return settled
-        message = f"{tries} steps of time led to {last.past.time:.6g} s of the {end:.6g} s at the end of the step."
-        remedy = "Allow more steps of time, or a larger tolerance of theirs."
-        return replace(settled, status=Status(Outcome.ITERATION_LIMIT, message, remedy))
 
     def _lift_work(
         self, before: Moment, later: RealArray, ends: Mapping[str, tuple[Memory, object]], length: float
@@ -125,28 +132,22 @@ class InTime:
         at_once = TimeWeights.of(self.remembering.times, 0.0)
         kernel = coupling.in_time(self.shear.operator(at_once).coupling, np.zeros(later.shape))
         pressure = _pressure_before(before)
-        lift = kernel.displacement(pressure) + self.shear.lifted(before.past, coupling.traction(pressure), at_once)
-        mean = self._mean_lift(before.past, (pressure, later), length, coupling)
+        first, last = coupling.traction(pressure), coupling.traction(later)
+        lift = kernel.displacement(pressure) + self.shear.lifted(before.past, first, at_once)
+        # mean over the step of the retarded displacement, to which that of the pressure at the time adds
+        weights, after = TimeWeights.of(self.remembering.times, length).of_mean
+        none = replace(before.past, shear=None)
+        by_last = replace(weights, e=np.zeros_like(after), before=after)
+        mean = self.shear.lifted(before.past, first, weights) + self.shear.lifted(none, last, by_last)
         mean += kernel.displacement(0.5 * (pressure + later))
         now = found.shear_displacement
         total = float((pressure * (now - lift) + (later - pressure) * (now - mean)).sum())
         return total * self.prepared.problem.grid.pixel_area
 
-    def _mean_lift(
-        self, past: Past, pressures: tuple[RealArray, RealArray], length: float, coupling: SlidingCoupling
-    ) -> RealArray:
-        """Retarded displacement (nx, ny) in m by shear, mean over a step of this ``length`` (s) in which the pressure goes from one to the other."""
-        assert self.shear is not None
-        first, last = (coupling.traction(pressure) for pressure in pressures)
-        weights, after = TimeWeights.of(self.remembering.times, length).of_mean
-        none = replace(past, shear=None)
-        by_last = replace(weights, e=np.zeros_like(after), before=after)
-        return self.shear.lifted(past, first, weights) + self.shear.lifted(none, last, by_last)
-
     def begin(self, state: InterfaceState | None) -> Moment:
         """What the interface is before a step, from its ``state``."""
         past = self.remembering.past({} if state is None else state.memory.get("creep", {}))
-        if state is not None and "stick_slip" not in state.memory and self._sticks:
+        if state is not None and "stick_slip" not in state.memory and self.sticks:
             past = replace(past, shear=None)  # of gross sliding, which leaves no traction to stick to
         profile = self.prepared.profile
         if np.isnan(past.place[2]):  # the first touch
@@ -197,7 +198,11 @@ class InTime:
             if name in ends:
                 ends[name] = coupling.end_in_time(settled.exchanges[name], contact, ends[name], stored, heat)
         lift_work = self._lift_work(moment, contact.pressure, ends, length)
-        past = self._slid(moment, past, contact.pressure, weights)
+        for slides in prepared.couplings:  # the memory of the shear of gross sliding
+            if isinstance(slides, SlidingCoupling) and slides.feedback:
+                assert self.shear is not None
+                tractions = slides.traction(_pressure_before(moment)), slides.traction(contact.pressure)
+                past = replace(past, shear=self.shear.advanced(moment.past, *tractions, weights))
         past, sheared, works = self._sheared(moment, past, traction, weights, ends, couplings)
         stored += sheared
         memories = {name: memory for name, (memory, _) in ends.items() if memory}
@@ -218,7 +223,8 @@ class InTime:
         ends: dict[str, tuple[Memory, object]],
         couplings: tuple[Coupling, ...],
     ) -> tuple[Past, float, tuple[float, float]]:
-        """``past`` after a step with the memory and heat of shear, the energy (J) that it stores, which is noted in ``ends``, and its works (J)."""
+        """``past`` after a step with the memory and heat of shear, the energy (J) that it stores, which is noted in ``ends``, and its works (J):
+        of tangential force and torque, and what of it an implicit step takes."""
         coupling = next((each for each in couplings if isinstance(each, StickSlipCoupling)), None)
         if self.shear is None or coupling is None:
             return past, 0.0, (0.0, 0.0)
@@ -227,17 +233,14 @@ class InTime:
         before = _traction_before(moment.state, pressure.shape)
         shear, more, heat = self.shear.after(moment.past, before, found.traction, pressure, weights)
         ends["stick_slip"] = memory, replace(found, tangential_energy=more)
-        works = _works(moment, found, coupling, self.prepared.problem.grid.pixel_area)
+        started = {} if moment.state is None else moment.state.memory.get("stick_slip", {})
+        place = started["shift"] if started else np.zeros(3)
+        moved = np.array([found.shift_x, found.shift_y, found.twist]) - place
+        assert coupling.held is not None
+        displaced, pixel = found.tangential_displacement - coupling.held.start, self.prepared.problem.grid.pixel_area
+        taken = 0.5 * pixel * float(np.einsum("kij,kij->", found.traction - before, displaced))
+        works = found.work_by(moved, displaced, pixel), taken
         return replace(past, shear=shear, dissipated=past.dissipated + heat), more, works
-
-    def _slid(self, moment: Moment, past: Past, pressure: RealArray, weights: TimeWeights) -> Past:
-        """``past`` after a step with the memory of the shear of gross sliding under the ``pressure`` (nx, ny) in Pa of the contact."""
-        for coupling in self.prepared.couplings:
-            if isinstance(coupling, SlidingCoupling) and coupling.feedback:
-                assert self.shear is not None
-                tractions = coupling.traction(_pressure_before(moment)), coupling.traction(pressure)
-                return replace(past, shear=self.shear.advanced(moment.past, *tractions, weights))
-        return past
 
     def _couplings(self, operator: Operator, moment: Moment, weights: TimeWeights) -> tuple[Coupling, ...]:
         """Couplings of the problem with the ``operator`` of the step, and shear with what the past of the ``moment`` left."""
@@ -301,16 +304,11 @@ class InTime:
         found = self.remembering.curvature(pasts, weights)
         if weights.length > float(self.remembering.times.min()):
             found = max(found, step_error(first, second), step_error(second, third))
-        if self.shear is None or not self._sticks:
+        if self.shear is None or not self.sticks:
             return found
         shape = third.past.pressure.shape
         tractions = tuple(_traction_before(moment.state, shape) for moment in (first, second, third))
         return max(found, self.shear.curvature(pasts, tractions, weights))
-
-
-def with_creep(moment: Moment, creeping: Creeping) -> dict[str, tuple[Memory, object]]:
-    """What all couplings remember and found in the ``moment``, with what happened in time."""
-    return {**moment.ends, "creep": (moment.past.memory, creeping)}
 
 
 def _pressure_before(moment: Moment) -> RealArray:
@@ -323,41 +321,3 @@ def _traction_before(state: InterfaceState | None, shape: tuple[int, ...]) -> Re
     """Shear traction (2, nx, ny) in Pa that a ``state`` remembers; zero where it does not."""
     memory = {} if state is None else state.memory.get("stick_slip", {})
     return np.stack([memory["traction_x"], memory["traction_y"]]) if memory else np.zeros((2, *shape))
-
-
-def _summed(moments: list[Moment]) -> dict[str, tuple[Memory, object]]:
-    """What the couplings remember and found in the last of the ``moments``; slip, heat and jumps of all of them."""
-    ends = dict(moments[-1].ends)
-    for name, (memory, found) in ends.items():
-        if isinstance(found, Answer) and len(moments) > 1:
-            earlier = [one for one in (moment.ends[name][1] for moment in moments[:-1]) if isinstance(one, Answer)]
-            ends[name] = memory, found.summed(earlier)
-    return ends
-
-
-def _works(moment: Moment, found: StickSlip, coupling: StickSlipCoupling, pixel: float) -> tuple[float, float]:
-    """Work (J) of tangential force and torque from ``moment`` to what was ``found``, and what of it an implicit step takes, on points of ``pixel`` m²."""
-    memory = {} if moment.state is None else moment.state.memory.get("stick_slip", {})
-    place = memory["shift"] if memory else np.zeros(3)
-    moved = np.array([found.shift_x, found.shift_y, found.twist]) - place
-    change = found.traction - _traction_before(moment.state, found.traction.shape[1:])
-    assert coupling.held is not None
-    displaced = found.tangential_displacement - coupling.held.start
-    taken = 0.5 * pixel * float(np.einsum("kij,kij->", change, displaced))
-    return found.work_by(moved, displaced, pixel), taken
-
-
-def _creeping(begin: Moment, moments: list[Moment], tries: int) -> Creeping:
-    """What happened through the ``moments`` after ``begin``, without an account of its energies."""
-    records, last = np.stack([begin.record, *(moment.record for moment in moments)]), moments[-1]
-    return Creeping(
-        records,
-        np.broadcast_to(last.retarded, last.past.pressure.shape),
-        last.stored,
-        last.past.dissipated - begin.past.dissipated,
-        force_work(records)[0],
-        tries,
-        sum(moment.shear_works[0] for moment in moments),
-        sum(moment.shear_works[1] for moment in moments),
-        sum(moment.lift_work for moment in moments),
-    )

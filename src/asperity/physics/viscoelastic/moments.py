@@ -12,7 +12,7 @@ from ...contact.answer import Answer
 from ...contact.certificate import Certificate
 from ...contact.controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from ...contact.couplings.protocol import Memory
-from ...contact.tangential import Shift, Tangential, TangentialForce
+from ...contact.tangential import Shift, TangentialForce
 from ...contact.time_division import TimeSteps
 from ...core import require
 from ...core.arrays import RealArray
@@ -203,24 +203,19 @@ def control_at(end: Control, share: float, place: tuple[float, float, float], ar
 
 def step_at(end: Step, share: float, begin: Moment, area: float) -> Step:
     """Step to the controls after a ``share`` of a ramp from ``begin`` to those of ``end``, on an ``area`` (m²)."""
-    normal = control_at(end.normal, share, begin.past.place, area)
+    normal, aim = control_at(end.normal, share, begin.past.place, area), end.tangential
+    if aim is None or share >= 1.0:
+        return Step(normal, aim)
     memory = {} if begin.state is None else begin.state.memory.get("stick_slip", {})
-    return Step(normal, _tangential_at(end.tangential, share, memory, area))
-
-
-def _tangential_at(end: Tangential | None, share: float, memory: Memory, area: float) -> Tangential | None:
-    """Shift or tangential force after a ``share`` of a ramp from what is in the ``memory`` to ``end``."""
-    if end is None or share >= 1.0:
-        return end
-    if isinstance(end, Shift):
+    if isinstance(aim, Shift):
         start = memory["shift"] if memory else np.zeros(3)
-        x, y, twist = start + share * (np.array([end.x, end.y, end.twist]) - start)
-        return Shift(float(x), float(y), float(twist))
+        x, y, twist = start + share * (np.array([aim.x, aim.y, aim.twist]) - start)
+        return Step(normal, Shift(float(x), float(y), float(twist)))
     first = np.zeros(2)
     if memory:
         first = area * np.array([memory["traction_x"].mean(), memory["traction_y"].mean()])
-    x, y = first + share * (np.array([end.x, end.y]) - first)
-    return TangentialForce(float(x), float(y))
+    x, y = first + share * (np.array([aim.x, aim.y]) - first)
+    return Step(normal, TangentialForce(float(x), float(y)))
 
 
 class March(Protocol):
@@ -245,6 +240,7 @@ def marched(begin: Moment, end: Step, settings: TimeSteps, march: March) -> tupl
     """Moments through a ramp to the controls of ``end`` in its duration, and the number of solves tried.
 
     The error of a step is that of the curvature of the pressure over it and the one before; the first two steps are one try.
+    The last two steps are equal, so that none is very short.
     """
     duration = end.duration
     if duration == 0.0:
@@ -257,7 +253,15 @@ def marched(begin: Moment, end: Step, settings: TimeSteps, march: March) -> tupl
     moments, length, tries, equal = [begin], settings.first(duration), 0, settings.number is not None
     while tries < settings.most:
         done = moments[-1].past.time - begin.past.time
-        step, share = _next(done, duration, length, len(moments) / settings.number if settings.number else None)
+        left = duration - done
+        if settings.number:
+            share = len(moments) / settings.number
+            step = duration * share - done
+        elif left <= length * (1.0 + 1e-9):
+            step, share = left, 1.0
+        else:
+            step = 0.5 * left if left < 2.0 * length else length
+            share = (done + step) / duration
         now = march.advanced(moments[-1], step_at(end, share, begin, march.area), step)
         tries += 1
         if now.settled is None or not now.settled.status.converged:
@@ -277,17 +281,3 @@ def marched(begin: Moment, end: Step, settings: TimeSteps, march: March) -> tupl
         if share >= 1.0:
             break
     return moments[1:], tries
-
-
-def _next(done: float, duration: float, length: float, share: float | None) -> tuple[float, float]:
-    """Length (s) of the next step, of about ``length`` after ``done`` (s), and the share of the ``duration`` at its end.
-
-    The last two are equal, so that none is very short. A ``share`` that is given is kept.
-    """
-    left = duration - done
-    if share is not None:
-        return duration * share - done, share
-    if left <= length * (1.0 + 1e-9):
-        return left, 1.0
-    step = 0.5 * left if left < 2.0 * length else length
-    return step, (done + step) / duration

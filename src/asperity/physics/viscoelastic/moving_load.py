@@ -184,18 +184,10 @@ def _between(fine: RealArray, nx: int) -> RealArray:
 
 
 def _upstream(K: RealArray, r: float, tail: RealArray) -> RealArray:
-    """∫ K(x + s) exp(-s/L) ds/L at every pixel, for ``r`` pixels over L, from that beyond the last one, the ``tail``."""
-    weights, decay = _weights(r), math.exp(-r)
-    pixels = (len(K) - 1) // _PARTS
-    A = np.empty((pixels + 1, K.shape[1]))
-    A[-1] = tail
-    for pixel in range(pixels - 1, -1, -1):
-        A[pixel] = weights @ K[pixel * _PARTS : (pixel + 1) * _PARTS + 1] + decay * A[pixel + 1]
-    return A
+    """∫ K(x + s) exp(-s/L) ds/L at every pixel, for ``r`` pixels over L, from that beyond the last one, the ``tail``.
 
-
-def _weights(r: float) -> RealArray:
-    """Of the values at 0, 1/5 … 1 for the integral of their polynomial times r exp(-r t) from 0 to 1."""
+    Of a pixel by weights of the values at 0, 1/5 … 1 for the integral of their polynomial times r exp(-r t) from 0 to 1.
+    """
     nodes = np.arange(_PARTS + 1) / _PARTS
     moments = np.empty(nodes.size)
     if r < 2.0:
@@ -206,7 +198,13 @@ def _weights(r: float) -> RealArray:
         moments[0] = -math.expm1(-r)
         for n in range(1, nodes.size):
             moments[n] = n / r * moments[n - 1] - math.exp(-r)
-    return np.linalg.solve(np.vander(nodes, increasing=True).T, moments)
+    weights, decay = np.linalg.solve(np.vander(nodes, increasing=True).T, moments), math.exp(-r)
+    pixels = (len(K) - 1) // _PARTS
+    A = np.empty((pixels + 1, K.shape[1]))
+    A[-1] = tail
+    for pixel in range(pixels - 1, -1, -1):
+        A[pixel] = weights @ K[pixel * _PARTS : (pixel + 1) * _PARTS + 1] + decay * A[pixel + 1]
+    return A
 
 
 def _tail(K: RealArray, dx: float, nx: int, dy: float, length: float, *, line: bool) -> RealArray:

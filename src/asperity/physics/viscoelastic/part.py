@@ -90,16 +90,12 @@ class InTime:
 
     def turning(self, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """The steps of ``controls`` that end at a turning point of the load, and all that move the surfaces along each other."""
-        pressed = tuple(itertools.takewhile(_rests, controls))
+        from ...contact.controls import as_step
+        from ...contact.tangential import Shift, TangentialForce
+
+        still = (None, Shift(), TangentialForce())
+        pressed = tuple(itertools.takewhile(lambda control: as_step(control).tangential in still, controls))
         return (*pressed[0 if self.first else self.every - 1 :: self.every], *controls[len(pressed) :])
-
-
-def _rests(control: Step | Control) -> bool:
-    """Whether nothing moves along the surfaces in the step ``control``."""
-    from ...contact.controls import as_step
-    from ...contact.tangential import Shift, TangentialForce
-
-    return as_step(control).tangential in (None, Shift(), TangentialForce())
 
 
 STEP, MOMENT = "load_step", "moment"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import model_validator
 
@@ -12,6 +12,9 @@ from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
 from ...core.values import Angle, Length, Number, Whole
 from ...parts.part import Part
+
+if TYPE_CHECKING:
+    pass
 
 SlidingSpeed = Annotated[float, Number("speed", above=0.0)]
 Share = Annotated[float, Number(above=0.0, most=1.0)]

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from ...core.quantity import Quantity
 from ...parts.part import Part
+
+if TYPE_CHECKING:
+    pass
+
 
 SCALARS = (
     Quantity("start_last_friction", "1", "coefficient of friction by the slope over the last quarter of the distance"),

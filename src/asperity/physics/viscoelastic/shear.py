@@ -132,9 +132,20 @@ class ShearMemory:
         the heat (J) of the step beyond those by pressure alone."""
         shear = past.shear or self.virgin(past.pressure.shape)
         solid, squares = np.isfinite(self.times), np.empty_like(shear.squares)
+        area, loads = self.parts[0].operator.grid.pixel_area, ((before, past.pressure), (traction, pressure))
+        xi = list(zip(shear.xi, past.xi.real, strict=True))
+
+        def product(x: tuple[RealArray, RealArray], y: tuple[RealArray, RealArray]) -> float:
+            """x·C y less that of the pressures alone, J."""
+            return area * (float(np.einsum("kij,kij->", x[0], y[0])) + float(np.einsum("ij,ij->", x[1], y[1])))
+
         stored = heat = 0.0
         for number, part in enumerate(self.parts):
-            products = self._products(part.operator, past, shear, number, (before, traction), pressure)
+            operator = part.operator
+            responses = [(operator.displacement(q) + operator.drawn(p), operator.lift(q)) for q, p in loads]
+            with_0, with_1 = (np.array([product(each, response) for each in xi]) for response in responses)
+            p00, p01, p11 = (product(loads[i], responses[j]) for i, j in ((0, 0), (0, 1), (1, 1)))
+            products = Products(shear.squares[number], with_0, with_1, p00, p01, p11)
             squares[number] = weights.advanced(products)
             heat += weights.dissipated(part.shares, products)
             stored += 0.5 * float(products.p11) + 0.5 * float(part.shares[solid] @ squares[number][solid])
@@ -154,28 +165,6 @@ class ShearMemory:
             for part in self.parts
         ]
         return over_size(max(each) * float(np.linalg.norm(curved)), sizes)
-
-    def _products(
-        self,
-        operator: TangentialOperator,
-        past: Past,
-        shear: ShearPast,
-        number: int,
-        tractions: tuple[RealArray, RealArray],
-        pressure: RealArray,
-    ) -> Products:
-        """x·C y less that of the pressures alone, J."""
-        area = operator.grid.pixel_area
-        loads = (tractions[0], past.pressure), (tractions[1], pressure)
-        responses = [(operator.displacement(q) + operator.drawn(p), operator.lift(q)) for q, p in loads]
-
-        def product(x: tuple[RealArray, RealArray], y: tuple[RealArray, RealArray]) -> float:
-            return area * (float(np.einsum("kij,kij->", x[0], y[0])) + float(np.einsum("ij,ij->", x[1], y[1])))
-
-        xi = list(zip(shear.xi, past.xi.real, strict=True))
-        with_0, with_1 = (np.array([product(each, response) for each in xi]) for response in responses)
-        p00, p01, p11 = (product(loads[i], responses[j]) for i, j in ((0, 0), (0, 1), (1, 1)))
-        return Products(shear.squares[number], with_0, with_1, p00, p01, p11)
 
 
 def _compliances(

@@ -373,7 +373,10 @@ def slide(
         LagCoupling.name
     ].x  # what the gap was found with; that of the traction found is within the tolerance of it
     normal = finished(problem, settled, ends, _SOLVER, before=None, lift=lift, seconds=seconds)
-    error = _bound(contact, kernel, lag - lift)
+    p, deflection = contact.pressure, contact.solution.state.deflection
+    gap = deflection - contact.qp.profile + (lag - lift)
+    work = float((p * (deflection + kernel.lag(p))).sum())
+    error = float((p * (gap - gap.min())).sum()) / work if work > 0.0 else 0.0
     by_slope = -float((traction * kernel.slope(profile)).mean())
     result = SteadySliding(normal, v, angle, kernel.dissipation(traction), by_slope, error)
     if not result.converged:
@@ -394,14 +397,6 @@ def _prepared(
     velocity = speed * math.cos(direction), speed * math.sin(direction)
     kernel = MovingKernel.of(problem, velocity, engine.threads_for(problem.grid.shape))
     return kernel, PeriodicOperator(compliance, problem.grid, engine=engine, kernel=kernel.storage)
-
-
-def _bound(contact: Contact, kernel: MovingKernel | FreeMovingKernel, moved: RealArray) -> float:
-    """Bound on the energy of the error of the pressure of ``contact``, over p·Kp; its lag has ``moved`` (nx, ny) in m from what it was posed with."""
-    p, deflection = contact.pressure, contact.solution.state.deflection
-    gap = deflection - contact.qp.profile + moved
-    work = float((p * (deflection + kernel.lag(p))).sum())
-    return float((p * (gap - gap.min())).sum()) / work if work > 0.0 else 0.0
 
 
 def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:

@@ -28,7 +28,7 @@ from ...core.spectral import RealTransform
 from ...core.status import NoProgress, Progress
 from ...solids.layers import relaxes
 from ...surfaces.surface import Surface
-from .in_time import InTime, with_creep
+from .in_time import InTime
 from .moments import Creeping, Moment
 
 COLUMNS = (
@@ -224,7 +224,21 @@ class _Motion:
             before, moment = moment, self._advanced(moment, count, self.step / self.speed)
             records.append(self._record(moment, count))
             progress.update(count - done, 1.0 - (count - done) / number, 0.0)
-        last = self._result(before, moment, done + number, time.perf_counter() - started)
+        seconds = time.perf_counter() - started
+        # The contact of the last moment, with the surface where it is.
+        settled = moment.settled
+        assert settled is not None
+        way = (done + number) * self.step
+        moved = self.moving.with_heights(self.prepared.profile - self.at_rest, f"moved by {way:.6g} m")
+        heat, force, approach = moment.past.dissipated - before.past.dissipated, moment.record[2], moment.record[3]
+        work = 0.5 * (force + before.record[2]) * (approach - before.record[3])
+        both = np.stack([before.record, moment.record])
+        retarded = np.broadcast_to(moment.retarded, moment.past.pressure.shape)
+        creeping = Creeping(both, retarded, moment.stored, heat, float(work), 1)
+        ends = {**moment.ends, "creep": (moment.past.memory, creeping)}
+        self.prepared.problem = replace(self.problem, **{self.name: moved})  # type: ignore[arg-type]
+        last = self.prepared.result(settled, before.state, seconds, ends)
+        self.prepared.problem = self.problem
         return TransientSliding(np.stack(records), self.speed, self.direction, last, self.step, moment)
 
     def _advanced(self, moment: Moment, count: int, length: float) -> Moment:
@@ -253,42 +267,24 @@ class _Motion:
 
         return np.asarray(shift(self.heights, (x, 0.0 if self.heights.shape[1] == 1 else y), order=3, mode="nearest"))
 
-    def _slope(self, heights: RealArray) -> RealArray:
-        """Derivative along the motion."""
-        periodic = isinstance(self.problem.boundary, Periodic)
-        total = np.zeros(heights.shape)
+    def _record(self, moment: Moment, count: int) -> RealArray:
+        """``COLUMNS`` at a ``moment``; slopes along the motion are central differences, of fourth order where the heights are periodic."""
+        heights, grid = self._moved(count), self.problem.grid
+        slope = np.zeros(heights.shape)
         for axis, part in enumerate((math.cos(self.direction), math.sin(self.direction))):
             if heights.shape[axis] < 2 or part == 0.0:
                 continue
-            d = self.problem.grid.spacing[axis]
-            if periodic:
-                total += part * _derivative(heights, axis, d)
+            d = grid.spacing[axis]
+            if isinstance(self.problem.boundary, Periodic):
+                near = np.roll(heights, -1, axis) - np.roll(heights, 1, axis)
+                far = np.roll(heights, -2, axis) - np.roll(heights, 2, axis)
+                slope += part * ((8.0 * near - far) / (12.0 * d))
             else:
-                total += part * np.gradient(heights, d, axis=axis)
-        return total
-
-    def _record(self, moment: Moment, count: int) -> RealArray:
-        p = moment.past.pressure
-        force = -float((p * self._slope(self._moved(count))).sum()) * self.problem.grid.pixel_area
+                slope += part * np.gradient(heights, d, axis=axis)
+        force = -float((moment.past.pressure * slope).sum()) * grid.pixel_area
         at = moment.record
         numbers = (at[0], count * self.step, at[1], at[2], at[3], at[5], at[6], force, at[7], at[8])
         return np.array(numbers)
-
-    def _result(self, before: Moment, moment: Moment, count: int, seconds: float) -> ContactResult:
-        """Contact of the ``moment``, with the surface where it is."""
-        settled = moment.settled
-        assert settled is not None
-        heights = self.prepared.profile - self.at_rest
-        moved = self.moving.with_heights(heights, f"moved by {count * self.step:.6g} m")
-        self.prepared.problem = replace(self.problem, **{self.name: moved})  # type: ignore[arg-type]
-        heat, force, approach = moment.past.dissipated - before.past.dissipated, moment.record[2], moment.record[3]
-        work = 0.5 * (force + before.record[2]) * (approach - before.record[3])
-        records = np.stack([before.record, moment.record])
-        retarded = np.broadcast_to(moment.retarded, moment.past.pressure.shape)
-        creeping = Creeping(records, retarded, moment.stored, heat, float(work), 1)
-        result = self.prepared.result(settled, before.state, seconds, with_creep(moment, creeping))
-        self.prepared.problem = self.problem
-        return result
 
 
 def _turned(heights: RealArray, x: float, y: float) -> RealArray:
@@ -309,13 +305,6 @@ def _phase(frequency: RealArray, shift: float, number: int) -> ComplexArray:
     found = np.exp(-2j * np.pi * frequency * shift)
     lone = np.abs(frequency) == 0.5
     return np.asarray(np.where(lone & (number % 2 == 0), found.real, found))
-
-
-def _derivative(heights: RealArray, axis: int, spacing: float) -> RealArray:
-    """Central differences of fourth order of periodic ``heights``."""
-    near = np.roll(heights, -1, axis) - np.roll(heights, 1, axis)
-    far = np.roll(heights, -2, axis) - np.roll(heights, 2, axis)
-    return np.asarray((8.0 * near - far) / (12.0 * spacing))
 
 
 def _moving(problem: ContactProblem, control: Control) -> str:

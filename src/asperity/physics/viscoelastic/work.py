@@ -11,7 +11,6 @@ import numpy as np
 
 from ...contact.controls import Control, Step, as_step
 from ...contact.problem import ContactProblem
-from ...contact.result import ContactResult
 from ...core.errors import InputError
 from ...core.status import Advice
 from ...core.units import percent, show
@@ -22,7 +21,7 @@ from ...solids.layers import Body, Layered
 from ...solids.viscoelastic import Viscoelastic
 from .figures import SOLID_PLOTS, TIME_PLOTS, TimePicture, relaxing_solids
 from .harmonic import harmonic
-from .moments import COLUMNS, Creeping
+from .moments import COLUMNS
 from .part import OSCILLATION, SCALARS, InTime
 
 MUCH = 0.05
@@ -45,9 +44,18 @@ class ViscoelasticityWork(Work):
         if ask.settings.temperature is None:
             return problem
         temperature = float(ask.settings.temperature)
-        bodies = (_at_temperature(body, temperature) for body in (problem.body, problem.counter_body))
-        body, counter_body = bodies
-        return replace(problem, body=body, counter_body=counter_body)
+
+        def moved(solid: Any) -> Any:
+            return solid.at_temperature(temperature) if isinstance(solid, Viscoelastic) and solid.spectrum else solid
+
+        bodies: list[Body] = []
+        for body in (problem.body, problem.counter_body):
+            if isinstance(body, Layered):
+                layers = [replace(layer, material=moved(layer.material)) for layer in body.layers]
+                bodies.append(Layered(layers, moved(body.base), body.name))
+            else:
+                bodies.append(moved(body))
+        return replace(problem, body=bodies[0], counter_body=bodies[1])
 
     def course(self, ask: InTime, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """Ramps to the turning points of the load, and holds there."""
@@ -55,28 +63,56 @@ class ViscoelasticityWork(Work):
         if not table.in_time:
             return controls
         turning = ask.turning(controls)
-        ramps, holds = (_times(getattr(table, name), len(turning), name) for name in ("ramp", "hold"))
+        count, times = len(turning), []
+        for name in ("ramp", "hold"):  # one time (s) for each load
+            given = [float(time) for time in getattr(table, name) or (0.0,)]
+            if len(given) not in (1, count):
+                raise InputError(
+                    f"viscoelastic.{name} (--{name}) must give one time for all {count} loads or one for each, but gives {len(given)}."
+                )
+            times.append(given * count if len(given) == 1 else given)
         made: list[Step | Control] = []
         for _ in range(table.repeat):
-            for control, ramp, hold in zip(turning, ramps, holds, strict=True):
+            for control, ramp, hold in zip(turning, *times, strict=True):
                 made.append(replace(as_step(control), duration=ramp))
                 made += [replace(as_step(control), duration=hold)] if hold > 0.0 else []
         return tuple(made)
 
     def compute(self, ask: InTime, solved: Solved) -> Found:
         """Energies, columns of all moments, response to an oscillation."""
-        steps = (solved.result,) if solved.path is None else solved.path.steps
+        result, table = solved.result, ask.settings
+        steps = (result,) if solved.path is None else solved.path.steps
         found = [step.creep for step in steps if step.creep is not None]
         if not found:
             return Found()
-        values = _numbers(found, solved.result) | _columns(found) | _oscillation(ask, solved.result)
+        last, largest = found[-1], float(np.abs(result.displacement).max())
+        retarded = float(np.abs(last.retarded_displacement).max())
+        values: dict[str, Any] = {
+            "viscoelastic_time": float(last.time[-1]),
+            "viscoelastic_heat": float(last.column("dissipated")[-1]),
+            "viscoelastic_stored": last.stored_energy,
+            "viscoelastic_work": sum(each.work for each in found),
+            "retarded_share": retarded / largest if largest > 0.0 else 0.0,
+            "time_error": max(each.time_error for each in found),
+            "time_solves": float(sum(each.tries for each in found)),
+            "step_end": np.array([each.time[-1] for each in found]),
+            "step_moment": np.cumsum([len(each.records) - (number > 0) for number, each in enumerate(found)]) - 1,
+            "step_heat": np.array([each.dissipated for each in found]),
+            "step_stored": np.array([each.stored_energy for each in found]),
+            "step_work": np.array([each.work for each in found]),
+        }
+        for item in COLUMNS:  # the first moment of a step is the last one of the step before
+            parts = [each.column(item.name)[number > 0 :] for number, each in enumerate(found)]
+            values[f"moment_{item.name}"] = np.concatenate(parts)
+        oscillation = [math.nan] * len(OSCILLATION)
+        if table.frequency is not None and result.contact.any():
+            response = harmonic(result, float(table.frequency))
+            heat = math.nan if table.amplitude is None else response.heat(float(table.amplitude))
+            oscillation = [response.stiffness.real, response.stiffness.imag, response.loss_tangent, heat]
+        values |= {item.name: number for item, number in zip(OSCILLATION, oscillation, strict=True)}
         keys = ("Ferry1980", "Lee1960", "Park1999", "Ting1966")
-        return Found(
-            values,
-            {"temperature": ask.settings.temperature and float(ask.settings.temperature)},
-            _findings(values, ask),
-            keys,
-        )
+        detail = {"temperature": table.temperature and float(table.temperature)}
+        return Found(values, detail, _findings(values, ask), keys)
 
     def citations(self, ask: InTime, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of viscoelastic contact."""
@@ -92,7 +128,37 @@ class ViscoelasticityWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """What changed in time, energies, and the response to an oscillation."""
-        return viscoelastic_words(found) if found.values else Words()
+        values = found.values
+        if not values:
+            return Words()
+        rows: Rows = []
+        temperature = (found.detail or {}).get("temperature")
+        if temperature:
+            rows.append(("temperature", show(float(temperature), "K")))
+        for item in (*SCALARS, *OSCILLATION):
+            value = float(values.get(item.name, math.nan))
+            if math.isfinite(value):
+                text = f"{value:.0f}" if item.name == "time_solves" else value_text(item, value)
+                rows.append((item.label, text))
+        lasts = float(values["viscoelastic_time"]) > 0.0
+        headline = [("heat of viscoelastic solids", show(float(values["viscoelastic_heat"]), "J", 3))] if lasts else []
+        if math.isfinite(float(values["loss_tangent"])):
+            headline.append(("loss tangent of the oscillation", f"{float(values['loss_tangent']):.3g}"))
+        tables: tuple[tuple[str, Table], ...] = ()
+        if lasts:
+            steps = (np.atleast_1d(values[f"step_{name}"]) for name in ("end", "moment", "heat", "stored"))
+            loads, approaches, areas = (
+                np.atleast_1d(values[f"moment_{name}"]) for name in ("mean_pressure", "approach", "area_fraction")
+            )
+            cells = []
+            for number, (end, moment, heat, stored) in enumerate(zip(*steps, strict=True), start=1):
+                at = int(moment)
+                state = (show(float(loads[at]), "Pa"), show(float(approaches[at]), "m"), percent(float(areas[at])))
+                energies = (show(float(heat), "J", 3), show(float(stored), "J", 3))
+                cells.append((f"{number}", show(float(end), "s"), *state, *energies))
+            heads = ("Step", "Until", "Mean pressure", "Approach", "Real area", "Heat of the step", "Stored energy")
+            tables = (("The contact in time", Table(heads, tuple(cells))),)
+        return Words(_sentence(values), headline, rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """The temperature."""
@@ -101,77 +167,6 @@ class ViscoelasticityWork(Work):
     def restored(self, stored: Stored, solved: Solved) -> Any:
         """The same again."""
         return dict(stored.facts)
-
-
-def _at_temperature(body: Body, temperature: float) -> Body:
-    """``body`` with its viscoelastic solids at ``temperature`` (K)."""
-
-    def moved(solid: Any) -> Any:
-        return solid.at_temperature(temperature) if isinstance(solid, Viscoelastic) and solid.spectrum else solid
-
-    if isinstance(body, Layered):
-        layers = [replace(layer, material=moved(layer.material)) for layer in body.layers]
-        return Layered(layers, moved(body.base), body.name)
-    found: Body = moved(body)
-    return found
-
-
-def _times(times: tuple[float, ...] | None, count: int, name: str) -> list[float]:
-    """One time (s) for each of ``count`` loads."""
-    given = [float(time) for time in times or (0.0,)]
-    if len(given) not in (1, count):
-        raise InputError(
-            f"viscoelastic.{name} (--{name}) must give one time for all {count} loads or one for each, but gives {len(given)}."
-        )
-    return given * count if len(given) == 1 else given
-
-
-def _numbers(found: list[Creeping], result: ContactResult) -> dict[str, float]:
-    """``SCALARS``."""
-    last = found[-1]
-    largest = float(np.abs(result.displacement).max())
-    retarded = float(np.abs(last.retarded_displacement).max())
-    return {
-        "viscoelastic_time": float(last.time[-1]),
-        "viscoelastic_heat": float(last.column("dissipated")[-1]),
-        "viscoelastic_stored": last.stored_energy,
-        "viscoelastic_work": sum(each.work for each in found),
-        "retarded_share": retarded / largest if largest > 0.0 else 0.0,
-        "time_error": max(each.time_error for each in found),
-        "time_solves": float(sum(each.tries for each in found)),
-    }
-
-
-def _columns(found: list[Creeping]) -> dict[str, Any]:
-    """Energies of the steps of the load, and columns of all moments."""
-    values: dict[str, Any] = {
-        "step_end": np.array([each.time[-1] for each in found]),
-        "step_moment": np.cumsum([len(each.records) - (number > 0) for number, each in enumerate(found)]) - 1,
-        "step_heat": np.array([each.dissipated for each in found]),
-        "step_stored": np.array([each.stored_energy for each in found]),
-        "step_work": np.array([each.work for each in found]),
-    }
-    for item in COLUMNS:  # the first moment of a step is the last one of the step before
-        parts = [each.column(item.name)[number > 0 :] for number, each in enumerate(found)]
-        values[f"moment_{item.name}"] = np.concatenate(parts)
-    return values
-
-
-def _oscillation(ask: InTime, result: ContactResult) -> dict[str, float]:
-    """``OSCILLATION``; NaN without a frequency or a contact."""
-    table = ask.settings
-    if table.frequency is None or not result.contact.any():
-        return {item.name: math.nan for item in OSCILLATION}
-    response = harmonic(result, float(table.frequency))
-    heat = math.nan if table.amplitude is None else response.heat(float(table.amplitude))
-    stiffness = response.stiffness
-    return dict(
-        zip(
-            (item.name for item in OSCILLATION),
-            (stiffness.real, stiffness.imag, response.loss_tangent, heat),
-            strict=True,
-        )
-    )
 
 
 def _findings(values: Mapping[str, Any], ask: InTime) -> tuple[Advice, ...]:
@@ -206,26 +201,6 @@ REMARK = (
 """What the numbers mean."""
 
 
-def viscoelastic_words(found: Found) -> Words:
-    """Sentence, energies, oscillation, and the state after each step of the load."""
-    values = found.values
-    rows: Rows = []
-    temperature = (found.detail or {}).get("temperature")
-    if temperature:
-        rows.append(("temperature", show(float(temperature), "K")))
-    for item in (*SCALARS, *OSCILLATION):
-        value = float(values.get(item.name, math.nan))
-        if math.isfinite(value):
-            text = f"{value:.0f}" if item.name == "time_solves" else value_text(item, value)
-            rows.append((item.label, text))
-    lasts = float(values["viscoelastic_time"]) > 0.0
-    headline = [("heat of viscoelastic solids", show(float(values["viscoelastic_heat"]), "J", 3))] if lasts else []
-    if math.isfinite(float(values["loss_tangent"])):
-        headline.append(("loss tangent of the oscillation", f"{float(values['loss_tangent']):.3g}"))
-    tables = (("The contact in time", time_table(values)),) if lasts else ()
-    return Words(_sentence(values), headline, rows, tables, (REMARK,))
-
-
 def _sentence(values: Mapping[str, Any]) -> str:
     time, area = (np.atleast_1d(values[f"moment_{name}"]) for name in ("time", "area_fraction"))
     if time[-1] == 0.0:
@@ -238,20 +213,3 @@ def _sentence(values: Mapping[str, Any]) -> str:
         f"{percent(float(area[touched]))} to {percent(float(area[-1]))} of the nominal area and the approach from "
         f"{show(float(approach[touched]), 'm', 3)} to {show(float(approach[-1]), 'm', 3)}; {heat} became heat."
     )
-
-
-def time_table(values: Mapping[str, Any]) -> Table:
-    """The contact at the end of every step of the load."""
-    cells = []
-    for number, (end, at) in enumerate(
-        zip(*(np.atleast_1d(values[f"step_{x}"]) for x in ("end", "moment")), strict=True)
-    ):
-        load, approach, area = (
-            float(np.atleast_1d(values[f"moment_{name}"])[int(at)])
-            for name in ("mean_pressure", "approach", "area_fraction")
-        )
-        heat, stored = (float(np.atleast_1d(values[f"step_{name}"])[number]) for name in ("heat", "stored"))
-        state = (show(load, "Pa"), show(approach, "m"), percent(area))
-        cells.append((f"{number + 1}", show(float(end), "s"), *state, show(heat, "J", 3), show(stored, "J", 3)))
-    head = ("Step", "Until", "Mean pressure", "Approach", "Real area", "Heat of the step", "Stored energy")
-    return Table(head, tuple(cells))

@@ -52,9 +52,19 @@ class HysteresisWork(Work):
                     (speed, each.friction, each.normal.area_fraction_corrected, each.heat, *_persson(each, reduction))
                 )
                 progress.update(number, 1.0 - number / len(speeds), 0.0)
-        values: dict[str, Any] = _numbers(found) | dict(
-            zip((item.name for item in SCALARS[-2:]), _persson(found, reduction), strict=True)
+        normal = found.normal
+        numbers = (
+            found.friction,
+            found.slope_friction,
+            found.friction_force,
+            found.heat,
+            normal.area_fraction_corrected,
+            normal.max_pressure,
+            normal.mean_gap,
+            found.energy_error,
+            *_persson(found, reduction),
         )
+        values: dict[str, Any] = {item.name: float(number) for item, number in zip(SCALARS, numbers, strict=True)}
         values[FIELD.name] = np.asarray(found.normal.pressure)
         if rows:
             values |= {item.name: column for item, column in zip(COLUMNS, np.array(rows).T, strict=True)}
@@ -73,7 +83,40 @@ class HysteresisWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Friction, area and heat, the theory beside them, and the curve."""
-        return hysteresis_words(found, solved.problem)
+        values, facts = found.values, found.detail
+        rows: Rows = [
+            ("sliding speed", show(float(facts["speed"]), "m/s")),
+            ("direction", f"{math.degrees(float(facts['direction'])):.4g}° from x"),
+        ]
+        for item in SCALARS:
+            value = float(values[item.name])
+            if math.isfinite(value):
+                rows.append((item.label, value_text(item, value)))
+        if math.isfinite(float(values["persson_friction"])):
+            rows.append(("gamma of Persson's theory", f"{float(facts['reduction']):g}"))
+        friction, force = float(values["hysteresis_friction"]), show(float(values["hysteresis_friction_force"]), "N", 3)
+        if math.isnan(friction):  # the load pulls
+            said, shown = f"a force of hysteretic friction of {force}", ("force of hysteretic friction", force)
+        else:
+            said = f"a coefficient of hysteretic friction of {friction:.3g}"
+            shown = ("coefficient of hysteretic friction", f"{friction:.3g}")
+        sentence = (
+            f"Sliding at {show(float(facts['speed']), 'm/s', 3)} gives {said} on "
+            f"{percent(float(values['sliding_area_fraction']))} of the nominal area, and {show(float(values['hysteresis_heat']), 'W/m^2', 3)} of heat."
+        )
+        tables: tuple[tuple[str, Table], ...] = ()
+        if COLUMNS[0].name in values:
+            columns = [np.atleast_1d(values[item.name]) for item in COLUMNS]
+            known = bool(np.isfinite(columns[4]).any())
+            cells = []
+            for speed, by_loss, area, heat, theory, share in zip(*columns, strict=True):
+                row = (show(float(speed), "m/s"), f"{by_loss:.3g}", percent(float(area)), show(float(heat), "W/m^2", 3))
+                cells.append((*row, *((f"{theory:.3g}", percent(float(share))) if known else ())))
+            beside = ("Friction by Persson", "Area by Persson") if known else ()
+            head = ("Speed", "Friction", "Real area", "Heat", *beside)
+            tables = (("Friction against speed", Table(head, tuple(cells))),)
+        remarks = (REMARK, OF_PULLING if solved.problem.attracts else OF_PRESSED)
+        return Words(sentence, [shown], rows, tables, remarks)
 
     def stored(self, found: Found) -> Stored:
         """Speed, direction and reduction."""
@@ -88,22 +131,6 @@ def bare(problem: ContactProblem) -> ContactProblem:
     """``problem`` without friction that does not change its pressure."""
     plain = isinstance(problem.friction, Coulomb) and not problem.friction.coupled
     return problem.with_physics(friction=None) if plain else problem
-
-
-def _numbers(found: SteadySliding) -> dict[str, float]:
-    """``SCALARS`` but for the theory."""
-    normal = found.normal
-    values = (
-        found.friction,
-        found.slope_friction,
-        found.friction_force,
-        found.heat,
-        normal.area_fraction_corrected,
-        normal.max_pressure,
-        normal.mean_gap,
-        found.energy_error,
-    )
-    return dict(zip((item.name for item in SCALARS), map(float, values), strict=False))
 
 
 def _persson(found: SteadySliding, reduction: float) -> tuple[float, float]:
@@ -152,47 +179,3 @@ OF_PULLING = (
     "What attracts the surfaces adds to the load that deforms the viscoelastic body, and the coefficient is over the load from outside. Persson's theory of friction knows no attraction "
     "and is left out."
 )
-
-
-def hysteresis_words(found: Found, problem: ContactProblem) -> Words:
-    """Sentence, scalars and curve."""
-    values, facts = found.values, found.detail
-    rows: Rows = [
-        ("sliding speed", show(float(facts["speed"]), "m/s")),
-        ("direction", f"{math.degrees(float(facts['direction'])):.4g}° from x"),
-    ]
-    for item in SCALARS:
-        value = float(values[item.name])
-        if math.isfinite(value):
-            rows.append((item.label, value_text(item, value)))
-    if math.isfinite(float(values["persson_friction"])):
-        rows.append(("gamma of Persson's theory", f"{float(facts['reduction']):g}"))
-    friction, force = float(values["hysteresis_friction"]), show(float(values["hysteresis_friction_force"]), "N", 3)
-    pulls = math.isnan(friction)
-    said = (
-        f"a force of hysteretic friction of {force}"
-        if pulls
-        else f"a coefficient of hysteretic friction of {friction:.3g}"
-    )
-    tables = (("Friction against speed", _curve_table(values)),) if COLUMNS[0].name in values else ()
-    sentence = (
-        f"Sliding at {show(float(facts['speed']), 'm/s', 3)} gives {said} on "
-        f"{percent(float(values['sliding_area_fraction']))} of the nominal area, and {show(float(values['hysteresis_heat']), 'W/m^2', 3)} of heat."
-    )
-    shown = (
-        ("force of hysteretic friction", force) if pulls else ("coefficient of hysteretic friction", f"{friction:.3g}")
-    )
-    attracted = problem.attracts
-    return Words(sentence, [shown], rows, tables, (REMARK, OF_PULLING if attracted else OF_PRESSED))
-
-
-def _curve_table(values: Mapping[str, Any]) -> Table:
-    """Friction, area and heat at every speed, with the theory where it holds."""
-    columns = [np.atleast_1d(values[item.name]) for item in COLUMNS]
-    known = bool(np.isfinite(columns[4]).any())
-    cells = []
-    for speed, friction, area, heat, theory, share in zip(*columns, strict=True):
-        row = (show(float(speed), "m/s"), f"{friction:.3g}", percent(float(area)), show(float(heat), "W/m^2", 3))
-        cells.append((*row, *((f"{theory:.3g}", percent(float(share))) if known else ())))
-    head = ("Speed", "Friction", "Real area", "Heat", *(("Friction by Persson", "Area by Persson") if known else ()))
-    return Table(head, tuple(cells))

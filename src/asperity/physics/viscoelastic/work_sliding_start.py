@@ -62,7 +62,16 @@ class SlidingStartWork(Work):
                 progress=progress,
                 **options,
             )
-        values: dict[str, Any] = _numbers(found)
+        last, area, heat = LAST * float(found.distance[-1]), found.column("area_fraction"), found.column("dissipated")
+        numbers = (
+            found.mean_friction(last),
+            found.mean_loss(last),
+            found.friction.max(),
+            area[0],
+            area[-1],
+            heat[-1] - heat[0],
+        )
+        values: dict[str, Any] = {item.name: float(number) for item, number in zip(SCALARS, numbers, strict=True)}
         values[FIELD.name] = np.asarray(found.last.pressure)
         values |= {f"way_{item.name}": found.column(item.name) for item in COLUMNS}
         values[FRICTION.name] = found.friction
@@ -70,8 +79,7 @@ class SlidingStartWork(Work):
         steady = solved.found["hysteresis"].values if "hysteresis" in solved.found else {}
         for name in ("hysteresis_friction", "sliding_area_fraction"):
             facts[name] = float(steady.get(name, math.nan))
-        findings = (*_findings(values, found), *_other_branch(values, facts))
-        return Found(values, facts, findings, found.citation_keys)
+        return Found(values, facts, _findings(values, facts, found), found.citation_keys)
 
     def citations(self, ask: HysteresisSettings, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of sliding over viscoelastic bodies."""
@@ -83,7 +91,31 @@ class SlidingStartWork(Work):
 
     def words(self, found: Found, solved: Solved) -> Words:
         """How friction and area came to where they are."""
-        return start_words(found)
+        values, facts = found.values, found.detail
+        rows: Rows = [
+            ("sliding speed", show(float(facts["speed"]), "m/s")),
+            ("step of time", show(float(facts["step"]), "m")),
+        ]
+        rows += [(item.label, value_text(item, float(values[item.name]))) for item in SCALARS]
+        way = show(float(values["way_distance"][-1]), "m", 3)
+        friction, steady = float(values["start_last_friction"]), float(facts["hysteresis_friction"])
+        beside = "" if math.isnan(steady) else f" (steady: {steady:.3g})"
+        came = f"coefficient of friction came to {friction:.3g}{beside}"
+        if math.isnan(friction):  # no load from outside presses
+            came = f"force of friction came to {show(float(values['way_friction_force'][-1]), 'N', 3)}"
+        sentence = (
+            f"Over the first {way} of sliding at {show(float(facts['speed']), 'm/s', 3)} the contact area went from "
+            f"{percent(float(values['start_first_area_fraction']))} to {percent(float(values['start_last_area_fraction']))} of the nominal area and the {came}."
+        )
+        names = ("distance", "time", "friction", "area_fraction", "approach", "dissipated")
+        columns = [np.atleast_1d(values[f"way_{name}"]) for name in names]
+        cells = []
+        for at in np.unique(np.linspace(0, len(columns[0]) - 1, ROWS).round().astype(int)):
+            gone, time, friction, area, approach, heat = (float(column[at]) for column in columns)
+            state = (f"{friction:.3g}", percent(area), show(approach, "m"), show(heat, "J", 3))
+            cells.append((show(gone, "m"), show(time, "s"), *state))
+        table = Table(("Distance", "Time", "Friction", "Real area", "Approach", "Heat"), tuple(cells))
+        return Words(sentence, [], rows, (("Start of sliding", table),), (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Speed, direction, step, and the steady state."""
@@ -95,25 +127,13 @@ class SlidingStartWork(Work):
         return {**steady, **stored.facts}
 
 
-def _numbers(found: TransientSliding) -> dict[str, float]:
-    """``SCALARS``."""
-    last, area, heat = LAST * float(found.distance[-1]), found.column("area_fraction"), found.column("dissipated")
-    values = (
-        found.mean_friction(last),
-        found.mean_loss(last),
-        found.friction.max(),
-        area[0],
-        area[-1],
-        heat[-1] - heat[0],
-    )
-    return dict(zip((item.name for item in SCALARS), map(float, values), strict=True))
-
-
-def _findings(values: Mapping[str, Any], found: TransientSliding) -> tuple[Advice, ...]:
-    """That the motion is not steady yet, and that the contact has come to an edge of its grid."""
+def _findings(values: Mapping[str, Any], facts: Mapping[str, float], found: TransientSliding) -> tuple[Advice, ...]:
+    """That the motion is not steady yet, that the contact has come to an edge of its grid, and that the motion has come to another steady
+    contact than the one found at once, as adhesive contacts may."""
     made = []
-    slope, heat = float(values["start_last_friction"]), float(values["start_last_heat_friction"])
-    if abs(slope - heat) > UNSTEADY * max(abs(slope), abs(heat)):
+    slope, heat, area = (float(values[f"start_last_{name}"]) for name in ("friction", "heat_friction", "area_fraction"))
+    unsteady = abs(slope - heat) > UNSTEADY * max(abs(slope), abs(heat))
+    if unsteady:
         text = f"Over the last quarter of the distance friction is {slope:.3g} by the slope and {heat:.3g} by the heat: the motion is not steady. Take a longer distance (--sliding-distance), or a finer grid if that changes nothing."
         made.append(Advice("note", "start of sliding", text))
     touching, wraps = found.last.contact, found.last.problem.boundary.wraps
@@ -122,22 +142,14 @@ def _findings(values: Mapping[str, Any], found: TransientSliding) -> tuple[Advic
     if any(end.any() and not wrap and n > 1 for end, wrap, n in zip(ends, wraps, sizes, strict=True)):
         text = "After the distance the contact has come to an edge of its grid, beyond which nothing is known. Take a shorter distance (--sliding-distance), or a larger surface."
         made.append(Advice("warning", "edge of the grid", text))
-    return tuple(made)
-
-
-def _other_branch(values: Mapping[str, Any], facts: Mapping[str, float]) -> tuple[Advice, ...]:
-    """That the motion has come to another steady contact than the one found at once, as adhesive contacts may."""
-    slope, heat, area = (float(values[f"start_last_{name}"]) for name in ("friction", "heat_friction", "area_fraction"))
     steady = float(facts["sliding_area_fraction"])
-    if math.isnan(steady) or abs(slope - heat) > UNSTEADY * max(abs(slope), abs(heat)):
-        return ()
-    if abs(area - steady) <= OTHER_BRANCH * max(area, steady):
-        return ()
-    text = (
-        f"The motion has come to {percent(area)} of the nominal area with a friction of {slope:.3g}, the steady state found at once to {percent(steady)} with "
-        f"{float(facts['hysteresis_friction']):.3g}: adhesive contacts may have several steady states, and the motion after the first load comes to the former."
-    )
-    return (Advice("warning", "two steady states", text),)
+    if not (math.isnan(steady) or unsteady or abs(area - steady) <= OTHER_BRANCH * max(area, steady)):
+        text = (
+            f"The motion has come to {percent(area)} of the nominal area with a friction of {slope:.3g}, the steady state found at once to {percent(steady)} with "
+            f"{float(facts['hysteresis_friction']):.3g}: adhesive contacts may have several steady states, and the motion after the first load comes to the former."
+        )
+        made.append(Advice("warning", "two steady states", text))
+    return tuple(made)
 
 
 def picture_of(found: Found, solved: Solved) -> StartPicture:
@@ -158,39 +170,3 @@ REMARK = (
 
 ROWS = 9
 """Rows of the table of the way."""
-
-
-def start_words(found: Found) -> Words:
-    """Sentence, scalars, and rows from along the way."""
-    values, facts = found.values, found.detail
-    rows: Rows = [
-        ("sliding speed", show(float(facts["speed"]), "m/s")),
-        ("step of time", show(float(facts["step"]), "m")),
-    ]
-    rows += [(item.label, value_text(item, float(values[item.name]))) for item in SCALARS]
-    way = show(float(values["way_distance"][-1]), "m", 3)
-    friction, steady = float(values["start_last_friction"]), float(facts["hysteresis_friction"])
-    beside = "" if math.isnan(steady) else f" (steady: {steady:.3g})"
-    came = f"coefficient of friction came to {friction:.3g}{beside}"
-    if math.isnan(friction):  # no load from outside presses
-        came = f"force of friction came to {show(float(values['way_friction_force'][-1]), 'N', 3)}"
-    sentence = (
-        f"Over the first {way} of sliding at {show(float(facts['speed']), 'm/s', 3)} the contact area went from "
-        f"{percent(float(values['start_first_area_fraction']))} to {percent(float(values['start_last_area_fraction']))} of the nominal area and the {came}."
-    )
-    table = "Start of sliding", _way_table(values)
-    return Words(sentence, [], rows, (table,), (REMARK,))
-
-
-def _way_table(values: Mapping[str, Any]) -> Table:
-    """Contact and friction at some places along the way."""
-    columns = {
-        name: np.atleast_1d(values[f"way_{name}"])
-        for name in ("distance", "time", "friction", "area_fraction", "approach", "dissipated")
-    }
-    cells = []
-    for at in np.unique(np.linspace(0, len(columns["time"]) - 1, ROWS).round().astype(int)):
-        way, time, friction, area, approach, heat = (float(column[at]) for column in columns.values())
-        state = (f"{friction:.3g}", percent(area), show(approach, "m"), show(heat, "J", 3))
-        cells.append((show(way, "m"), show(time, "s"), *state))
-    return Table(("Distance", "Time", "Friction", "Real area", "Approach", "Heat"), tuple(cells))

@@ -253,7 +253,14 @@ class LineCoefficients:
         total = Displacement(*(found[name] for name in AXES))
         if self.plane.region.index == 0:
             total = total + self._homogeneous(load).displacement
-        shift = self._at_datum(load) * self.grid.spacing[0]
+        shift = 0.0  # zero on a rigid base, which is a datum itself
+        if not isinstance(self.body.base, RigidBase):  # displacement of the surface at the datum from a unit line load
+            surface = LineCoefficients(self.body, planes(self.body, [0.0])[0], self.grid, self.datum)
+            solid, x = surface.plane.region.material, np.array(self.datum)
+            known = LINES[load](x, 0.0, shear=solid.shear_modulus, nu=solid.poisson_ratio).displacement
+            rest = surface._integrals(load, (load,))
+            at_datum = float(getattr(known, load)) + (rest[load].slope(self.datum) if rest else 0.0)
+            shift = at_datum * self.grid.spacing[0]
         return Displacement(*(getattr(total, axis) - (shift if axis == load else 0.0) for axis in AXES))
 
     def _fields(self, load: Load, names: tuple[str, ...]) -> dict[str, RealArray]:
@@ -285,13 +292,3 @@ class LineCoefficients:
         solid = self.plane.region.material
         x, half = self.grid.coordinates()[0], 0.5 * self.grid.spacing[0]
         return STRIPS[load](x, self.plane.depth, half, shear=solid.shear_modulus, nu=solid.poisson_ratio)
-
-    def _at_datum(self, load: Load) -> float:
-        """Surface displacement along the load at the datum from a unit line load; zero on a rigid base, which is one."""
-        if isinstance(self.body.base, RigidBase):
-            return 0.0
-        surface = LineCoefficients(self.body, planes(self.body, [0.0])[0], self.grid, self.datum)
-        solid, x = surface.plane.region.material, np.array(self.datum)
-        known = LINES[load](x, 0.0, shear=solid.shear_modulus, nu=solid.poisson_ratio).displacement
-        rest = surface._integrals(load, (load,))
-        return float(getattr(known, load)) + (rest[load].slope(self.datum) if rest else 0.0)

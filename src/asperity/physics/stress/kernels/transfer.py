@@ -14,7 +14,6 @@ import numpy as np
 from ....core.arrays import RealArray
 from ....solids.compliance.layered import (
     LayerMatrices,
-    PlaneCompliance,
     PlaneVector,
     half_space,
     interface_compliances,
@@ -23,7 +22,6 @@ from ....solids.compliance.layered import (
     lowered,
     raised,
 )
-from ....solids.elastic import Elastic
 from ....solids.layers import Layer, Layered
 from ..regions import Plane
 
@@ -73,68 +71,45 @@ class Transfers:
 
     def to(self, plane: Plane) -> Transfer:
         """Transfer to ``plane``; costs two layer matrices, however many layers lie above."""
-        number, alpha = plane.region.index, self._alpha
-        traction = self._at_top(number)
-        if number == len(self._body.layers):
-            assert isinstance(self._body.base, Elastic)
-            traction, displacement = _in_half_space(self._body.base, traction, alpha, plane.local_depth)
+        number, alpha, material = plane.region.index, self._alpha, plane.region.material
+        G, nu = material.shear_modulus, material.poisson_ratio
+        while len(self._tops) <= number:  # tractions on the tops of the regions
+            k = len(self._tops) - 1
+            layer = self._body.layers[k]
+            matrices = _matrices(layer, alpha, layer.thickness)
+            self._tops.append(lowered(self._tops[k], self._below[k + 1], matrices, layer.interface))
+        traction = self._tops[number]
+        if number == len(self._body.layers):  # in the half-space
+            x = alpha * plane.local_depth
+            e = np.exp(-x)
+            traction = PlaneVector(
+                L=e * ((1.0 - x) * traction.L - x * traction.z),
+                z=e * (x * traction.L + (1.0 + x) * traction.z),
+                T=e * traction.T,
+            )
+            displacement = half_space(alpha, shear_modulus=G, nu=nu).displacement(traction)
         elif plane.side in ("surface", "below"):
             displacement = self._below[number].displacement(traction)
         else:
-            traction, displacement = _in_layer(
-                self._body.layers[number], traction, self._below[number + 1], alpha, plane
-            )
-        return _transfer(plane.region.material, traction, displacement, alpha)
-
-    def _at_top(self, number: int) -> PlaneVector:
-        """Traction on the top of a region, under unit traction of the surface."""
-        while len(self._tops) <= number:
-            k = len(self._tops) - 1
-            layer = self._body.layers[k]
-            matrices = _matrices(layer, self._alpha, layer.thickness)
-            self._tops.append(lowered(self._tops[k], self._below[k + 1], matrices, layer.interface))
-        return self._tops[number]
-
-
-def _in_half_space(
-    base: Elastic, traction: PlaneVector, alpha: RealArray, depth: float
-) -> tuple[PlaneVector, PlaneVector]:
-    x = alpha * depth
-    e = np.exp(-x)
-    here = PlaneVector(
-        L=e * ((1.0 - x) * traction.L - x * traction.z),
-        z=e * (x * traction.L + (1.0 + x) * traction.z),
-        T=e * traction.T,
-    )
-    compliance = half_space(alpha, shear_modulus=base.shear_modulus, nu=base.poisson_ratio)
-    return here, compliance.displacement(here)
-
-
-def _in_layer(
-    layer: Layer, traction: PlaneVector, below: PlaneCompliance, alpha: RealArray, plane: Plane
-) -> tuple[PlaneVector, PlaneVector]:
-    """Inside a layer, or at its lower face, where the interface decides."""
-    if plane.side == "above":
-        whole = _matrices(layer, alpha, layer.thickness)
-        displacement = lower_face(traction, below, whole, layer.interface)
-        return lowered(traction, below, whole, layer.interface), displacement
-    lower = _matrices(layer, alpha, plane.region.bottom - plane.depth)
-    compliance = raised(below, lower, layer.interface)
-    here = lowered(traction, compliance, _matrices(layer, alpha, plane.local_depth))
-    return here, compliance.displacement(here)
+            layer, below = self._body.layers[number], self._below[number + 1]
+            if plane.side == "above":  # at the lower face the interface decides
+                whole = _matrices(layer, alpha, layer.thickness)
+                displacement = lower_face(traction, below, whole, layer.interface)
+                traction = lowered(traction, below, whole, layer.interface)
+            else:
+                lower = _matrices(layer, alpha, plane.region.bottom - plane.depth)
+                compliance = raised(below, lower, layer.interface)
+                traction = lowered(traction, compliance, _matrices(layer, alpha, plane.local_depth))
+                displacement = compliance.displacement(traction)
+        t, u = traction, displacement
+        LL = -(2.0 * G * alpha * u.L + nu * t.z) / (1.0 - nu)
+        arrays: list[RealArray] = [
+            *(t.z[0], t.L[0], LL[0], t.z[1], t.L[1], LL[1], t.T, G * alpha * u.T),  # type: ignore[list-item]
+            *(u.L[0], u.z[0], u.L[1], u.z[1], u.T),  # type: ignore[list-item]
+        ]
+        return Transfer(*arrays)
 
 
 def _matrices(layer: Layer, alpha: RealArray, thickness: float) -> LayerMatrices:
     solid = layer.material
     return layer_matrices(alpha, thickness, shear_modulus=solid.shear_modulus, nu=solid.poisson_ratio)
-
-
-def _transfer(material: Elastic, t: PlaneVector, u: PlaneVector, alpha: RealArray) -> Transfer:
-    nu = material.poisson_ratio
-    g_alpha = material.shear_modulus * alpha
-    LL = -(2.0 * g_alpha * u.L + nu * t.z) / (1.0 - nu)
-    arrays: list[RealArray] = [
-        *(t.z[0], t.L[0], LL[0], t.z[1], t.L[1], LL[1], t.T, g_alpha * u.T),  # type: ignore[list-item]
-        *(u.L[0], u.z[0], u.L[1], u.z[1], u.T),  # type: ignore[list-item]
-    ]
-    return Transfer(*arrays)
