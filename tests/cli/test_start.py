@@ -62,8 +62,7 @@ def test_commands_without_output_import_only_what_they_need(tmp_path: Path, comm
     assert json.loads(done.stderr.rpartition("|")[2]) == []
 
 
-MOST_FILES = 62
-"""The aim is 60, of which there were as many before the place of edges, the bound of the pressure, positions held, answers and controls had a file each."""
+MOST_FILES = 60
 
 
 @pytest.mark.slow

@@ -34,7 +34,7 @@ from .controls import (
     Unloaded,
     mean_pressure,
 )
-from .couplings.driver import Rounds, Settled
+from .couplings.driver import Rounds, Settled, settle
 from .couplings.held import settle_position
 from .couplings.protocol import Coupling, Memory, Posed, height_scale
 from .history import History, HistoryResult
@@ -378,10 +378,10 @@ def settled_with(
     """
     names = {coupling.name for coupling in couplings}
     together = [place for pair, place in PAIRS.items() if pair <= names]
-    way = settle_position
+    way = plain = settle_position if isinstance(posed.control, Approach | MeanGap) else settle
     if together:  # and the force has to come out right: a prescribed one, or that of a machine that gives way
         gives = isinstance(posed.control, FixedGrips) and math.isfinite(posed.control.stiffness)
-        way = home(together[0]) if gives or posed.external_force is not None else settle_position
+        way = home(together[0]) if gives or posed.external_force is not None else plain
     settled: Settled = way(posed, couplings, memories, solver, **options)
     return settled
 
