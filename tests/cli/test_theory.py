@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import inspect
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -222,3 +224,16 @@ def test_a_curve_is_drawn(run: Runner, tmp_path: Path) -> None:
     assert run(*hertz, "--load", "1N..100N", "--plot", tmp_path / "a.png").exit_code == 0
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
     assert subject_of(run(*hertz, "--load", "1N", "--plot", tmp_path / "b.png")) == "--plot"
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["greenwood-williamson-fits", "persson", "tresca-disc", "tresca-twist", "carter", "maugis-dugdale", "boussinesq"],
+)
+def test_square_brackets_of_formulas_stand_in_the_help(run: Runner, name: str) -> None:
+    """A terminal that knows marks took them for marks."""
+    text = re.split(r"\n\n[A-Z]\w+\n---", inspect.cleandoc(THEORIES[name].__doc__ or ""))[0]
+    formulas = re.findall(r"\[[^\]]+\]", text)
+    page = "".join(run("theory", name, "--help").stdout.split())
+    assert formulas
+    assert [formula for formula in formulas if "".join(formula.split()) not in page] == []

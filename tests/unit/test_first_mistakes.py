@@ -10,6 +10,7 @@ import pytest
 from refusals import refused
 
 import asperity as asp
+from asperity.run.document import checked, dumps, loads
 
 
 @pytest.mark.parametrize("named", [{"E": 70e9, "nu": 0.3}, {"youngs_modulus": 70e9, "nu": 0.3}, {"G": 27e9}])
@@ -32,3 +33,45 @@ def test_a_layer_has_a_thickness() -> None:
 def test_a_surface_is_no_problem(given: object) -> None:
     with refused(asp.InputError, "problem", "ContactProblem(surface, body)"):
         asp.solve(given, asp.MeanPressure(1e6))  # type: ignore[call-overload]
+
+
+@pytest.mark.parametrize(
+    ("module", "wrong", "right"),
+    [(asp, "materal", "material"), (asp.theories, "HertzPont", "HertzPoint"), (asp.friction, "Coulom", "Coulomb")],
+)
+def test_a_name_that_is_nearly_right_is_answered_with_the_right_one(module: Any, wrong: str, right: str) -> None:
+    with pytest.raises(AttributeError) as caught:
+        getattr(module, wrong)
+    assert right in str(caught.value).split()[-1]
+
+
+def test_a_word_stands_for_a_distribution_in_python_too() -> None:
+    numbers = {"E_star": 1e11, "density": 1e12, "radius": 1e-6, "height_deviation": 1e-8}
+    named = asp.theories.GreenwoodWilliamson(**numbers, heights="exponential")
+    assert named == asp.theories.GreenwoodWilliamson(**numbers, heights=named.heights)
+    assert named != asp.theories.GreenwoodWilliamson(**numbers)
+    with refused(asp.InputError, "heights of greenwood-williamson", "exponential", "lognormal"):
+        asp.theories.GreenwoodWilliamson(**numbers, heights="lognormal")
+
+
+@pytest.mark.parametrize("word", ["self_affine", "self-affine", "Self Affine"])
+def test_hyphens_spaces_and_capitals_make_no_other_word(word: str) -> None:
+    surface = {"kind": "rough", "points": [16, 16], "size": "1 um", "seed": 1}
+    spectrum = {
+        "kind": word,
+        "hurst": 0.8,
+        "rms_height": "1 nm",
+        "rolloff_wavelength": "0.5 um",
+        "shortest_wavelength": "0.2 um",
+    }
+    table = {
+        "version": 2,
+        "surface": {**surface, "spectrum": spectrum},
+        "body": "E=100GPa,nu=0.3",
+        "control": {"mean_pressure": "1 MPa"},
+    }
+    assert loads(dumps(checked(table, "table"))) == checked(table, "table")
+    assert checked(table, "table").surface.spectrum.kind == "self_affine"
+    spectrum["kind"] = "selffine"
+    with refused(asp.InputError, "table: surface.spectrum.kind", "self_affine"):
+        checked(table, "table")

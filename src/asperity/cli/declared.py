@@ -211,9 +211,12 @@ class Command(TyperCommand):
     """A command whose page leaves the advanced options to ``--help-all``."""
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        """Write the page; the advanced options only if they are asked for."""
+        """Write the page, square brackets as they stand; the advanced options only if they are asked for."""
+        from rich.markup import escape
+
         whole = ctx.meta.get(WHOLE, False)
-        params, epilog = self.params, self.epilog
+        params, epilog, text = self.params, self.epilog, self.help
+        self.help = escape(text or "")
         basic = [p for p in params if not str(getattr(p, "rich_help_panel", "")).startswith(ADVANCED)]
         if len(basic) < len(params) and not whole:
             self.params = basic
@@ -221,7 +224,7 @@ class Command(TyperCommand):
         try:
             super().format_help(ctx, formatter)
         finally:
-            self.params, self.epilog = params, epilog
+            self.params, self.epilog, self.help = params, epilog, text
 
 
 WHOLE = "asperity.whole page"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 import sys
 from collections.abc import Callable, Mapping
@@ -51,7 +52,9 @@ class LateModule(ModuleType):
 
     def __getattr__(self, name: str) -> Any:
         if name not in self._names.home:
-            raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}", name=name, obj=self)
+            near = difflib.get_close_matches(name, self._names.home, n=1)
+            hint = f"; did you mean {near[0]}?" if near else ""
+            raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}{hint}", name=name, obj=self)
         value = vars(self)[name] = self._names(name)
         return value
 

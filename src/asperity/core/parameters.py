@@ -71,11 +71,12 @@ class Parameter:
         return isinstance(self.values, Several) and self.values.count is None
 
     def check(self, value: Any, owner: str) -> Any:
-        """``value`` as its values are checked; None where that is the default."""
+        """``value`` as its values are checked, or what a word stands for; None where that is the default."""
         if value is None and self.default is None:
             return None
         unit = f" ({self.unit})" if self.unit else ""
-        return self.values.check(value, f"{self.name}{unit} of {owner}")
+        read = self.values.read if self.words and isinstance(value, str) else self.values.check
+        return read(value, f"{self.name}{unit} of {owner}")
 
 
 @functools.cache
@@ -160,7 +161,7 @@ class Declared:
     """Base of a frozen dataclass whose parameters are checked against their declarations when it is made."""
 
     def __post_init__(self) -> None:
-        """Check all parameters.
+        """Check all parameters; a word is replaced by what it stands for.
 
         Raises
         ------
@@ -170,7 +171,10 @@ class Declared:
         kind: Any = type(self)
         owner = getattr(kind, "name", kind.__name__)
         for item in parameters(kind):
-            item.check(getattr(self, item.name), owner)
+            given = getattr(self, item.name)
+            found = item.check(given, owner)
+            if isinstance(given, str) and found is not given:
+                object.__setattr__(self, item.name, found)
 
 
 def checked(function: Callable[P, R]) -> Callable[P, R]:

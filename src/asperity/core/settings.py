@@ -5,6 +5,7 @@ Import this where documents are read, not in the physics: pydantic takes a tenth
 
 from __future__ import annotations
 
+import copy
 import difflib
 import inspect
 import re
@@ -18,6 +19,7 @@ from pydantic.fields import FieldInfo
 
 from .errors import InputError
 from .parameters import REQUIRED, Parameter, parameter, parameters, taken_apart, values_of
+from .text import alike
 from .values import Choice, Flag, Number, Several, Values, Whole, WrittenPair
 
 T = TypeVar("T", bound="Settings")
@@ -126,10 +128,39 @@ def validated(model: type[T], table: Mapping[str, Any], where: str, names: Mappi
     try:
         return model.model_validate(dict(table))
     except ValidationError as error:
+        meant = _as_meant(table, error)
+        if meant is not None:
+            return validated(model, meant, where, names)
         lines = problems(error, json_schema(model), names or {})
     if len(lines) == 1:
         raise InputError(lines[0] if where == COMMAND_LINE else f"{where}: {lines[0]}")
     raise InputError(f"{where} has {len(lines)} problems:\n" + "\n".join(f"  {line}" for line in lines), subject=where)
+
+
+def _as_meant(table: Mapping[str, Any], error: ValidationError) -> dict[str, Any] | None:
+    """``table`` with the words that are known but for capitals, spaces, hyphens and underscores; None if there are none in the ``error``."""
+    found, changed = copy.deepcopy(dict(table)), False
+    for detail in error.errors():
+        place, context = list(detail["loc"]), detail.get("ctx", {})
+        if detail["type"] == "union_tag_invalid":
+            place.append(context["discriminator"].strip("'"))
+            expected, given = context["expected_tags"], context["tag"]
+        elif detail["type"] == "literal_error":
+            expected, given = context["expected"], detail["input"]
+        else:
+            continue
+        node: Any = found
+        for part in place[:-1]:  # names of members of unions stand among the keys
+            if (isinstance(node, dict) and part in node) or (isinstance(node, list) and isinstance(part, int)):
+                node = node[part]  # type: ignore[index]
+        same = [
+            word
+            for word in re.findall(r"'([^']*)'", expected)
+            if isinstance(given, str) and alike(word) == alike(given)
+        ]
+        if len(same) == 1 and isinstance(node, dict) and node.get(place[-1]) == given:
+            node[place[-1]], changed = same[0], True
+    return found if changed else None
 
 
 @lru_cache(maxsize=8)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from pathlib import Path
 
@@ -12,6 +13,11 @@ LARGEST = 4 * 2**20
 
 _HIDDEN = ("Cc", "Cf", "Cn", "Co", "Cs", "Zl", "Zp")
 """Categories of characters that move the cursor, hide or turn text, have no agreed shape, or cannot be written."""
+
+
+def alike(word: str) -> str:
+    """``word`` in the form in which capitals, spaces, hyphens and underscores make no difference."""
+    return re.sub(r"[\s_-]+", "_", word.strip().lower())
 
 
 def printable(text: str, *, keep: str = "") -> str:

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from . import units
 from .errors import InputError
+from .text import alike
 
 LEAST, LARGEST = 1e-41, 1e40
 """Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range of floating-point numbers."""
@@ -276,8 +277,10 @@ class Choice(Values):
 
     def read(self, value: Any, what: str) -> Any:
         """What a word stands for."""
-        if isinstance(value, str) and value in self.words:
-            return self.words[value]
+        if isinstance(value, str):
+            same = [word for word in self.words if alike(word) == alike(value)]
+            if value in self.words or len(same) == 1:
+                return self.words[value if value in self.words else same[0]]
         return self.check(value, what)
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
