@@ -39,8 +39,15 @@ from .core.late import LateModule, LateNames, Shown, late_names, names_of_stub
 
 __version__ = "0.1.0"
 
-_VIEWS = MappingProxyType({"io.results": ("to_xarray",), "io.words": ("text",), "plots.notebook": ("card", "plot")})
-"""Functions behind ``repr`` and notebooks, by module."""
+_VIEWS = MappingProxyType(
+    {
+        "contact.advice": ("findings",),
+        "io.results": ("to_xarray",),
+        "io.words": ("text",),
+        "plots.notebook": ("card", "plot"),
+    }
+)
+"""Functions behind ``repr``, notebooks and what results say of themselves, by module."""
 
 
 class _Package(LateModule):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, st
 from ..surfaces.surface import Surface
 from .certificate import LARGEST_DUALITY_GAP
 from .controls import Control, Force, MeanPressure, mean_pressure
+from .history import HistoryResult
 from .law import LimitByDepth
 from .problem import ContactProblem
 from .result import ContactResult
@@ -73,8 +75,34 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
     )
 
 
-def review(result: ContactResult) -> tuple[Advice, ...]:
-    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, and those of each physics."""
+def findings(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
+    """Everything that should be known before the numbers of what was ``solved`` are used: ``advise`` on it and ``review`` of it."""
+    steps = solved.steps if isinstance(solved, HistoryResult) else (solved,)
+    peak = max(steps, key=lambda step: step.force)
+    found = (*advise(peak.problem, peak.control), *review(solved))
+    return tuple(sorted(found, key=lambda item: item.criterion != DOUBT))
+
+
+def review(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
+    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, and those of each physics.
+
+    Of a history they are those of its last step, and those that its step of the largest force has beside these.
+    """
+    if not isinstance(solved, HistoryResult):
+        return _review(solved)
+    steps = solved.steps
+    found = [item for item in _review(solved.last) if item.criterion != DOUBT]
+    number = max(range(len(steps)), key=lambda i: steps[i].force)
+    known = {DOUBT, *(item.criterion for item in found)}
+    found += [
+        replace(item, message=f"At the largest force (step {number + 1}): {item.message}")
+        for item in _review(steps[number])
+        if item.criterion not in known
+    ]
+    return (*doubts(*steps), *found)
+
+
+def _review(result: ContactResult) -> tuple[Advice, ...]:
     return (
         *doubts(result),
         *_contact_pixels(result),

@@ -13,7 +13,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
-from ..core.late import Stored
+from ..core.late import Advised, Stored
 from ..core.registry import ENERGY_TERMS
 from .controls import Approach, Control, Force, MeanGap, MeanPressure, Step, Unloaded, as_step
 from .known import EnergyNames
@@ -148,7 +148,7 @@ def ramps(kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> 
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class HistoryResult(Stored):
+class HistoryResult(Advised, Stored):
     """Results of the steps of a history, in order: ``len``, iteration, ``history[i]`` and ``history[i:j]`` are those of ``steps``.
 
     Parameters

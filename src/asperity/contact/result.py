@@ -13,7 +13,7 @@ from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.engine import Engine
 from ..core.errors import InputError
-from ..core.late import Stored
+from ..core.late import Advised, Stored
 from ..core.quantity import Quantity
 from ..core.status import Status
 from ..surfaces.pair import composite
@@ -104,7 +104,7 @@ class Late(Generic[Value]):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ContactResult(ResultNames, WithOutcomes, Stored):
+class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
     """Solution of a contact problem. Fields are (nx, ny) arrays, all values SI.
 
     Attributes

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
+    from .status import Advice
+
 
 class LateNames:
     """Names of ``package`` by the module below it that defines them; an empty module stands for the package itself, whose names are modules.
@@ -122,6 +124,16 @@ class Drawn(Shown):
         """
         axes: Axes = self._find("plot")(self, kind, ax, **options)
         return axes
+
+
+class Advised(Shown):
+    """Base of results and histories: they say what should be known before their numbers are used."""
+
+    @property
+    def advice(self) -> tuple[Advice, ...]:
+        """Findings, warnings that the answer may be wrong and notes: each with its criterion, its numbers and a remedy in the message."""
+        found: tuple[Advice, ...] = self._find("findings")(self)
+        return found
 
 
 class Stored(Drawn):

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
-from ..contact.advice import doubts
 from ..contact.answer import Answer
 from ..contact.history import HistoryResult
 from ..contact.problem import ContactProblem
@@ -477,7 +476,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
     if isinstance(thing, ContactResult):
         state = "converged" if thing.converged else "NOT CONVERGED"
         rows = [
-            *_doubt_rows(thing),
+            *_finding_rows(thing),
             *problem_rows(thing.problem),
             (f"prescribed {thing.control.name}", _control_text(thing)),
         ]
@@ -486,7 +485,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
         failed = sum(not step.converged for step in thing.steps)
         ended = "all converged" if not failed else f"{failed} NOT CONVERGED"
         rows = [
-            *_doubt_rows(*thing.steps),
+            *_finding_rows(thing),
             *problem_rows(thing.last.problem),
             ("steps", f"{len(thing.steps)}, {ended}"),
         ]
@@ -502,8 +501,10 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
     raise InputError(f"thing to put in words must be a surface, problem, result or stress field, but is {type(thing)}.")
 
 
-def _doubt_rows(*results: ContactResult) -> Rows:
-    return [("WARNING", finding.message) for finding in doubts(*results)]
+def _finding_rows(solved: ContactResult | HistoryResult) -> Rows:
+    """Warnings and notes, the warnings first."""
+    made = sorted(solved.advice, key=lambda item: item.level != "warning")
+    return [("WARNING" if item.level == "warning" else "note", item.message) for item in made]
 
 
 def text(thing: object) -> str:

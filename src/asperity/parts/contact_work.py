@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.advice import DOUBT, advise, doubts, review
+from ..contact.advice import findings
 from ..contact.history import HistoryResult
 from ..contact.problem import ContactProblem
 from ..contact.result import PLASTIC_FRACTION, SCALARS, ContactResult
@@ -29,10 +29,8 @@ class ContactWork(Work):
             "rms_height": float(problem.profile().std()),
             "contact_modulus": problem.contact_modulus,
         }
-        steps = (result,) if solved.path is None else solved.path.steps
-        later = [item for item in review(result) if item.criterion != DOUBT]
-        findings = (*doubts(*steps), *advise(problem, solved.control), *later)
-        return Found(values, result, findings, result.citation_keys)
+        made = findings(result if solved.path is None else solved.path)
+        return Found(values, result, made, result.citation_keys)
 
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the problem's papers."""
