@@ -29,9 +29,8 @@ from .core.errors import (
 )
 from .core.grid import Grid
 from .core.status import Advice
-from .io.export import export_csv, export_stress_vtk, export_vtk
+from .io.export import export_csv, export_vtk
 from .io.results import load, open_tree, save
-from .io.stress_files import save_stress
 from .io.surface_files import save_endless, save_gaussian, save_surface
 from .physics import dynamics
 from .physics.adhesion.answer import AdhesiveContact
@@ -65,6 +64,7 @@ from .physics.rolling.rough import RoughRolling, roll_rough
 from .physics.stress.compute import stress, stress_planes
 from .physics.stress.criteria import MaxPrincipal, Tresca, VonMises
 from .physics.stress.field import StressField
+from .physics.stress.files import export_stress_vtk, save_stress
 from .physics.stress.loads import LineLoad, PatchLoad, PointLoad
 from .physics.stress.regions import DepthProfile, Everywhere, Section, depths_through
 from .physics.stress.shakedown import ShakedownCurve, ShakedownMap, shakedown, shakedown_map

@@ -30,7 +30,7 @@ NOT_YET = {
 }
 """Imports against the table that are still to go. An entry that is not in use fails."""
 
-ROOMS = {"part": "parts", "work": "parts", "figures": "plots"}
+ROOMS = {"part": "parts", "work": "parts", "figures": "plots", "files": "io"}
 """Folder of whose layer a file in the folder of a physics is, by the beginning of its name; all others are of ``physics`` itself."""
 
 NAMED = {"asperity.contact.known": "names of the physics with their types, which only type checkers read"}

@@ -6,16 +6,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..core.quantity import Quantity
-from ..core.settings import Settings, setting
 from ..core.units import percent, show
-from ..core.values import Fraction
 from .part import Found, Part, Rows, Solved, Table, Words
 
 if TYPE_CHECKING:
     from ..contact.history import HistoryResult
     from ..contact.problem import ContactProblem
     from ..contact.result import ContactResult
-    from ..physics.hardness.plastic_load import PlasticLoad as SolvedPlasticLoad
     from ..plots.picture import Figure
 
 STIFFNESS = "normal_stiffness"
@@ -188,7 +185,7 @@ def path_sentence(path: HistoryResult) -> str:
     return text
 
 
-# Plastic deformation: what has yielded for good, and the load at which a contact becomes plastic.
+# Plastic deformation: what has yielded for good.
 
 
 class Plasticity(Part):
@@ -213,42 +210,6 @@ class Plasticity(Part):
         return Words(rows=plastic_rows(solved.result)) if solved.result.indented.any() else Words()
 
 
-class PlasticLoadSettings(Settings):
-    """A search for the load at which the plastic ``share`` of the real area is passed, 0.02 by default (some 15 solves)."""
-
-    share: Fraction = setting(
-        0.02, option="--plastic-share", help="Search the load at which this share of the real area is plastic"
-    )
-
-
-class PlasticLoad(Part):
-    """First load at which more than a share of the real area is at the hardness."""
-
-    name = "plastic_load"
-    title = "Plastic load"
-    table = "plastic_load"
-    settings = PlasticLoadSettings
-    quantities = (Quantity("plastic_load_pressure", "Pa", "mean pressure at which the contact becomes plastic"),)
-
-    def check(self, ask: Any, problem: ContactProblem) -> None:
-        """Refuse a law without a limit of the pressure."""
-        from ..physics.hardness.plastic_load import mean_cap
-
-        mean_cap(problem)
-
-    def compute(self, ask: Any, solved: Solved) -> Found:
-        """The two loads between which it lies, as detail."""
-        from ..physics.hardness.plastic_load import plastic_load
-
-        with solved.stage("searching the plastic load") as progress:
-            found = plastic_load(solved.problem, fraction=ask.share, solver=solved.solver, progress=progress)
-        return Found({"plastic_load_pressure": found.mean_pressure}, found)
-
-    def words(self, found: Found, solved: Solved) -> Words:
-        """The load."""
-        return Words(rows=[plastic_load_row(found.detail)])
-
-
 def plastic_rows(result: ContactResult) -> Rows:
     """What has yielded in ``result``, and the energies."""
     from ..contact.result import PLASTIC_FRACTION
@@ -264,14 +225,3 @@ def plastic_rows(result: ContactResult) -> Rows:
         ("plastic work since the virgin surface", show(result.total_plastic_work, "J")),
         ("elastic energy under this load", show(result.elastic_energy, "J")),
     ]
-
-
-def plastic_load_row(found: SolvedPlasticLoad) -> tuple[str, str]:
-    """Label and text of the load at which a share of the real area is plastic."""
-    load, force = show(found.mean_pressure, "Pa"), show(found.force, "N")
-    share = percent(found.fraction)
-    pixels = int(found.below.contact.sum())
-    return (
-        f"first load at which {share} of the real area is plastic",
-        f"mean pressure {load}, force {force}, at {percent(found.below.area_fraction)} area ({pixels} pixels)",
-    )

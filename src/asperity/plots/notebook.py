@@ -12,12 +12,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
 from ..core import require
-from ..core.grid import Grid
+from ..core.registry import DRAWN, MORE_FIGURES, PATH_FIGURES, home
 from ..core.text import printable
+from ..io.description import kind_name
 from ..io.words import heading_and_rows
-from ..physics.friction.figures import LOOP_PLOTS, SHEAR_PLOTS
-from ..physics.stress.field import StressField
-from ..physics.stress.figures import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
 from .comparison import SIZE as COMPARISON_SIZE
@@ -80,8 +78,10 @@ _OF_SURFACE = (Plot("heights", "", "", plot_heights, "map"), Plot("view", "", ""
 
 def _chosen(thing: Any, kind: str) -> _Chosen:
     """The figure ``kind`` of ``thing``, the most telling one if it is empty."""
-    if isinstance(thing, StressField):
-        return _of_stress(thing, kind)
+    name = kind_name(type(thing))
+    for drawn in DRAWN:
+        if name == f"asperity.{drawn.home}":
+            return _Chosen(*home(drawn.figure)(thing, kind))
     thing = getattr(thing, "dataset", thing)  # of a comparison
     what, first, plots = _plots(thing)
     by_name = {plot.name: plot for plot in plots}
@@ -102,20 +102,10 @@ def _plots(thing: Any) -> tuple[str, str, Sequence[Plot]]:
     if isinstance(thing, Characterisation):
         return "a characterisation", "distribution", SURFACE_PLOTS
     if isinstance(thing, ContactResult):
-        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable(physics_plots()), *SHEAR_PLOTS)
+        more = map(home, MORE_FIGURES)
+        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable((*physics_plots(), *more)))
     if isinstance(thing, HistoryResult):
-        first = "load_loop" if thing.last.stick_slip is None else LOOP_PLOTS[0].name
-        return "a load history", first, (*PATH_PLOTS, *LOOP_PLOTS)
+        own = {name: home(place) for name, place in PATH_FIGURES.items()}
+        first = next((plots[0].name for name, plots in own.items() if name in thing.last.couplings), "load_loop")
+        return "a load history", first, (*PATH_PLOTS, *chain.from_iterable(own.values()))
     return "a comparison", "area", comparison_plots(thing)
-
-
-def _of_stress(field: StressField, kind: str) -> _Chosen:
-    if field.dims == ("plane",):
-        return _Chosen(
-            lambda ax, **options: plot_stress_profile(field, ax, *([(kind,)] if kind else []), **options), CURVE_SIZE
-        )
-    wanted = require.one_of(kind or "von_mises", QUANTITIES, "stress to draw")
-    if len(field.dims) == 3:
-        size = map_size(Grid((field.x.size, field.y.size), field.spacing))
-        return _Chosen(lambda ax, **options: plot_stress_map(field, ax, wanted, **options), size)
-    return _Chosen(lambda ax, **options: plot_stress_section(field, ax, wanted, **options), SECTION_SIZE)

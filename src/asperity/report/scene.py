@@ -39,11 +39,10 @@ import numpy as np
 from ..contact.history import HistoryResult
 from ..core.arrays import RealArray
 from ..core.grid import Grid
+from ..core.registry import STEP_TEXTS, home
 from ..core.units import show
-from ..physics.friction.fretting import loop_of
-from ..physics.stress.figures import Cut
 from ..plots.contact import row_of_section
-from ..plots.maps import DECADES, Field, Kinds, Look, limits
+from ..plots.maps import DECADES, Cut, Field, Kinds, Look, limits
 from ..plots.picture import AxesCurves, Figure, colour_table, scale
 from ..run.execute import Outcome
 
@@ -353,14 +352,12 @@ def _steps(path: HistoryResult | None) -> list[int]:
 
 
 def _step_texts(path: HistoryResult, steps: Sequence[int]) -> list[str]:
-    """Number and load of the steps, and the force along the surface where there is one."""
-    loop = loop_of(path.steps) if path.steps[-1].stick_slip is not None else None
+    """Number and load of the steps, and what the physics say of each."""
+    more = [home(place)(path.steps) for name, place in STEP_TEXTS.items() if name in path.last.couplings]
     texts = []
     for number in steps:
         text = f"{number + 1} of {len(path.steps)}: mean pressure {show(path.steps[number].mean_pressure, 'Pa', 4)}"
-        if loop is not None:
-            text += f", shift {show(float(loop.shift[number]), 'm', 4)}"
-        texts.append(text)
+        texts.append(", ".join([text, *(said[number] for said in more)]))
     return texts
 
 

@@ -11,8 +11,9 @@ import pytest
 import asperity as asp
 from asperity.core.status import Outcome, Status
 from asperity.io.words import summary
-from asperity.parts.contact import energy_table, path_sentence, plastic_load_row, plastic_rows, turn_table
+from asperity.parts.contact import energy_table, path_sentence, plastic_rows, turn_table
 from asperity.parts.part import Found
+from asperity.physics.hardness.part import plastic_load_row
 from asperity.run.execute import analysed
 
 pytestmark = pytest.mark.usefixtures("unrendered")

@@ -199,18 +199,19 @@ class Dynamics(Part):
     def asked(self, document: Any, folder: Path) -> Moving:
         """The table [dynamics] with speed and friction."""
         settings: DynamicsSettings = document.dynamics
-        friction = document.friction
-        if settings.model != "mass" and not friction.speed:
+        friction, film = (getattr(document, name, None) for name in ("friction", "film"))
+        speed, coefficient = (friction.speed or 0.0, friction.coefficient) if friction is not None else (0.0, 0.0)
+        if settings.model != "mass" and not speed:
             raise InputError(
                 "speed must be given for the motion along the surface, but is missing. Give friction.speed (--speed 1mm/s).",
                 subject="friction.speed",
             )
-        if settings.model != "mass" and not friction.coefficient and document.film is None:
+        if settings.model != "mass" and not coefficient and film is None:
             raise InputError(
                 "friction must be given for the motion along the surface, but its coefficient is 0. Give friction.coefficient (--friction 0.3).",
                 subject="friction.coefficient",
             )
-        return Moving(settings, float(friction.speed or 0.0), float(friction.coefficient))
+        return Moving(settings, float(speed), float(coefficient))
 
     def compute(self, ask: Moving, solved: Solved) -> Found:
         """Law of the interface, stability, and the motion."""

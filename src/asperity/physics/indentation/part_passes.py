@@ -189,8 +189,9 @@ class Passes(Part):
     def asked(self, document: Any, folder: Path) -> Passing:
         """The table [passes] with the friction of the contact."""
         table: PassesSettings = document.passes
-        friction = document.friction
-        return Passing(table, float(friction.coefficient or 0.0) if friction.law == "coulomb" else 0.0)
+        friction = getattr(document, "friction", None)
+        coulomb = friction is not None and friction.law == "coulomb"
+        return Passing(table, float(friction.coefficient or 0.0) if coulomb else 0.0)
 
     def check(self, ask: Passing, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""

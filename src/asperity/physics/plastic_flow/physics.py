@@ -12,7 +12,6 @@ from ...contact.law import HardWall
 from ...contact.problem import ContactProblem, Physics, Preparing, Solved
 from ...core.errors import InputError
 from ...solids.plasticity import J2, LinearHardening, Swift, Voce
-from ..friction.law import Coulomb
 from .law import PlasticFlow, require_bodies
 
 if TYPE_CHECKING:
@@ -42,9 +41,13 @@ class Flowing(Physics):
             raise TypeError
         return cls(given)
 
+    def conserves(self) -> bool:
+        """It dissipates."""
+        return False
+
     def check(self, problem: ContactProblem) -> None:
         """Bodies, boundary and the other physics that a flow goes with."""
-        friction = None if isinstance(problem.friction, Coulomb | None) else problem.friction
+        friction = next((item.given for item in problem.physics if item.slides is False), None)
         for found, what, remedy in (
             (
                 problem.law if not isinstance(problem.law, HardWall) else None,
