@@ -35,12 +35,7 @@ NOT_YET = {
 }
 """Modules that import a physics at the top though they do more. An entry that is not in use fails."""
 
-QUICK = (
-    "tests/unit/contact/test_measure.py",
-    "tests/unit/contact/test_line_contact.py",
-    "tests/unit/io/test_provenance.py",
-    "tests/unit/io/test_layered_results.py",
-)
+QUICK = ("tests/unit/contact/test_measure.py", "tests/unit/io/test_layered_results.py")
 """Tests that concern no physics and end soon."""
 
 FULL = ("tests/laws", "tests/unit/contact", "tests/unit/io", "tests/unit/plots", "tests/unit/core", "tests/unit/solids")

@@ -90,8 +90,3 @@ def stored_quantities(kind: type) -> tuple[Quantity, ...]:
             unit, label, dims = item.metadata.get(WHAT, ("1", item.name.replace("_", " "), ()))
             found.append(Quantity(item.name, unit, label, dims))
     return tuple(found)
-
-
-def given_names(kind: type) -> tuple[str, ...]:
-    """Names of the fields of the dataclass ``kind`` that were given with the problem."""
-    return tuple(item.name for item in fields(kind) if GIVEN in item.metadata)

@@ -32,9 +32,9 @@ from ..physics.menisci.film import wetting
 from ..physics.plastic_flow.coupling import found_in
 from ..physics.viscoelastic.moments import COLUMNS, Creeping
 from ..solids.plasticity import PlasticState
-from .contacts import EARLIER, fields_in, problem_in, status_from
+from .contacts import EARLIER, fields_in, problem_in
 from .description import rebuild
-from .paths import scalars_in
+from .paths import scalars_in, status_in
 from .soundness import sound
 from .tree import Node
 from .words import FIELDS
@@ -83,7 +83,7 @@ def contact_in(groups: Mapping[str, Node]) -> ContactResult:
         control=control,
         plastic=arrays["plastic"].astype(bool),
         certificate=_certificate(attributes),
-        status=status_from(attributes),
+        status=status_in(attributes),
         citation_keys=tuple(attributes["citation_keys"].split()),
         couplings=couplings,
         memory=memories | _following(couplings, arrays["gap"], float(node["approach"])),
@@ -118,7 +118,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             certificate=_certificate(
                 {name: (value.item() if isinstance(value, np.generic) else value) for name, value in at.items()}
             ),
-            status=status_from(at),
+            status=status_in(at),
             couplings=couplings,
             memory=_memories(at["memory"])
             | flow
@@ -262,7 +262,7 @@ def kept_from(node: Node, name: str, contact: ContactResult | None) -> Any:
         balance |= {"residuals": tuple(balance["residuals"].tolist()), "cuts": int(balance["cuts"])}
         columns = [np.atleast_1d(column) for column in _arrays(zones, PlasticZone)]
         rows = [[tuple(map(float, v)) if np.ndim(v) else float(v) for v in row] for row in zip(*columns, strict=True)]
-        flowed = tuple(PlasticZone(int(first), *rest) for first, *rest in rows)  # type: ignore[call-overload, arg-type]
+        flowed = tuple(PlasticZone(int(first), *rest) for first, *rest in rows)  # type: ignore[arg-type]
         now = Equilibrium(state=PlasticState(*_arrays(place, PlasticState)), **balance)
         made = kind(now, zones=flowed, **_named(node, kind, "equilibrium", "zones"))
     made.require_sound()

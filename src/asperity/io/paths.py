@@ -100,7 +100,9 @@ def path_node(
     lines = coordinate("x", x[:, 0]), coordinate("y", y[0])
     children = dict(first.children)
     if start is not None:
-        children["start"] = _start_group(start)
+        values = [Labelled(_PRESSURE, start.pressure)]
+        values += [] if start.earlier is None else [Labelled(_EARLIER, start.earlier)]
+        children["start"] = Node(tuple(values), {}, memories_group([start]).children)
     following = (node for node, _ in blocks) if streamed else ()
     return replace(first, values=(*lines, *first.values), children=children, rows=following)
 
@@ -199,12 +201,6 @@ def _earlier(
         yield Labelled(_EARLIER, earlier)
 
 
-def _start_group(start: InterfaceState) -> Node:
-    values = [Labelled(_PRESSURE, start.pressure)]
-    values += [] if start.earlier is None else [Labelled(_EARLIER, start.earlier)]
-    return Node(tuple(values), {}, memories_group([start]).children)
-
-
 # And back.
 
 
@@ -217,7 +213,10 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
         If something is missing, or contradicts itself.
     """
     problem, rows = last.problem, Steps(node)
-    start = _start_in(node.children["start"], last.approach) if "start" in node.children else None
+    start = None
+    if (begun := node.children.get("start")) is not None:
+        memory = memories_in(Node((), {}, begun.children))(0, {}, last.approach)
+        start = InterfaceState(np.asarray(begun[_PRESSURE.name]), memory, begun.get(_EARLIER.name))
     answers = answers_in(node.children.get("couplings", Node()), problem)
     memories = memories_in(node.children.get("memory", Node()))
     back = ComesBack(problem)
@@ -235,11 +234,6 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             earlier = steps[of].pressure
         steps.append(sound(made(earlier)))
     return HistoryResult((*steps[:-1], last), start)
-
-
-def _start_in(node: Node, approach: float) -> InterfaceState:
-    memory = memories_in(Node((), {}, node.children))(0, {}, approach)
-    return InterfaceState(np.asarray(node[_PRESSURE.name]), memory, node.get(_EARLIER.name))
 
 
 def _step(

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 from ..contact.result import ContactResult
 from ..core.quantity import Labelled
 from ..core.status import Advice
-from ..io.contacts import grid_lines, status_attributes, status_from
+from ..io.contacts import grid_lines, status_attributes
 from ..io.kept import kept_from, kept_node
+from ..io.paths import status_in
 from ..io.results import contact_of, path_in, result_in, result_tree, root_attributes, whole
 from ..io.tree import Node, datatree, read_tree, write_tree
 from ..parts.part import Found, Part, Solved, Stored, Table, Words
@@ -105,7 +106,7 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
     }
     _require_provenance(json.loads(tree.attributes["provenance"]))
     findings = tuple(Advice(**finding) for finding in json.loads(tree.attributes["findings"]))
-    outcome = Outcome(None, replace(solved, found=found), found, findings, status_from(tree.attributes))
+    outcome = Outcome(None, replace(solved, found=found), found, findings, status_in(tree.attributes))
     return replace(outcome, stored=dict(tree.attributes))
 
 

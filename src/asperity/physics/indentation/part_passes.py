@@ -190,8 +190,9 @@ class Passes(Part):
         """The table [passes] with the friction of the contact."""
         table: PassesSettings = document.passes
         friction = getattr(document, "friction", None)
-        coulomb = friction is not None and friction.law == "coulomb"
-        return Passing(table, float(friction.coefficient or 0.0) if coulomb else 0.0)
+        slides = friction is not None and friction.law == "coulomb"
+        coefficient: Any = getattr(friction, "coefficient", None) if slides else None
+        return Passing(table, float(coefficient or 0.0))
 
     def check(self, ask: Passing, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
