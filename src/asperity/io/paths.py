@@ -93,7 +93,7 @@ def path_node(
     if isinstance(steps, HistoryResult):
         start, balance = steps.start, steps.energies
     blocks = _blocks(iter(steps), start, balance, BLOCK if streamed else math.inf)
-    first, grid = next(blocks, (None, None))
+    first, grid, is_all = next(blocks, (None, None, True))
     if first is None or grid is None:
         raise InputError("load path to save must hold at least one step, but holds none.")
     x, y = grid.coordinates()
@@ -103,14 +103,15 @@ def path_node(
         values = [Labelled(_PRESSURE, start.pressure)]
         values += [] if start.earlier is None else [Labelled(_EARLIER, start.earlier)]
         children["start"] = Node(tuple(values), {}, memories_group([start]).children)
-    following = (node for node, _ in blocks) if streamed else ()
+    # axes that may grow cost time for each variable of the group, 0.9 of 1.1 s for 41 steps of 64² points
+    following = () if is_all else (node for node, _, _ in blocks)
     return replace(first, values=(*lines, *first.values), children=children, rows=following)
 
 
 def _blocks(
     steps: Iterator[ContactResult], start: InterfaceState | None, balance: EnergyBalance | None, most: float
-) -> Iterator[tuple[Node, Grid]]:
-    """Groups of ``steps``, and their grid, each of fields of ``most`` bytes, or of one step."""
+) -> Iterator[tuple[Node, Grid, bool]]:
+    """Groups of ``steps``, each of fields of ``most`` bytes, or of one step, and their grid; and whether it is known that no other follows."""
     rows, block, size, highest = list[dict[str, Labelled]](), list[ContactResult](), 0.0, math.nan
     pressures = list[weakref.ref[RealArray]]()
     for number, step in enumerate(steps):
@@ -125,10 +126,10 @@ def _blocks(
         block.append(step)
         size += 8.0 * problem.grid.n_points * (_WHOLE if stored_whole(step) else 1)
         if size >= most:
-            yield _block(rows, block), problem.grid
+            yield _block(rows, block), problem.grid, False
             rows, block, size = [], [], 0.0
     if block:
-        yield _block(rows, block), block[-1].problem.grid
+        yield _block(rows, block), block[-1].problem.grid, True
 
 
 def _block(rows: Sequence[Mapping[str, Labelled]], steps: Sequence[ContactResult]) -> Node:

@@ -78,7 +78,10 @@ def _tree_of_steps(steps: Steps, start: InterfaceState | None, document: str | N
     def contact() -> Iterator[Node]:
         yield Node((), root_attributes(last[0], document), {"contact": contact_node(last[0])})
 
-    return Node((), {}, {"path": path_node(passed(), start, streamed=True)}, contact())
+    path = path_node(passed(), start, streamed=True)
+    if not path.rows:  # all steps are solved
+        return Node((), root_attributes(last[0], document), {"path": path, "contact": contact_node(last[0])})
+    return Node((), {}, {"path": path}, contact())
 
 
 def load(path: str | Path) -> Any:
