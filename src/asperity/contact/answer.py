@@ -28,7 +28,7 @@ class Answer:
         """What it is in one line; empty for the name of its type."""
         return ""
 
-    def numbers(self, result: ContactResult) -> Iterator[Labelled]:
+    def tabled(self, result: ContactResult) -> Iterator[Labelled]:
         """Numbers of tables that follow from it and the ``result`` that it is of."""
         yield from ()
 

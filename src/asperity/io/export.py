@@ -86,7 +86,7 @@ def _step_table(path: HistoryResult) -> Iterator[tuple[Any, ...]]:
 
 def _numbers(result: ContactResult) -> list[Labelled]:
     """Numbers that follow from what the couplings of ``result`` found and from it."""
-    return [item for answer in result.answers for item in answer.numbers(result)]
+    return [item for answer in result.answers for item in answer.tabled(result)]
 
 
 def _columns(path: HistoryResult) -> list[tuple[str, str, Quantity]]:

@@ -161,7 +161,7 @@ class StickSlip(Answer):
         """(nx, ny), True where the surfaces slipped in this step."""
         return np.asarray(np.any(self.slip_increment != 0.0, axis=0))
 
-    def numbers(self, result: Any) -> Iterator[Labelled]:
+    def tabled(self, result: Any) -> Iterator[Labelled]:
         """``NUMBERS`` and ``MEASURES``; NaN where there is nothing to divide by."""
         yield from (Labelled(item, float(getattr(self, item.name))) for item in NUMBERS)
         touching = int(np.count_nonzero(result.contact))

@@ -31,7 +31,7 @@ def shear_numbers(result: ContactResult) -> dict[str, float]:
 
     InputError if the result has no stick and slip.
     """
-    return {item.quantity.name: item.values for item in result.require_stick_slip().numbers(result)}
+    return {item.quantity.name: item.values for item in result.require_stick_slip().tabled(result)}
 
 
 @dataclass(frozen=True, eq=False)
