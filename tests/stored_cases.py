@@ -74,11 +74,12 @@ def flowing() -> Any:
     return asp.solve(problem, asp.History([asp.Force(f) for f in (1e-3, 0.6, 0.2)]))
 
 
-def rolling() -> Any:
-    """A ball that rolls with creepage."""
+def rolling(start: Any = None) -> Any:
+    """A ball that rolls with creepage; from the ``start`` of another one with more."""
     surface = asp.generate.sphere(asp.Grid((12, 10), (1e-5, 1e-5)), radius=10e-3)
     problem = asp.ContactProblem(surface, STEEL, boundary=asp.Free(), friction=asp.Coulomb(np.full((12, 10), 0.2)))
-    return asp.roll(problem, asp.Force(2.0), asp.rolling.Creepage(1e-4, 5e-5, 0.2), direction="-x")
+    creepage = asp.rolling.Creepage(1e-4 if start is None else 1.2e-4, 5e-5, 0.2)
+    return asp.roll(problem, asp.Force(2.0), creepage, direction="-x", start=start)
 
 
 def stressed() -> Any:
@@ -88,31 +89,58 @@ def stressed() -> Any:
     return asp.stress(result, [0.0, 4e-9, 1e-8], friction=0.3, displacement=True)
 
 
-def indented() -> Any:
-    """State of finite elements after an indentation."""
+def indented(start: Any = None) -> Any:
+    """State of finite elements after an indentation; the ``start`` of another one is unloaded."""
     coarse = fem.Resolution(across=4, per_layer=2, growth=1.8, distance=6.0)
     law = J2(STEEL, LinearHardening(400e6, 1e9), kinematic=10e9, recall=50.0)
     ball = fem.Indentation.of(STEEL, fem.Paraboloid(10e-6), [40e-9, 60e-9], plasticity=law, resolution=coarse)
-    return ball.run([40e-9, 60e-9]).state
+    return ball.run([40e-9, 60e-9] if start is None else [fem.Load(0.0)], start=start).state
 
 
-def passed() -> Any:
-    """State of finite elements after a pass."""
+def passed(start: Any = None) -> Any:
+    """State of finite elements after a pass, or after one more from the ``start``."""
     coarse = fem.Resolution(across=4, growth=1.8, depth=0.8, distance=6.0)
     law = J2(STEEL, LinearHardening(400e6, 1e9), kinematic=10e9, recall=50.0)
     ends = (-5e-4, 5e-4)
     track = fem.cylinder_track(STEEL, 1e-3, ends, plasticity=law, resolution=coarse)
-    return fem.hertz_pass(track, track.virgin(), 1.1e9, 1e-3, ends, friction=0.1, steps=2, ramp=1).state
+    before = track.virgin() if start is None else start
+    return fem.hertz_pass(track, before, 1.1e9, 1e-3, ends, friction=0.1, steps=2, ramp=1).state
+
+
+def moved(start: Any = None) -> Any:
+    """Stick and slip of a block on a belt; from the ``start`` of another motion on."""
+    block = asp.dynamics.BeltOscillator(asp.dynamics.StaticKinetic(0.4, 0.25), 1.0, 1e4, 100.0, 0.01)
+    return block.move(1.0, start=None if start is None else start.end, samples=20)
+
+
+def aged() -> Any:
+    """A block on a belt whose friction ages, without events."""
+    friction = asp.dynamics.RateState(0.6, 0.01, 0.015, 1e-5, 1e-6)
+    return asp.dynamics.BeltOscillator(friction, 1.0, 1e6, 100.0, 1e-5).move(0.1, samples=5)
+
+
+def single() -> Any:
+    """One load of an elastic contact."""
+    return asp.solve(asp.ContactProblem(ground(), STEEL), asp.MeanPressure(1e8))
 
 
 CASES: Mapping[str, Callable[[], Any]] = {
-    made.__name__: made for made in (wet, adhesive, creeping, sticking, flowing, rolling, stressed, indented, passed)
+    made.__name__: made
+    for made in (wet, adhesive, creeping, sticking, flowing, rolling, stressed, indented, passed, moved, aged, single)
 }
 """What makes each, by name."""
 
 
-def goes_on(path: Any) -> Any:
-    """The second step of a path, solved again from the state of the first, without the products at hand that no file holds."""
+GO_ON = {"rolling": rolling, "indented": indented, "passed": passed, "moved": moved}
+"""What goes on from another one of it, by name."""
+
+
+def goes_on(path: Any, name: str = "") -> Any:
+    """What follows a result of that ``name``; of a path the second step, solved again from the state of the first, without the products at hand that no file holds."""
+    if name in GO_ON:
+        return GO_ON[name](path)
+    if name == "single":
+        return asp.solve(path.problem, asp.MeanPressure(2e8), state=replace(path.state, deflections=None))
     begin, step = path[0], path[1]
     sheared, relaxed = step.stick_slip, step.creep
     duration = 0.0 if relaxed is None else float(relaxed.time[-1] - relaxed.time[0])

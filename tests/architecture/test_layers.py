@@ -25,7 +25,7 @@ DATA_FOLDERS = ("data",)
 SIDEWAYS = {("cli", "web"): "the command `asperity app` starts the web application"}
 """Sideways imports that are allowed, each with its reason."""
 
-ROOMS = {"part": "parts", "work": "parts", "figures": "plots"}
+ROOMS = {"part": "parts", "work": "parts", "figures": "plots", "files": "io"}
 """Folder of whose layer a file in the folder of a physics is, by the beginning of its name; all others are of ``physics`` itself."""
 
 NAMED = {

@@ -34,7 +34,7 @@ TABLES = {
 }
 """Files that name several physics, each with its reason."""
 
-MOST = {"adhesion": (3, 12), "menisci": (6, 16), "dynamics": (3, 12)}
+MOST = {"adhesion": (2, 9), "menisci": (6, 16), "dynamics": (3, 7)}
 """Files and mentions outside its folder at most. Of menisci the friction of their documents of version 1, and film as the word for a coating, are six files."""
 
 

@@ -15,7 +15,6 @@ from ..core.errors import InputError
 from ..core.settings import COMMAND_LINE
 from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
-from ..physics.dynamics.part import Dynamics
 from ..run.build import build, large_grid, stated_points
 from ..run.document import ProblemDocument, checked, files_of, loads, read_table, relocated, save_document
 from ..run.execute import Outcome, execute
@@ -141,7 +140,7 @@ def contact(
 
 
 def _dynamics_options() -> list[Option]:
-    first = {option.name for option in part_options(Dynamics.name)} | {"--speed"}
+    first = {option.name for option in part_options("dynamics")} | {"--speed"}
     basic = (*BASIC, *first)
     own = (YES, *file_options("save_document", "csv"))
     return [*sorted_out(document_options(), basic), *part_options(basic=basic), *own]
@@ -236,10 +235,9 @@ def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dic
 
 def write_volume(outcome: Outcome, files: Mapping[str, Path], *, force: bool) -> None:
     """Write all planes of the stresses of ``outcome`` to the ``files`` that are asked for."""
-    from ..io.export import export_stress_vtk
-    from ..io.stress_files import save_stress
-
     if "stress" in outcome.found:
+        from ..physics.stress.files import export_stress_vtk, save_stress
+
         survey = outcome.found["stress"].detail
         for name, write in (("stress_nc", save_stress), ("stress_vtk", export_stress_vtk)):
             if name in files:

@@ -25,12 +25,12 @@ from ..plots.contact import figures_of
 from ..plots.together import save_pictures
 from ..report import write_report
 from ..report.folder import STRESSES, write_parts
-from ..report.write import write_tractions_report
+from ..report.tractions import write_tractions_report
 from ..run.build import build
 from ..run.document import TRACTIONS, ProblemDocument, checked_parts, dumps, load_document, loads, read_table, relocated
-from ..run.execute import analysed, run_tractions
-from ..run.stored import load_outcome, save_tractions
-from ..run.tractions import checked_tractions, traction_rows
+from ..run.execute import analysed
+from ..run.stored import load_outcome
+from ..run.tractions import checked_tractions, run_tractions, save_tractions, traction_rows
 from .contact import Force, Out, file_options, files_in, output_folder, write_volume
 from .declared import Given, Option, offers, part_names, part_options, with_parts
 from .main import NOT_CONVERGED, OK

@@ -10,11 +10,12 @@ from ..core.registry import OUTCOMES, PHYSICS
 
 if TYPE_CHECKING:
     from ..core.arrays import RealArray
-    from ..core.quantity import Quantity
+    from ..core.quantity import Labelled, Quantity
     from ..core.status import Advice, Status
     from .certificate import Certificate
     from .couplings.protocol import Memory
     from .problem import ContactProblem
+    from .result import ContactResult
 
 
 class Answer:
@@ -26,6 +27,14 @@ class Answer:
     def line(self) -> str:
         """What it is in one line; empty for the name of its type."""
         return ""
+
+    def tabled(self, result: ContactResult) -> Iterator[Labelled]:
+        """Numbers of tables that follow from it and the ``result`` that it is of."""
+        yield from ()
+
+    def contradicted(self) -> tuple[str, ...]:
+        """Names of scalars of the result that are not what a reader would take them for beside it."""
+        return ()
 
     def traction_beside(self) -> RealArray | None:
         """Attraction (nx, ny) in Pa beside the pressure."""

@@ -90,6 +90,19 @@ class Physics:
         """Its couplings, prepared for the ``problem`` with its ``operator``."""
         raise NotImplementedError
 
+    def conserves(self) -> bool:
+        """Whether it takes no energy in steps without a jump."""
+        return True
+
+    @property
+    def slides(self) -> bool | None:
+        """Whether all points slide by it in steps without a tangential control; None where it does not shear the surfaces."""
+        return None
+
+    def shear(self, pressure: RealArray) -> RealArray | None:
+        """Shear traction (2, nx, ny) in Pa on the body where all points slide by it under a ``pressure`` (nx, ny) in Pa; None for none."""
+        return None
+
     def sticks(self, state: InterfaceState | None, *, tangential: bool) -> bool:
         """Whether surfaces stick and slip, in steps from ``state`` of which one or more are ``tangential``."""
         return False
@@ -301,6 +314,10 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
     def bears_pull(self) -> bool:
         """Whether the bodies can be pulled."""
         return any(physics.bears_pull for physics in self.physics)
+
+    def shear(self, pressure: RealArray) -> RealArray | None:
+        """Shear traction (2, nx, ny) in Pa on the body under a ``pressure`` (nx, ny) in Pa, where all points slide; None for none."""
+        return next((found for item in self.physics if (found := item.shear(pressure)) is not None), None)
 
     @property
     def grid(self) -> Grid:

@@ -17,7 +17,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.engine import CpuEngine, Engine
 from ..core.errors import ConvergenceError, InputError, NoSolutionError
-from ..core.registry import BY_DEPTH, IN_TIME, PAIRS, home
+from ..core.registry import PAIRS, home, role
 from ..core.status import Outcome, Progress, Status
 from ..solids.layers import relaxes
 from .answer import Answer
@@ -278,7 +278,7 @@ class Prepared:
         self.profile, self.time_steps = problem.profile(), time_steps
         self._measured: tuple[RealArray, float] | None = None
         relaxing = relaxes(problem.body) or relaxes(problem.counter_body)
-        self.in_time: InTime | None = home(IN_TIME)(self) if relaxing else None
+        self.in_time: InTime | None = role("in_time")(self) if relaxing else None
 
     def settled(
         self,
@@ -473,7 +473,7 @@ def couplings_of(
     law, tolerances = problem.law, rounds.tolerances
     first: Coupling = ConstantHardness(law)
     if isinstance(law, LimitByDepth) and np.ndim(law.cap_at(np.zeros(problem.grid.shape))):
-        first = home(BY_DEPTH).prepared(law, operator, tolerances.get("hardness"))
+        first = role("limit_by_depth").prepared(law, operator, tolerances.get("hardness"))
     how = Preparing(tolerances, sticks, getattr(operator.engine, "threads", None))
     return (first, *(found for item in problem.physics for found in item.couplings(problem, operator, how)))
 

@@ -67,7 +67,7 @@ def measured(
     """Field of a dataclass with what it is: SI unit ("1" for plain numbers, "" for text), words, and the names of the axes of an array.
 
     Files, tables and pictures take them from here. Axes ``x`` and ``y`` are those of the grid; an array that has none of them may have another length in
-    every step of a history. ``columns`` are what the columns of an array with two axes are, where each is something else.
+    every step of a history. ``columns`` are what the columns of an array with two axes are, where each is something else, or arrays by name.
     """
     return field(default=default, repr=repr, metadata={WHAT: (unit, label, dims), COLUMNS: columns})
 

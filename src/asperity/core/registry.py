@@ -29,6 +29,43 @@ class Known(NamedTuple):
     figures: Mapping[str, str] = MappingProxyType({})
 
 
+class Drawn(NamedTuple):
+    """What notebooks draw of a type.
+
+    Attributes
+    ----------
+    home
+        Where the type stands.
+    figure
+        Where the function stands that gives the figure of a name: what draws it on axes, and its size in inches.
+    """
+
+    home: str
+    figure: str
+
+
+class Kept(NamedTuple):
+    """A result beside contacts and load paths that files hold in a group of its own.
+
+    Attributes
+    ----------
+    home
+        Where its type stands.
+    title
+        Title of a file of it.
+    contact
+        Name of its field that is a contact, which stands in a group beside; empty if it has none.
+    writes, reads
+        Where the functions stand that make the group of it, and it of the group; empty where the codec does so from what its fields say.
+    """
+
+    home: str
+    title: str
+    contact: str = ""
+    writes: str = ""
+    reads: str = ""
+
+
 PHYSICS: Mapping[str, Known] = MappingProxyType(
     {
         "film": Known(
@@ -102,11 +139,29 @@ REFUSED: Mapping[tuple[str, str], str] = MappingProxyType(
 )
 """Why physics do not go together, by the keywords of both; ``PAIRS`` says how others settle."""
 
-BY_DEPTH = "physics.hardness.coupling:DepthHardness"
-"""The coupling of a limit of the pressure that changes with depth."""
+NEEDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "menisci": ("friction",),
+        "viscoelastic": ("friction",),
+        "rolling": ("friction",),
+        "indentation": ("plastic_flow",),
+        "pairs": ("adhesion", "menisci"),
+    }
+)
+"""Folders of physics without which that of another cannot be, by its name; every other can be left out by itself."""
 
-IN_TIME = "physics.viscoelastic.in_time:InTime"
-"""What takes over the steps of a prepared problem whose bodies relax."""
+ROLES: Mapping[str, str] = MappingProxyType(
+    {
+        "layered_hardness": "physics.hardness.layered:LayeredHardness",
+        "limit_by_depth": "physics.hardness.coupling:DepthHardness",
+        "in_time": "physics.viscoelastic.in_time:InTime",
+    }
+)
+"""What the machinery takes from a physics, by what that is: the law of coated bodies, the coupling of a limit of the pressure that changes with depth, and what
+takes over the steps of a prepared problem whose bodies relax."""
+
+DESCRIBED = ("physics.hardness.layered:LayeredHardness", "physics.stress.regions:Region")
+"""Types that files describe beside those of the keywords."""
 
 OUTCOMES = (*(name for known in PHYSICS.values() for name in known.absent), "creep")
 """Names of what couplings of this package find, that of bodies that relax last."""
@@ -121,6 +176,34 @@ ANSWERS = (
 )
 """Where the types of what couplings of this package find stand, for files."""
 
+RESULTS: Mapping[str, Kept] = MappingProxyType(
+    {
+        "field": Kept(
+            "physics.stress.field:StressField",
+            "stress inside a body",
+            writes="physics.stress.files:field_node",
+            reads="physics.stress.files:field_from",
+        ),
+        "rolling_contact": Kept("physics.rolling.rolling:RollingContact", "contact of rough surfaces", "normal"),
+        "motion": Kept("physics.dynamics.motion:Motion", "motion of a model"),
+        "indentation_state": Kept("fem.history:IndentationState", "state of finite elements"),
+        "pass_state": Kept("fem.passes:PassState", "state of finite elements"),
+    }
+)
+"""Results beside contacts and load paths by the name of their group in files."""
+
+DRAWN = (Drawn("physics.stress.field:StressField", "physics.stress.figures:figure_of"),)
+"""Types that notebooks draw beside surfaces, contacts and load paths."""
+
+MORE_FIGURES = ("physics.friction.figures:SHEAR_PLOTS",)
+"""Where figures of a contact stand that notebooks draw on request alone."""
+
+PATH_FIGURES: Mapping[str, str] = MappingProxyType({"stick_slip": "physics.friction.figures:LOOP_PLOTS"})
+"""Where figures of a load path stand, by the name of the coupling of which they are; the first is the most telling where the path has that."""
+
+STEP_TEXTS: Mapping[str, str] = MappingProxyType({"stick_slip": "physics.friction.fretting:step_texts"})
+"""What a load path says of each step beside its load, by the name of the coupling that it is of."""
+
 ENERGY_TERMS = ("meniscus_work", "shear_work", "tangential_work", "slip_work", "step_work", "jump_work")
 """Names of what the physics of this package add to the energies of a history."""
 
@@ -129,3 +212,16 @@ def home(place: str) -> Any:
     """What stands at ``place``, such as ``physics.adhesion.physics:Adhesive``."""
     module, _, name = place.partition(":")
     return getattr(import_module(f"asperity.{module}"), name)
+
+
+def role(name: str) -> Any:
+    """What the physics of that role is.
+
+    Raises
+    ------
+    LookupError
+        If it is not there.
+    """
+    if name not in ROLES:
+        raise LookupError(f"this package was installed without what is needed as {name!r}")
+    return home(ROLES[name])

@@ -16,6 +16,7 @@ from scipy import sparse
 
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import ConvergenceError
+from ..core.quantity import measured
 from ..solids.plasticity import PlasticState
 from .linear import factorised, without
 from .mesh import IntArray
@@ -109,19 +110,19 @@ class Equilibrium:
         Largest contact force so far in N, which residuals are measured by.
     """
 
-    displacement: RealArray
-    state: PlasticState
-    touching: BoolArray
-    slipping: BoolArray
-    approach: float
-    shift: RealArray
-    normal_force: RealArray
-    tangential_force: RealArray
-    forces: RealArray
-    stress: RealArray
-    residuals: tuple[float, ...] = ()
-    cuts: int = 0
-    largest: float = 0.0
+    displacement: RealArray = measured("m", "displacements, one for each unknown")
+    state: PlasticState = measured("", "plastic state at the Gauss points")
+    touching: BoolArray = measured("1", "whether a point of the surface touches")
+    slipping: BoolArray = measured("1", "whether a point of the surface slips")
+    approach: float = measured("m", "approach of the indenter")
+    shift: RealArray = measured("m", "displacement of the indenter along the surface")
+    normal_force: RealArray = measured("N", "forces into the body on the points of the surface")
+    tangential_force: RealArray = measured("N", "forces along the surface on its points")
+    forces: RealArray = measured("N", "forces on the elements, one for each unknown")
+    stress: RealArray = measured("Pa", "stress at the Gauss points, rr, tt, zz, rt, rz, tz")
+    residuals: tuple[float, ...] = measured("1", "unbalanced force over the contact force", "iteration", default=())
+    cuts: int = measured("1", "how often the step was divided", default=0)
+    largest: float = measured("N", "largest contact force so far", default=0.0)
 
     @property
     def force(self) -> float:

@@ -10,12 +10,16 @@ from scipy.optimize import minimize_scalar
 
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
+from ..core.quantity import measured
 from ..solids.plasticity import von_mises
 from ..theories.hardness.effective_hardness import PARABOLOID, OliverPharr
 from .contact import Equilibrium
 from .elements import GAUSS, Elements
 from .indenters import Indenter, radius_at
 from .mesh import IntArray, Mesh
+
+NOWHERE = (math.nan, math.nan)
+"""Place (r, z) of what there is not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,15 +40,15 @@ class PlasticZone:
         (r, z) in m where flow began, and the approach in m at the end of the step in which it did; NaN if it did not.
     """
 
-    region: int
-    volume: float
-    top: float = math.nan
-    bottom: float = math.nan
-    radius: float = math.nan
-    largest: float = 0.0
-    place: tuple[float, float] = (math.nan, math.nan)
-    first_place: tuple[float, float] = (math.nan, math.nan)
-    first_approach: float = math.nan
+    region: int = measured("1", "number of the region from the surface down")
+    volume: float = measured("m**3", "volume that has flowed")
+    top: float = measured("m", "smallest depth that has flowed", default=math.nan)
+    bottom: float = measured("m", "largest depth that has flowed", default=math.nan)
+    radius: float = measured("m", "largest distance from the axis that has flowed", default=math.nan)
+    largest: float = measured("1", "largest accumulated plastic strain", default=0.0)
+    place: tuple[float, float] = measured("m", "r and z of the largest plastic strain", "rz", default=NOWHERE)
+    first_place: tuple[float, float] = measured("m", "r and z where flow began", "rz", default=NOWHERE)
+    first_approach: float = measured("m", "approach at which flow began", default=math.nan)
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,10 +220,19 @@ class IndentationState:
         Of the last step, with the places where flow began.
     """
 
-    equilibrium: Equilibrium
-    work: float = 0.0
-    plastic_work: float = 0.0
-    zones: tuple[PlasticZone, ...] = ()
+    equilibrium: Equilibrium = measured("", "balance of the last step")
+    work: float = measured("J", "work of the indenter", default=0.0)
+    plastic_work: float = measured("J", "plastic work", default=0.0)
+    zones: tuple[PlasticZone, ...] = measured("", "where each region has flowed", default=())
+
+    def require_sound(self) -> None:
+        """Refuse fields of a file that do not fit each other, with a ValueError."""
+        now = self.equilibrium
+        now.state.require_sound()
+        if now.stress.shape != now.state.plastic_strain.shape or now.displacement.ndim != 1:
+            raise ValueError("stress and plastic strain do not fit each other")
+        if not now.touching.shape == now.slipping.shape == now.normal_force.shape:
+            raise ValueError("fields of the surface do not fit each other")
 
 
 @dataclass(frozen=True, eq=False)

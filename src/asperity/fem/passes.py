@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import ConvergenceError, InputError
+from ..core.quantity import measured
 from ..solids.elastic import Elastic
 from ..solids.flow import OF_STRENGTH, Plasticity, flow_of
 from ..solids.layers import Layered
@@ -57,14 +58,20 @@ class PassState:
         Work of the contact forces so far and plastic work ∫ σ : dε^p dV, in J (J/m).
     """
 
-    displacement: RealArray
-    plastic: PlasticState
-    normal: RealArray
-    tangential: RealArray
-    place: float = 0.0
-    approach: float = math.nan
-    work: float = 0.0
-    dissipated: float = 0.0
+    displacement: RealArray = measured("m", "displacements, one for each unknown")
+    plastic: PlasticState = measured("", "plastic state at the Gauss points")
+    normal: RealArray = measured("", "forces into the body on the points of the surface (N, in plane strain N/m)")
+    tangential: RealArray = measured("", "forces along x on the points of the surface (N, in plane strain N/m)")
+    place: float = measured("m", "place of the indenter or load", default=0.0)
+    approach: float = measured("m", "approach of the indenter", default=math.nan)
+    work: float = measured("", "work of the contact forces (J, in plane strain J/m)", default=0.0)
+    dissipated: float = measured("", "plastic work (J, in plane strain J/m)", default=0.0)
+
+    def require_sound(self) -> None:
+        """Refuse fields of a file that do not fit each other, with a ValueError."""
+        self.plastic.require_sound()
+        if self.normal.shape != self.tangential.shape or self.displacement.ndim != 1:
+            raise ValueError("forces on the surface do not fit each other")
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,7 @@
 """Frozen dataclasses as labelled values and back, to the bit: what is stored is told by their fields (``core.quantity.measured``).
 
-A field is a number, text, an array with named axes, a tuple of numbers, another dataclass, whose fields follow it as ``field_of``, or a tuple of
-dataclasses, whose fields are columns. Steps of a history stand along ``step`` where an array is one over the grid or a single number; anything else
+A field is a number, text, an array with named axes, a tuple of numbers, arrays by name, another dataclass, whose fields follow it as ``field_of``, or a tuple of
+dataclasses, whose fields are columns. One whose type is no dataclass but a protocol or several types, such as a law, is described as JSON. Steps of a history stand along ``step`` where an array is one over the grid or a single number; anything else
 may have another length in each step, and stands in rows one after the other with a count for each step.
 """
 
@@ -13,8 +13,8 @@ from dataclasses import fields, is_dataclass, replace
 from enum import Enum
 from functools import cache
 from inspect import get_annotations
-from types import UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from types import MappingProxyType
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -71,7 +71,11 @@ def values_of(found: object, prefix: str = "") -> Iterator[Labelled]:
         named = replace(quantity, name=prefix + quantity.name)
         if value is None:
             continue
-        if columns.get(quantity.name):
+        if isinstance(value, Mapping):
+            for item in columns[quantity.name]:
+                if item.name in value:
+                    yield Labelled(replace(item, name=prefix + item.name, dims=quantity.dims), value[item.name])
+        elif columns.get(quantity.name):
             dims = (*quantity.dims,)
             for number, item in enumerate(columns[quantity.name]):
                 yield Labelled(replace(item, name=f"{named.name}_{item.name}", dims=dims), np.asarray(value)[:, number])
@@ -80,12 +84,15 @@ def values_of(found: object, prefix: str = "") -> Iterator[Labelled]:
         elif isinstance(hint, type) and is_dataclass(hint):
             yield from values_of(value, f"{named.name}_")
         elif is_dataclass(value):
-            yield Labelled(replace(named, unit=""), json.dumps(describe(value)))
+            maps: dict[str, Any] = {}
+            yield Labelled(replace(named, unit=""), json.dumps(describe(value, maps, named.name)))
+            for key, array in maps.items():
+                yield Labelled(Quantity(key, "", f"map of {named.label}", GRID_AXES), array)
         elif isinstance(value, tuple):
             yield Labelled(replace(named, dims=quantity.dims or (named.name,)), np.asarray(value))
         elif isinstance(value, np.ndarray):
             own = tuple(f"{named.name}_{axis}" for axis in range(value.ndim))
-            yield Labelled(replace(named, dims=quantity.dims or own), value)
+            yield Labelled(replace(named, dims=quantity.dims if len(quantity.dims) == value.ndim else own), value)
         elif isinstance(value, str | Enum):
             yield Labelled(replace(named, unit=""), str(value))
         else:
@@ -103,7 +110,10 @@ def made_of(kind: type, values: Mapping[str, Any], known: Mapping[str, Any], pre
     hints, columns, made = _hints(kind), _columns(kind), dict(known)
     for quantity in stored_quantities(kind):
         name, hint = prefix + quantity.name, hints[quantity.name]
-        if columns.get(quantity.name):
+        if get_origin(hint) is Mapping:
+            there = (item.name for item in columns[quantity.name] if prefix + item.name in values)
+            made[quantity.name] = {key: np.asarray(values[prefix + key]) for key in there}
+        elif columns.get(quantity.name):
             parts = [np.asarray(values[f"{name}_{item.name}"]) for item in columns[quantity.name]]
             made[quantity.name] = np.stack(parts, axis=1)
         elif _row_kind(hint) is not None:
@@ -113,12 +123,12 @@ def made_of(kind: type, values: Mapping[str, Any], known: Mapping[str, Any], pre
         elif name not in values and type(None) in get_args(hint):
             made[quantity.name] = None
         else:
-            made[quantity.name] = _one(hint, values[name])
+            made[quantity.name] = _one(hint, values[name], values)
     return kind(**made)
 
 
-def _one(hint: Any, value: Any) -> Any:
-    """A single stored ``value`` as what the type ``hint`` of its field asks for."""
+def _one(hint: Any, value: Any, maps: Mapping[str, Any] = MappingProxyType({})) -> Any:
+    """A single stored ``value`` as what the type ``hint`` of its field asks for; ``maps`` are arrays that a description names."""
     if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and not value.ndim):
         value = value.item()
     if isinstance(hint, type) and issubclass(hint, Enum):
@@ -129,8 +139,9 @@ def _one(hint: Any, value: Any) -> Any:
         if isinstance(value, str) is not (hint is str) or isinstance(value, np.ndarray):
             raise ValueError(f"{value!r:.60} is no {hint.__name__}")
         return hint(value)
-    if get_origin(hint) in (Union, UnionType) and isinstance(value, str):
-        return rebuild(json.loads(value)) if value else None  # no text: a step of a history in which there is none
+    if isinstance(value, str) and get_origin(hint) is not Literal:
+        # a description; no text in a step of a history in which there is none
+        return rebuild(json.loads(value), maps) if value else None
     return value
 
 

@@ -58,7 +58,10 @@ def contact_node(result: ContactResult) -> Node:
     owners: dict[str, Any] = {"control": result} | dict.fromkeys(PARTS[:4], problem)
     attributes = {part: json.dumps(describe(getattr(owners[part], part), arrays, part)) for part in PARTS}
     values = [*grid_lines(result), _field(Quantity("heights", "m", "heights of the surface"), problem.surface.heights)]
-    attributes |= _physics_texts(problem, arrays)
+    known = [item for item in problem.physics if item.keyword in PHYSICS]
+    own: list[Physics] = [item for item in problem.physics if item.keyword not in PHYSICS]
+    attributes |= {item.keyword: json.dumps(describe(item.given, arrays, item.keyword)) for item in known}
+    attributes |= {OWN: json.dumps([describe(item, arrays, OWN) for item in own])} if own else {}
     attributes["surface"] = _surface_text(problem.surface)
     if isinstance(problem.counter_surface, Surface):
         quantity = Quantity("counter_heights", "m", "heights of the counter surface")
@@ -91,7 +94,7 @@ def contact_from(node: Node) -> ContactResult:
         control=control,
         plastic=arrays["plastic"].astype(bool),
         certificate=certificate_in({**attributes, **stated}),
-        status=status_from(attributes),
+        status=status_in(attributes),
         citation_keys=tuple(attributes["citation_keys"].split()),
         couplings=couplings,
         memory=memory,
@@ -130,14 +133,6 @@ def problem_in(node: Node, arrays: Mapping[str, RealArray]) -> tuple[ContactProb
     return ContactProblem(surface=surface, physics=own, **parts), control
 
 
-def _physics_texts(problem: ContactProblem, arrays: dict[str, RealArray]) -> dict[str, str]:
-    """Descriptions of the physics of ``problem``: what the keywords were given, and those of one's own, one after the other."""
-    known = [item for item in problem.physics if item.keyword in PHYSICS]
-    own: list[Physics] = [item for item in problem.physics if item.keyword not in PHYSICS]
-    texts = {item.keyword: json.dumps(describe(item.given, arrays, item.keyword)) for item in known}
-    return texts | ({OWN: json.dumps([describe(item, arrays, OWN) for item in own])} if own else {})
-
-
 def grid_lines(result: ContactResult) -> tuple[Labelled, Labelled]:
     """Coordinates x and y of the grid of ``result``."""
     x, y = result.problem.grid.coordinates()
@@ -147,11 +142,6 @@ def grid_lines(result: ContactResult) -> tuple[Labelled, Labelled]:
 def status_attributes(status: Status) -> dict[str, str]:
     """``status`` as attributes of a group."""
     return {f"status_{name}": str(text) for name, text in asdict(status).items()}
-
-
-def status_from(attributes: Mapping[str, Any]) -> Status:
-    """The status that ``attributes`` of a group hold."""
-    return status_in(attributes)
 
 
 def _surface_text(surface: Surface) -> str:

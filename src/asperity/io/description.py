@@ -23,10 +23,8 @@ from ..contact.result import ContactResult
 from ..contact.tangential import Tangential
 from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
-from ..core.registry import PHYSICS, home
+from ..core.registry import DESCRIBED, PHYSICS, home
 from ..core.spectral import fft_library
-from ..physics.hardness.layered import LayeredHardness
-from ..physics.stress.regions import Region
 from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
 from ..solids.viscoelastic import TemperatureShift, Viscoelastic
@@ -45,9 +43,7 @@ TYPES: tuple[type, ...] = (
     Flat,
     Hardness,
     HardWall,
-    LayeredHardness,
     Layer,
-    Region,
     RigidBase,
     Strength,
     Viscoelastic,
@@ -58,7 +54,7 @@ TYPES: tuple[type, ...] = (
 def known_types() -> dict[str, type]:
     """All types that can be written by name, those of a physics of one's own by qualified name; that must have been imported."""
     own = (kind for known in PHYSICS.values() for kind in home(known.home).types())
-    found = {kind.__name__: kind for kind in (*TYPES, *own)}
+    found = {kind.__name__: kind for kind in (*TYPES, *map(home, DESCRIBED), *own)}
     for physics in subclasses(Physics):
         if not physics.__module__.startswith("asperity."):
             found |= {kind_name(kind): kind for kind in (physics, *physics.types())}

@@ -1,6 +1,7 @@
 """Result files of format 2, which were written until the codec: read to the bit, never written.
 
-What couplings found stood in fields, groups and JSON texts of each kind; displacement and gap of every step of a load path were whole.
+What couplings found stood in fields, groups and JSON texts of each kind; displacement and gap of every step of a load path were whole. Groups of rolling contacts
+and of states of finite elements stayed so for a while in files of format 3.
 """
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import fields, replace
-from typing import Any
+from typing import Any, get_type_hints
 
 import numpy as np
 
@@ -17,7 +18,10 @@ from ..contact.history import HistoryResult
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..contact.state import InterfaceState
+from ..core.registry import RESULTS, home
 from ..core.status import Outcome, Status
+from ..fem.contact import Equilibrium
+from ..fem.history import PlasticZone
 from ..physics.adhesion.answer import AdhesiveContact
 from ..physics.adhesion.law import Adhesion
 from ..physics.friction.answer import StickSlip
@@ -27,9 +31,10 @@ from ..physics.menisci.coupling import Menisci
 from ..physics.menisci.film import wetting
 from ..physics.plastic_flow.coupling import found_in
 from ..physics.viscoelastic.moments import COLUMNS, Creeping
-from .contacts import EARLIER, fields_in, problem_in, status_from
+from ..solids.plasticity import PlasticState
+from .contacts import EARLIER, fields_in, problem_in
 from .description import rebuild
-from .paths import scalars_in
+from .paths import scalars_in, status_in
 from .soundness import sound
 from .tree import Node
 from .words import FIELDS
@@ -78,7 +83,7 @@ def contact_in(groups: Mapping[str, Node]) -> ContactResult:
         control=control,
         plastic=arrays["plastic"].astype(bool),
         certificate=_certificate(attributes),
-        status=status_from(attributes),
+        status=status_in(attributes),
         citation_keys=tuple(attributes["citation_keys"].split()),
         couplings=couplings,
         memory=memories | _following(couplings, arrays["gap"], float(node["approach"])),
@@ -113,7 +118,7 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             certificate=_certificate(
                 {name: (value.item() if isinstance(value, np.generic) else value) for name, value in at.items()}
             ),
-            status=status_from(at),
+            status=status_in(at),
             couplings=couplings,
             memory=_memories(at["memory"])
             | flow
@@ -232,3 +237,70 @@ def _memory(node: Node) -> dict[str, Any]:
 def _memories(text: str) -> dict[str, Any]:
     """Memories of the couplings, but for what fields are kept of, from JSON."""
     return {key: {name: np.asarray(value) for name, value in item.items()} for key, item in json.loads(text).items()}
+
+
+# Rolling contacts and states of finite elements.
+
+
+def kept_from(node: Node, name: str, contact: ContactResult | None) -> Any:
+    """The rolling contact beside a ``contact``, or the state of finite elements, of a group of that ``name``.
+
+    Raises
+    ------
+    KeyError, ValueError
+        If something is missing, or contradicts itself.
+    """
+    kind = home(RESULTS[name].home)
+    if name == "rolling_contact":
+        return _rolling(kind, node, contact)
+    if name == "pass_state":
+        made = kind(plastic=PlasticState(*_arrays(node, PlasticState)), **_named(node, kind, "plastic"))
+    else:
+        place, zones = node.children["equilibrium"], node.children["zones"]
+        balance = _named(place, Equilibrium, "state")
+        balance |= {key: np.asarray(balance[key]).astype(bool) for key in ("touching", "slipping")}
+        balance |= {"residuals": tuple(balance["residuals"].tolist()), "cuts": int(balance["cuts"])}
+        columns = [np.atleast_1d(column) for column in _arrays(zones, PlasticZone)]
+        rows = [[tuple(map(float, v)) if np.ndim(v) else float(v) for v in row] for row in zip(*columns, strict=True)]
+        flowed = tuple(PlasticZone(int(first), *rest) for first, *rest in rows)  # type: ignore[arg-type]
+        now = Equilibrium(state=PlasticState(*_arrays(place, PlasticState)), **balance)
+        made = kind(now, zones=flowed, **_named(node, kind, "equilibrium", "zones"))
+    made.require_sound()
+    return made
+
+
+def _rolling(kind: Any, node: Node, normal: ContactResult | None) -> Any:
+    assert normal is not None
+    attributes, arrays = node.attributes, {item.quantity.name: np.asarray(item.values) for item in node.values}
+    values: dict[str, Any] = {key: np.stack([arrays[f"{key}_{axis}"] for axis in "xy"]) for key in ("traction", "slip")}
+    numbers = ("force_x", "force_y", "torque", "friction_limit", "dissipated", "steadiness", "steps")
+    values |= {key: arrays[key].item() for key in numbers}
+    ended = [str(attributes[f"status_{part}"]) for part in ("outcome", "message", "remedy")]
+    made = kind(
+        normal=normal,
+        creepage=get_type_hints(kind)["creepage"](**json.loads(attributes["creepage"])),
+        power_density=arrays["power_density"],
+        status=Status(Outcome(ended[0]), ended[1], ended[2]),
+        law=rebuild(json.loads(attributes["law"]), arrays),
+        direction=attributes["direction"],
+        **values,
+    )
+    made.require_sound()
+    return made
+
+
+def _arrays(node: Node, kind: type) -> list[Any]:
+    """Arrays and numbers of the fields of ``kind`` in a group, where empty arrays stood as their shapes."""
+    return list(_named(node, kind).values())
+
+
+def _named(node: Node, kind: type, *but: str) -> dict[str, Any]:
+    """The same by name, ``but`` for some."""
+    empty, found = json.loads(node.attributes["empty"]), dict[str, Any]()
+    for item in fields(kind):
+        if item.name not in but:
+            value = np.zeros(empty[item.name]) if item.name in empty else np.asarray(node[item.name])
+            if value.dtype.kind not in "fbiu":
+                raise ValueError(f"{item.name}: it is no number")
+            found[item.name] = value if value.ndim else value.item()
+    return found

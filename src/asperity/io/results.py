@@ -18,28 +18,23 @@ from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
 from ..contact.state import InterfaceState
 from ..core.errors import FileFormatError, InputError
+from ..core.registry import RESULTS
 from ..core.text import require_file
-from ..physics.rolling.rolling import RollingContact
-from ..physics.stress.field import StressField
-from . import format2
-from .contacts import contact_from, contact_node, grid_lines
+from .contacts import contact_from, contact_node
 from .description import provenance, software
+from .kept import contact_beside, group_name, kept_from, kept_node
 from .paths import path_from, path_node
-from .rolling_files import ROLLING, rolling_in, rolling_node
-from .stress_files import field_from, field_node
 from .tree import FORMAT_VERSION, Node, datatree, read_tree, require_sound_heaps, write_tree
 
 if TYPE_CHECKING:
     import xarray
-
-    from ..fem.history import IndentationState
-    from ..fem.passes import PassState
+    from _typeshed import DataclassInstance
 
 Steps: TypeAlias = Iterator[ContactResult]
 """Steps of a path that are still being solved, as they come from ``contact.solve.steps``."""
 
-Result: TypeAlias = "ContactResult | HistoryResult | RollingContact | StressField | IndentationState | PassState"
-"""What result files hold."""
+Result: TypeAlias = "ContactResult | HistoryResult | DataclassInstance"
+"""What result files hold: contacts, load paths, and the types of ``core.registry.RESULTS``."""
 
 
 def save(
@@ -83,7 +78,10 @@ def _tree_of_steps(steps: Steps, start: InterfaceState | None, document: str | N
     def contact() -> Iterator[Node]:
         yield Node((), root_attributes(last[0], document), {"contact": contact_node(last[0])})
 
-    return Node((), {}, {"path": path_node(passed(), start, streamed=True)}, contact())
+    path = path_node(passed(), start, streamed=True)
+    if not path.rows:  # all steps are solved
+        return Node((), root_attributes(last[0], document), {"path": path, "contact": contact_node(last[0])})
+    return Node((), {}, {"path": path}, contact())
 
 
 def load(path: str | Path) -> Any:
@@ -92,8 +90,8 @@ def load(path: str | Path) -> Any:
     Displacement and gap of the steps of a load path come back by one transform of the pressures when they are first read, to a ``rounding`` that the file
     states of each step (``open_tree(path)["path/rounding"]``); the states of all steps are those that were saved, to the bit.
 
-    A ``ContactResult``, ``HistoryResult``, ``RollingContact`` or ``StressField``, or a state of finite elements from which a history goes on; of the
-    outcome of a document the contact.
+    A ``ContactResult``, ``HistoryResult``, ``RollingContact``, ``StressField`` or ``dynamics.Motion``, or a state of finite elements from which a history goes
+    on; of the outcome of a document the contact.
 
     Raises
     ------
@@ -152,10 +150,10 @@ def contact_of(result: Any) -> ContactResult:
     Raises
     ------
     InputError
-        If it is a stress field or a state of finite elements.
+        If there is none in it, as in a stress field.
     """
     found = result.last if isinstance(result, HistoryResult) else result
-    found = found.normal if isinstance(found, RollingContact) else found
+    found = contact_beside(found) or found
     if not isinstance(found, ContactResult):
         raise InputError(f"result file must hold a contact for this, but holds a {type(result).__name__}.")
     return found
@@ -175,18 +173,15 @@ def result_in(tree: Node, path: str | Path) -> Any:
             raise FileFormatError(
                 f"result file must hold a contact or a stress field, but {path} holds stresses under prescribed tractions; read it with open_tree."
             )
-        if "contact" not in groups and "field" in groups:
-            return field_from(groups["field"])
-        if any(name.endswith("_state") for name in groups):
-            from .fem_files import state_in
-
-            return state_in(groups)
-        result = format2.contact_in(groups) if old_format(tree) else contact_from(groups["contact"])
-        if "path" in groups and "of_outcome" not in tree.attributes:
+        name = next((name for name in RESULTS if name in groups), "")
+        if "contact" not in groups and name:
+            return kept_from(groups[name], name)
+        result = contact_in(tree)
+        if "of_outcome" in tree.attributes:
+            return result
+        if "path" in groups:
             return path_in(tree, result)
-        if ROLLING in groups:
-            return rolling_in(groups[ROLLING], result)
-        return result
+        return kept_from(groups[name], name, result) if name else result
 
 
 def old_format(tree: Node) -> bool:
@@ -194,10 +189,22 @@ def old_format(tree: Node) -> bool:
     return bool(tree.attributes.get("asperity_format", FORMAT_VERSION) == 2)
 
 
+def contact_in(tree: Node) -> ContactResult:
+    """The contact that the ``tree`` of a file holds."""
+    if old_format(tree):
+        from .format2 import contact_in as older
+
+        return older(tree.children)
+    return contact_from(tree.children["contact"])
+
+
 def path_in(tree: Node, last: ContactResult) -> HistoryResult:
     """The load path that the ``tree`` of a file holds, whose ``last`` step is the contact of the file."""
-    read = format2.path_from if old_format(tree) else path_from
-    return read(tree.children["path"], last)
+    if old_format(tree):
+        from .format2 import path_from as older
+
+        return older(tree.children["path"], last)
+    return path_from(tree.children["path"], last)
 
 
 @contextmanager
@@ -222,28 +229,24 @@ def result_tree(result: Result, *, document: str | None = None, streamed: bool =
     InputError
         If the problem holds a type that files do not know.
     """
-    if isinstance(result, StressField):
-        described = {"created": datetime.now(UTC).isoformat(timespec="seconds"), "software": software()}
-        return Node(
-            (), {"title": "stress inside a body", "provenance": json.dumps(described)}, {"field": field_node(result)}
-        )
     if isinstance(result, HistoryResult):
         groups = result_tree(result.last).children
         path = path_node(result, streamed=streamed)
         return Node((), root_attributes(result.last, document), {**groups, "path": path})
     if isinstance(result, ContactResult):
         return Node((), root_attributes(result, document), {"contact": contact_node(result)})
-    if isinstance(result, RollingContact):
-        groups = result_tree(result.normal).children
-        own = {ROLLING: rolling_node(result, grid_lines(result.normal))}
-        return Node((), root_attributes(result.normal, document), {**groups, **own})
-    from .fem_files import FemState, state_tree
-
-    if isinstance(result, FemState):
-        return state_tree(result)
-    raise InputError(
-        f"result to save must be a result of solve or roll, a load path, a stress field or a state of finite elements, but is {type(result).__name__}."
-    )
+    name = group_name(result)
+    if not name:
+        raise InputError(
+            "result to save must be a result of solve or roll, a load path, a stress field, a motion or a state of finite elements, "
+            f"but is {type(result).__name__}."
+        )
+    own = {name: kept_node(result, name)}
+    contact = contact_beside(result)
+    if contact is not None:
+        return Node((), root_attributes(contact, document), {**result_tree(contact).children, **own})
+    described = {"created": datetime.now(UTC).isoformat(timespec="seconds"), "software": software()}
+    return Node((), {"title": RESULTS[name].title, "provenance": json.dumps(described)}, own)
 
 
 def root_attributes(

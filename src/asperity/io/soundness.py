@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from ..contact.result import ContactResult, Later
-from ..core.arrays import RealArray
 
 FIELDS = ("pressure", "gap", "permanent_indentation", "displacement")
 """Fields that are checked where they are at hand; what comes back later is checked then."""
@@ -27,7 +26,8 @@ def sound(result: ContactResult) -> ContactResult:
     p = result.pressure
     here = {name: field for name in FIELDS if not isinstance(field := vars(result)[name], Later)}
     for name, field in here.items():
-        _require_finite(name, field)
+        if not np.isfinite(field).all():
+            raise ValueError(f"{name} must be finite, but is not at {np.count_nonzero(~np.isfinite(field))} points")
         if name != "displacement" and (least := float(field.min())) < 0.0:
             raise ValueError(f"{name} must not be negative, but is {least:g} somewhere")
     grid, total = result.problem.grid, float(p.sum(dtype=np.float64))
@@ -54,8 +54,3 @@ def sound(result: ContactResult) -> ContactResult:
 def agrees(stated: float, value: float, kind: np.dtype[Any], error: float = 0.0) -> bool:
     """Whether what is ``stated`` is the ``value`` that a field of this ``kind`` gives, to the root of its rounding and an ``error``."""
     return abs(stated - value) <= math.sqrt(np.finfo(kind).eps) * max(abs(value), abs(stated)) + error
-
-
-def _require_finite(name: str, field: RealArray) -> None:
-    if not np.isfinite(field).all():
-        raise ValueError(f"{name} must be finite, but is not at {np.count_nonzero(~np.isfinite(field))} points")

@@ -23,6 +23,7 @@ from .atomic import atomic_file
 
 if TYPE_CHECKING:
     import h5netcdf
+    import h5py
     import xarray
 
 FORMAT_VERSION = 3
@@ -173,7 +174,7 @@ def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
                 size, "result file", f"{size:.3g} bytes of {path}", "use a machine with more memory", FileFormatError
             )
             with h5netcdf.File(content, "r", decode_vlen_strings=True) as file:
-                tree = _read(file, without, path)
+                tree = _read(file, content, without, path)
     except (MemoryError, FileFormatError):
         raise
     except Exception as error:  # the library raises many types on foreign or damaged bytes
@@ -319,7 +320,7 @@ class _Writer:
                 start = known.get(along, 0) if along in grown else 0
                 self._group.variables[name][start : start + len(values)] = values
                 if values.dtype.kind != "O":
-                    self._digests.setdefault(name, _Digest(values)).add(values, start)
+                    self._digests.setdefault(name, _Digest(values, along)).add(values, start)
             self._sink.check()
         self._lengths |= grown
         for name, value in node.attributes.items():
@@ -336,16 +337,16 @@ class _Writer:
     def close(self) -> None:
         """Write the digests."""
         for name, digest in self._digests.items():
-            variable = self._group.variables[name]
-            variable.attrs[DIGEST] = digest.of(variable.shape[0])
+            self._group.variables[name].attrs[DIGEST] = digest.of(self._lengths[digest.along])
         for child in self._children.values():
             child.close()
 
 
 class _Digest:
-    """Digest of an array that is written in rows; those that are not are zero."""
+    """Digest of an array that is written in rows ``along`` an axis; those that are not are zero."""
 
-    def __init__(self, values: np.ndarray[Any, Any]) -> None:
+    def __init__(self, values: np.ndarray[Any, Any], along: str) -> None:
+        self.along = along
         self._hash, self._rows = hashlib.sha256(), 0
         self._size = values.dtype.itemsize * math.prod(values.shape[1:])
 
@@ -468,10 +469,29 @@ def _stored(values: Any) -> np.ndarray[Any, Any]:
     return array.astype(object) if array.dtype.kind in "US" else array
 
 
-def _read(group: h5netcdf.Group, without: tuple[str, ...], path: str | Path) -> Node:
-    found, facts = dict[str, Labelled](), dict[str, dict[str, Any]]()
+def _arrays(group: h5netcdf.Group, content: h5py.File) -> Iterator[tuple[str, Any, Any]]:
+    """Name, variable and array of what a group holds, arrays that are shorter than an axis that grows filled up with zeros.
+
+    h5netcdf does the same, but looks through all variables of a group for the length of each axis of each variable: 1.2 of 1.4 s for 41 steps of 64² points.
+    """
+    found, lengths = list[tuple[str, Any, Any]](), dict[str, int]()
     for name, variable in group.variables.items():
-        array = variable[...]
+        stored = content.get(f"{group.name.rstrip('/')}/{name}")
+        grows = stored is not None and stored.maxshape is not None and None in stored.maxshape
+        array = variable[...] if not grows else stored.asstr()[...] if stored.dtype.kind == "O" else stored[...]
+        found.append((name, variable, array))
+        for dim, length in zip(variable.dimensions, np.shape(array), strict=True):
+            lengths[dim] = max(lengths.get(dim, 0), length)
+    for name, variable, array in found:
+        short = [(0, lengths[dim] - length) for dim, length in zip(variable.dimensions, np.shape(array), strict=True)]
+        if any(more for _, more in short):
+            array = np.pad(array, short, constant_values="" if array.dtype.kind == "O" else 0)
+        yield name, variable, array
+
+
+def _read(group: h5netcdf.Group, content: h5py.File, without: tuple[str, ...], path: str | Path) -> Node:
+    found, facts = dict[str, Labelled](), dict[str, dict[str, Any]]()
+    for name, variable, array in _arrays(group, content):
         attributes = {key: _plain(value) for key, value in variable.attrs.items()}
         if (
             DIGEST in attributes
@@ -488,7 +508,9 @@ def _read(group: h5netcdf.Group, without: tuple[str, ...], path: str | Path) -> 
         quantity = Quantity(name, unit, label, dims=tuple(variable.dimensions))
         found[name] = Labelled(quantity, np.asarray(array) if quantity.dims else _plain(np.asarray(array)))
         facts[name] = attributes
-    children = {name: _read(child, without, path) for name, child in group.groups.items() if name not in without}
+    children = {
+        name: _read(child, content, without, path) for name, child in group.groups.items() if name not in without
+    }
     described = {key: _plain(value) for key, value in group.attrs.items()}
     return Node(tuple(_unpacked(found, facts)), described, children)
 

@@ -6,28 +6,23 @@ import math
 from collections.abc import Sequence
 from dataclasses import fields, is_dataclass
 from itertools import groupby
-from typing import TYPE_CHECKING, Protocol, TypeAlias, runtime_checkable
+from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
-from ..contact.answer import Answer
 from ..contact.history import HistoryResult
 from ..contact.problem import ContactProblem
 from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
+from ..core.late import Stored
 from ..core.quantity import Quantity
 from ..core.text import printable
 from ..core.units import percent, show
-from ..physics.hardness.layered import LayeredHardness
-from ..physics.stress.peaks import peak_text
 from ..solids.elastic import Elastic, Strength
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..solids.viscoelastic import Viscoelastic
 from ..surfaces.characterise.heights import peak_to_valley, rms_height
 from ..surfaces.surface import Surface
-
-if TYPE_CHECKING:
-    from ..physics.stress.field import StressField
 
 LINE = 100
 """Letters of a value in a ``repr``."""
@@ -295,9 +290,8 @@ def setting_rows(result: ContactResult) -> Rows:
 
 def limit_text(problem: ContactProblem) -> str:
     """Pressure limit of the law of ``problem``, and whose hardness it is; empty without a limit."""
-    if isinstance(problem.law, LayeredHardness):
-        top, base = show(problem.law.pressure_cap(), "Pa"), show(problem.law.base_hardness, "Pa")
-        return f"{top} at the surface to {base} deep in the base, by local indentation"
+    if isinstance(said := getattr(problem.law, "limit_text", None), str):
+        return said
     cap = np.asarray(problem.law.pressure_cap())
     if not np.isfinite(cap).all():
         return ""
@@ -347,13 +341,9 @@ def value_text(quantity: Quantity, value: float | int | str) -> str:
     return text
 
 
-OF_PRESSURE_LIMIT = ("plastic_work", "total_plastic_work", "plastic_area_fraction", "indented_area")
-"""Scalars that are zero without a hardness, and would contradict the work of plastic flow in the volume."""
-
-
 def result_rows(result: ContactResult) -> Rows:
-    """Every scalar of ``result``; where plastic flow of the volume was solved, without those of a limit of the pressure."""
-    skipped = () if result.plastic_flow is None else OF_PRESSURE_LIMIT
+    """Every scalar of ``result`` but for those that what its couplings found contradicts."""
+    skipped = {name for answer in result.answers for name in answer.contradicted()}
     return [(q.label, scalar_text(q, result)) for q in SCALARS if q.name not in skipped]
 
 
@@ -425,30 +415,20 @@ def surface_text(surface: Surface) -> str:
     return f"{nx} × {ny} points, {show(width, 'm')} × {show(height, 'm')}"
 
 
-def field_rows(field: StressField) -> Rows:
-    """Planes and largest stresses of a stress ``field``."""
-    from ..physics.stress.field import DERIVED
-
-    counts = " × ".join(f"{n} along {axis}" for n, axis in zip(field.tensor.xx.shape[1:], field.dims[1:], strict=True))
-    first, last = (show(float(field.depth[end]), "m") for end in (0, -1))
-    rows = [
-        ("planes", f"{len(field.planes)}, depths {first} to {last}"),
-        ("points of a plane", counts or "one"),
-        ("regions", " / ".join(dict.fromkeys(region.name for region in field.regions))),
-    ]
-    for name, peak in (("von_mises", field.largest_von_mises), ("max_principal", field.largest_tension)):
-        quantity = next(item for item in DERIVED if item.name == name)
-        place = f"in {peak.region.name} at a depth of {show(peak.depth, 'm')}"
-        rows.append((f"largest {quantity.label.removeprefix('largest ')}", f"{peak_text(peak)} {place}"))
-    return rows
-
-
 @runtime_checkable
 class Worded(Protocol):
     """What a higher layer defines, such as a comparison, and tells of itself."""
 
     def in_words(self) -> tuple[str, Rows]:
         """Heading and main numbers."""
+
+
+@runtime_checkable
+class InOneLine(Protocol):
+    """What says itself what it is in one line, such as what a coupling has found."""
+
+    def line(self) -> str:
+        """What it is; empty for heading and numbers."""
 
 
 ROUGHNESS = ("heights.Sq", "hybrid.Sdq", "heights.Ssk", "heights.Sku", "moments.difference.alpha")
@@ -463,7 +443,6 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
     InputError
         If nothing is known of such a thing.
     """
-    from ..physics.stress.field import StressField
     from ..surfaces.characterise.summary import Characterisation
 
     if isinstance(thing, Surface):
@@ -491,8 +470,6 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
         ]
         loads = " → ".join(show(float(thing.mean_pressure[turn]), "Pa") for turn in thing.turns)
         return "Load history", [*rows, ("mean pressure where it turns", loads), *headline_rows(thing.last)]
-    if isinstance(thing, StressField):
-        return "Stress field", field_rows(thing)
     if isinstance(thing, Characterisation):
         numbers = [(q.symbol, show(value, q.unit, 3)) for q, value in thing.values() if q.name in ROUGHNESS]
         return f"Characterisation of {surface_text(thing.surface)}", numbers
@@ -509,9 +486,7 @@ def _finding_rows(solved: ContactResult | HistoryResult) -> Rows:
 
 def text(thing: object) -> str:
     """The ``repr`` of a ``thing``: at most a screen of a surface, problem, result or stress field, one line of anything else."""
-    from ..physics.stress.field import StressField
-
-    if not isinstance(thing, Surface | ContactProblem | ContactResult | HistoryResult | StressField):
+    if not isinstance(thing, Surface | ContactProblem | Stored):
         return printable(f"<{_line(thing)}>")
     heading, rows = heading_and_rows(thing)
     wide = max(len(label) for label, _ in rows)
@@ -519,19 +494,12 @@ def text(thing: object) -> str:
 
 
 def _line(thing: object) -> str:
-    from ..physics.stress.yielding import YieldReport
-
     if isinstance(thing, Elastic):
         return f"{type(thing).__name__} {body_text(thing)}"
     if isinstance(thing, Layered):
         return f"Layered {thing.name + ': ' if thing.name else ''}{body_text(thing)}"
-    if isinstance(thing, Answer) and (line := thing.line()):
+    if isinstance(thing, InOneLine) and (line := thing.line()):
         return line
-    if isinstance(thing, YieldReport):
-        worst = thing.first or max(thing.regions, key=lambda part: part.peak.value)
-        stress = f"{thing.criterion.name} {show(worst.peak.value, 'Pa')}"
-        limit = f"of {show(worst.limit.value, 'Pa')}, load factor {worst.load_factor:.3g}"
-        return f"YieldReport: {stress} {limit if thing.first else 'of unknown strength'}, {worst.place}"
     heading, rows = heading_and_rows(thing)
     return f"{heading}: {', '.join(' '.join(row) for row in rows)}"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import groupby
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
@@ -87,6 +88,22 @@ class Kinds:
     kinds: RealArray
     grid: Grid
     classes: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Cut:
+    """A stress on a vertical section: ``values`` (planes, points) in Pa, the field they belong to, look and range of the colours."""
+
+    field: Any
+    values: RealArray
+    look: Look
+    range: tuple[float, float]
+
+    @property
+    def layers(self) -> tuple[tuple[str, float, float], ...]:
+        """Name, top and bottom (m) of the layers, neighbours of one name as one."""
+        runs = [list(run) for _, run in groupby(self.field.regions, key=lambda region: region.name)]
+        return tuple((run[0].name, run[0].top, run[-1].bottom) for run in runs)
 
 
 def plot_map(shown: Field | Kinds, ax: Axes) -> Axes:

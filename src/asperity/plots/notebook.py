@@ -12,12 +12,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
 from ..core import require
-from ..core.grid import Grid
+from ..core.registry import DRAWN, MORE_FIGURES, PATH_FIGURES, home
 from ..core.text import printable
+from ..io.description import kind_name
 from ..io.words import heading_and_rows
-from ..physics.friction.figures import LOOP_PLOTS, SHEAR_PLOTS
-from ..physics.stress.field import StressField
-from ..physics.stress.figures import QUANTITIES, SECTION_SIZE, plot_stress_map, plot_stress_profile, plot_stress_section
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
 from .comparison import SIZE as COMPARISON_SIZE
@@ -80,29 +78,12 @@ _OF_SURFACE = (Plot("heights", "", "", plot_heights, "map"), Plot("view", "", ""
 
 def _chosen(thing: Any, kind: str) -> _Chosen:
     """The figure ``kind`` of ``thing``, the most telling one if it is empty."""
-    if isinstance(thing, StressField):
-        if thing.dims == ("plane",):
-            named = [(kind,)] if kind else []
-            return _Chosen(lambda ax, **options: plot_stress_profile(thing, ax, *named, **options), CURVE_SIZE)
-        wanted = require.one_of(kind or "von_mises", QUANTITIES, "stress to draw")
-        if len(thing.dims) == 3:
-            size = map_size(Grid((thing.x.size, thing.y.size), thing.spacing))
-            return _Chosen(lambda ax, **options: plot_stress_map(thing, ax, wanted, **options), size)
-        return _Chosen(lambda ax, **options: plot_stress_section(thing, ax, wanted, **options), SECTION_SIZE)
-    plots: Sequence[Plot]
-    if isinstance(thing, Surface):
-        what, first, plots = "a surface", "heights", _OF_SURFACE
-    elif isinstance(thing, Characterisation):
-        what, first, plots = "a characterisation", "distribution", SURFACE_PLOTS
-    elif isinstance(thing, ContactResult):
-        what, first = "a result", "pressure"
-        plots = (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable(physics_plots()), *SHEAR_PLOTS)
-    elif isinstance(thing, HistoryResult):
-        what, first = "a load history", "load_loop" if thing.last.stick_slip is None else LOOP_PLOTS[0].name
-        plots = (*PATH_PLOTS, *LOOP_PLOTS)
-    else:
-        thing = getattr(thing, "dataset", thing)
-        what, first, plots = "a comparison", "area", comparison_plots(thing)
+    name = kind_name(type(thing))
+    for drawn in DRAWN:
+        if name == f"asperity.{drawn.home}":
+            return _Chosen(*home(drawn.figure)(thing, kind))
+    thing = getattr(thing, "dataset", thing)  # of a comparison
+    what, first, plots = _plots(thing)
     by_name = {plot.name: plot for plot in plots}
     plot = by_name[require.one_of(kind or first, by_name, f"figure of {what}")]
     draw = partial(plot.draw, thing)
@@ -112,3 +93,19 @@ def _chosen(thing: Any, kind: str) -> _Chosen:
         one = getattr(thing, "last", thing)
         return _Chosen(draw, map_size(getattr(one, "problem", getattr(one, "surface", one)).grid))
     return _Chosen(draw, COMPARISON_SIZE if plot.kind == "comparison" else CURVE_SIZE)
+
+
+def _plots(thing: Any) -> tuple[str, str, Sequence[Plot]]:
+    """What ``thing`` is called, the name of its most telling figure, and all figures."""
+    if isinstance(thing, Surface):
+        return "a surface", "heights", _OF_SURFACE
+    if isinstance(thing, Characterisation):
+        return "a characterisation", "distribution", SURFACE_PLOTS
+    if isinstance(thing, ContactResult):
+        more = map(home, MORE_FIGURES)
+        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable((*physics_plots(), *more)))
+    if isinstance(thing, HistoryResult):
+        own = {name: home(place) for name, place in PATH_FIGURES.items()}
+        first = next((plots[0].name for name, plots in own.items() if name in thing.last.couplings), "load_loop")
+        return "a load history", first, (*PATH_PLOTS, *chain.from_iterable(own.values()))
+    return "a comparison", "area", comparison_plots(thing)

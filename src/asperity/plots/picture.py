@@ -212,7 +212,7 @@ class Figure:
     kind: str = "curve"
     """Kind of the figure, as that of ``Plot``."""
     shows: Callable[[], Any] | None = None
-    """Gives the map that the figure shows (``maps.Field``, ``maps.Kinds`` or ``stress.Cut``), for a page that lets it be explored."""
+    """Gives the map that the figure shows (``maps.Field``, ``maps.Kinds`` or ``maps.Cut``), for a page that lets it be explored."""
     of_step: Callable[[Any], Any] | None = None
     """The same map of another step of a load path."""
     wide: bool = False

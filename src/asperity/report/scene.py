@@ -39,11 +39,10 @@ import numpy as np
 from ..contact.history import HistoryResult
 from ..core.arrays import RealArray
 from ..core.grid import Grid
+from ..core.registry import STEP_TEXTS, home
 from ..core.units import show
-from ..physics.friction.fretting import loop_of
-from ..physics.stress.figures import Cut
 from ..plots.contact import row_of_section
-from ..plots.maps import DECADES, Field, Kinds, Look, limits
+from ..plots.maps import DECADES, Cut, Field, Kinds, Look, limits
 from ..plots.picture import AxesCurves, Figure, colour_table, scale
 from ..run.execute import Outcome
 
@@ -200,7 +199,7 @@ def scene(
 ) -> dict[str, Any] | None:
     """Scene of the maps that ``figures`` show on ``grid``, and of other steps of a ``path``; None without any.
 
-    Of many steps some are shown, evenly chosen, with number and load, and the shift along the surface where there is one.
+    Of many steps some are shown, evenly chosen, with number and load, and what the physics say of each.
     """
     if 1 in grid.shape:
         return None
@@ -209,10 +208,10 @@ def scene(
     if path is not None and (count := len(path.steps)) > 1:
         shown = min(count, MOST_STEPS)
         steps = sorted({round(number * (count - 1) / (shown - 1)) for number in range(shown)})
-        loop = loop_of(path.steps) if path.last.stick_slip is not None else None
+        more = [home(place)(path.steps) for name, place in STEP_TEXTS.items() if name in path.last.couplings]
         for number in steps:
             text = f"{number + 1} of {count}: mean pressure {show(path.steps[number].mean_pressure, 'Pa', 4)}"
-            texts.append(text if loop is None else f"{text}, shift {show(float(loop.shift[number]), 'm', 4)}")
+            texts.append(", ".join([text, *(said[number] for said in more)]))
     maps, depths, cuts = _gathered(figures, grid, path, steps)
     if not maps:
         return None

@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from ..contact.advice import doubts
 from ..contact.result import ContactResult
 from ..core.errors import InputError
 from ..core.status import Advice
-from ..io.description import provenance, software
+from ..io.description import provenance
 from ..io.words import (
     Rows,
     body_rows,
@@ -25,9 +24,8 @@ from ..io.words import (
 from ..parts.registry import versions
 from ..plots.together import drawing
 from ..run.execute import Outcome, analysed
-from ..run.tractions import TractionsDocument, traction_rows
 from .page import shown, software_rows, write_page
-from .scene import scene, scene_of
+from .scene import scene_of
 
 
 def write_report(
@@ -101,31 +99,6 @@ def write_report(
         ],
         citation_keys=dict.fromkeys((*result.citation_keys, *outcome.citation_keys)),
         document=document,
-        document_of="Problem",
-        overwrite=overwrite,
-    )
-
-
-def write_tractions_report(
-    outcome: Outcome, path: str | Path, *, document: TractionsDocument, text: str, overwrite: bool = False
-) -> None:
-    """Write a report of the stresses under prescribed tractions, the ``outcome`` of a ``document`` with this ``text``, to ``path``.
-
-    Raises OutputError if the file exists and ``overwrite`` is false, or cannot be written.
-    """
-    loaded: Any = outcome.result
-    sections = [*outcome.sections]
-    write_page(
-        path,
-        "tractions.html",
-        title=document.title or "Stresses under prescribed tractions",
-        summary=" ".join(words.sentence for _, words in sections),
-        inputs=traction_rows(loaded, document),
-        scene=scene((figure for group in outcome.figures.values() for figure in group), loaded.problem.grid),
-        sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in sections],
-        provenance=software_rows(software()),
-        citation_keys=outcome.citation_keys,
-        document=text,
         document_of="Problem",
         overwrite=overwrite,
     )

@@ -25,6 +25,7 @@ from ..core.engine import CpuEngine, Engine
 from ..core.engine.gpu import GpuEngine
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..core.registry import role
 from ..core.settings import Settings, json_schema, problems
 from ..core.status import is_large, require_memory, room_text
 from ..io.schemas.bodies import (
@@ -60,7 +61,6 @@ from ..io.schemas.relaxation import (
 from ..io.schemas.surfaces import AMPLITUDES, FileSurface, GeneratedSurface, SurfaceTable, prepared
 from ..parts.part import Part
 from ..parts.registry import parts
-from ..physics.hardness.layered import LayeredHardness
 from ..solids.elastic import Elastic, Hardening, Rigid, Strength
 from ..solids.layers import (
     Body,
@@ -209,7 +209,8 @@ def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
         )
     hardness, softer = min(known, key=lambda item: item[0])
     coated_softer = table.hardness == EFFECTIVE and isinstance(softer, Layered) and softer.reduced.layers
-    return LayeredHardness(softer) if coated_softer and isinstance(softer, Layered) else Hardness(hardness)
+    made: InterfaceLaw = role("layered_hardness")(softer) if coated_softer else Hardness(hardness)
+    return made
 
 
 def build_course(

@@ -19,18 +19,14 @@ from ..contact.state import InterfaceState
 from ..core.errors import AsperityError, ConvergenceError
 from ..core.quantity import Labelled
 from ..core.status import Advice, Status
-from ..core.status import Outcome as Ended
 from ..parts.contact import STIFFNESS
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts, with_own
-from ..physics.friction.part import FrictionSettings
-from ..physics.stress.part import Stress, Yielding, stress_request
 from .build import Case, build
 from .document import TRACTIONS, ProblemDocument, checked, read_table
 
 if TYPE_CHECKING:
     from ..plots.picture import Figure
-    from .tractions import TractionsDocument
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +183,7 @@ def run(
         folder, where = Path(document).parent if base_folder is None else folder, f"{where} {document}"
         document = read_table(document)
     if isinstance(document, Mapping) and TRACTIONS in document:
-        from .tractions import checked_tractions
+        from .tractions import checked_tractions, run_tractions
 
         return run_tractions(checked_tractions(document, where), folder, stage=stage)
     known = with_own(parts)
@@ -266,28 +262,6 @@ def execute(
     statuses = [item.status for item in found.values() if item.status is not None]
     worst = next((item for item in statuses if not item.converged), next(iter(statuses), status))
     return Outcome(case, replace(solved, found=found), found, findings, worst if status.converged else status)
-
-
-def run_tractions(document: TractionsDocument, folder: Path, *, stage: Stage = no_stage, lines: bool = True) -> Outcome:
-    """Stresses under the tractions of ``document``, whose relative paths start at ``folder``; ``result`` is the ``LoadedBody``.
-
-    Raises
-    ------
-    InputError
-        If the document asks for what its body or grid does not have.
-    """
-    from .tractions import build_tractions
-
-    loaded: Any = build_tractions(document, folder)
-    request = stress_request(document.stress, FrictionSettings())
-    Stress().at_work.check(request, loaded.problem)
-    nothing: Any = None
-    solved = Solved(loaded.problem, nothing, loaded, threads=document.solver.threads, lines=lines, stage=stage)
-    found: dict[str, Found] = {}
-    both: tuple[Part, ...] = (Stress(), Yielding())
-    for part in both:
-        found[part.name] = part.at_work.compute(request, replace(solved, found=found))
-    return Outcome(None, replace(solved, found=found), found, (), Status(Ended.CONVERGED, "Stresses computed."))
 
 
 def analysed(

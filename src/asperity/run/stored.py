@@ -5,26 +5,26 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import asdict, replace
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..contact.result import ContactResult
 from ..core.quantity import Labelled
 from ..core.status import Advice
-from ..io.contacts import grid_lines, status_attributes, status_from
-from ..io.description import describe, software
+from ..io.contacts import grid_lines, status_attributes
+from ..io.kept import kept_from, kept_node
+from ..io.paths import status_in
 from ..io.results import contact_of, path_in, result_in, result_tree, root_attributes, whole
-from ..io.stress_files import field_from, field_node
 from ..io.tree import Node, datatree, read_tree, write_tree
 from ..parts.part import Found, Part, Solved, Stored, Table, Words
 from ..parts.registry import parts, versions
-from .document import TRACTIONS
 from .execute import Outcome, analysed
-from .tractions import FIELDS
 
 if TYPE_CHECKING:
     import xarray
+
+FIELD = "field"
+"""Kind of the fields that parts store, by the name of its group in a file of one alone."""
 
 OF_OUTCOME = "of_outcome"
 """Attribute of the root of a tree that holds the outcome of a document, not a result alone."""
@@ -44,7 +44,7 @@ def save_outcome(
     InputError
         If the problem holds a type that files cannot hold.
     """
-    write_tree(outcome_tree(outcome, document=document, title=title), path, overwrite=overwrite)
+    write_tree(outcome_tree(outcome, document=document, title=title, streamed=True), path, overwrite=overwrite)
 
 
 def outcome_to_xarray(outcome: Outcome) -> xarray.DataTree:
@@ -52,9 +52,9 @@ def outcome_to_xarray(outcome: Outcome) -> xarray.DataTree:
     return datatree(outcome_tree(outcome))
 
 
-def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = "") -> Node:
-    """Tree of ``outcome``."""
-    groups = dict(result_tree(outcome.path or outcome.result).children)
+def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = "", streamed: bool = False) -> Node:
+    """Tree of ``outcome``; where it is ``streamed`` the steps of a load path are made as they are written."""
+    groups = dict(result_tree(outcome.path or outcome.result, streamed=streamed).children)
     for part in outcome.parts:
         if part.name in outcome.found:
             groups[part.name] = part_group(part, outcome, groups.get(part.name, Node()))
@@ -65,25 +65,6 @@ def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = 
         "findings": json.dumps([asdict(finding) for finding in outcome.findings]),
     }
     return Node((), attributes | ({"report_title": title} if title else {}), groups)
-
-
-def save_tractions(outcome: Outcome, text: str, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write tractions and stresses of ``outcome``, and the ``text`` of its document, to the NetCDF-4 file ``path`` for ``open_tree``.
-
-    Raises OutputError if the file exists and ``overwrite`` is false, or cannot be written.
-    """
-    loaded: Any = outcome.result
-    fields = [Labelled(q, getattr(loaded.tractions, q.name)) for q in FIELDS]
-    body = {"body": json.dumps(describe(loaded.body)), "boundary": loaded.tractions.boundary}
-    groups = {TRACTIONS: Node((*grid_lines(outcome.result), *fields), body)}
-    groups |= {part.name: part_group(part, outcome) for part, _ in outcome.sections}
-    attributes = {
-        "title": "stresses under prescribed tractions",
-        "provenance": json.dumps({"created": datetime.now(UTC).isoformat(timespec="seconds"), "software": software()}),
-        "citation_keys": " ".join(outcome.citation_keys),
-        "document": text,
-    }
-    write_tree(Node((), attributes, groups), path, overwrite=overwrite)
 
 
 def load_outcome(path: str | Path) -> Outcome:
@@ -125,7 +106,7 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
     }
     _require_provenance(json.loads(tree.attributes["provenance"]))
     findings = tuple(Advice(**finding) for finding in json.loads(tree.attributes["findings"]))
-    outcome = Outcome(None, replace(solved, found=found), found, findings, status_from(tree.attributes))
+    outcome = Outcome(None, replace(solved, found=found), found, findings, status_in(tree.attributes))
     return replace(outcome, stored=dict(tree.attributes))
 
 
@@ -151,14 +132,19 @@ def part_group(part: Part, outcome: Outcome, before: Node = Node()) -> Node:
     words = asdict(found.words or part.at_work.words(found, outcome.solved))
     attributes = {"words": json.dumps(words), "facts": json.dumps(dict(stored.facts))}
     attributes |= {"title": part.title, "citation_keys": " ".join(found.citation_keys)}
-    fields = {name: field_node(field) for name, field in stored.fields.items()}
-    return Node(tuple(values), {**before.attributes, **attributes}, {**before.children, **fields})
+    fields = {name: kept_node(field, FIELD) for name, field in stored.fields.items()}
+    return replace(
+        before,
+        values=tuple(values),
+        attributes={**before.attributes, **attributes},
+        children={**before.children, **fields},
+    )
 
 
 def _found(part: Part, node: Node, solved: Solved, known: Any) -> Found:
     """Values and text of ``part`` from its group; ``known`` is the detail where the result itself holds it."""
     values = {item.quantity.name: item.values for item in node.values}
-    fields = {name: field_from(child) for name, child in node.children.items() if "xx" in child}
+    fields = {name: kept_from(child, FIELD) for name, child in node.children.items() if "xx" in child}
     stored = Stored(fields, json.loads(node.attributes["facts"]))
     made = part.at_work.made_from(solved.result) if known is None else None
     detail = known if known is not None else part.at_work.restored(stored, solved) if made is None else made.detail

@@ -1,8 +1,11 @@
-"""Documents with the table [tractions]: a body under prescribed loads, whose stresses are computed without any contact."""
+"""Documents with the table [tractions]: a body under prescribed loads, whose stresses are computed without any contact, and their files."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
+from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, Union
@@ -13,20 +16,29 @@ from pydantic import Field, model_validator
 from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, InputError
 from ..core.grid import Grid
-from ..core.quantity import Quantity
+from ..core.quantity import Labelled, Quantity
 from ..core.settings import Settings, setting, table_of, validated
+from ..core.status import Outcome as Ended
+from ..core.status import Status
 from ..core.text import require_file
 from ..core.units import show
 from ..core.values import NonEmpty, Points, Size
+from ..io.contacts import grid_lines
+from ..io.description import describe, software
 from ..io.schemas.bodies import BodyTable
 from ..io.schemas.problem import SolverTable
+from ..io.tree import Node, write_tree
 from ..io.words import Rows, body_text
+from ..parts.part import Found, Part, Solved, Stage, no_stage
 from ..physics.stress.loads import LineLoad, PatchLoad, PointLoad
-from ..physics.stress.part import StressSettings
+from ..physics.stress.part import Stress, StressSettings, Yielding, stress_request
 from ..physics.stress.tractions import LoadedBody, ShearTraction, Tractions
 from ..surfaces.formats import checked_size
 from ..surfaces.text_files import table as numbers_of
 from .build import build_body
+from .document import TRACTIONS
+from .execute import Outcome
+from .stored import part_group
 
 LOADS = MappingProxyType({"point": PointLoad, "line": LineLoad, "patch": PatchLoad})
 """What makes each kind of load; its table has the keys that it declares."""
@@ -179,3 +191,42 @@ def traction_rows(loaded: LoadedBody, document: TractionsDocument) -> Rows:
         ("forces along x and y", f"{show(along_x, 'N')}, {show(along_y, 'N')}{unit}"),
         ("largest pressure", show(float(tractions.pressure.max()), "Pa")),
     ]
+
+
+def run_tractions(document: TractionsDocument, folder: Path, *, stage: Stage = no_stage, lines: bool = True) -> Outcome:
+    """Stresses under the tractions of ``document``, whose relative paths start at ``folder``; ``result`` is the ``LoadedBody``.
+
+    Raises
+    ------
+    InputError
+        If the document asks for what its body or grid does not have.
+    """
+    loaded: Any = build_tractions(document, folder)
+    request = stress_request(document.stress)
+    Stress().at_work.check(request, loaded.problem)
+    nothing: Any = None
+    solved = Solved(loaded.problem, nothing, loaded, threads=document.solver.threads, lines=lines, stage=stage)
+    found: dict[str, Found] = {}
+    both: tuple[Part, ...] = (Stress(), Yielding())
+    for part in both:
+        found[part.name] = part.at_work.compute(request, replace(solved, found=found))
+    return Outcome(None, replace(solved, found=found), found, (), Status(Ended.CONVERGED, "Stresses computed."))
+
+
+def save_tractions(outcome: Outcome, text: str, path: str | Path, *, overwrite: bool = False) -> None:
+    """Write tractions and stresses of ``outcome``, and the ``text`` of its document, to the NetCDF-4 file ``path`` for ``open_tree``.
+
+    Raises OutputError if the file exists and ``overwrite`` is false, or cannot be written.
+    """
+    loaded: Any = outcome.result
+    fields = [Labelled(q, getattr(loaded.tractions, q.name)) for q in FIELDS]
+    body = {"body": json.dumps(describe(loaded.body)), "boundary": loaded.tractions.boundary}
+    groups = {TRACTIONS: Node((*grid_lines(outcome.result), *fields), body)}
+    groups |= {part.name: part_group(part, outcome) for part, _ in outcome.sections}
+    attributes = {
+        "title": "stresses under prescribed tractions",
+        "provenance": json.dumps({"created": datetime.now(UTC).isoformat(timespec="seconds"), "software": software()}),
+        "citation_keys": " ".join(outcome.citation_keys),
+        "document": text,
+    }
+    write_tree(Node((), attributes, groups), path, overwrite=overwrite)

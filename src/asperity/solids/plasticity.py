@@ -140,6 +140,14 @@ class PlasticState:
     back_stress: RealArray = measured("Pa", "back stress xx, yy, zz, xy, xz, yz", "point", "tensor")
     accumulated: RealArray = measured("1", "accumulated plastic strain", "point")
 
+    def require_sound(self) -> None:
+        """Refuse arrays of a file that do not fit each other, with a ValueError."""
+        if (
+            self.plastic_strain.shape != (*self.accumulated.shape, 6)
+            or self.back_stress.shape != self.plastic_strain.shape
+        ):
+            raise ValueError("plastic strain, back stress and accumulated strain do not fit each other")
+
     @classmethod
     def virgin(cls, shape: tuple[int, ...] = ()) -> PlasticState:
         """Points of ``shape`` that have not flowed."""

@@ -9,14 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..contact.boundary import Periodic
-from ..contact.law import HardWall
+from ..contact.law import HardWall, LimitByDepth
 from ..contact.problem import ContactProblem
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import AsperityError, InputError
 from ..core.parameters import parameters
 from ..core.units import show
-from ..physics.hardness.layered import LayeredHardness
 from ..solids.layers import Layered, weaker_strength
 from ..theories.protocol import Limit, Prediction, SurfaceTheory, Theory
 from ..theories.statistics.roughness import Roughness
@@ -108,7 +107,7 @@ def known_of_bodies(problem: ContactProblem) -> dict[str, float]:
     """
     found = weaker_strength(problem.body, problem.counter_body)
     cap = problem.law.pressure_cap()
-    if isinstance(problem.law, LayeredHardness) or isinstance(cap, np.ndarray):
+    if isinstance(problem.law, LimitByDepth) or isinstance(cap, np.ndarray):
         found.pop("hardness", None)
     elif math.isfinite(cap):
         found["hardness"] = cap

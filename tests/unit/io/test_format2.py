@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
-from stored_cases import CASES, told
+from stored_cases import told
 
 import asperity as asp
 from asperity.contact.result import OF_EDGES
@@ -15,7 +15,7 @@ FOLDER = Path(__file__).parents[2] / "reference" / "files-v2"
 FACTS = json.loads((FOLDER / "facts.json").read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", FACTS)
 def test_every_type_of_result(name: str) -> None:
     """All but what follows from the edges of contacts, which counts them otherwise than that version."""
     found = told(asp.load(FOLDER / f"{name}.nc"))

@@ -84,7 +84,7 @@ def test_damaged_states_are_refused(tmp_path: Path) -> None:
     tree = read_tree(tmp_path / "whole.nc")
     group = tree.children["pass_state"]
     attributes = {key: value for key, value in tree.attributes.items() if key != "asperity_format"}
-    short = tuple(item for item in group.values if item.quantity.name != "back_stress")
+    short = tuple(item for item in group.values if item.quantity.name != "plastic_back_stress")
     write_tree(Node((), attributes, {"pass_state": Node(short, group.attributes)}), tmp_path / "short.nc")
     with refused(FileFormatError, "result file"):
         asp.load(tmp_path / "short.nc")

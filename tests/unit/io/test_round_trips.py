@@ -14,7 +14,7 @@ import h5py
 import numpy as np
 import pytest
 from refusals import refused
-from stored_cases import CASES, goes_on, ground, told
+from stored_cases import CASES, GO_ON, goes_on, ground, told
 
 import asperity as asp
 from asperity.contact.answer import Answer
@@ -73,23 +73,23 @@ def test_a_single_contact_and_its_state(name: str, step: int, solved: dict[str, 
     assert told(asp.load(tmp_path / "r.nc")) == told(result)
 
 
-@pytest.mark.parametrize("name", ["wet", "adhesive", "creeping", "sticking", "flowing"])
+@pytest.mark.parametrize("name", ["wet", "adhesive", "creeping", "sticking", "flowing", "single", *GO_ON])
 def test_a_restart_in_a_fresh_process(name: str, solved: dict[str, Any], tmp_path: Path) -> None:
-    """From the state of the first step of a path, in another process: the second one to the bit."""
+    """From the state of the first step of a path, or from another result, in another process: what follows to the bit."""
     path = solved[name]
     asp.save(path, tmp_path / "path.nc")
     code = (
         "import json, sys\nimport asperity as asp\nfrom stored_cases import goes_on, told\n"
-        "found = goes_on(asp.load(sys.argv[1]))\njson.dump(told(found), sys.stdout)\n"
+        "found = goes_on(asp.load(sys.argv[1]), sys.argv[2])\njson.dump(told(found), sys.stdout)\n"
     )
-    asked = [sys.executable, "-c", code, str(tmp_path / "path.nc")]
+    asked = [sys.executable, "-c", code, str(tmp_path / "path.nc"), name]
     places = [Path(__file__).parents[2], Path(asp.__file__).parents[1]]
     there = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, places))}
     done = subprocess.run(asked, capture_output=True, text=True, check=False, env=there)
     assert done.returncode == 0, done.stderr
     # the bound of the pressure's error is made of sums whose order may be another in a process that has just begun
     times = ("wall_time", "peak_memory", "pressure_error")
-    assert without(json.loads(done.stdout), *times) == without(told(goes_on(path)), *times)
+    assert without(json.loads(done.stdout), *times) == without(told(goes_on(path, name)), *times)
 
 
 # A physics of one's own.

@@ -71,6 +71,25 @@ def test_netcdf_holds_the_field(contact, tmp_path, streamed):
     np.testing.assert_array_equal(again.displacement.z, field.displacement.z)
 
 
+@pytest.mark.parametrize("streamed", [False, True])
+def test_the_largest_stresses_at_edges_come_back(contact, tmp_path, streamed):
+    """Also those of a region and of a plane; not those of a sum with another field."""
+    field = asp.stress(contact, DEPTHS, friction=0.3)
+    assert field.surface_maxima is not None
+    asp.files.save_stress(
+        asp.stresses.stress_planes(contact, DEPTHS, friction=0.3) if streamed else field, tmp_path / "s.nc"
+    )
+    again = asp.load(tmp_path / "s.nc")
+    assert repr(again.surface_maxima) == repr(field.surface_maxima)
+    assert repr(again.largest_tension) == repr(field.largest_tension)
+    assert repr(again.only(0).largest_tension) == repr(field.only(0).largest_tension)
+    assert again.only(1).surface_maxima is None
+    assert repr(asp.first_yield(again)) == repr(asp.first_yield(field))
+    deeper = asp.stress(contact, DEPTHS[1:], friction=0.3)
+    asp.files.save_stress(deeper, tmp_path / "deeper.nc")
+    assert asp.load(tmp_path / "deeper.nc").surface_maxima is None
+
+
 def test_netcdf_of_a_section_and_a_profile(contact, tmp_path):
     section = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"), dtype="float32")
     asp.files.save_stress(section, tmp_path / "section.nc")

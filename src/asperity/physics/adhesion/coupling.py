@@ -24,7 +24,6 @@ from ...contact.problem import ContactProblem
 from ...contact.solvers.protocol import FixedMean, FixedOffset
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import NoSolutionError
-from ..friction.law import Coulomb
 from .answer import AdhesiveContact, pixels_in_length
 from .jkr import JKRAdhesion
 from .law import Adhesion, SoftAdhesion, cohesive_length
@@ -127,8 +126,7 @@ class AdhesionCoupling(Coupling):
             solver = SoftCoreNewton(tolerance=0.1 * tolerance)
         conserves = (
             isinstance(problem.law, HardWall)
-            and problem.plastic_flow is None
-            and (problem.friction is None or (isinstance(problem.friction, Coulomb) and not problem.friction.couples))
+            and all(item.conserves() for item in problem.physics)
             and not isinstance(problem.adhesion, JKRAdhesion)
         )
         return cls(problem.adhesion, operator, problem.contact_modulus, conserves, solver, tolerance)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import ConvergenceError, InputError
-from ...core.quantity import Quantity
+from ...core.quantity import Quantity, measured
 
 QUANTITIES = (
     Quantity("displacement", "m", "displacement along the sliding direction"),
@@ -43,8 +43,8 @@ ENERGIES = (
 class Event:
     """What happened at a ``time`` in s: ``kind`` is "stick", "slip", "loss of contact", "contact" or "disturbance"."""
 
-    time: float
-    kind: str
+    time: float = measured("s", "when it happened")
+    kind: str = measured("", "what happened")
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,11 +65,16 @@ class Motion:
         Number of evaluations of the rates.
     """
 
-    time: RealArray
-    values: Mapping[str, RealArray]
-    events: tuple[Event, ...] = ()
-    end: tuple[float, ...] = ()
-    evaluations: int = 0
+    time: RealArray = measured("s", "time", "time")
+    values: Mapping[str, RealArray] = measured("", "what moved", "time", columns=(*QUANTITIES, *ENERGIES))
+    events: tuple[Event, ...] = measured("", "what happened", default=())
+    end: tuple[float, ...] = measured("", "state at the end, from which the model moves on", default=())
+    evaluations: int = measured("1", "evaluations of the rates", default=0)
+
+    def require_sound(self) -> None:
+        """Refuse values of a file that are not over the time, with a ValueError."""
+        if self.time.ndim != 1 or any(item.shape != self.time.shape for item in self.values.values()):
+            raise ValueError("values of the motion are not over its time")
 
     def __getitem__(self, name: str) -> RealArray:
         """Values of the quantity ``name``.

@@ -196,15 +196,16 @@ class Dynamics(Part):
     def asked(self, document: Any, folder: Path) -> Moving:
         """The table [dynamics] with speed and friction."""
         settings: DynamicsSettings = document.dynamics
-        friction = document.friction
-        if settings.model != "mass" and not friction.speed:
+        friction = getattr(document, "friction", None)
+        speed, coefficient = (friction.speed or 0.0, friction.coefficient) if friction is not None else (0.0, 0.0)
+        if settings.model != "mass" and not speed:
             raise InputError(
                 "speed must be given for the motion along the surface, but is missing. Give friction.speed (--speed 1mm/s).",
                 subject="friction.speed",
             )
-        if settings.model != "mass" and not friction.coefficient and document.film is None:
+        if settings.model != "mass" and not coefficient and getattr(document, "film", None) is None:
             raise InputError(
                 "friction must be given for the motion along the surface, but its coefficient is 0. Give friction.coefficient (--friction 0.3).",
                 subject="friction.coefficient",
             )
-        return Moving(settings, float(friction.speed or 0.0), float(friction.coefficient))
+        return Moving(settings, float(speed), float(coefficient))

@@ -15,7 +15,7 @@ from ...contact.couplings.protocol import Memory
 from ...contact.problem import ContactProblem
 from ...contact.tangential import Shift, Tangential, TangentialForce
 from ...core.arrays import BoolArray, RealArray
-from ...core.quantity import given, measured
+from ...core.quantity import Labelled, Quantity, given, measured, stored_quantities
 from ...core.status import Advice, Status
 from ...core.units import show
 from .law import FrictionLaw
@@ -161,6 +161,24 @@ class StickSlip(Answer):
         """(nx, ny), True where the surfaces slipped in this step."""
         return np.asarray(np.any(self.slip_increment != 0.0, axis=0))
 
+    def tabled(self, result: Any) -> Iterator[Labelled]:
+        """``NUMBERS`` and ``MEASURES``; NaN where there is nothing to divide by."""
+        yield from (Labelled(item, float(getattr(self, item.name))) for item in NUMBERS)
+        touching = int(np.count_nonzero(result.contact))
+        slipping = int(np.count_nonzero(self.slipping & result.contact))
+        along = self.force_x * self.shift_x + self.force_y * self.shift_y
+        squared = self.shift_x**2 + self.shift_y**2
+        finite = 0.0 < self.friction_limit < math.inf
+        measures = (
+            math.hypot(self.force_x, self.force_y) / self.friction_limit if finite else math.nan,
+            1.0 - slipping / touching if touching else math.nan,
+            slipping / touching if touching else math.nan,
+            float(np.hypot(*self.slip).max()),
+            float(self.traction_magnitude.max()),
+            along / squared if squared > 0.0 else math.nan,
+        )
+        yield from (Labelled(item, value) for item, value in zip(MEASURES, measures, strict=True))
+
     def work_by(self, moved: RealArray, displaced: RealArray, pixel: float) -> float:
         """Work (J) of tangential force and torque while the counter body ``moved`` (3,), on points of ``pixel`` m².
 
@@ -185,6 +203,36 @@ class StickSlip(Answer):
             "force": np.array(force),
             "dissipated": np.asarray(self.total_dissipated),
         }
+
+
+_STORED = {item.name: item for item in stored_quantities(StickSlip)}
+
+NUMBERS = tuple(
+    _STORED[name]
+    for name in (
+        "force_x",
+        "force_y",
+        "torque",
+        "shift_x",
+        "shift_y",
+        "twist",
+        "friction_limit",
+        "dissipated",
+        "total_dissipated",
+        "tangential_energy",
+    )
+)
+"""Numbers that a ``StickSlip`` holds."""
+
+MEASURES = (
+    Quantity("friction_share", "1", "tangential force / largest that friction bears"),
+    Quantity("stick_area_fraction", "1", "sticking area / real contact area (pixels)"),
+    Quantity("slip_area_fraction", "1", "area that slips in the last step / real contact area (pixels)"),
+    Quantity("max_slip", "m", "largest slip since the start"),
+    Quantity("max_shear_traction", "Pa", "largest shear traction"),
+    Quantity("secant_stiffness", "N/m", "tangential force along the shift / shift"),
+)
+"""Numbers that follow from its fields."""
 
 
 def slides_freely(control: Tangential, limit: float) -> bool:

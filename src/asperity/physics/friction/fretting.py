@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,37 +10,8 @@ import numpy as np
 
 from ...contact.result import ContactResult
 from ...core.arrays import RealArray
-from ...core.quantity import Quantity, stored_quantities
-from .answer import StickSlip
-
-_STORED = {item.name: item for item in stored_quantities(StickSlip)}
-
-NUMBERS = tuple(
-    _STORED[name]
-    for name in (
-        "force_x",
-        "force_y",
-        "torque",
-        "shift_x",
-        "shift_y",
-        "twist",
-        "friction_limit",
-        "dissipated",
-        "total_dissipated",
-        "tangential_energy",
-    )
-)
-"""Numbers that a ``StickSlip`` holds."""
-
-MEASURES = (
-    Quantity("friction_share", "1", "tangential force / largest that friction bears"),
-    Quantity("stick_area_fraction", "1", "sticking area / real contact area (pixels)"),
-    Quantity("slip_area_fraction", "1", "area that slips in the last step / real contact area (pixels)"),
-    Quantity("max_slip", "m", "largest slip since the start"),
-    Quantity("max_shear_traction", "Pa", "largest shear traction"),
-    Quantity("secant_stiffness", "N/m", "tangential force along the shift / shift"),
-)
-"""Numbers that follow from its fields."""
+from ...core.units import show
+from .answer import MEASURES, NUMBERS
 
 SHEAR_SCALARS = (*NUMBERS, *MEASURES)
 """Every scalar of stick and slip in the order of tables."""
@@ -61,22 +31,7 @@ def shear_numbers(result: ContactResult) -> dict[str, float]:
 
     InputError if the result has no stick and slip.
     """
-    found = result.require_stick_slip()
-    touching = int(np.count_nonzero(result.contact))
-    slipping = int(np.count_nonzero(found.slipping & result.contact))
-    along = found.force_x * found.shift_x + found.force_y * found.shift_y
-    squared = found.shift_x**2 + found.shift_y**2
-    force = math.hypot(found.force_x, found.force_y)
-    finite = 0.0 < found.friction_limit < math.inf
-    return {
-        **{item.name: float(getattr(found, item.name)) for item in NUMBERS},
-        "friction_share": force / found.friction_limit if finite else math.nan,
-        "stick_area_fraction": 1.0 - slipping / touching if touching else math.nan,
-        "slip_area_fraction": slipping / touching if touching else math.nan,
-        "max_slip": float(np.hypot(*found.slip).max()),
-        "max_shear_traction": float(found.traction_magnitude.max()),
-        "secant_stiffness": along / squared if squared > 0.0 else math.nan,
-    }
+    return {item.quantity.name: item.values for item in result.require_stick_slip().tabled(result)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,6 +81,11 @@ def loop_of(steps: Sequence[ContactResult]) -> Loop:
         np.array([item.dissipated for item in found]),
         _cycles(shift),
     )
+
+
+def step_texts(steps: Sequence[ContactResult]) -> list[str]:
+    """The shift of each of the ``steps`` of a history with stick and slip, in words."""
+    return [f"shift {show(float(shift), 'm', 4)}" for shift in loop_of(steps).shift]
 
 
 def _cycles(shift: RealArray) -> tuple[tuple[int, int], ...]:

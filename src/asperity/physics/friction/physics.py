@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Self
@@ -52,6 +53,22 @@ class Rubbing(Physics):
                 raise InputError(
                     f"{what} must have the shape {problem.surface.shape} of the surface, but has {found.shape}."
                 )
+
+    def conserves(self) -> bool:
+        """Where shear leaves the pressure as it is: then it is not solved."""
+        return isinstance(self.law, Coulomb) and not self.law.couples
+
+    @property
+    def slides(self) -> bool:
+        """Under plain Coulomb friction."""
+        return isinstance(self.law, Coulomb)
+
+    def shear(self, pressure: RealArray) -> RealArray | None:
+        """The coefficient times the pressure, along the direction."""
+        if not isinstance(self.law, Coulomb) or not np.any(self.law.coefficient):
+            return None
+        size = self.law.coefficient * pressure
+        return np.stack([math.cos(self.law.direction) * size, math.sin(self.law.direction) * size])
 
     def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
         """Shear of stick and slip, or of gross sliding where that changes the pressure."""

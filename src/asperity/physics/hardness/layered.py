@@ -12,6 +12,7 @@ from ...contact.law import Hardness
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.units import show
 from ...solids.elastic import Elastic
 from ...solids.layers import Layered
 from ...theories.hardness.effective_hardness import EffectiveHardness, StackHardness
@@ -85,6 +86,12 @@ class LayeredHardness:
         base = self.body.reduced.base
         assert isinstance(base, Elastic)
         return base.strength.hardness
+
+    @property
+    def limit_text(self) -> str:
+        """The limit in words."""
+        top, base = show(self.pressure_cap(), "Pa"), show(self.base_hardness, "Pa")
+        return f"{top} at the surface to {base} deep in the base, by local indentation"
 
     def cap_at(self, indentation: RealArray) -> float | RealArray:
         """Largest pressure (nx, ny) in Pa where the surface is indented by ``indentation`` (nx, ny) in m."""

@@ -177,5 +177,7 @@ class Passes(Part):
     def asked(self, document: Any, folder: Path) -> Passing:
         """The table [passes] with the friction of the contact."""
         table: PassesSettings = document.passes
-        friction = document.friction
-        return Passing(table, float(friction.coefficient or 0.0) if friction.law == "coulomb" else 0.0)
+        friction = getattr(document, "friction", None)
+        slides = friction is not None and friction.law == "coulomb"
+        coefficient: Any = getattr(friction, "coefficient", None) if slides else None
+        return Passing(table, float(coefficient or 0.0))

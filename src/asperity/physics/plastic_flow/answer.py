@@ -133,6 +133,10 @@ class PlasticBody(Answer):
         """Energy of the residual stress."""
         return self.residual_energy
 
+    def contradicted(self) -> tuple[str, ...]:
+        """Scalars of a limit of the pressure, which are zero without a hardness beside the work of the flow in the volume."""
+        return "plastic_work", "total_plastic_work", "plastic_area_fraction", "indented_area"
+
     def flows(self) -> float:
         """Plastic work of this step."""
         return self.step_work

@@ -8,7 +8,6 @@ would not settle where the contact gives way more by flow than elastically. The 
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
 from typing import ClassVar, Self
 
@@ -30,7 +29,6 @@ from ...solids.eigenstrain.operator import EigenstrainOperator
 from ...solids.elastic import Elastic
 from ...solids.layers import Layered, RigidBase
 from ...solids.plasticity import J2, WEIGHTS, LinearHardening
-from ..friction.law import Coulomb
 from .answer import NAME, REMEDY, PlasticBody, PlasticZone
 from .law import PlasticFlow, plastic_body
 from .residual_stress import operator_of
@@ -240,11 +238,8 @@ class PlasticFlowCoupling(Coupling):
 
     def _shear(self, pressure: RealArray) -> RealArray | None:
         """Shear traction (2, nx, ny) in Pa on the plastic body of a sliding contact."""
-        friction = self.problem.friction
-        if not isinstance(friction, Coulomb):
-            return None
-        size = self.sign * friction.coefficient * pressure
-        return np.stack([math.cos(friction.direction) * size, math.sin(friction.direction) * size])
+        shear = self.problem.shear(pressure)
+        return None if shear is None else self.sign * shear
 
     def _mapped(self, course: _Course, pressure: RealArray) -> tuple[RealArray, float]:
         """Step of the plastic strain by the return mapping under ``pressure``; goes deeper where the deepest cell begins to flow."""

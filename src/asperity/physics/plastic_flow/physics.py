@@ -15,7 +15,6 @@ from ...solids.eigenstrain.cells import stack_of
 from ...solids.layers import materials_of
 from ...solids.plasticity import J2, LinearHardening, Swift, Voce
 from ...solids.viscoelastic import Viscoelastic
-from ..friction.law import Coulomb
 from .law import PlasticFlow, plastic_body
 
 if TYPE_CHECKING:
@@ -45,9 +44,13 @@ class Flowing(Physics):
             raise TypeError
         return cls(given)
 
+    def conserves(self) -> bool:
+        """It dissipates."""
+        return False
+
     def check(self, problem: ContactProblem) -> None:
         """Bodies, boundary and the other physics that a flow goes with."""
-        friction = None if isinstance(problem.friction, Coulomb | None) else problem.friction
+        friction = next((item.given for item in problem.physics if item.slides is False), None)
         for found, what, remedy in (
             (
                 problem.law if not isinstance(problem.law, HardWall) else None,

@@ -23,7 +23,6 @@ from ...solids.elastic import Elastic
 from ...solids.layers import Layered
 from ...solids.plasticity import J2, von_mises
 from ...solids.strength import plastic_parts
-from ..friction.law import Coulomb
 from .answer import PlasticBody
 from .figures import IMPRINT_MAP, ImprintMap, plots_of
 from .law import PlasticFlow as Law
@@ -153,14 +152,9 @@ def _peak(solved: Solved) -> ContactResult:
 
 def _tractions(result: ContactResult) -> tuple[RealArray, RealArray | None]:
     """Pressure and shear on the body that flows."""
-    friction = result.problem.friction
-    if not isinstance(friction, Coulomb) or not np.any(friction.coefficient):
-        return result.pressure, None
+    shear = result.problem.shear(result.pressure)
     sign = plastic_body(result.problem.body, result.problem.counter_body)[1]
-    shear = friction.coefficient * result.pressure
-    return result.pressure, sign * np.stack(
-        [math.cos(friction.direction) * shear, math.sin(friction.direction) * shear]
-    )
+    return result.pressure, None if shear is None else sign * shear
 
 
 def _tensions(

@@ -25,6 +25,7 @@ from ...contact.tangential import about_centre, resultant
 from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import ConvergenceError, InputError, NoSolutionError
+from ...core.quantity import given, measured
 from ...core.status import Outcome, Status
 from ..friction.law import FrictionLaw
 from ..friction.operator import TangentialOperator
@@ -74,9 +75,9 @@ class Creepage:
         If a number is not finite.
     """
 
-    x: float = 0.0
-    y: float = 0.0
-    spin: float = 0.0
+    x: float = measured("1", "creepage along the rolling direction", default=0.0)
+    y: float = measured("1", "creepage across the rolling direction", default=0.0)
+    spin: float = measured("rad/m", "spin", default=0.0)
 
     def __post_init__(self) -> None:
         require.finite(self.x, "creepage along the rolling direction")
@@ -124,21 +125,32 @@ class RollingContact:
         That in which the contact rolls: ``"x"``, ``"-x"``, ``"y"`` or ``"-y"``.
     """
 
-    normal: ContactResult
-    creepage: Creepage
-    traction: RealArray
-    slip: RealArray
-    force_x: float
-    force_y: float
-    torque: float
-    friction_limit: float
-    power_density: RealArray
-    dissipated: float
-    steadiness: float
-    steps: int
-    status: Status
-    law: FrictionLaw
-    direction: Rolling = "x"
+    normal: ContactResult = given()
+    creepage: Creepage = measured("", "what was prescribed")
+    traction: RealArray = measured("Pa", "shear traction on the body", "component", "x", "y")
+    slip: RealArray = measured(
+        "1", "slip velocity of the counter body over the body / rolling speed", "component", "x", "y"
+    )
+    force_x: float = measured("N", "force on the body along x")
+    force_y: float = measured("N", "force on the body along y")
+    torque: float = measured("N*m", "torque on the body about the centre")
+    friction_limit: float = measured("N", "largest tangential force that the contact bears")
+    power_density: RealArray = measured("J/m**3", "energy turned into heat per area and distance rolled", "x", "y")
+    dissipated: float = measured("J/m", "heat per distance rolled")
+    steadiness: float = measured("1", "error of the friction law, or change by the last move")
+    steps: int = measured("1", "Newton steps or moves")
+    status: Status = measured("", "how it ended")
+    law: FrictionLaw = measured("", "friction law, as JSON")
+    direction: Rolling = measured("", "direction of rolling", default="x")
+
+    def require_sound(self) -> None:
+        """Refuse what is no rolling contact on the grid of the contact beside, with a ValueError."""
+        shape = self.normal.problem.grid.shape
+        fields = (*self.traction, *self.slip, self.power_density)
+        if len(self.traction) != 2 or any(item.shape != shape or item.dtype.kind != "f" for item in fields):
+            raise ValueError("fields of the rolling contact are not those of its grid")
+        if self.direction not in DIRECTIONS:
+            raise ValueError(f"direction: {self.direction!r}")
 
     @property
     def slipping(self) -> BoolArray:

@@ -12,10 +12,12 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.late import Stored
-from ...core.quantity import Quantity
+from ...core.quantity import Quantity, given, measured
 from ...core.tensor import Displacement, StressTensor
+from ...core.units import show
 from ...solids.library import full_name
 from . import criteria as invariants
+from .peaks import peak_text
 from .regions import Plane, Region
 
 DERIVED = (
@@ -44,14 +46,14 @@ class Peak:
     ``doubt`` is empty, or says why the value, that of the field, is but a lower bound.
     """
 
-    value: float
-    x: float
-    y: float
-    depth: float
-    region: Region
-    side: str
-    error: float = math.nan
-    doubt: str = ""
+    value: float = measured("Pa", "extreme value")
+    x: float = measured("m", "x of the extreme value")
+    y: float = measured("m", "y of the extreme value")
+    depth: float = measured("m", "depth of the extreme value")
+    region: Region = given()
+    side: str = measured("", "position in the region")
+    error: float = measured("Pa", "bound of the error by the size of the pixels", default=math.nan)
+    doubt: str = measured("", "why it is but a lower bound", default="")
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +70,10 @@ class SurfaceMaxima:
         """The larger of that ``name`` here and ``peak``, the largest at the points of planes, which at the surface it replaces."""
         own: Peak = getattr(self, name)
         return own if peak.side == "surface" or own.value > peak.value else peak
+
+
+MAXIMA = ("tension", "von_mises", "shear", "in_plane")
+"""Names of the largest stresses at a surface."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +130,7 @@ class StressField(Stored):
         Whether the grid has one point along y, as in plane strain.
     at_edges
         Finds the largest stresses at the surface with the edges of the contact, of the tensor that was computed and of no other; None where there is
-        no contact, and in fields from files.
+        no contact. Fields from files know them where they hold the whole plane at the surface.
     """
 
     planes: tuple[Plane, ...]
@@ -138,6 +144,23 @@ class StressField(Stored):
     single_row: bool = False
     at_edges: OfTensor | None = None
 
+    def in_words(self) -> tuple[str, list[tuple[str, str]]]:
+        """Heading, planes and largest stresses."""
+        counts = " × ".join(
+            f"{n} along {axis}" for n, axis in zip(self.tensor.xx.shape[1:], self.dims[1:], strict=True)
+        )
+        first, last = (show(float(self.depth[end]), "m") for end in (0, -1))
+        rows = [
+            ("planes", f"{len(self.planes)}, depths {first} to {last}"),
+            ("points of a plane", counts or "one"),
+            ("regions", " / ".join(dict.fromkeys(region.name for region in self.regions))),
+        ]
+        for name, peak in (("von_mises", self.largest_von_mises), ("max_principal", self.largest_tension)):
+            quantity = next(item for item in DERIVED if item.name == name)
+            place = f"in {peak.region.name} at a depth of {show(peak.depth, 'm')}"
+            rows.append((f"largest {quantity.label.removeprefix('largest ')}", f"{peak_text(peak)} {place}"))
+        return "Stress field", rows
+
     @property
     def surface_maxima(self) -> SurfaceMaxima | None:
         """Largest stresses at the surface, with the edges of the contact that lie between the points; None where these are not known.
@@ -150,7 +173,7 @@ class StressField(Stored):
     def largest(self, name: str, plane: int | None = None) -> Peak:
         """Largest ``tension`` (σ1), ``von_mises``, ``shear`` ((σ1 - σ3)/2) or ``in_plane`` principal stress with its place, of all planes or one; at the surface
         with its error."""
-        require.one_of(name, ("tension", "von_mises", "shear", "in_plane"), "largest stress")
+        require.one_of(name, MAXIMA, "largest stress")
         values = {"tension": "max_principal", "shear": "max_shear", "in_plane": "principal_tensile"}.get(name, name)
         peak = self.peak(getattr(self, values), plane)
         at_surface = plane is None or self.planes[plane].side == "surface"

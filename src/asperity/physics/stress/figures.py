@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import groupby
 from textwrap import wrap
@@ -19,12 +19,13 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.quantity import Quantity
 from ...core.units import show
-from ...plots.maps import Depth, Field, Look, enlarge_island, limits, plot_field
+from ...plots.maps import Cut, Depth, Field, Look, enlarge_island, limits, plot_field
 from ...plots.picture import (
     BAR,
     BAR_ROOM,
     BLACK,
     BLUE,
+    CURVE_SIZE,
     GREEN,
     ORANGE,
     PURPLE,
@@ -188,22 +189,6 @@ def _look(kind: Quantity, place: str = "") -> Look:
     colours, label = (UNSIGNED_MAP if magnitude else SIGNED_MAP), ", ".join(filter(None, (kind.label, place)))
     reduced = "max" if magnitude else "mean"
     return Look("Pa", label, colours, from_zero=magnitude, about_zero=not magnitude, reduced=reduced)
-
-
-@dataclass(frozen=True, eq=False)
-class Cut:
-    """A stress on a vertical section: ``values`` (planes, points) in Pa, the field they belong to, look and range of the colours."""
-
-    field: StressField
-    values: RealArray
-    look: Look
-    range: tuple[float, float]
-
-    @property
-    def layers(self) -> tuple[tuple[str, float, float], ...]:
-        """Name, top and bottom (m) of the layers, neighbours of one name as one."""
-        runs = [list(run) for _, run in groupby(self.field.regions, key=lambda region: region.name)]
-        return tuple((run[0].name, run[0].top, run[-1].bottom) for run in runs)
 
 
 def _cut(field: StressField, quantity: str) -> Cut:
@@ -414,3 +399,14 @@ def close_up(field: StressField, quantity: str, *, wraps: bool = False) -> Stres
     tensor = field.tensor.map(lambda component: component.take(part, 1, mode="wrap"))
     lines = {"x": field.x, "y": field.y} | {axis: line[0] + step * part}
     return replace(field, tensor=tensor, x=lines["x"], y=lines["y"])
+
+
+def figure_of(field: StressField, kind: str) -> tuple[Callable[..., Axes], tuple[float, float]]:
+    """What draws the stress ``kind`` of ``field`` on axes, von Mises' if it is empty, and the size in inches."""
+    if field.dims == ("plane",):
+        return lambda ax, **options: plot_stress_profile(field, ax, *([(kind,)] if kind else []), **options), CURVE_SIZE
+    wanted = require.one_of(kind or "von_mises", QUANTITIES, "stress to draw")
+    if len(field.dims) == 3:
+        size = map_size(Grid((field.x.size, field.y.size), field.spacing))
+        return lambda ax, **options: plot_stress_map(field, ax, wanted, **options), size
+    return lambda ax, **options: plot_stress_section(field, ax, wanted, **options), SECTION_SIZE

@@ -164,7 +164,7 @@ class Stress(Part):
 
     def asked(self, document: Any, folder: Path) -> StressRequest:
         """The request of the table [stress], with the friction of the table [friction]."""
-        return stress_request(document.stress, document.friction)
+        return stress_request(document.stress, getattr(document, "friction", None))
 
 
 class Yielding(Part):
@@ -177,8 +177,8 @@ class Yielding(Part):
     work = "physics.stress.work:YieldingWork"
 
 
-def stress_request(table: StressSettings, friction: FrictionSettings) -> StressRequest:
-    """Stresses that ``table`` requests; the section through the maximum where it requests none."""
+def stress_request(table: StressSettings, friction: FrictionSettings | None = None) -> StressRequest:
+    """Stresses that ``table`` requests, under ``friction``; the section through the maximum where it requests none."""
     from .criteria import Tresca, VonMises
     from .survey import Strengths, StressRequest, WantedProfile, WantedSection
 
@@ -190,9 +190,9 @@ def stress_request(table: StressSettings, friction: FrictionSettings) -> StressR
     profiles = tuple(WantedProfile(_place(wanted.x), _place(wanted.y)) for wanted in table.profiles)
     strengths = {name: given[f"{name}_strength"] for name in vars(Strengths()) if f"{name}_strength" in given}
     return StressRequest(
-        friction=friction.coefficient if table.shear else 0.0,
-        direction=friction.direction,
-        coupled=bool(friction.coupled),
+        friction=friction.coefficient if friction is not None and table.shear else 0.0,
+        direction=0.0 if friction is None else friction.direction,
+        coupled=friction is not None and bool(friction.coupled),
         sheared=table.shear,
         of="counter_body" if table.inside == "counter_body" else "body",
         depths=table.depths,

@@ -304,6 +304,52 @@ class StressSurvey:
         """The whole planes that were asked for, one by one."""
         return self.planes(self.request.depths) if self.request.depths else iter(())
 
+    def table(self) -> Iterator[tuple[Any, ...]]:
+        """Maxima, interface tractions and load factors, one row each; x and y in the middle of a pixel, as in figures."""
+        yield (
+            "part",
+            "name",
+            "top",
+            "bottom",
+            "quantity",
+            "value",
+            "unit",
+            "x",
+            "y",
+            "depth",
+            "side",
+            "error",
+            "doubt",
+        )
+        grid, root = self.result.problem.grid, math.sqrt(1.0 / 3.0)
+
+        def at(peak: Peak) -> tuple[Any, ...]:
+            x, y = (place + 0.5 * step for place, step in zip((peak.x, peak.y), grid.spacing, strict=True))
+            return peak.value, "Pa", x, y, peak.depth, peak.side, peak.error, peak.doubt
+
+        for part in self.maxima:
+            region = ("layer", part.region.name, part.region.top, part.region.bottom)
+            yield (*region, "max_von_mises", *at(part.von_mises))
+            yield (
+                *region,
+                "max_sqrt_J2",
+                *at(replace(part.von_mises, value=root * part.von_mises.value, error=root * part.von_mises.error)),
+            )
+            yield (*region, "max_principal", *at(part.tension))
+            yield (*region, "max_shear", *at(part.shear))
+        for name, peak in self.whole.items():
+            yield ("body", "", "", "", f"max_{name}", *at(peak))
+        for item in self.interfaces:
+            pair = ("interface", f"{item.above}/{item.below}", item.shear.depth, item.shear.depth)
+            yield (*pair, "max_shear", *at(item.shear))
+            yield (*pair, "max_peel", *at(item.peel))
+        for state in self.yielding.regions:
+            region = ("layer", state.region.name, state.region.top, state.region.bottom)
+            place = (*at(state.peak)[2:6], state.load_factor_error, state.peak.doubt)
+            yield (*region, "yield_stress", state.limit.value, "Pa", "", "", "", "", "", "")
+            yield (*region, "load_factor_to_yield", state.load_factor, "1", *place)
+            yield (*region, "yielded_volume", state.yielded_volume, "m**3", "", "", "", "", "", "")
+
 
 def survey(
     request: StressRequest,

@@ -11,6 +11,7 @@ import numpy as np
 from ...core import require
 from ...core.errors import InputError, NoSolutionError
 from ...core.late import Shown
+from ...core.units import show
 from .criteria import Criterion, Limit, VonMises
 from .field import Peak, StressField, SurfaceMaxima
 from .regions import Region
@@ -67,6 +68,13 @@ class YieldReport(Shown):
 
     criterion: Criterion
     regions: tuple[RegionYield, ...]
+
+    def line(self) -> str:
+        """Largest stress, strength and place."""
+        worst = self.first or max(self.regions, key=lambda part: part.peak.value)
+        stress = f"{self.criterion.name} {show(worst.peak.value, 'Pa')}"
+        limit = f"of {show(worst.limit.value, 'Pa')}, load factor {worst.load_factor:.3g}"
+        return f"YieldReport: {stress} {limit if self.first else 'of unknown strength'}, {worst.place}"
 
     @property
     def first(self) -> RegionYield | None:
