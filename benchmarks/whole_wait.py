@@ -45,7 +45,7 @@ from pathlib import Path
 from asperity.plots.together import save_pictures
 from asperity.report import write_report
 from asperity.run.document import loads
-from asperity.run.execute import run
+from asperity.run.run import run
 outcome = run(loads(Path(sys.argv[1]).read_text()), Path(sys.argv[1]).parent)
 started = spent()
 with tempfile.TemporaryDirectory() as folder:

@@ -58,7 +58,7 @@ from .physics.stress.compute import stress as stress
 from .physics.stress.yielding import first_yield as first_yield
 from .physics.viscoelastic.steady_sliding import slide as slide
 from .report.write import write_report as write_report
-from .run.execute import run as run
+from .run.run import run as run
 from .solids.elastic import Elastic as Elastic
 from .solids.elastic import Rigid as Rigid
 from .solids.elastic import Strength as Strength

@@ -12,7 +12,7 @@ from sharp_cases import E_STAR, SIDE, UNIT, rough_heights, rough_rows
 
 import asperity as asp
 from asperity.core.units import show
-from asperity.physics.stress.field import SurfaceMaxima
+from asperity.physics.stress.peaks import SurfaceMaxima
 from asperity.physics.stress.survey import StressRequest, survey
 from asperity.physics.stress.work import maxima_table, remarks, yield_table
 

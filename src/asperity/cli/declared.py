@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich.markup import escape
 from typer.core import TyperCommand
 
 from ..core import units
@@ -212,8 +213,6 @@ class Command(TyperCommand):
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write the page, square brackets as they stand; the advanced options only if they are asked for."""
-        from rich.markup import escape
-
         whole = ctx.meta.get(WHOLE, False)
         params, epilog, text = self.params, self.epilog, self.help
         self.help = escape(text or "")

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from .certificate import Certificate
     from .couplings.protocol import Memory
     from .problem import ContactProblem
-    from .result import ContactResult
 
 
 class Answer:
@@ -28,7 +27,7 @@ class Answer:
         """What it is in one line; empty for the name of its type."""
         return ""
 
-    def tabled(self, result: ContactResult) -> Iterator[Labelled]:
+    def tabled(self, result: Any) -> Iterator[Labelled]:
         """Numbers of tables that follow from it and the ``result`` that it is of."""
         yield from ()
 

@@ -1,4 +1,5 @@
-from ..run.execute import Outcome, run
+from ..run.execute import Outcome
+from ..run.run import run
 from .campaign import Campaign, open_study, run_study
 from .collect import CampaignState
 from .compare import compare

@@ -17,7 +17,7 @@ from ...core.tensor import StressTensor
 from . import criteria as invariants
 from .boundaries import Reader, Rows
 from .criteria import Criterion
-from .field import Peak, SurfaceMaxima
+from .peaks import Peak, SurfaceMaxima
 from .regions import Plane, Region
 from .yielding import Gathered, YieldReport, equivalent_at
 

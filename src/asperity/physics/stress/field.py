@@ -12,12 +12,12 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.late import Stored
-from ...core.quantity import Quantity, given, measured
+from ...core.quantity import Quantity
 from ...core.tensor import Displacement, StressTensor
 from ...core.units import show
 from ...solids.library import full_name
 from . import criteria as invariants
-from .peaks import peak_text
+from .peaks import MAXIMA, Peak, SurfaceMaxima, peak_text
 from .regions import Plane, Region
 
 DERIVED = (
@@ -36,44 +36,6 @@ DERIVED = (
     Quantity("shear_yz", "Pa", "σyz"),
 )
 """Attributes of a ``StressField`` that are stresses at its points."""
-
-
-@dataclass(frozen=True)
-class Peak:
-    """Extreme ``value`` of a field and where it is, lengths in m; ``region`` and ``side`` as for ``Plane``.
-
-    ``error`` bounds that of the value by the size of the pixels, where it is known: at the surface of a contact (``sharp``). Else it is NaN.
-    ``doubt`` is empty, or says why the value, that of the field, is but a lower bound.
-    """
-
-    value: float = measured("Pa", "extreme value")
-    x: float = measured("m", "x of the extreme value")
-    y: float = measured("m", "y of the extreme value")
-    depth: float = measured("m", "depth of the extreme value")
-    region: Region = given()
-    side: str = measured("", "position in the region")
-    error: float = measured("Pa", "bound of the error by the size of the pixels", default=math.nan)
-    doubt: str = measured("", "why it is but a lower bound", default="")
-
-
-@dataclass(frozen=True, eq=False)
-class SurfaceMaxima:
-    """Largest stresses at the surface of a contact, edges between its pixels included (``sharp``): σ1, von Mises, shear (σ1 - σ3)/2, and the larger
-    principal stress in the plane."""
-
-    tension: Peak
-    von_mises: Peak
-    shear: Peak
-    in_plane: Peak
-
-    def joined(self, name: str, peak: Peak) -> Peak:
-        """The larger of that ``name`` here and ``peak``, the largest at the points of planes, which at the surface it replaces."""
-        own: Peak = getattr(self, name)
-        return own if peak.side == "surface" or own.value > peak.value else peak
-
-
-MAXIMA = ("tension", "von_mises", "shear", "in_plane")
-"""Names of the largest stresses at a surface."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,7 +26,8 @@ from ...io.codec import KIND, made_of, values_in, values_of
 from ...io.description import describe, kind_name, rebuild, software
 from ...io.export import VTK_TYPES
 from ...io.tree import Node, coordinate, write_tree
-from .field import MAXIMA, OfTensor, Peak, StressField, SurfaceMaxima
+from .field import OfTensor, StressField
+from .peaks import MAXIMA, Peak, SurfaceMaxima
 from .regions import Plane, Region
 
 EDGES = "surface_maxima"

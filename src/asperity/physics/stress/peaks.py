@@ -3,13 +3,49 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
+from ...core.quantity import given, measured
 from ...core.units import show
+from .regions import Region
 
-if TYPE_CHECKING:
-    from .field import Peak
-    from .yielding import RegionYield
+
+@dataclass(frozen=True)
+class Peak:
+    """Extreme ``value`` of a field and where it is, lengths in m; ``region`` and ``side`` as for ``Plane``.
+
+    ``error`` bounds that of the value by the size of the pixels, where it is known: at the surface of a contact (``sharp``). Else it is NaN.
+    ``doubt`` is empty, or says why the value, that of the field, is but a lower bound.
+    """
+
+    value: float = measured("Pa", "extreme value")
+    x: float = measured("m", "x of the extreme value")
+    y: float = measured("m", "y of the extreme value")
+    depth: float = measured("m", "depth of the extreme value")
+    region: Region = given()
+    side: str = measured("", "position in the region")
+    error: float = measured("Pa", "bound of the error by the size of the pixels", default=math.nan)
+    doubt: str = measured("", "why it is but a lower bound", default="")
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceMaxima:
+    """Largest stresses at the surface of a contact, edges between its pixels included (``sharp``): σ1, von Mises, shear (σ1 - σ3)/2, and the larger
+    principal stress in the plane."""
+
+    tension: Peak
+    von_mises: Peak
+    shear: Peak
+    in_plane: Peak
+
+    def joined(self, name: str, peak: Peak) -> Peak:
+        """The larger of that ``name`` here and ``peak``, the largest at the points of planes, which at the surface it replaces."""
+        own: Peak = getattr(self, name)
+        return own if peak.side == "surface" or own.value > peak.value else peak
+
+
+MAXIMA = ("tension", "von_mises", "shear", "in_plane")
+"""Names of the largest stresses at a surface."""
 
 
 def peak_text(peak: Peak, factor: float = 1.0) -> str:
@@ -18,14 +54,6 @@ def peak_text(peak: Peak, factor: float = 1.0) -> str:
     if peak.doubt:
         return f"> {value}"
     return value if math.isnan(peak.error) else f"{value} ± {show(factor * peak.error, 'Pa', 2)}"
-
-
-def factor_text(part: RegionYield) -> str:
-    """Load factor of a region, with its error or as an upper bound."""
-    text = f"{part.load_factor:.3g}"
-    if part.peak.doubt:
-        return f"< {text}"
-    return text if math.isnan(part.load_factor_error) else f"{text} ± {part.load_factor_error:.2g}"
 
 
 def verdict(peak: Peak, strength: float) -> str:

@@ -25,7 +25,7 @@ from ...core.spectral import PaddedTransform, RealTransform, fast_length, wrappe
 from ...core.tensor import StressTensor
 from ...solids.compliance.halfspace import HalfSpace
 from . import criteria as invariants
-from .field import Peak, SurfaceMaxima
+from .peaks import Peak, SurfaceMaxima
 from .regions import Plane
 from .tractions import ShearTraction, Sliding, Tractions
 

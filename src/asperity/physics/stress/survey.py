@@ -21,7 +21,8 @@ from .boundaries import Reader, Rows, require_held
 from .compute import Loaded, StressPlanes, at_edges, papers, residual_of, tractions_on
 from .criteria import Criterion, VonMises
 from .extremes import Extremes, InterfaceMaxima, RegionMaxima
-from .field import Peak, StressField
+from .field import StressField
+from .peaks import Peak
 from .regions import DepthProfile, Plane, Position, Section, Selection, Where, depths_through, planes, regions
 from .tractions import LoadedBody, Sliding, Tractions
 from .yielding import YieldReport

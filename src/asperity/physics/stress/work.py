@@ -15,13 +15,13 @@ from ...core.units import percent, show
 from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
 from ...plots.picture import Figure
 from ...solids.elastic import TABOR, Rigid
-from .field import Peak
 from .figures import line_figures, map_figure
 from .part import _LARGEST, StoredSurvey
-from .peaks import factor_text, peak_text, verdict
+from .peaks import Peak, peak_text, verdict
 from .regions import Region
 from .survey import Planned, StressRequest, StressSurvey, SurveyedSection, survey
 from .tractions import LoadedBody
+from .yielding import factor_text
 
 
 class StressWork(Work):

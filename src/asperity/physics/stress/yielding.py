@@ -13,7 +13,8 @@ from ...core.errors import InputError, NoSolutionError
 from ...core.late import Shown
 from ...core.units import show
 from .criteria import Criterion, Limit, VonMises
-from .field import Peak, StressField, SurfaceMaxima
+from .field import StressField
+from .peaks import Peak, SurfaceMaxima
 from .regions import Region
 
 
@@ -55,6 +56,14 @@ class RegionYield:
         if side in ("surface", "inside"):
             return f"{side} of {self.region.name}" if side == "surface" else f"inside {self.region.name}"
         return f"interface at {'the lower' if side == 'above' else 'the upper'} side of {self.region.name}"
+
+
+def factor_text(part: RegionYield) -> str:
+    """Load factor of a region, with its error or as an upper bound."""
+    text = f"{part.load_factor:.3g}"
+    if part.peak.doubt:
+        return f"< {text}"
+    return text if math.isnan(part.load_factor_error) else f"{text} ± {part.load_factor_error:.2g}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
