@@ -178,7 +178,7 @@ class StickSlipCoupling(Coupling):
         """The same for bodies that are ``coupled``: whether shear lifts their surfaces now or later."""
         lifts = coupled and not (isinstance(self.law, Coulomb) and not self.law.coupled)
         finer = _COUPLED if lifts else _FINER
-        return replace(self, feedback=lifts, solver=replace_tolerance(self.solver, finer * self.tolerance))
+        return replace(self, feedback=lifts, solver=replace(self.solver, tolerance=finer * self.tolerance))
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """What is remembered, with the displacement by the shear traction under the pressure to start from."""
@@ -234,7 +234,7 @@ class StickSlipCoupling(Coupling):
         posed = self._posed_together(exchange, contact)
         if posed is not None and note.traction is None:
             return self._together(exchange, posed, contact, note.before.traction)
-        loose = replace_tolerance(self.solver, max(self.solver.tolerance, min(_LOOSEST, _SHARE * note.residual)))
+        loose = replace(self.solver, tolerance=max(self.solver.tolerance, min(_LOOSEST, _SHARE * note.residual)))
         note = self._solved(note, _double(contact.pressure), loose)
         assert note.solution is not None
         target = self._lift(note.solution.traction)
@@ -306,25 +306,23 @@ class StickSlipCoupling(Coupling):
             most = float(bound.sum()) * grid.pixel_area
             size = before.control.magnitude
             if slides_freely(before.control, most):
-                solution = self._gross(bound, target, force / size if size else force)
+                # everything slides along the force, by the least shift that slides the last point
+                direction = force / size if size else force
+                traction = bound * direction[:, None, None]
+                residual = target - self.operator.displacement(traction)
+                contact = bound > 0.0
+                along = np.tensordot(direction, residual, axes=1)
+                least = float(np.max(-along[contact], initial=0.0))
+                across = np.array([-direction[1], direction[0]])
+                sideways = float(np.tensordot(across, residual, axes=1)[contact].mean()) if contact.any() else 0.0
+                shift = least * direction - sideways * across
+                slip = np.where(contact, (along + least) * direction[:, None, None], 0.0)
+                solution = TangentialSolution(
+                    traction, shift, slip, Deviation(0.0, 0.0), _SLIDES, 0, self.operator.pairs_per_application
+                )
                 return note.with_solution(solution)
             mean = force / grid.area
         return note.with_solution(solver.solve(TangentialQP(self.operator, bound, target, mean), warm))
-
-    def _gross(self, bound: RealArray, target: RealArray, direction: RealArray) -> TangentialSolution:
-        """Everything slides along ``direction``, by the least shift that slides the last point."""
-        traction = bound * direction[:, None, None]
-        residual = target - self.operator.displacement(traction)
-        contact = bound > 0.0
-        along = np.tensordot(direction, residual, axes=1)
-        least = float(np.max(-along[contact], initial=0.0))
-        across = np.array([-direction[1], direction[0]])
-        sideways = float(np.tensordot(across, residual, axes=1)[contact].mean()) if contact.any() else 0.0
-        shift = least * direction - sideways * across
-        slip = np.where(contact, (along + least) * direction[:, None, None], 0.0)
-        return TangentialSolution(
-            traction, shift, slip, Deviation(0.0, 0.0), _SLIDES, 0, self.operator.pairs_per_application
-        )
 
     def settled(self, exchange: Exchange) -> str:
         """That the displacement is."""
@@ -431,11 +429,6 @@ class StickSlipCoupling(Coupling):
 
 
 _SLIDES = Status(Outcome.CONVERGED, "All points slide.")
-
-
-def replace_tolerance(solver: TangentialSolver, tolerance: float) -> TangentialSolver:
-    """The same method with another ``tolerance``."""
-    return replace(solver, tolerance=tolerance)  # type: ignore[type-var]
 
 
 def _double(pressure: RealArray) -> RealArray:

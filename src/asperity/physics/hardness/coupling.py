@@ -182,7 +182,16 @@ class DepthHardness(Coupling):
         before = exchange.note.before
         reached = before + added_indentation(contact)
         limit = self._limits(reached)
-        residual = self._disagreement(exchange.note, contact, reached, limit)
+        # relative excess of the pressure over the limit, at yielding points its difference from it either way
+        p, resolved = contact.pressure, _RESOLVED * contact.posed.height_scale
+        index, nearest = np.flatnonzero(reached > exchange.note.before), limit.copy()
+        deep, first, there = (field.reshape(-1)[index] for field in (reached, exchange.note.before, limit))
+        near = np.concatenate(
+            [there[None], *(self.law.cap_at(np.maximum(deep + by, first)[None]) for by in (-resolved, resolved))]
+        )
+        nearest.reshape(-1)[index] = np.clip(p.reshape(-1)[index], near.min(axis=0), near.max(axis=0))
+        off = np.where(p >= contact.cap, np.abs(p - nearest), p - nearest) / nearest
+        residual = max(float(off.max()), 0.0)
         smooth = exchange.smooth and not bool(np.any(limit < self._limits(before)))
         if smooth:
             place = contact.pressure + reached / self.own_compliance
@@ -244,18 +253,6 @@ class DepthHardness(Coupling):
             low, high = np.where(below, middle, low), np.where(below, high, middle)
         depth.reshape(-1)[index] = np.where(low > start, 0.5 * (low + high), start)[0]
         return depth
-
-    def _disagreement(self, note: _Note, contact: Contact, reached: RealArray, limit: RealArray) -> float:
-        """Largest relative excess of the pressure over the ``limit`` at the depth ``reached``, or at yielding points difference from it either way."""
-        p, resolved = contact.pressure, _RESOLVED * contact.posed.height_scale
-        index, nearest = np.flatnonzero(reached > note.before), limit.copy()
-        deep, first, there = (field.reshape(-1)[index] for field in (reached, note.before, limit))
-        near = np.concatenate(
-            [there[None], *(self.law.cap_at(np.maximum(deep + by, first)[None]) for by in (-resolved, resolved))]
-        )
-        nearest.reshape(-1)[index] = np.clip(p.reshape(-1)[index], near.min(axis=0), near.max(axis=0))
-        off = np.where(p >= contact.cap, np.abs(p - nearest), p - nearest) / nearest
-        return max(float(off.max()), 0.0)
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
         """Half the way to limits that bear ``mean``: the last that did, or those at the first depth that is the same more everywhere."""

@@ -306,13 +306,15 @@ class IndentationWork(Work):
 
     def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, before the contact is solved."""
-        require_flow(_body(ask, problem), unknown_is_elastic=ask.unknown_is_elastic)
+        body = meshed_body(problem, ask.inside, "indentation", "--indent-in")
+        require_flow(body, unknown_is_elastic=ask.unknown_is_elastic)
         _indenter(ask, problem)
         _of_indenter(ask, problem)
 
     def compute(self, ask: IndentationSettings, solved: Solved) -> Found:
         """Way in and out, hardness and zones."""
-        body, indenter = _body(ask, solved.problem), _indenter(ask, solved.problem)
+        body = meshed_body(solved.problem, ask.inside, "indentation", "--indent-in")
+        indenter = _indenter(ask, solved.problem)
         pair = (_of_indenter(ask, solved.problem), float(ask.friction))
         course = Course(float(ask.depth or 0.0), ask.steps, ask.unloading_steps, ask.elements, *pair)
         with solved.stage("indentation") as progress:
@@ -355,11 +357,6 @@ class IndentationWork(Work):
 
 
 KEYS = ("SimoTaylor1985", "Oliver1992")
-
-
-def _body(ask: IndentationSettings, problem: ContactProblem) -> Any:
-    """The body that is indented; InputError if it is rigid."""
-    return meshed_body(problem, ask.inside, "indentation", "--indent-in")
 
 
 def _of_indenter(ask: IndentationSettings, problem: ContactProblem) -> Any:

@@ -152,13 +152,13 @@ class PassesWork(Work):
 
     def check(self, ask: Passing, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
-        body = _body(ask, problem)
+        body = meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
         require_course(course_of(ask.settings, body, problem, ask.coefficient), body)
 
     def compute(self, ask: Passing, solved: Solved) -> Found:
         """All passes, and what they leave."""
-        body = _body(ask, solved.problem)
+        body = meshed_body(solved.problem, ask.settings.inside, "passes", "--pass-in")
         course = course_of(ask.settings, body, solved.problem, ask.coefficient)
         with solved.stage("passes") as progress:
             run = passed(body, course, unknown_is_elastic=ask.settings.unknown_is_elastic, progress=progress)
@@ -207,11 +207,6 @@ class PassesWork(Work):
 
 
 KEYS = ("SimoTaylor1985", "Johnson1962", "Hearle1985")
-
-
-def _body(ask: Passing, problem: ContactProblem) -> Any:
-    """The body that is passed over; InputError if it is rigid."""
-    return meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
 
 
 # In words and tables.

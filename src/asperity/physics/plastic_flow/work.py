@@ -28,7 +28,7 @@ from .answer import PlasticBody
 from .figures import IMPRINT_MAP, ImprintMap, plots_of
 from .law import PlasticFlow as Law
 from .law import plastic_body
-from .part import IMPRINT, PREFIX, SCALARS, Flows, PlasticFlowSettings
+from .part import IMPRINT, PREFIX, SCALARS, Flows
 from .part_quantities import number_rows, tension_table, zones_table
 from .work_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, picture_of, require_flow
 
@@ -80,30 +80,6 @@ def flow_found(solved: Solved) -> Found:
         elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
         findings = (*findings, elastic)
     return Found(values, facts, findings, flow.citation_keys)
-
-
-def flow_law(table: PlasticFlowSettings, problem: ContactProblem) -> Law:
-    """Law of the deformable body of ``problem``: one entry for each of its layers and the base.
-
-    Raises
-    ------
-    InputError
-        If a yield stress is not known.
-    """
-    body, _ = plastic_body(problem.body, problem.counter_body)
-    materials = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
-    base = body.base if isinstance(body, Layered) else body
-    laws: list[J2 | None] = []
-    for material in [*materials, base]:
-        parts = (
-            plastic_parts(material, unknown_is_elastic=table.unknown_is_elastic)
-            if isinstance(material, Elastic)
-            else ()
-        )
-        laws.append(parts[0] if parts and isinstance(parts[0], J2) else None)
-    depth = None if table.depth is None else float(table.depth)
-    whole: Any = laws if isinstance(body, Layered) else laws[0]
-    return Law(whole, table.cells, depth, float(table.tolerance))
 
 
 def _row(flow: PlasticBody) -> int:
@@ -214,8 +190,27 @@ class PlasticFlowWork(Work):
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
 
     def altered(self, ask: Flows, problem: ContactProblem) -> ContactProblem:
-        """``problem`` with the laws of its bodies, by which the flow joins the solve."""
-        return problem.with_physics(plastic_flow=flow_law(ask.settings, problem))
+        """``problem`` with the laws of its bodies, by which the flow joins the solve: one entry for each layer and the base.
+
+        Raises
+        ------
+        InputError
+            If a yield stress is not known.
+        """
+        body, _ = plastic_body(problem.body, problem.counter_body)
+        materials = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
+        base = body.base if isinstance(body, Layered) else body
+        laws: list[J2 | None] = []
+        for material in [*materials, base]:
+            parts = (
+                plastic_parts(material, unknown_is_elastic=ask.settings.unknown_is_elastic)
+                if isinstance(material, Elastic)
+                else ()
+            )
+            laws.append(parts[0] if parts and isinstance(parts[0], J2) else None)
+        depth = None if ask.settings.depth is None else float(ask.settings.depth)
+        whole: Any = laws if isinstance(body, Layered) else laws[0]
+        return problem.with_physics(plastic_flow=Law(whole, ask.settings.cells, depth, float(ask.settings.tolerance)))
 
     def course(self, ask: Flows, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """A single load in steps, and the way back."""

@@ -201,7 +201,28 @@ class _Motion:
         self, problem: ContactProblem, control: Control, speed: float, direction: float, step: float, rounds: Rounds
     ) -> None:
         self.problem, self.control, self.speed, self.direction, self.step = problem, control, speed, direction, step
-        self.name = _moving(problem, control)
+        if problem.friction is not None:
+            raise InputError(
+                "friction of sliding in time must be None: the friction found is that of hysteresis alone, and shear of the interface adds to it."
+            )
+        if problem.plastic_flow is not None:
+            raise InputError(
+                "plastic_flow of sliding in time must be None, since what flows would have to move with the surface."
+            )
+        if isinstance(control, Unloaded):
+            raise InputError("control of sliding in time must be a load or position, but is Unloaded().")
+        relaxing = [relaxes(body) for body in (problem.body, problem.counter_body)]
+        if sum(relaxing) != 1:
+            raise InputError(
+                f"bodies of sliding in time must be one that is viscoelastic and one that is not, but {sum(relaxing)} of them relax. "
+                "Write ContactProblem(rough, Rigid(), counter_body=rubber)."
+            )
+        name = "counter_surface" if relaxing[0] else "surface"
+        if not isinstance(getattr(problem, name), Surface):
+            raise InputError(
+                f"{name} of sliding in time must be a Surface, for it moves over the viscoelastic body, but is Flat()."
+            )
+        self.name = name
         moving = getattr(problem, self.name)
         assert isinstance(moving, Surface)
         self.moving, self.heights = moving, np.asarray(moving.heights, dtype=float)
@@ -305,29 +326,3 @@ def _phase(frequency: RealArray, shift: float, number: int) -> ComplexArray:
     found = np.exp(-2j * np.pi * frequency * shift)
     lone = np.abs(frequency) == 0.5
     return np.asarray(np.where(lone & (number % 2 == 0), found.real, found))
-
-
-def _moving(problem: ContactProblem, control: Control) -> str:
-    """Name of the surface that moves, opposite the body that relaxes."""
-    if problem.friction is not None:
-        raise InputError(
-            "friction of sliding in time must be None: the friction found is that of hysteresis alone, and shear of the interface adds to it."
-        )
-    if problem.plastic_flow is not None:
-        raise InputError(
-            "plastic_flow of sliding in time must be None, since what flows would have to move with the surface."
-        )
-    if isinstance(control, Unloaded):
-        raise InputError("control of sliding in time must be a load or position, but is Unloaded().")
-    relaxing = [relaxes(body) for body in (problem.body, problem.counter_body)]
-    if sum(relaxing) != 1:
-        raise InputError(
-            f"bodies of sliding in time must be one that is viscoelastic and one that is not, but {sum(relaxing)} of them relax. "
-            "Write ContactProblem(rough, Rigid(), counter_body=rubber)."
-        )
-    name = "counter_surface" if relaxing[0] else "surface"
-    if not isinstance(getattr(problem, name), Surface):
-        raise InputError(
-            f"{name} of sliding in time must be a Surface, for it moves over the viscoelastic body, but is Flat()."
-        )
-    return name
