@@ -178,7 +178,7 @@ class StickSlipCoupling(Coupling):
         """The same for bodies that are ``coupled``: whether shear lifts their surfaces now or later."""
         lifts = coupled and not (isinstance(self.law, Coulomb) and not self.law.coupled)
         finer = _COUPLED if lifts else _FINER
-        return replace(self, feedback=lifts, solver=replace(self.solver, tolerance=finer * self.tolerance))
+        return replace(self, feedback=lifts, solver=replace_tolerance(self.solver, finer * self.tolerance))
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
         """What is remembered, with the displacement by the shear traction under the pressure to start from."""
@@ -234,7 +234,7 @@ class StickSlipCoupling(Coupling):
         posed = self._posed_together(exchange, contact)
         if posed is not None and note.traction is None:
             return self._together(exchange, posed, contact, note.before.traction)
-        loose = replace(self.solver, tolerance=max(self.solver.tolerance, min(_LOOSEST, _SHARE * note.residual)))
+        loose = replace_tolerance(self.solver, max(self.solver.tolerance, min(_LOOSEST, _SHARE * note.residual)))
         note = self._solved(note, _double(contact.pressure), loose)
         assert note.solution is not None
         target = self._lift(note.solution.traction)
@@ -429,6 +429,11 @@ class StickSlipCoupling(Coupling):
 
 
 _SLIDES = Status(Outcome.CONVERGED, "All points slide.")
+
+
+def replace_tolerance(solver: TangentialSolver, tolerance: float) -> TangentialSolver:
+    """The same method with another ``tolerance``."""
+    return replace(solver, tolerance=tolerance)  # type: ignore[type-var]
 
 
 def _double(pressure: RealArray) -> RealArray:

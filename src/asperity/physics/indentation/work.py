@@ -21,7 +21,7 @@ from ...fem.mesh import Resolution
 from ...parts.part import Found, Rows, Solved, Stored, Words, Work
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic, Rigid
-from ...solids.layers import Body, Layered, materials_of
+from ...solids.layers import Layered, materials_of
 from ...solids.strength import flow_stress
 from ...theories.hardness.unloading import analyse_indentation
 from ..plastic_flow.figures import plots_of, step_label
@@ -251,7 +251,16 @@ def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Fo
     facts |= {"of_indenter": " on ".join(layer_names(course.of)), "friction": course.friction}
     zones = zone_table(shown, body)
     facts["zones"] = [list(zones.headings), [list(row) for row in zones.cells]]
-    findings = list(_findings(run, indenter, body))
+    findings = list(inferred_strengths(body))
+    radius = math.sqrt(float(run.shown.curve["area"][run.peak]) / math.pi)
+    if not indenter.is_cone and radius > SMALL_STRAIN * indenter.radius:
+        text = f"The contact radius is {radius / indenter.radius:.2g} of that of the indenter. Beyond {SMALL_STRAIN:g} small strains err by more than a few per cent."
+        findings.append(Advice("warning", "small strain", text))
+    if run.touching < FEW:
+        text = f"Only {run.touching} points of the mesh touch. Load and area err by several per cent below {FEW}; take more elements (--indent-elements)."
+        findings.append(Advice("warning", "mesh of the indentation", text))
+    if not run.shown.strain.max() > 0.0:
+        findings.append(Advice("note", "indentation", "Nothing flows at this depth: the indentation is elastic."))
     try:
         read = analyse_indentation(
             curve["approach"], curve["force"], indenter.area, shape=indenter.shape, true_area=area
@@ -272,21 +281,6 @@ def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Fo
         drawn = np.linspace(max(fit.final_depth, 0.0), fit.peak_depth, 25)
         facts |= {"oliver_pharr": read.hardness, "unloading": [drawn.tolist(), fit.force(drawn).tolist()]}
     return Found({**values, **shown.values(PREFIX)}, Detail(facts, run), tuple(findings), KEYS)
-
-
-def _findings(run: Indented, indenter: Indenter, body: Body) -> tuple[Advice, ...]:
-    """Strains that are not small, few points in contact, yield stresses from the hardness, no flow at all."""
-    made = list(inferred_strengths(body))
-    radius = math.sqrt(float(run.shown.curve["area"][run.peak]) / math.pi)
-    if not indenter.is_cone and radius > SMALL_STRAIN * indenter.radius:
-        text = f"The contact radius is {radius / indenter.radius:.2g} of that of the indenter. Beyond {SMALL_STRAIN:g} small strains err by more than a few per cent."
-        made.append(Advice("warning", "small strain", text))
-    if run.touching < FEW:
-        text = f"Only {run.touching} points of the mesh touch. Load and area err by several per cent below {FEW}; take more elements (--indent-elements)."
-        made.append(Advice("warning", "mesh of the indentation", text))
-    if not run.shown.strain.max() > 0.0:
-        made.append(Advice("note", "indentation", "Nothing flows at this depth: the indentation is elastic."))
-    return tuple(made)
 
 
 SMALL_STRAIN = 0.15

@@ -14,7 +14,7 @@ from ...core.units import percent, show
 from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
-from ...solids.layers import Body, Layered, RigidBase
+from ...solids.layers import Layered, RigidBase
 from ...solids.strength import flow_stress
 from ...theories.subsurface.point_shakedown import sphere_shakedown
 from ...theories.subsurface.shakedown import cylinder_shakedown
@@ -103,11 +103,6 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
     values |= {f"{PREFIX}_{name}": column for name, column in run.each.items()}
     names = ("profile_depth", "residual_along", "residual_across")
     values |= {f"{PREFIX}_{name}": column for name, column in zip(names, run.profile, strict=True)}
-    return Found(values, Detail(facts, run), _findings(run, values, course, body), KEYS)
-
-
-def _findings(run: Passed, values: dict[str, Any], course: Course, body: Body) -> tuple[Advice, ...]:
-    """Strains that are not small, coarse meshes and steps, contacts at the edge, flow that is not settled, no flow at all."""
     made, strain = list(inferred_strengths(body)), float(values["pass_plastic_strain"])
     share = run.numbers["contact"] / course.radius
     if strain > LARGE_STRAIN or share > 0.15:
@@ -132,7 +127,7 @@ def _findings(run: Passed, values: dict[str, Any], course: Course, body: Body) -
         cracks = "once the ductility is used up" if "adds up" in found else "by low-cycle fatigue"
         text = f"Every pass adds {percent(float(values['pass_strain_growth']))} of plastic strain: {found}. Cracks form {cracks}."
         made.append(Advice("warning", "passes", text))
-    return tuple(made)
+    return Found(values, Detail(facts, run), tuple(made), KEYS)
 
 
 CEASED = 0.01

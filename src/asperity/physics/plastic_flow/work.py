@@ -33,55 +33,6 @@ from .part_quantities import number_rows, tension_table, zones_table
 from .work_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, picture_of, require_flow
 
 
-def flow_found(solved: Solved) -> Found:
-    """Values, facts and findings of the ``solved`` contact."""
-    flow, body = solved.result.require_plastic_flow(), plastic_body(solved.problem.body, solved.problem.counter_body)[0]
-    with solved.stage("residual stress"):
-        shown, tensions = _shown(flow, solved)
-    layers, base = flow.zones[:-1], flow.zones[-1]
-    first = [zone.first_yield for zone in flow.zones if math.isfinite(zone.first_yield)]
-    tops = [zone.top for zone in flow.zones if math.isfinite(zone.top)]
-    bottoms = [zone.bottom for zone in flow.zones if math.isfinite(zone.bottom)]
-    peak = _peak(solved)
-    area = float(peak.contact.sum()) * peak.problem.grid.pixel_area
-    values: dict[str, Any] = {
-        **{item.name: math.nan for item in SCALARS},
-        "flow_plastic_work": flow.work,
-        "flow_residual_energy": flow.residual_energy,
-        "flow_volume": sum(zone.volume for zone in flow.zones),
-        "flow_layer_volume": sum(zone.volume for zone in layers) if layers else math.nan,
-        "flow_largest_strain": max(zone.largest_strain for zone in flow.zones),
-        "flow_layer_strain": max((zone.largest_strain for zone in layers), default=math.nan),
-        "flow_base_strain": base.largest_strain,
-        "flow_top": min(tops, default=math.nan),
-        "flow_depth": max(bottoms, default=math.nan),
-        "flow_first_yield": min(first, default=math.nan),
-        "flow_imprint_depth": max(float(flow.displacement.max()), 0.0),
-        "flow_pile_up": max(-float(flow.displacement.min()), 0.0),
-        "flow_mean_contact_pressure": peak.force / area if area > 0.0 else math.nan,
-        **tensions,
-        IMPRINT.name: flow.displacement,
-        **shown.values(PREFIX),
-    }
-    names = layer_names(body)
-    headings = ["Layer", "Largest plastic strain", "at (x, y, depth)", "Depths", "Volume", "First yield at"]
-    cells = []
-    for name, zone in zip(names, flow.zones, strict=False):
-        if not zone.largest_strain > 0.0:
-            cells.append([name, "elastic", "–", "–", "–", "–"])
-            continue
-        place = ", ".join(show(value, "m", 3) for value in zone.place)
-        begin = show(zone.first_yield, "Pa", 3) if math.isfinite(zone.first_yield) else "–"
-        span = f"{show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)}"
-        cells.append([name, percent(zone.largest_strain), place, span, f"{zone.volume * 1e18:.3g} µm³", begin])
-    facts = {"layers": names, "axis": "x", "zones": [headings, cells], "row": _row(flow)}
-    findings = inferred_strengths(body)
-    if not values["flow_largest_strain"] > 0.0:
-        elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
-        findings = (*findings, elastic)
-    return Found(values, facts, findings, flow.citation_keys)
-
-
 def _row(flow: PlasticBody) -> int:
     """Row of the grid through the largest plastic strain; where nothing flows the one through the middle."""
     grid = flow.problem.grid
@@ -227,7 +178,52 @@ class PlasticFlowWork(Work):
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Zones, residual stress, imprint and tensions."""
-        return flow_found(solved)
+        flow = solved.result.require_plastic_flow()
+        body = plastic_body(solved.problem.body, solved.problem.counter_body)[0]
+        with solved.stage("residual stress"):
+            shown, tensions = _shown(flow, solved)
+        layers, base = flow.zones[:-1], flow.zones[-1]
+        first = [zone.first_yield for zone in flow.zones if math.isfinite(zone.first_yield)]
+        tops = [zone.top for zone in flow.zones if math.isfinite(zone.top)]
+        bottoms = [zone.bottom for zone in flow.zones if math.isfinite(zone.bottom)]
+        peak = _peak(solved)
+        area = float(peak.contact.sum()) * peak.problem.grid.pixel_area
+        values: dict[str, Any] = {
+            **{item.name: math.nan for item in SCALARS},
+            "flow_plastic_work": flow.work,
+            "flow_residual_energy": flow.residual_energy,
+            "flow_volume": sum(zone.volume for zone in flow.zones),
+            "flow_layer_volume": sum(zone.volume for zone in layers) if layers else math.nan,
+            "flow_largest_strain": max(zone.largest_strain for zone in flow.zones),
+            "flow_layer_strain": max((zone.largest_strain for zone in layers), default=math.nan),
+            "flow_base_strain": base.largest_strain,
+            "flow_top": min(tops, default=math.nan),
+            "flow_depth": max(bottoms, default=math.nan),
+            "flow_first_yield": min(first, default=math.nan),
+            "flow_imprint_depth": max(float(flow.displacement.max()), 0.0),
+            "flow_pile_up": max(-float(flow.displacement.min()), 0.0),
+            "flow_mean_contact_pressure": peak.force / area if area > 0.0 else math.nan,
+            **tensions,
+            IMPRINT.name: flow.displacement,
+            **shown.values(PREFIX),
+        }
+        names = layer_names(body)
+        headings = ["Layer", "Largest plastic strain", "at (x, y, depth)", "Depths", "Volume", "First yield at"]
+        cells = []
+        for name, zone in zip(names, flow.zones, strict=False):
+            if not zone.largest_strain > 0.0:
+                cells.append([name, "elastic", "–", "–", "–", "–"])
+                continue
+            place = ", ".join(show(value, "m", 3) for value in zone.place)
+            begin = show(zone.first_yield, "Pa", 3) if math.isfinite(zone.first_yield) else "–"
+            span = f"{show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)}"
+            cells.append([name, percent(zone.largest_strain), place, span, f"{zone.volume * 1e18:.3g} µm³", begin])
+        facts = {"layers": names, "axis": "x", "zones": [headings, cells], "row": _row(flow)}
+        findings = inferred_strengths(body)
+        if not values["flow_largest_strain"] > 0.0:
+            elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
+            findings = (*findings, elastic)
+        return Found(values, facts, findings, flow.citation_keys)
 
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of the method."""

@@ -19,7 +19,7 @@ from ...surfaces.prepare.extent import cropped, periodised
 from ...surfaces.prepare.level import filled, levelled
 from ...surfaces.read import read
 from ..friction.work_stick_slip import law_text
-from .creep_curve import CREEPAGES, FORCES, CreepCurve, creep_curve, mean_forces, theories_of, theory_forces
+from .creep_curve import CREEPAGES, FORCES, creep_curve, mean_forces, theories_of, theory_forces
 from .figures import CURVE_PLOT, PATH_PLOT, ROLLING_PLOTS, RollingPicture
 from .part import SCALARS, Rolls
 from .rolling import DIRECTIONS, RollingContact, require_rolling, roll
@@ -48,7 +48,15 @@ class RollingWork(Work):
         with solved.stage("rolling") as progress:
             rough = None if ask.roughness is None else _rolled(problem, solved.control, ask, progress)
             contact = roll(problem, solved.control, ask.creepage, direction=way) if rough is None else rough.last  # type: ignore[arg-type]
-            curve = _curve(problem, solved.control, ask) if ask.settings.points and solved.lines else None
+            curve, table = None, ask.settings
+            if table.points and solved.lines:
+                share = np.arange(1, table.points + 1) / table.points
+                options: Any = {
+                    "lateral": float(table.lateral) * share,
+                    "spin": float(table.spin) * share,
+                    "direction": table.direction,
+                }
+                curve = creep_curve(problem, solved.control, float(table.longitudinal) * share, **options)
         values: dict[str, Any] = dict(_numbers(contact, rough))
         for name, both in (("traction", contact.traction), ("slip", contact.slip)):
             values |= {f"rolling_{name}_{axis}": part for axis, part in zip("xy", both, strict=True)}
@@ -72,7 +80,19 @@ class RollingWork(Work):
             "beside": beside,
         }
         keys = contact.citation_keys if curve is None else curve.citation_keys
-        return Found(values, facts, _findings(contact, ask), keys)
+        made = []
+        if contact.slip_area_fraction == 1.0:
+            text = "All points slip: the creepages are beyond those of partial slip, and the tangential force is all that friction bears."
+            made.append(Advice("note", "gross sliding", text))
+        if max(abs(ask.creepage.x), abs(ask.creepage.y)) > LARGE:
+            text = f"A creepage of more than {percent(LARGE)} is not small, as the theory of rolling assumes."
+            made.append(Advice("warning", "large creepage", text))
+        touched = np.flatnonzero(DIRECTIONS[contact.direction].oriented(contact.normal.pressure).any(axis=1))
+        length = int(touched[-1] - touched[0]) + 1 if touched.size else 0
+        if 0 < length < FEW:
+            text = f"The contact is {length} pixels long. Errors of the forces fall with the pixel, and are several per cent below {FEW}. Take a finer grid."
+            made.append(Advice("note", "pixels of the rolling contact", text))
+        return Found(values, facts, tuple(made), keys)
 
     def citations(self, ask: Rolls, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of law and method."""
@@ -127,18 +147,6 @@ def _rolled(problem: ContactProblem, control: Control, ask: Rolls, progress: Any
     return roll_rough(problem, control, ask.creepage, roughness, **options)
 
 
-def _curve(problem: ContactProblem, control: Control, ask: Rolls) -> CreepCurve:
-    """Curve of the smooth wheel from a share of the creepages to all of them."""
-
-    table, share = ask.settings, np.arange(1, ask.settings.points + 1) / ask.settings.points
-    options: Any = {
-        "lateral": float(table.lateral) * share,
-        "spin": float(table.spin) * share,
-        "direction": table.direction,
-    }
-    return creep_curve(problem, control, float(table.longitudinal) * share, **options)
-
-
 def _numbers(contact: RollingContact, rough: RoughRolling | None) -> dict[str, float]:
     """``SCALARS``: means over the distance of a rough wheel."""
 
@@ -163,24 +171,6 @@ def _numbers(contact: RollingContact, rough: RoughRolling | None) -> dict[str, f
         size = math.nan if found is None else float(found.force_x if force == "longitudinal" else found.force_y)
         values[f"{name}_{force}_force"] = size
     return values
-
-
-def _findings(contact: RollingContact, ask: Rolls) -> tuple[Advice, ...]:
-    """Gross sliding, large creepages, and few pixels."""
-
-    made = []
-    if contact.slip_area_fraction == 1.0:
-        text = "All points slip: the creepages are beyond those of partial slip, and the tangential force is all that friction bears."
-        made.append(Advice("note", "gross sliding", text))
-    if max(abs(ask.creepage.x), abs(ask.creepage.y)) > LARGE:
-        text = f"A creepage of more than {percent(LARGE)} is not small, as the theory of rolling assumes."
-        made.append(Advice("warning", "large creepage", text))
-    touched = np.flatnonzero(DIRECTIONS[contact.direction].oriented(contact.normal.pressure).any(axis=1))
-    length = int(touched[-1] - touched[0]) + 1 if touched.size else 0
-    if 0 < length < FEW:
-        text = f"The contact is {length} pixels long. Errors of the forces fall with the pixel, and are several per cent below {FEW}. Take a finer grid."
-        made.append(Advice("note", "pixels of the rolling contact", text))
-    return tuple(made)
 
 
 def picture_of(found: Found, solved: Solved) -> RollingPicture:

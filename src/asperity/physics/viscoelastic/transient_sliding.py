@@ -283,7 +283,16 @@ class _Motion:
             )
         )
         if isinstance(self.problem.boundary, Periodic):
-            return _turned(self.heights, x, y)
+            # in Fourier space; whole pixels are exact
+            if x == round(x) and y == round(y):
+                return np.roll(self.heights, (round(x), round(y)), (0, 1))
+            nx, ny = self.heights.shape
+            transform = RealTransform(self.heights.shape, 1)
+            spectrum = transform.forward(self.heights, np.empty(transform.spectrum_shape, np.complex128))
+            row = np.arange(nx)
+            fx, fy = np.where(row <= nx // 2, row, row - nx) / nx, np.arange(ny // 2 + 1) / ny
+            spectrum *= _phase(fx, x, nx)[:, None] * _phase(fy, y, ny)
+            return transform.backward(spectrum, np.empty(self.heights.shape))
         from scipy.ndimage import shift
 
         return np.asarray(shift(self.heights, (x, 0.0 if self.heights.shape[1] == 1 else y), order=3, mode="nearest"))
@@ -306,19 +315,6 @@ class _Motion:
         at = moment.record
         numbers = (at[0], count * self.step, at[1], at[2], at[3], at[5], at[6], force, at[7], at[8])
         return np.array(numbers)
-
-
-def _turned(heights: RealArray, x: float, y: float) -> RealArray:
-    """Periodic ``heights`` moved by ``x`` and ``y`` pixels in Fourier space; whole pixels are exact."""
-    if x == round(x) and y == round(y):
-        return np.roll(heights, (round(x), round(y)), (0, 1))
-    nx, ny = heights.shape
-    transform = RealTransform(heights.shape, 1)
-    spectrum = transform.forward(heights, np.empty(transform.spectrum_shape, np.complex128))
-    row = np.arange(nx)
-    fx, fy = np.where(row <= nx // 2, row, row - nx) / nx, np.arange(ny // 2 + 1) / ny
-    spectrum *= _phase(fx, x, nx)[:, None] * _phase(fy, y, ny)
-    return transform.backward(spectrum, np.empty(heights.shape))
 
 
 def _phase(frequency: RealArray, shift: float, number: int) -> ComplexArray:

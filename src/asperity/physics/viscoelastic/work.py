@@ -112,7 +112,18 @@ class ViscoelasticityWork(Work):
         values |= {item.name: number for item, number in zip(OSCILLATION, oscillation, strict=True)}
         keys = ("Ferry1980", "Lee1960", "Park1999", "Ting1966")
         detail = {"temperature": table.temperature and float(table.temperature)}
-        return Found(values, detail, _findings(values, ask), keys)
+        made = []
+        if float(values["viscoelastic_time"]) == 0.0 and not ask.slides:
+            text = "All loads come at once: the viscoelastic solids are as stiff as at the first instant. Give ramp or hold (--ramp, --hold) for what time does to the contact."
+            made.append(Advice("note", "first instant", text))
+        if ask.settings.frequency is not None and math.isnan(float(values["storage_stiffness"])):
+            text = "The surfaces do not touch under the last load: there is no contact that would oscillate."
+            made.append(Advice("warning", "oscillation", text))
+        error = float(values["time_error"])
+        if error > MUCH:
+            text = f"The steps of time may add {percent(error)} to the error of the displacement. Take a smaller tolerance (--time-tolerance) or more steps (--time-steps)."
+            made.append(Advice("warning", "steps of time", text))
+        return Found(values, detail, tuple(made), keys)
 
     def citations(self, ask: InTime, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of viscoelastic contact."""
@@ -167,22 +178,6 @@ class ViscoelasticityWork(Work):
     def restored(self, stored: Stored, solved: Solved) -> Any:
         """The same again."""
         return dict(stored.facts)
-
-
-def _findings(values: Mapping[str, Any], ask: InTime) -> tuple[Advice, ...]:
-    """That nothing took time, or that steps of time are long."""
-    made = []
-    if float(values["viscoelastic_time"]) == 0.0 and not ask.slides:
-        text = "All loads come at once: the viscoelastic solids are as stiff as at the first instant. Give ramp or hold (--ramp, --hold) for what time does to the contact."
-        made.append(Advice("note", "first instant", text))
-    if ask.settings.frequency is not None and math.isnan(float(values["storage_stiffness"])):
-        text = "The surfaces do not touch under the last load: there is no contact that would oscillate."
-        made.append(Advice("warning", "oscillation", text))
-    error = float(values["time_error"])
-    if error > MUCH:
-        text = f"The steps of time may add {percent(error)} to the error of the displacement. Take a smaller tolerance (--time-tolerance) or more steps (--time-steps)."
-        made.append(Advice("warning", "steps of time", text))
-    return tuple(made)
 
 
 def picture_of(found: Found, solved: Solved) -> TimePicture:
