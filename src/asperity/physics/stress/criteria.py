@@ -135,18 +135,14 @@ class _Deviator:
         length = np.sqrt(np.take_along_axis(squares, best[None], axis=0)[0])
         vector[0] = np.where(length > 0.0, vector[0], 1.0)
         self.n = np.asarray(vector / np.where(length > 0.0, length, 1.0))
-        self.u, self.v = _across(self.n)
+        # two unit vectors that make an orthonormal triad with it
+        x, y, z = self.n
+        wide = np.abs(x) > np.abs(y)
+        breadth = np.where(wide, np.hypot(x, z), np.hypot(y, z))
+        zero = np.zeros_like(x)
+        u = np.where(wide, np.stack([-z, zero, x]), np.stack([zero, z, -y])) / breadth
+        self.u, self.v = u, _cross(self.n, u)
         self.uu, self.vv, self.uv = _form(self.u, self.u, m), _form(self.v, self.v, m), _form(self.u, self.v, m)
-
-
-def _across(n: RealArray) -> tuple[RealArray, RealArray]:
-    """Two unit vectors that make an orthonormal triad with the unit vectors ``n`` (3, ...)."""
-    x, y, z = n
-    wide = np.abs(x) > np.abs(y)
-    length = np.where(wide, np.hypot(x, z), np.hypot(y, z))
-    zero = np.zeros_like(x)
-    u = np.where(wide, np.stack([-z, zero, x]), np.stack([zero, z, -y])) / length
-    return u, _cross(n, u)
 
 
 def _cross(u: RealArray, v: RealArray) -> RealArray:
