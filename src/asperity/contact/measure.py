@@ -28,7 +28,8 @@ def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = Fals
     from scipy.ndimage import label
 
     found, islands = label(mask, np.ones((3, 3)) if diagonal else None)  # without regard to what lies across the border
-    labels, count = np.asarray(found), int(islands)
+    labels: Labels = np.asarray(found)
+    count = int(islands)
     if count == 0 or not any(wraps):
         return labels, count
     # the number from 0 of the island to which each label belongs across the border

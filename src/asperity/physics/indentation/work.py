@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -339,7 +338,16 @@ class IndentationWork(Work):
             ("Tension and shear that may crack layers", tension_table(values, "indent")),
         )
         hard = show(float(values["indent_hardness"]), "Pa", 3)
-        return Words(_sentence(values), [("hardness by indentation", hard)], rows, tables, (REMARK,))
+        force, depth = show(float(values["indent_force"]), "N", 3), show(float(values["indent_depth"]), "m", 3)
+        sentence = f"The indenter takes {force} at a depth of {depth}, and the body stays elastic."
+        if float(values["indent_plastic_strain"]) > 0.0:
+            read = float(values["indent_oliver_pharr_hardness"])
+            beside = "" if math.isnan(read) else f" (Oliver and Pharr's method reads {show(read, 'Pa', 3)})"
+            sentence = (
+                f"The indenter takes {force} at a depth of {depth}: a hardness of {hard}{beside}; the plastic strain reaches "
+                f"{percent(float(values['indent_plastic_strain']))}, and {show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
+            )
+        return Words(sentence, [("hardness by indentation", hard)], rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers, the fitted unloading and the table of zones."""
@@ -404,15 +412,3 @@ REMARK = (
     "read from the unloading; the other divides the force by the true area. Tensions are means over an element at the place of the maximum."
 )
 """What the model is."""
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    force, depth = show(float(values["indent_force"]), "N", 3), show(float(values["indent_depth"]), "m", 3)
-    if not float(values["indent_plastic_strain"]) > 0.0:
-        return f"The indenter takes {force} at a depth of {depth}, and the body stays elastic."
-    read, true = float(values["indent_oliver_pharr_hardness"]), float(values["indent_hardness"])
-    beside = "" if math.isnan(read) else f" (Oliver and Pharr's method reads {show(read, 'Pa', 3)})"
-    return (
-        f"The indenter takes {force} at a depth of {depth}: a hardness of {show(true, 'Pa', 3)}{beside}; the plastic strain reaches "
-        f"{percent(float(values['indent_plastic_strain']))}, and {show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
-    )

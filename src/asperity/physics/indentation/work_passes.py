@@ -190,7 +190,17 @@ class PassesWork(Work):
             ("pressure", str(facts["pressure"])),
             *number_rows(SCALARS, values),
         ]
-        return Words(_sentence(values, facts), [("repeated passes", verdict(values))], rows, tables, (REMARK,))
+        ends, pressure = verdict(values), show(float(values["pass_hertz_pressure"]), "Pa", 3)
+        size = np.atleast_1d(values["passes_growth"]).size
+        start = f"After {size} pass{'es' * (size > 1)} of a {facts['shape']} at Hertz's pressure of {pressure}"
+        sentence = f"{start} the middle of the track stays elastic."
+        if ends != "elastic":
+            reached = f"the plastic strain reaches {percent(float(values['pass_plastic_strain']))}"
+            sentence = f"{start} {reached}."
+            if ends != "one pass":
+                last, ratio = percent(float(values["pass_strain_growth"])), percent(float(values["pass_growth_ratio"]))
+                sentence = f"{start} {reached}; the last pass adds {last} in the middle of the track, {ratio} of the first: {ends}."
+        return Words(sentence, [("repeated passes", ends)], rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers, the motion and the table of zones."""
@@ -229,18 +239,3 @@ def verdict(values: Mapping[str, Any]) -> str:
         if onward[-1] >= STEADY * onward[-2]:
             return "strain adds up: ratchetting"
     return "flow is not settled"
-
-
-def _sentence(values: Mapping[str, Any], facts: Mapping[str, Any]) -> str:
-    growth = np.atleast_1d(values["passes_growth"])
-    count, found = growth.size, verdict(values)
-    passes = f"{count} pass{'es' * (count > 1)}"
-    pressure = show(float(values["pass_hertz_pressure"]), "Pa", 3)
-    start = f"After {passes} of a {facts['shape']} at Hertz's pressure of {pressure}"
-    if found == "elastic":
-        return f"{start} the middle of the track stays elastic."
-    strain, last = float(values["pass_plastic_strain"]), float(values["pass_strain_growth"])
-    reached = f"the plastic strain reaches {percent(strain)}"
-    if found == "one pass":
-        return f"{start} {reached}."
-    return f"{start} {reached}; the last pass adds {percent(last)} in the middle of the track, {percent(float(values['pass_growth_ratio']))} of the first: {found}."

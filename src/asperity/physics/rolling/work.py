@@ -124,7 +124,15 @@ class RollingWork(Work):
             ("longitudinal force / normal force", f"{float(values['traction_coefficient']):.3g}"),
             ("heat per distance rolled", show(float(values["rolling_heat"]), "J/m", 3)),
         ]
-        return Words(_sentence(values), headline, rows, tables, (REMARK,))
+        share, slips = float(values["rolling_friction_share"]), float(values["rolling_slip_area_fraction"])
+        sentence = "The surfaces do not touch: nothing rolls."
+        if not math.isnan(slips):
+            along, across = float(values["rolling_longitudinal_force"]), float(values["rolling_lateral_force"])
+            limit = "" if math.isnan(share) else f", {percent(share)} of what friction bears"
+            heat = show(float(values["rolling_heat"]), "J/m", 3)
+            area = "all of the contact sticks" if slips == 0.0 else f"{percent(slips)} of the contact area slips"
+            sentence = f"The rolling contact transmits {show(math.hypot(along, across), 'N', 3)} along the surface{limit}; {area}, and rolling turns {heat} into heat."
+        return Words(sentence, headline, rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Direction, law and creepages."""
@@ -204,21 +212,6 @@ REMARK = (
     "other one they are the opposite. Shear tractions that lift unlike surfaces are balanced with the pressure."
 )
 """What the model is."""
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    share, slips = float(values["rolling_friction_share"]), float(values["rolling_slip_area_fraction"])
-    if math.isnan(slips):
-        return "The surfaces do not touch: nothing rolls."
-    force = show(
-        math.hypot(float(values["rolling_longitudinal_force"]), float(values["rolling_lateral_force"])), "N", 3
-    )
-    limit = "" if math.isnan(share) else f", {percent(share)} of what friction bears"
-    heat = show(float(values["rolling_heat"]), "J/m", 3)
-    area = "all of the contact sticks" if slips == 0.0 else f"{percent(slips)} of the contact area slips"
-    return (
-        f"The rolling contact transmits {force} along the surface{limit}; {area}, and rolling turns {heat} into heat."
-    )
 
 
 def _curve_table(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Table:

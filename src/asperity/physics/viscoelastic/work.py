@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -169,7 +168,18 @@ class ViscoelasticityWork(Work):
                 cells.append((f"{number}", show(float(end), "s"), *state, *energies))
             heads = ("Step", "Until", "Mean pressure", "Approach", "Real area", "Heat of the step", "Stored energy")
             tables = (("The contact in time", Table(heads, tuple(cells))),)
-        return Words(_sentence(values), headline, rows, tables, (REMARK,))
+        time, area = (np.atleast_1d(values[f"moment_{name}"]) for name in ("time", "area_fraction"))
+        sentence = "The load came at once: the viscoelastic solids are as stiff as at the first instant."
+        if time[-1] != 0.0:
+            approach = np.atleast_1d(values["moment_approach"])
+            touched = int(np.flatnonzero(area > 0.0)[0]) if (area > 0.0).any() else 0
+            heat = show(float(values["viscoelastic_heat"]), "J", 3)
+            sentence = (
+                f"From {show(float(time[touched]), 's', 3)} to {show(float(time[-1]), 's', 3)} the contact area went from "
+                f"{percent(float(area[touched]))} to {percent(float(area[-1]))} of the nominal area and the approach from "
+                f"{show(float(approach[touched]), 'm', 3)} to {show(float(approach[-1]), 'm', 3)}; {heat} became heat."
+            )
+        return Words(sentence, headline, rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """The temperature."""
@@ -194,17 +204,3 @@ REMARK = (
     "the load, but for the error of the steps of time. On a periodic surface creep of the mean displacement is not included."
 )
 """What the numbers mean."""
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    time, area = (np.atleast_1d(values[f"moment_{name}"]) for name in ("time", "area_fraction"))
-    if time[-1] == 0.0:
-        return "The load came at once: the viscoelastic solids are as stiff as at the first instant."
-    approach = np.atleast_1d(values["moment_approach"])
-    touched = int(np.flatnonzero(area > 0.0)[0]) if (area > 0.0).any() else 0
-    heat = show(float(values["viscoelastic_heat"]), "J", 3)
-    return (
-        f"From {show(float(time[touched]), 's', 3)} to {show(float(time[-1]), 's', 3)} the contact area went from "
-        f"{percent(float(area[touched]))} to {percent(float(area[-1]))} of the nominal area and the approach from "
-        f"{show(float(approach[touched]), 'm', 3)} to {show(float(approach[-1]), 'm', 3)}; {heat} became heat."
-    )

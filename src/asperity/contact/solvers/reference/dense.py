@@ -407,29 +407,20 @@ def solve_lcp(matrix: RealArray, vector: RealArray, limit: int) -> tuple[BoolArr
         if leaving == artificial:
             return np.isin(np.arange(m, 2 * m), basis), count + 1
         entering = leaving + m if leaving < m else leaving - m
-        found = _leaving_row(tableau, basis, entering, artificial)
-        if found is None:
+        column = tableau[:, entering]
+        rows = np.flatnonzero(column > _ZERO)
+        if not rows.size:
             raise NoSolutionError(
                 "contact conditions must have a solution, but Lemke's pivots end on a ray: no pressure within the bounds "
                 "balances the prescribed load or position. Lower the load, raise the hardness or prescribe MeanPressure(...)."
             )
-        row = found
+        # row of the lexicographic minimum ratio; the artificial variable goes first where it ties
+        ratios = tableau[rows, -1] / column[rows]
+        tied = rows[ratios <= ratios.min() + _ZERO * (1.0 + abs(ratios.min()))]
+        last = tied[basis[tied] == artificial]
+        inverse = tableau[tied, : basis.size] / column[tied, None]
+        row = int(last[0]) if last.size else _lexicographic_least(inverse, tied)
     return None, limit
-
-
-def _leaving_row(tableau: RealArray, basis: IntArray, entering: int, artificial: int) -> int | None:
-    """Row of the lexicographic minimum ratio; the artificial variable goes first where it ties; None on a ray."""
-    column = tableau[:, entering]
-    rows = np.flatnonzero(column > _ZERO)
-    if not rows.size:
-        return None
-    ratios = tableau[rows, -1] / column[rows]
-    tied = rows[ratios <= ratios.min() + _ZERO * (1.0 + abs(ratios.min()))]
-    for row in tied:
-        if basis[row] == artificial:
-            return int(row)
-    inverse = tableau[tied, : basis.size] / column[tied, None]
-    return _lexicographic_least(inverse, tied)
 
 
 def _lexicographic_least(values: RealArray, rows: IntArray) -> int:
