@@ -187,8 +187,9 @@ plot_area_by_speed = partial(
 )
 
 
-def _along_the_way(shown: StartPicture, ax: Axes, name: str, steady: float, label: str) -> Axes:
-    """Column ``name`` against the distance moved, with the ``steady`` value as a line."""
+def _along_the_way(shown: StartPicture, ax: Axes, name: str, label: str) -> Axes:
+    """Column ``name`` against the distance moved, with the value of steady sliding as a line."""
+    steady: float = getattr(shown, name)
     in_m = scale(shown.columns["distance"], "m")
     ax.plot(in_m(shown.columns["distance"]), shown.columns[name], color=BLUE, label="start of sliding")
     if np.isfinite(steady):
@@ -197,14 +198,8 @@ def _along_the_way(shown: StartPicture, ax: Axes, name: str, steady: float, labe
     return legend_above(ax)
 
 
-def plot_friction_at_start(shown: StartPicture, ax: Axes) -> Axes:
-    """Draw the coefficient of friction against the distance moved on ``ax``, that of steady sliding beside it."""
-    return _along_the_way(shown, ax, "friction", shown.friction, "coefficient of friction")
-
-
-def plot_area_at_start(shown: StartPicture, ax: Axes) -> Axes:
-    """Draw the real over nominal contact area against the distance moved on ``ax``, that of steady sliding beside it."""
-    return _along_the_way(shown, ax, "area_fraction", shown.area_fraction, "real contact area / nominal area")
+plot_friction_at_start = partial(_along_the_way, name="friction", label="coefficient of friction")
+plot_area_at_start = partial(_along_the_way, name="area_fraction", label="real contact area / nominal area")
 
 
 def plot_energy_at_start(shown: StartPicture, ax: Axes) -> Axes:
