@@ -8,7 +8,6 @@ import numpy as np
 
 from ..core.arrays import BoolArray, RealArray
 from . import measure
-from .couplings.protocol import Contact
 from .edge_tables import PATCHES, WAVES
 from .edges import Edges, Kind, Setting, edges_of
 from .problem import ContactProblem
@@ -51,13 +50,6 @@ def edges_in(problem: ContactProblem, pressure: RealArray, gap: RealArray, plast
     kind = next((found for found in kinds if found is not None), Kind.elastic)
     setting = Setting(problem.grid, problem.boundary.wraps, problem.contact_modulus, table, kind)
     return edges_of(pressure, gap, plastic, setting)
-
-
-def touching_fraction(problem: ContactProblem, contact: Contact) -> float:
-    """Real over nominal area of a ``contact`` that was solved."""
-    p = contact.pressure
-    capped = contact.touching & (p >= contact.cap)
-    return real_area(problem, p, capped, edges_in(problem, p, contact.gap, capped)).total / problem.grid.area
 
 
 def real_area(problem: ContactProblem, pressure: RealArray, plastic: BoolArray, edges: Edges) -> RealArea:

@@ -28,29 +28,11 @@ def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = Fals
     from scipy.ndimage import label
 
     found, islands = label(mask, np.ones((3, 3)) if diagonal else None)  # without regard to what lies across the border
-    labels, count = np.asarray(found), int(islands)
+    labels: Labels = np.asarray(found)
+    count = int(islands)
     if count == 0 or not any(wraps):
         return labels, count
-    whole, merged = _merged(labels, count, wraps, diagonal=diagonal)
-    return np.concatenate([[0], whole + 1])[labels], merged
-
-
-def island_sizes(mask: BoolArray, *, wraps: tuple[bool, bool]) -> Labels:
-    """Number of pixels of every island of ``mask`` (nx, ny), joined by edges, in the order of their labels.
-
-    The same as to count the pixels of each label, in one compiled pass and without a map of labels.
-    """
-    from ..core.engine import kernels
-
-    nx, ny = mask.shape
-    most = nx * ((ny + 1) // 2) + 1
-    lines, parent, sizes = np.empty((2, ny), np.int64), np.empty(most, np.int64), np.empty(most, np.int64)
-    count = kernels.island_sizes(np.ascontiguousarray(mask), wraps, lines, parent, sizes)
-    return sizes[:count].copy()
-
-
-def _merged(labels: Labels, count: int, wraps: tuple[bool, bool], *, diagonal: bool) -> tuple[Labels, int]:
-    """Number from 0 of the island to which each of the ``count`` labels belongs across the border, and of islands."""
+    # the number from 0 of the island to which each label belongs across the border
     pairs: list[tuple[Labels, Labels]] = []  # of neighbours on both sides of the borders that wrap
     for axis in (axis for axis in (0, 1) if wraps[axis]):
         low_side, high_side = np.asarray(labels.take(0, axis)), np.asarray(labels.take(-1, axis))
@@ -79,7 +61,21 @@ def _merged(labels: Labels, count: int, wraps: tuple[bool, bool], *, diagonal: b
     whole = np.cumsum(alone) - 1
     for island in parent:
         whole[island] = whole[root(island)]
-    return whole, count - len(parent)
+    return np.concatenate([[0], whole + 1])[labels], count - len(parent)
+
+
+def island_sizes(mask: BoolArray, *, wraps: tuple[bool, bool]) -> Labels:
+    """Number of pixels of every island of ``mask`` (nx, ny), joined by edges, in the order of their labels.
+
+    The same as to count the pixels of each label, in one compiled pass and without a map of labels.
+    """
+    from ..core.engine import kernels
+
+    nx, ny = mask.shape
+    most = nx * ((ny + 1) // 2) + 1
+    lines, parent, sizes = np.empty((2, ny), np.int64), np.empty(most, np.int64), np.empty(most, np.int64)
+    count = kernels.island_sizes(np.ascontiguousarray(mask), wraps, lines, parent, sizes)
+    return sizes[:count].copy()
 
 
 def spans(labels: Labels, *, wraps: tuple[bool, bool]) -> BoolArray:

@@ -141,36 +141,6 @@ class Physics:
         return {}
 
 
-def _joined(physics: Iterable[Physics], given: Mapping[str, Any]) -> tuple[Physics, ...]:
-    """All ``physics`` of a problem in the order of the registry, those of one's own last; what is ``given`` by keyword takes the place of others.
-
-    InputError if one is no physics, or given twice.
-    """
-    found: dict[str, Physics] = {}
-    for item in physics:
-        if not isinstance(item, Physics):
-            raise InputError(f"physics of a ContactProblem must be Physics, but is {type(item).__name__}.")
-        name = item.keyword or type(item).__qualname__
-        if name in found:
-            raise InputError(f"physics of a ContactProblem must be given once, but {name} is given twice.")
-        found[name] = item
-    for keyword, value in given.items():
-        if keyword not in PHYSICS:
-            raise TypeError(f"ContactProblem() got an unexpected keyword argument {keyword!r}")
-        found.pop(keyword, None)
-        if value is None:
-            continue
-        try:
-            found[keyword] = home(PHYSICS[keyword].home).of(value)
-        except TypeError:
-            must_be = f"{PHYSICS[keyword].must_be} or None"
-            raise InputError(
-                f"{keyword} of a ContactProblem must be {must_be}, but is {type(value).__name__}."
-            ) from None
-    order = list(PHYSICS)
-    return tuple(sorted(found.values(), key=lambda p: order.index(p.keyword) if p.keyword in order else len(order)))
-
-
 class WithPhysics:
     """Attributes of a problem by keyword: what was given for it, None for nothing."""
 
@@ -256,7 +226,31 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
         physics: Iterable[Physics] = (),
         **given: Unpack[Keywords],
     ) -> None:
-        values = (surface, body, counter_surface, counter_body, boundary, law, _joined(physics, given))
+        # in the order of the registry, those of one's own last; what is given by keyword takes the place of others
+        found: dict[str, Physics] = {}
+        for item in physics:
+            if not isinstance(item, Physics):
+                raise InputError(f"physics of a ContactProblem must be Physics, but is {type(item).__name__}.")
+            own = item.keyword or type(item).__qualname__
+            if own in found:
+                raise InputError(f"physics of a ContactProblem must be given once, but {own} is given twice.")
+            found[own] = item
+        for keyword, each in given.items():
+            if keyword not in PHYSICS:
+                raise TypeError(f"ContactProblem() got an unexpected keyword argument {keyword!r}")
+            found.pop(keyword, None)
+            if each is None:
+                continue
+            try:
+                found[keyword] = home(PHYSICS[keyword].home).of(each)
+            except TypeError:
+                must_be = f"{PHYSICS[keyword].must_be} or None"
+                raise InputError(
+                    f"{keyword} of a ContactProblem must be {must_be}, but is {type(each).__name__}."
+                ) from None
+        order = list(PHYSICS)
+        joined = sorted(found.values(), key=lambda p: order.index(p.keyword) if p.keyword in order else len(order))
+        values = (surface, body, counter_surface, counter_body, boundary, law, tuple(joined))
         for name, value in zip(self.__dataclass_fields__, values, strict=True):
             object.__setattr__(self, name, value)
         self._check()

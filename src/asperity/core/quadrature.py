@@ -83,28 +83,25 @@ def partial_moment(log_density: LogDensity, ends: tuple[float, float], order: fl
         part = slice(begin, begin + _CHUNK)
         for low, high in itertools.pairwise(edges):
             reached = np.flatnonzero(flat[part] < high) + begin
-            moments[reached] += _piece(log_density, ends, order, flat[reached], (low, high))
+            # over the part of this piece above each level, which is below its end
+            above = flat[reached]
+            start, end = np.maximum(above, low)[:, None], high
+            tau = np.arange(-_REACH, _REACH + 0.5 * _STEP, _STEP)
+            if math.isinf(end):  # distance from the start exp(π/2 sinh τ)
+                log_y = 0.5 * math.pi * np.sinh(tau)[None, :]
+                log_rest = np.full(log_y.shape, np.inf)
+                log_slope = log_y + np.log(0.5 * math.pi * np.cosh(tau))
+            else:  # distances (end - start)/(1 + exp(∓π sinh τ)) from both sides
+                width, u = np.log(end - start), math.pi * np.sinh(tau)
+                log_y, log_rest = width - np.logaddexp(0.0, -u), width - np.logaddexp(0.0, u)
+                log_slope = log_y + log_rest - width + np.log(math.pi * np.cosh(tau))
+            with np.errstate(over="ignore"):
+                y, rest = np.exp(log_y), np.exp(log_rest)
+            from_low, from_high = (start - ends[0]) + y, (ends[1] - end if math.isfinite(end) else 0.0) + rest
+            used = (y > 0.0) & (y < _FARTHEST) & (from_high > 0.0)
+            y, from_low, from_high = (np.where(used, values, 1.0) for values in (y, from_low, from_high))
+            logs = (
+                order * np.log((start - above[:, None]) + y) + log_density(start + y, from_low, from_high) + log_slope
+            )
+            moments[reached] += np.asarray(_STEP * np.sum(np.exp(np.where(used, logs, -np.inf)), axis=1))
     return moments.reshape(level.shape)
-
-
-def _piece(
-    log_density: LogDensity, ends: tuple[float, float], order: float, level: RealArray, piece: tuple[float, float]
-) -> RealArray:
-    """∫ (s - level)^order f(s) ds over the part of a ``piece`` above each ``level`` (n,), which is below its end."""
-    start, end = np.maximum(level, piece[0])[:, None], piece[1]
-    tau = np.arange(-_REACH, _REACH + 0.5 * _STEP, _STEP)
-    if math.isinf(end):  # distance from the start exp(π/2 sinh τ)
-        log_y = 0.5 * math.pi * np.sinh(tau)[None, :]
-        log_rest = np.full(log_y.shape, np.inf)
-        log_slope = log_y + np.log(0.5 * math.pi * np.cosh(tau))
-    else:  # distances (end - start)/(1 + exp(∓π sinh τ)) from both sides
-        width, u = np.log(end - start), math.pi * np.sinh(tau)
-        log_y, log_rest = width - np.logaddexp(0.0, -u), width - np.logaddexp(0.0, u)
-        log_slope = log_y + log_rest - width + np.log(math.pi * np.cosh(tau))
-    with np.errstate(over="ignore"):
-        y, rest = np.exp(log_y), np.exp(log_rest)
-    from_low, from_high = (start - ends[0]) + y, (ends[1] - end if math.isfinite(end) else 0.0) + rest
-    used = (y > 0.0) & (y < _FARTHEST) & (from_high > 0.0)
-    y, from_low, from_high = (np.where(used, values, 1.0) for values in (y, from_low, from_high))
-    logs = order * np.log((start - level[:, None]) + y) + log_density(start + y, from_low, from_high) + log_slope
-    return np.asarray(_STEP * np.sum(np.exp(np.where(used, logs, -np.inf)), axis=1))

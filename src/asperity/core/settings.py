@@ -206,7 +206,21 @@ def problems(error: ValidationError, schema: Mapping[str, Any], names: Mapping[s
     """
     found: dict[str, None] = {}
     for detail in error.errors():
-        key, allowed = _located(schema, detail["loc"])
+        # dotted key without the names of union members, and what may stand in its place
+        key, node = "", _resolved(schema, schema)
+        allowed: list[str] = []
+        for part in detail["loc"]:
+            mapping = node.get("discriminator", {}).get("mapping", {})
+            properties = node.get("properties", {})
+            if isinstance(part, int):
+                key, node = f"{key}[{part + 1}]", _resolved(node.get("items", {}), schema)
+            elif part in mapping:
+                node = _resolved({"$ref": mapping[part]}, schema)
+            else:
+                allowed = list(properties)
+                key, node = f"{key}.{part}".lstrip("."), _resolved(properties.get(part, {}), schema)
+        mapping = node.get("discriminator", {}).get("mapping")
+        allowed = list(mapping) if mapping else allowed
         shown = _called(key, names)
         found[_sentence(dict(detail), shown, allowed)] = None
     return list(found)
@@ -259,24 +273,6 @@ def _sentence(detail: Mapping[str, Any], key: str, allowed: Sequence[str]) -> st
 def _shown(value: object) -> str:
     text = str(value).lower() if isinstance(value, bool) else repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
-
-
-def _located(schema: Mapping[str, Any], loc: Sequence[int | str]) -> tuple[str, list[str]]:
-    """Dotted key of ``loc`` without the names of union members, and what may stand in its place."""
-    key, node = "", _resolved(schema, schema)
-    allowed: list[str] = []
-    for part in loc:
-        mapping = node.get("discriminator", {}).get("mapping", {})
-        properties = node.get("properties", {})
-        if isinstance(part, int):
-            key, node = f"{key}[{part + 1}]", _resolved(node.get("items", {}), schema)
-        elif part in mapping:
-            node = _resolved({"$ref": mapping[part]}, schema)
-        else:
-            allowed = list(properties)
-            key, node = f"{key}.{part}".lstrip("."), _resolved(properties.get(part, {}), schema)
-    mapping = node.get("discriminator", {}).get("mapping")
-    return key, list(mapping) if mapping else allowed
 
 
 def _resolved(node: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -65,9 +65,15 @@ def settle_position(
         last = settled.contact.with_work_of(last)
         return replace(settled, contact=last)
 
-    full = _fully_yielded(posed, couplings)
-    if full is not None:
-        return held(posed.control.value, full)
+    control = posed.control
+    caps = [coupling.cap for coupling in couplings if coupling.cap is not None]
+    far = isinstance(control, Approach) and control.value >= posed.top - float(posed.dented.mean())
+    if far and len(caps) == 1:
+        # whether the approach takes all points to a constant hardness
+        full = np.array(np.broadcast_to(caps[0], posed.dented.shape), dtype=np.float64)
+        reached = bool(np.all(posed.operator.apply(full) - posed.dented <= control.value - posed.top))
+        if reached and control.value > 0.0:
+            return held(control.value, full)
     found: Settled | None = None
     failure: NoSolutionError | None = None
     try:
@@ -85,20 +91,6 @@ def settle_position(
             raise failure
         return replace(instead, contact=replace(instead.contact, posed=posed))
     return found
-
-
-def _fully_yielded(posed: Posed, couplings: Sequence[Coupling]) -> RealArray | None:
-    """Pressure (nx, ny) in Pa at the hardness everywhere, if the approach prescribed takes all points that far; of constant hardness alone."""
-    control = posed.control
-    if not isinstance(control, Approach) or control.value < posed.top - float(posed.dented.mean()):
-        return None
-    caps = [coupling.cap for coupling in couplings if coupling.cap is not None]
-    if len(caps) != 1:
-        return None
-    pressure = np.array(np.broadcast_to(caps[0], posed.dented.shape), dtype=np.float64)
-    level = control.value - posed.top
-    reached = bool(np.all(posed.operator.apply(pressure) - posed.dented <= level))
-    return pressure if reached and control.value > 0.0 else None
 
 
 def _at_gap(posed: Posed, held: _Holding, start: RealArray | None) -> Settled:

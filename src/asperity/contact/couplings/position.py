@@ -164,7 +164,13 @@ class Position(Coupling):
         if note.last is not None and note.last[1] != closeness:
             note = replace(note, slope=(x - note.last[0]) / (closeness - note.last[1]))
         note = replace(note, last=(x, closeness))
-        step = self._step(note, closeness, posed.height_scale)
+        # step of the logarithm of the load by Persson's law, mean gap = -0.45 rms ln p + ..., or by proportionality at light loads
+        if closeness <= 0.0:
+            step = _FARTHEST
+        elif max(closeness, note.wanted) < _PERSSON * posed.height_scale / _LIGHT:
+            step = float(np.log(note.wanted / closeness)) / _LIGHT
+        else:
+            step = (note.wanted - closeness) / (_PERSSON * posed.height_scale)
         if self.nested and note.slope is not None and note.slope > 0.0:
             step = note.slope * (note.wanted - closeness)
         if abs(step) <= max(_CLOSED, 0.1 * self.tolerance) and abs(miss) <= _LOOSE * allowed:
@@ -212,15 +218,6 @@ class Position(Coupling):
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
         """Nothing to remember."""
         return {}, None
-
-    def _step(self, note: _Note, closeness: float, rms: float) -> float:
-        """Step of the logarithm of the load by Persson's law, mean gap = -0.45 rms ln p + ..., or by proportionality at light loads."""
-        wanted = note.wanted
-        if closeness <= 0.0:
-            return _FARTHEST
-        if max(closeness, wanted) < _PERSSON * rms / _LIGHT:
-            return float(np.log(wanted / closeness)) / _LIGHT
-        return (wanted - closeness) / (_PERSSON * rms)
 
 
 def without_bracket(exchange: Exchange) -> Exchange:

@@ -266,7 +266,21 @@ def spectral_kernel(compliance: Compliance, grid: Grid, engine: Engine | None = 
         waves = engine.resident(waves[0]), engine.resident(waves[1])
     qx, qy = waves[0][:rows], waves[1]
     if not of_engine and grid.shape[0] == grid.shape[1] and grid.size[0] == grid.size[1]:
-        kernel = _symmetric(compliance, qy, nx)
+        # the same along x and y: each wavenumber is looked up about once
+        n, squares = qy.size, np.square(qy[0])
+        strips = [(begin, min(begin + _STRIP, n)) for begin in range(0, n, _STRIP)]
+        places = np.cumsum([(end - begin) * (n - begin) for begin, end in strips])
+        sizes, kernel = np.empty(places[-1]), np.empty((nx, n))
+        for (begin, end), part in zip(strips, np.split(sizes, places[:-1]), strict=True):
+            np.add.outer(squares[begin:end], squares[begin:], out=part.reshape(-1, n - begin))
+        np.sqrt(sizes, out=sizes)
+        sizes[0] = sizes[-1] or 1.0  # any wavenumber of the grid: its value is replaced
+        values = compliance.spectral(sizes)
+        for (begin, end), part in zip(strips, np.split(values, places[:-1]), strict=True):
+            strip = part.reshape(-1, n - begin)
+            kernel[begin:end, begin:] = strip
+            kernel[begin:n, begin:end] = strip.T
+        kernel[n:] = kernel[nx - n : 0 : -1]
     else:
         q = np.sqrt(qx**2 + qy**2)
         q[0, 0] = float(q[-1, -1]) or 1.0  # any wavenumber of the grid: its value is replaced
@@ -278,25 +292,6 @@ def spectral_kernel(compliance: Compliance, grid: Grid, engine: Engine | None = 
 
 _STRIP = 64
 """Rows of a symmetric array that are mirrored at once. A layered kernel of 1024² points takes 5 ms so, and 12 if every wavenumber is looked up; strips of 32 and 128 the same."""
-
-
-def _symmetric(compliance: Compliance, qy: RealArray, nx: int) -> RealArray:
-    """Compliance on the half spectrum of a square grid, of ``nx`` rows, at the wavenumbers ``qy`` (1, n) along either axis: the same along x and y, each is looked up about once."""
-    n, squares = qy.size, np.square(qy[0])
-    strips = [(begin, min(begin + _STRIP, n)) for begin in range(0, n, _STRIP)]
-    places = np.cumsum([(end - begin) * (n - begin) for begin, end in strips])
-    q, out = np.empty(places[-1]), np.empty((nx, n))
-    for (begin, end), part in zip(strips, np.split(q, places[:-1]), strict=True):
-        np.add.outer(squares[begin:end], squares[begin:], out=part.reshape(-1, n - begin))
-    np.sqrt(q, out=q)
-    q[0] = q[-1] or 1.0  # any wavenumber of the grid: its value is replaced
-    values = compliance.spectral(q)
-    for (begin, end), part in zip(strips, np.split(values, places[:-1]), strict=True):
-        strip = part.reshape(-1, n - begin)
-        out[begin:end, begin:] = strip
-        out[begin:n, begin:end] = strip.T
-    out[n:] = out[nx - n : 0 : -1]
-    return out
 
 
 # Free contact: exact discrete convolution with influence coefficients on a zero-padded grid.

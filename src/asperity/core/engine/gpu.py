@@ -264,7 +264,16 @@ class _GpuSplines:
     def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
         assert isinstance(free, _GpuFreeSet)
         if self._corrections:
-            self._sweep_corrected(r)
+            # up all levels, and down again with the correction for row sums
+            run, weights, memory = self._passes.run, self._inverse, (self._sums, self._factors)
+            for level, cells in enumerate(self._cells):
+                run("rise", cells, self._levels[level], _INVERT, *self._wraps, weights[level], r, *memory)
+            for level in reversed(range(len(self._cells))):
+                cells, at, share = self._cells[level], self._levels[level], self._corrections[level]
+                last, target = int(level + 1 == len(self._cells)), self._raw if share else self._deflections
+                run("fall", cells, at, last, _INVERT, *self._wraps, weights[level], *memory, self._deflections, target)
+                if share:
+                    run("corrected", cells, at, *self._wraps, self._mean, self._per, self._raw, self._deflections)
         else:
             self._sweep(_INVERT, self._inverse, r)
         fields = (
@@ -307,18 +316,6 @@ class _GpuSplines:
         for level in reversed(range(turn)):
             arguments = (0, way, *self._wraps, weights[level], *memory, self._deflections)
             run("fall", self._cells[level], self._levels[level], *arguments)
-
-    def _sweep_corrected(self, points: Any) -> None:
-        """Up all levels from the ``points``, and down again with the correction for row sums."""
-        run, weights, memory = self._passes.run, self._inverse, (self._sums, self._factors)
-        for level, cells in enumerate(self._cells):
-            run("rise", cells, self._levels[level], _INVERT, *self._wraps, weights[level], points, *memory)
-        for level in reversed(range(len(self._cells))):
-            cells, at, share = self._cells[level], self._levels[level], self._corrections[level]
-            last, target = int(level + 1 == len(self._cells)), self._raw if share else self._deflections
-            run("fall", cells, at, last, _INVERT, *self._wraps, weights[level], *memory, self._deflections, target)
-            if share:
-                run("corrected", cells, at, *self._wraps, self._mean, self._per, self._raw, self._deflections)
 
 
 _INVERT, _DEFLECT, _FACTORISE = range(3)

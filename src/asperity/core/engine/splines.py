@@ -423,7 +423,20 @@ class CpuSplines:
         """Inverse times ``r``, see ``protocol.Splines``, which acts on other points by how they are ``yielding`` to it, if given."""
         self._rise(free, r if yielding is None else yielding, SOLVE, self._inverse)
         if self._correct:
-            self._fall_corrected()
+            # deflections on all levels, corrected from the first level on that is
+            levels, _, larger, top = self._layout[:4]
+            first, small, raw = self._first, larger + 1, self._correction[3]
+            before = self._wraps, self._inverse, self._lines, self._sums, self._g
+            fall_corrected(levels, (top, max(small, first)), *before, self._correction, self._cells)
+            if first > small:
+                fall((0, PARTS), levels, (first - 1, small, SOLVE), *before, self._cells, self._cells)
+            for depth in range(larger, 0, -1):
+                way, target = (depth, depth, SOLVE), raw if depth >= first else self._cells
+                self._blocks.share(fall, PARTS, levels, way, *before, self._cells, target, serial=False)
+                if depth >= first:
+                    self._blocks.share(
+                        corrected, PARTS, levels, depth, self._wraps, *self._correction, self._cells, serial=False
+                    )
         else:
             self._fall(SOLVE, self._inverse)
         return self._at_points(free, self._stiff, r, self._alone, self._together, r, other, out)
@@ -482,22 +495,6 @@ class CpuSplines:
             self._blocks.share(fall, PARTS, levels, (top, larger + 1, purpose), *arguments, serial=True)
         for depth in range(larger, 0, -1):
             self._blocks.share(fall, PARTS, levels, (depth, depth, purpose), *arguments, serial=False)
-
-    def _fall_corrected(self) -> None:
-        """Deflections on all levels to solve, corrected from the first level on that is."""
-        levels, _, larger, top = self._layout[:4]
-        first, small, raw = self._first, larger + 1, self._correction[3]
-        before = self._wraps, self._inverse, self._lines, self._sums, self._g
-        fall_corrected(levels, (top, max(small, first)), *before, self._correction, self._cells)
-        if first > small:
-            fall((0, PARTS), levels, (first - 1, small, SOLVE), *before, self._cells, self._cells)
-        for depth in range(larger, 0, -1):
-            way, target = (depth, depth, SOLVE), raw if depth >= first else self._cells
-            self._blocks.share(fall, PARTS, levels, way, *before, self._cells, target, serial=False)
-            if depth >= first:
-                self._blocks.share(
-                    corrected, PARTS, levels, depth, self._wraps, *self._correction, self._cells, serial=False
-                )
 
     def _at_points(
         self,

@@ -119,11 +119,6 @@ def _times(tensor: RealArray, vectors: RealArray) -> RealArray:
     return np.stack([xx * vectors[0] + xy * vectors[1], xy * vectors[0] + yy * vectors[1]])
 
 
-def _merged(n: int, pairs: bool, offset: int) -> int:
-    """Number of cells that ``n`` cells form in ``pairs`` (or stay), the first alone if ``offset`` is 1."""
-    return ((n - 1 + offset) >> 1) + 1 if pairs else n
-
-
 class _Layout(NamedTuple):
     """Table ``levels`` of ``vector_kernels`` (hierarchy, level, column), and the ``size`` of all cells in elements. Shared: not to be written to."""
 
@@ -138,7 +133,9 @@ def _layout(shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy]) ->
     for number, hierarchy in enumerate(hierarchies):
         nx, ny = shape
         for depth, merge in enumerate(hierarchy.merges, start=1):
-            nx, ny = _merged(nx, merge.x, merge.offset_x), _merged(ny, merge.y, merge.offset_y)
+            # pairs merge, the first cell alone where there is an offset
+            nx = ((nx - 1 + merge.offset_x) >> 1) + 1 if merge.x else nx
+            ny = ((ny - 1 + merge.offset_y) >> 1) + 1 if merge.y else ny
             stride = ny + 2
             flags = int(merge.x), int(merge.y), merge.offset_x, merge.offset_y, *hierarchy.roll
             levels[number, depth] = size + stride + 1, nx, ny, stride, *flags

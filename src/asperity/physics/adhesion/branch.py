@@ -85,7 +85,15 @@ class AdhesiveBranch:
         """Folds in the order of the branch, by the cubic through two points and their slopes; forces by the cubic through four."""
         found = []
         for k in np.flatnonzero(np.sign(self.turn[:-1]) * np.sign(self.turn[1:]) < 0.0):
-            at = _stationary(self.length[k : k + 2], self.turn[k : k + 2], self.approach[k : k + 2])
+            # the cubic of both approaches, whose slopes are as the turns, negative; where it is stationary
+            length, turn, approach = (values[k : k + 2] for values in (self.length, self.turn, self.approach))
+            step, rise = float(length[1] - length[0]), float(approach[1] - approach[0])
+            share = float(turn[0] / (turn[0] - turn[1]))
+            m0, m1 = -float(turn[0]) * step, -float(turn[1]) * step
+            a, b = m0 + m1 - 2.0 * rise, 3.0 * rise - 2.0 * m0 - m1
+            roots = [x.real for x in np.roots([3.0 * a, 2.0 * b, m0]) if abs(x.imag) < 1e-12 and 0.0 <= x.real <= 1.0]
+            x = min(roots, key=lambda root: abs(root - share)) if roots else share
+            at = float(length[0]) + x * step, float(approach[0]) + x * (m0 + x * (b + x * a))
             first = min(max(int(k) - 1, 0), max(self.length.size - 4, 0))
             near = slice(first, first + 4)
             force = float(np.polyval(np.polyfit(self.length[near] - at[0], self.force[near], 3), 0.0))
@@ -100,17 +108,6 @@ class AdhesiveBranch:
             return max(-float(self.force[k]), 0.0)
         a, b, c = np.polyfit(self.length[k - 1 : k + 2] - self.length[k], self.force[k - 1 : k + 2], 2)
         return max(-float(c - 0.25 * b * b / a), 0.0)
-
-
-def _stationary(length: RealArray, turn: RealArray, approach: RealArray) -> tuple[float, float]:
-    """Length and approach at which the cubic of these two approaches is stationary; the slopes are as the turns, negative."""
-    step, rise = float(length[1] - length[0]), float(approach[1] - approach[0])
-    share = float(turn[0] / (turn[0] - turn[1]))
-    m0, m1 = -float(turn[0]) * step, -float(turn[1]) * step
-    a, b = m0 + m1 - 2.0 * rise, 3.0 * rise - 2.0 * m0 - m1
-    roots = [x.real for x in np.roots([3.0 * a, 2.0 * b, m0]) if abs(x.imag) < 1e-12 and 0.0 <= x.real <= 1.0]
-    x = min(roots, key=lambda root: abs(root - share)) if roots else share
-    return float(length[0]) + x * step, float(approach[0]) + x * (m0 + x * (b + x * a))
 
 
 def adhesive_branch(

@@ -175,7 +175,25 @@ class AdhesionCoupling(Coupling):
             )
         control = posed.control
         if isinstance(control, MeanGap):
-            return self._at_gap(profile, cap, control.value, pull, pressure)
+            # by the rule of false position for the offset at which the mean gap is this
+            offset = control.value + float(profile.mean())
+            places: list[tuple[float, float]] = []
+            for _ in range(_POSITIONS):
+                problem = AdhesiveProblem(self.operator, profile, self.law, FixedOffset(offset), cap)
+                found = self.solver.solve(problem, pull, pressure)
+                miss = float((found.state.gap - self._core(found.state)).mean()) - control.value
+                if abs(miss) <= _POSITION_ERROR * control.value + 1e-12 * float(np.ptp(profile)):
+                    return found
+                pull, pressure = found.state.attraction, found.state.pressure
+                slope = 1.0
+                if places and places[-1][0] != offset:
+                    slope = (miss - places[-1][1]) / (offset - places[-1][0])
+                places.append((offset, miss))
+                offset -= miss / max(slope, 0.1)
+            raise NoSolutionError(
+                f"mean gap must be one that the contact reaches without a jump, but {control.value:.6g} m is not. Prescribe FixedGrips(...).",
+                subject="mean gap",
+            )
         stiffness = control.stiffness if isinstance(control, FixedGrips) else math.inf
         operator = self.operator if math.isinf(stiffness) else MachineOperator(self.operator, stiffness)
         offset = posed.top - control.value
@@ -196,29 +214,6 @@ class AdhesionCoupling(Coupling):
         yielded = float(state.traction.sum()) * operator.grid.pixel_area / stiffness
         bodies = replace(state, offset=state.offset + yielded, deflection=state.deflection - yielded)
         return replace(solution, state=bodies)
-
-    def _at_gap(
-        self, profile: RealArray, cap: float | RealArray, wanted: float, pull: RealArray, pressure: RealArray | None
-    ) -> AdhesiveSolution:
-        """Equilibrium of this mean gap (m), by the rule of false position for the offset where it is not known."""
-        offset = wanted + float(profile.mean())
-        places: list[tuple[float, float]] = []
-        for _ in range(_POSITIONS):
-            problem = AdhesiveProblem(self.operator, profile, self.law, FixedOffset(offset), cap)
-            found = self.solver.solve(problem, pull, pressure)
-            miss = float((found.state.gap - self._core(found.state)).mean()) - wanted
-            if abs(miss) <= _POSITION_ERROR * wanted + 1e-12 * float(np.ptp(profile)):
-                return found
-            pull, pressure = found.state.attraction, found.state.pressure
-            slope = 1.0
-            if places and places[-1][0] != offset:
-                slope = (miss - places[-1][1]) / (offset - places[-1][0])
-            places.append((offset, miss))
-            offset -= miss / max(slope, 0.1)
-        raise NoSolutionError(
-            f"mean gap must be one that the contact reaches without a jump, but {wanted:.6g} m is not. Prescribe FixedGrips(...).",
-            subject="mean gap",
-        )
 
     def share(self, exchange: Exchange) -> Share:
         """The attraction as a lift and a load; the load between the solids that the position came to."""

@@ -45,21 +45,6 @@ LOOP_SCALARS = (
 """Every scalar of a path of adhesive contacts, in the order of tables."""
 
 
-def adhesion_numbers(result: ContactResult) -> dict[str, float]:
-    """Values of ``ADHESION_SCALARS`` of ``result``; InputError if it has no adhesion."""
-    found = result.require_adhesion()
-    return {
-        "attractive_force": found.attractive_force,
-        "adhesive_area_fraction": found.adhesive_area_fraction,
-        "interface_energy": found.interface_energy,
-        "stability_margin": found.margin,
-        "cohesive_length": found.cohesive_length,
-        "pixels_per_cohesive_length": found.pixels_per_length,
-        "needed_pixel": found.needed_pixel,
-        "jumps": float(found.jumps),
-    }
-
-
 def adhesion_cycle(
     farthest: float, deepest: float, *, steps: int = 20, cycles: int = 1, stiffness: float = math.inf
 ) -> tuple[FixedGrips, ...]:

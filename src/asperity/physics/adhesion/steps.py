@@ -92,7 +92,13 @@ def in_ranges(problem: ContactProblem, control: Control, state: InterfaceState, 
             result = None
         smooth = short = False
         if result is not None:
-            smooth = _is_smooth(result, known)
+            # smooth: work by the trapezoidal rule and change of the energy agree as on a branch
+            adhesive = result.require_adhesion()
+            step, force = result.approach - float(known["approach"]), (adhesive.external_force, float(known["force"]))
+            energy = adhesive.elastic_energy + adhesive.interface_energy - float(known["energy"]) + result.plastic_work
+            missed = abs(0.5 * sum(force) * step - energy)
+            allowed = _SMOOTH * abs((force[0] - force[1]) * step) + _LEVEL * max(map(abs, force)) * abs(step)
+            smooth = not adhesive.jumped and missed <= allowed
             moved = abs(result.approach - float(known["approach"]))
             short = way.force and moved <= _length(law, known) and not result.require_adhesion().jumped
         if not (smooth or short) and share > least:
@@ -116,16 +122,6 @@ def in_ranges(problem: ContactProblem, control: Control, state: InterfaceState, 
     )
     plastic = final.total_plastic_work - state.plastic_work
     return replace(final, plastic_work=plastic, couplings={**final.couplings, "adhesion": whole})
-
-
-def _is_smooth(result: ContactResult, known: Mapping[str, RealArray]) -> bool:
-    """Whether work by the trapezoidal rule and change of the energy agree as on a branch."""
-    found = result.require_adhesion()
-    step, force = result.approach - float(known["approach"]), (found.external_force, float(known["force"]))
-    energy = found.elastic_energy + found.interface_energy - float(known["energy"]) + result.plastic_work
-    missed = abs(0.5 * sum(force) * step - energy)
-    allowed = _SMOOTH * abs((force[0] - force[1]) * step) + _LEVEL * max(map(abs, force)) * abs(step)
-    return not found.jumped and missed <= allowed
 
 
 def _length(law: Adhesion, known: Mapping[str, RealArray]) -> float:

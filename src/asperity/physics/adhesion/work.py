@@ -21,7 +21,7 @@ from .answer import PINNED, RESOLVED_RADIUS, method_of
 from .bound import energy_bound
 from .branch import Jump, adhesive_jumps
 from .figures import ADHESION_LOOP, ADHESION_PLOTS, BRANCH_PLOT
-from .loop import LOOP_SCALARS, AdhesionLoop, adhesion_cycle, adhesion_loop, adhesion_numbers
+from .loop import LOOP_SCALARS, AdhesionLoop, adhesion_cycle, adhesion_loop
 from .part import SOURCES, STICKINESS, Asked, Looped
 from .stickiness import stickiness
 from .work_branch import branch_values, jumps_table
@@ -46,7 +46,16 @@ class AdhesionWork(Work):
         found = solved.result.require_adhesion()
         loop = None if solved.path is None else adhesion_loop(solved.path.steps)
         problem, law = solved.problem, found.law
-        values: dict[str, Any] = adhesion_numbers(solved.result)
+        values: dict[str, Any] = {
+            "attractive_force": found.attractive_force,
+            "adhesive_area_fraction": found.adhesive_area_fraction,
+            "interface_energy": found.interface_energy,
+            "stability_margin": found.margin,
+            "cohesive_length": found.cohesive_length,
+            "pixels_per_cohesive_length": found.pixels_per_length,
+            "needed_pixel": found.needed_pixel,
+            "jumps": float(found.jumps),
+        }
         try:
             sticky = stickiness(problem)
             criteria = [sticky.share_of_limit, sticky.effective_work]

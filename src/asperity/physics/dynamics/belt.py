@@ -222,7 +222,46 @@ class BeltOscillator(Declared):
         require.between(tolerance, 0.0, 1e-2, "tolerance")
         if isinstance(self.friction, StaticKinetic):
             return self._stick_slip(self.friction, times, (0.0, self.speed) if start is None else start, tolerance)
-        return self._aged(self.friction, times, start, tolerance)
+        # states: displacement, ln(V/V_0) of the sliding speed V, ln(V_0 θ/D), work of the belt, heat
+        law = self.friction
+        U, V0, D, N, M, c = (
+            self.speed, law.reference_speed, law.distance, self.normal_force, self.mass, self.damping,
+        )  # fmt: skip
+        x0, v0, age = (self.steady_displacement, 0.0, 1.01 * D / U) if start is None else start
+        sliding = U - require.finite(v0, "velocity at the start (m/s)")
+        if sliding <= 0.0 or require.positive(age, "age of the contacts at the start (s)") <= 0.0:
+            raise InputError(
+                f"velocity at the start must be below the speed of the belt, {U:g} m/s, but is {v0:g} m/s."
+            )
+        ageing = law.law == "ageing"
+
+        def rates(time: float, s: RealArray) -> RealArray:
+            x, log_speed, log_age = float(s[0]), float(s[1]), float(s[2])
+            V = V0 * math.exp(log_speed)
+            v, friction = U - V, N * float(law.coefficient(log_speed, log_age))
+            worn = V / D  # rate of renewal
+            aged = V0 / D * math.exp(-log_age) - worn if ageing else -worn * (log_speed + log_age)
+            pushed = (self._held(x, v) - friction) / (M * V)
+            return np.array([v, pushed, aged, friction * U, friction * V + c * v * v])
+
+        reach = max(abs(self.steady_displacement), D)
+        heat = N * law.reference * reach
+        course = integrated(
+            {"slip": Phase(rates)},
+            "slip",
+            [x0, math.log(sliding / V0), math.log(V0 * age / D), 0.0, 0.0],
+            times,
+            method="Radau",
+            tolerance=tolerance,
+            scales=np.array([1e-3 * reach, 1.0, 1.0, heat, heat]),
+        )
+        x, log_speed, log_age = course.states[:, 0], course.states[:, 1], course.states[:, 2]
+        v = U - V0 * np.exp(log_speed)
+        states = np.column_stack([x, v, course.states[:, 3:]])
+        friction = N * np.asarray(law.coefficient(log_speed, log_age))
+        values = self._values(states, friction) | {"contact_time": D / V0 * np.exp(log_age)}
+        end = (float(x[-1]), float(v[-1]), float(values["contact_time"][-1]))
+        return Motion(times, values, course.events, end, course.evaluations)
 
     def _held(self, x: float, v: float) -> float:
         """Force in N of spring and dashpot against the motion of the block."""
@@ -287,48 +326,6 @@ class BeltOscillator(Declared):
         if abs(needed) <= bound:
             return "stick"
         return "slip" if needed > 0.0 else "slip ahead"
-
-    # States: displacement, ln(V/V_0) of the sliding speed V, ln(V_0 θ/D), work of the belt, heat.
-
-    def _aged(self, law: RateState, times: RealArray, start: Sequence[float] | None, tolerance: float) -> Motion:
-        U, V0, D, N, M, c = (
-            self.speed, law.reference_speed, law.distance, self.normal_force, self.mass, self.damping,
-        )  # fmt: skip
-        x0, v0, age = (self.steady_displacement, 0.0, 1.01 * D / U) if start is None else start
-        sliding = U - require.finite(v0, "velocity at the start (m/s)")
-        if sliding <= 0.0 or require.positive(age, "age of the contacts at the start (s)") <= 0.0:
-            raise InputError(
-                f"velocity at the start must be below the speed of the belt, {U:g} m/s, but is {v0:g} m/s."
-            )
-        ageing = law.law == "ageing"
-
-        def rates(time: float, s: RealArray) -> RealArray:
-            x, log_speed, log_age = float(s[0]), float(s[1]), float(s[2])
-            V = V0 * math.exp(log_speed)
-            v, friction = U - V, N * float(law.coefficient(log_speed, log_age))
-            worn = V / D  # rate of renewal
-            aged = V0 / D * math.exp(-log_age) - worn if ageing else -worn * (log_speed + log_age)
-            pushed = (self._held(x, v) - friction) / (M * V)
-            return np.array([v, pushed, aged, friction * U, friction * V + c * v * v])
-
-        reach = max(abs(self.steady_displacement), D)
-        heat = N * law.reference * reach
-        course = integrated(
-            {"slip": Phase(rates)},
-            "slip",
-            [x0, math.log(sliding / V0), math.log(V0 * age / D), 0.0, 0.0],
-            times,
-            method="Radau",
-            tolerance=tolerance,
-            scales=np.array([1e-3 * reach, 1.0, 1.0, heat, heat]),
-        )
-        x, log_speed, log_age = course.states[:, 0], course.states[:, 1], course.states[:, 2]
-        v = U - V0 * np.exp(log_speed)
-        states = np.column_stack([x, v, course.states[:, 3:]])
-        friction = N * np.asarray(law.coefficient(log_speed, log_age))
-        values = self._values(states, friction) | {"contact_time": D / V0 * np.exp(log_age)}
-        end = (float(x[-1]), float(v[-1]), float(values["contact_time"][-1]))
-        return Motion(times, values, course.events, end, course.evaluations)
 
     def _values(self, states: RealArray, friction: RealArray) -> dict[str, RealArray]:
         x, v, supplied, dissipated = states.T

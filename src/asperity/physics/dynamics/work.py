@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
 
 from ...contact.problem import ContactProblem
 from ...core.units import show
@@ -49,7 +47,22 @@ class DynamicsWork(Work):
             for item in Dynamics().quantities
             if not item.dims and item.name in values and not math.isnan(values[item.name])
         ]
-        return Words(_sentence(values), headline, rows, remarks=(REMARK,))
+        mean, largest = values.get("apparent_friction", math.nan), values.get("peak_friction", math.nan)
+        if not math.isnan(mean):
+            steady = (
+                "Steady sliding is unstable"
+                if values.get("growth_rate", math.nan) > 0.0
+                else "Steady sliding is stable"
+            )
+            period = values.get("stick_slip_period", math.nan)
+            slips = "" if math.isnan(period) else f"; stick-slip with a period of {show(period, 's', 3)}"
+            sentence = f"{steady}{slips}; the apparent friction is {mean:.3g}, at most {largest:.3g}."
+        elif "critical_friction" in values:
+            sentence = "The block has not begun to slide: there is no apparent friction."
+        else:
+            frequency = show(values["normal_frequency"], "Hz", 3)
+            sentence = f"The interface vibrates at {frequency}; the normal force is between {values['smallest_normal_force']:.3g} and {values['largest_normal_force']:.3g} of the load."
+        return Words(sentence, headline, rows, remarks=(REMARK,))
 
 
 REMARK = (
@@ -57,17 +70,3 @@ REMARK = (
     "bodies themselves is left out."
 )
 """What the model is."""
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    growth = values.get("growth_rate", math.nan)
-    mean, largest = values.get("apparent_friction", math.nan), values.get("peak_friction", math.nan)
-    if math.isnan(mean) and "critical_friction" in values:
-        return "The block has not begun to slide: there is no apparent friction."
-    if math.isnan(mean):
-        frequency = show(values["normal_frequency"], "Hz", 3)
-        return f"The interface vibrates at {frequency}; the normal force is between {values['smallest_normal_force']:.3g} and {values['largest_normal_force']:.3g} of the load."
-    steady = "Steady sliding is unstable" if growth > 0.0 else "Steady sliding is stable"
-    period = values.get("stick_slip_period", math.nan)
-    slips = "" if math.isnan(period) else f"; stick-slip with a period of {show(period, 's', 3)}"
-    return f"{steady}{slips}; the apparent friction is {mean:.3g}, at most {largest:.3g}."

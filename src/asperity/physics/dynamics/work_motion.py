@@ -352,29 +352,25 @@ class Made:
                     "integration, damp it. Start about to slide (dynamics.start, --start sliding), or smooth friction less (dynamics.smoothing, --smoothing)."
                 )
                 made.append(Advice("warning", "vibration of the motion", text))
-            made += self._of_the_end()
+            # whether the apparent friction is that of a steady state, and the phase of the vibration one of the equations
+            late, numbers = self.motion.after(self._window), self._late_numbers
+            spring = late["spring_force"]
+            slope = np.polyfit(late.time - late.time[0], spring, 1)[0]
+            change = float(slope * np.ptp(late.time)) / max(abs(float(spring.mean())), 1e-12 * self.load)
+            if math.isnan(numbers["stick_slip_period"]) and abs(change) > DRIFTS:
+                how = "runs backwards" if change < 0.0 else "is still dragged along"
+                text = (
+                    f"The block {how} in the time of the apparent friction: the spring force changes by {percent(change)} over the last "
+                    f"{show(float(np.ptp(late.time)), 's', 3)}, so that its mean is not that of a steady state. Take a longer duration (dynamics.duration, --duration)."
+                )
+                made.append(Advice("warning", "window of the motion", text))
+            grows = self.block.stability.margin > 0.0 and numbers["penetration_vibration"] >= QUIET
+            if grows and (self.ask.settings.disturbance == 0.0 or numbers["smallest_normal_force"] <= 0.0):
+                why = (
+                    "The vibration grew from errors of rounding alone"
+                    if self.ask.settings.disturbance == 0.0
+                    else "The block loses contact in an unstable vibration"
+                )
+                text = f"{why}: its phase hangs on rounding. Only means and extremes can be relied on, not the time of an event."
+                made.append(Advice("note", "phase of the motion", text))
         return tuple(made)
-
-    def _of_the_end(self) -> list[Advice]:
-        """Whether the apparent friction is that of a steady state, and the phase of the vibration one of the equations."""
-        made, late, numbers = [], self.motion.after(self._window), self._late_numbers
-        spring = late["spring_force"]
-        slope = np.polyfit(late.time - late.time[0], spring, 1)[0]
-        change = float(slope * np.ptp(late.time)) / max(abs(float(spring.mean())), 1e-12 * self.load)
-        if math.isnan(numbers["stick_slip_period"]) and abs(change) > DRIFTS:
-            how = "runs backwards" if change < 0.0 else "is still dragged along"
-            text = (
-                f"The block {how} in the time of the apparent friction: the spring force changes by {percent(change)} over the last "
-                f"{show(float(np.ptp(late.time)), 's', 3)}, so that its mean is not that of a steady state. Take a longer duration (dynamics.duration, --duration)."
-            )
-            made.append(Advice("warning", "window of the motion", text))
-        grows = self.block.stability.margin > 0.0 and numbers["penetration_vibration"] >= QUIET
-        if grows and (self.ask.settings.disturbance == 0.0 or numbers["smallest_normal_force"] <= 0.0):
-            why = (
-                "The vibration grew from errors of rounding alone"
-                if self.ask.settings.disturbance == 0.0
-                else "The block loses contact in an unstable vibration"
-            )
-            text = f"{why}: its phase hangs on rounding. Only means and extremes can be relied on, not the time of an event."
-            made.append(Advice("note", "phase of the motion", text))
-        return made

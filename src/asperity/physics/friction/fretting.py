@@ -74,27 +74,24 @@ def loop_of(steps: Sequence[ContactResult]) -> Loop:
     length = float(np.hypot(*farthest))
     direction = farthest / length if length > 0.0 else np.array([1.0, 0.0])
     shift = shifts @ direction
+    # steps between which the shift turns at one side and comes back to it
+    cycles: tuple[tuple[int, int], ...] = ()
+    moves = np.nan_to_num(np.diff(shift))  # NaN where a force was all that friction bears
+    moving = np.flatnonzero(moves)
+    if moving.size:
+        signs = np.sign(moves[moving])
+        turns = [int(moving[k]) + 1 for k in np.flatnonzero(np.diff(signs))]
+        turns.append(int(moving[-1]) + 1)
+        cycles = tuple(itertools.pairwise(turns[::2]))
     return Loop(
         shift,
         forces @ direction,
         (float(direction[0]), float(direction[1])),
         np.array([item.dissipated for item in found]),
-        _cycles(shift),
+        cycles,
     )
 
 
 def step_texts(steps: Sequence[ContactResult]) -> list[str]:
     """The shift of each of the ``steps`` of a history with stick and slip, in words."""
     return [f"shift {show(float(shift), 'm', 4)}" for shift in loop_of(steps).shift]
-
-
-def _cycles(shift: RealArray) -> tuple[tuple[int, int], ...]:
-    """Steps between which the ``shift`` turns at one side and comes back to it."""
-    moves = np.nan_to_num(np.diff(shift))  # NaN where a force was all that friction bears
-    moving = np.flatnonzero(moves)
-    if moving.size == 0:
-        return ()
-    signs = np.sign(moves[moving])
-    turns = [int(moving[k]) + 1 for k in np.flatnonzero(np.diff(signs))]
-    turns.append(int(moving[-1]) + 1)
-    return tuple(itertools.pairwise(turns[::2]))

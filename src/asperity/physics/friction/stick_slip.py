@@ -306,25 +306,23 @@ class StickSlipCoupling(Coupling):
             most = float(bound.sum()) * grid.pixel_area
             size = before.control.magnitude
             if slides_freely(before.control, most):
-                solution = self._gross(bound, target, force / size if size else force)
+                # everything slides along the force, by the least shift that slides the last point
+                direction = force / size if size else force
+                traction = bound * direction[:, None, None]
+                residual = target - self.operator.displacement(traction)
+                contact = bound > 0.0
+                along = np.tensordot(direction, residual, axes=1)
+                least = float(np.max(-along[contact], initial=0.0))
+                across = np.array([-direction[1], direction[0]])
+                sideways = float(np.tensordot(across, residual, axes=1)[contact].mean()) if contact.any() else 0.0
+                shift = least * direction - sideways * across
+                slip = np.where(contact, (along + least) * direction[:, None, None], 0.0)
+                solution = TangentialSolution(
+                    traction, shift, slip, Deviation(0.0, 0.0), _SLIDES, 0, self.operator.pairs_per_application
+                )
                 return note.with_solution(solution)
             mean = force / grid.area
         return note.with_solution(solver.solve(TangentialQP(self.operator, bound, target, mean), warm))
-
-    def _gross(self, bound: RealArray, target: RealArray, direction: RealArray) -> TangentialSolution:
-        """Everything slides along ``direction``, by the least shift that slides the last point."""
-        traction = bound * direction[:, None, None]
-        residual = target - self.operator.displacement(traction)
-        contact = bound > 0.0
-        along = np.tensordot(direction, residual, axes=1)
-        least = float(np.max(-along[contact], initial=0.0))
-        across = np.array([-direction[1], direction[0]])
-        sideways = float(np.tensordot(across, residual, axes=1)[contact].mean()) if contact.any() else 0.0
-        shift = least * direction - sideways * across
-        slip = np.where(contact, (along + least) * direction[:, None, None], 0.0)
-        return TangentialSolution(
-            traction, shift, slip, Deviation(0.0, 0.0), _SLIDES, 0, self.operator.pairs_per_application
-        )
 
     def settled(self, exchange: Exchange) -> str:
         """That the displacement is."""
@@ -369,19 +367,6 @@ class StickSlipCoupling(Coupling):
         found = self._outcome(replace(exchange, note=note), contact, limit)
         return found.memory, found
 
-    def _slip(self, solution: TangentialSolution, before: _Before, pressure: RealArray) -> RealArray:
-        """Slip of the step (2, nx, ny) in m, also of the points that touch and bear no shear."""
-        bare = (pressure > 0.0) & (self.law.bound(pressure) == 0.0)
-        if not bare.any():
-            return solution.slip
-        moved = (
-            _vector(before.control) - before.shift
-            if isinstance(before.control, Shift)
-            else np.append(solution.shift, 0.0)
-        )
-        residual = self._free(before) - self.operator.drawn(pressure) - self.operator.displacement(solution.traction)
-        return np.where(bare, residual + shift_field(self.operator.grid, moved), solution.slip)
-
     def _outcome(self, exchange: Exchange, contact: Contact, limit: float) -> StickSlip:
         note: _Note = exchange.note
         before, grid, pressure, solution = note.before, self.operator.grid, _double(contact.pressure), note.solution
@@ -391,7 +376,10 @@ class StickSlipCoupling(Coupling):
         moved = _vector(control) if isinstance(control, Shift) else before.shift + step
         if slides_freely(control, limit) and pressure.any():
             moved = np.array([np.nan, np.nan, moved[2]])
-        slip = self._slip(solution, before, pressure)
+        slip, bare = solution.slip, (pressure > 0.0) & (bound == 0.0)
+        if bare.any():  # points that touch and bear no shear slip too
+            left = self._free(before) - self.operator.drawn(pressure) - self.operator.displacement(traction)
+            slip = np.where(bare, left + shift_field(grid, step), slip)
         displacement = self.operator.displacement(traction) + self.operator.drawn(pressure)
         if self.held is not None:
             displacement = displacement + self.held.displacement

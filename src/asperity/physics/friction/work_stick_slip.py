@@ -19,7 +19,7 @@ from ...parts.part import Found, Solved, Table, Words, Work
 from ...plots.picture import Figure, figures_by
 from .answer import StickSlip as Outcome
 from .figures import LOOP_PLOTS, SHEAR_PLOTS
-from .fretting import SHEAR_SCALARS, Loop, loop_of, shear_numbers
+from .fretting import SHEAR_SCALARS, loop_of, shear_numbers
 from .linearised import contraction_factor, tangential_stiffness
 from .part_stick_slip import LINEAR, Sheared
 
@@ -66,7 +66,37 @@ class StickSlipWork(Work):
             factor = contraction_factor(solved.result)
         linear = dict(zip((item.name for item in LINEAR), (stiffness, factor), strict=True))
         values = {**shear_numbers(solved.result), "cycle_dissipation": last, **linear}
-        return Found(values, None, _findings(solved, factor), found.citation_keys)
+        steps = (solved.result,) if solved.path is None else solved.path.steps
+        made = []
+        sliding = sum(step.contact.any() and step.require_stick_slip().slipping[step.contact].all() for step in steps)
+        if sliding:
+            text = (
+                f"All points slide in {sliding} of {len(steps)} steps: the tangential force is all that friction bears."
+            )
+            made.append(Advice("note", "gross sliding", text))
+        if solved.path is not None and len(steps) > 2:
+            # share of the tangential work that the length of the steps takes
+            balance = solved.path.energies
+            work = float(abs(balance.tangential_work).max())
+            lost = abs(float(balance.step_work[-1])) / work if work > 0.0 else 0.0
+            if lost > COARSE:
+                text = (
+                    f"The length of the steps takes {percent(lost)} of the tangential work, which is neither stored nor heat. Take more steps "
+                    "(shear.steps, --cycle-steps; of time, --time-steps) where slip reverses or turns."
+                )
+                made.append(Advice("note", "length of the steps", text))
+        if factor > 0.0:  # where shear changes the pressure the two settle in turn
+            certificate = solved.result.certificate
+            check = next((item for item in certificate.couplings if item.name == "stick_slip"), None)
+            met = "" if check is None else f" After {certificate.rounds} rounds it was {check.residual:.1e}."
+            text = f"A round between pressure and shear multiplies their error by {factor:.2g}"
+            if factor >= 1.0:
+                more = "the alternation does not contract, and the solution found may be one of several"
+                remedy = "Lower the friction coefficient, or follow the path in smaller steps."
+                made.append(Advice("warning", "contraction of pressure and shear", f"{text}: {more}.{met} {remedy}"))
+            else:
+                made.append(Advice("note", "contraction of pressure and shear", f"{text}.{met}"))
+        return Found(values, None, tuple(made), found.citation_keys)
 
     def citations(self, ask: Sheared, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of law and method."""
@@ -87,7 +117,17 @@ class StickSlipWork(Work):
         tables: list[tuple[str, Table]] = []
         if path is not None and loop is not None:
             if loop.cycles:
-                tables.append(("Cycles", cycle_table(loop)))
+                cells = []
+                for number, ((first, last), lost) in enumerate(
+                    zip(loop.cycles, loop.cycle_energies, strict=True), start=1
+                ):
+                    shift, forces = loop.shift[first : last + 1], loop.force[first : last + 1]
+                    ranges = (
+                        f"{show(float(v.min()), unit, 4)} to {show(float(v.max()), unit, 4)}"
+                        for v, unit in ((shift, "m"), (forces, "N"))
+                    )
+                    cells.append((str(number), f"{first + 1} to {last + 1}", *ranges, show(float(lost), "J", 4)))
+                tables.append(("Cycles", Table(("Cycle", "Steps", "Shift", "Tangential force", "Heat"), tuple(cells))))
             tables.append(("Steps", step_table(path)))
 
         share = numbers["slip_area_fraction"]
@@ -122,39 +162,6 @@ class StickSlipWork(Work):
         return Words(sentence, headline, rows, tuple(tables), (REMARK,))
 
 
-def _findings(solved: Solved, factor: float) -> tuple[Advice, ...]:
-    """Gross sliding, steps that are too coarse, and a coupling that barely contracts."""
-    steps = (solved.result,) if solved.path is None else solved.path.steps
-    made = []
-    sliding = sum(step.contact.any() and step.require_stick_slip().slipping[step.contact].all() for step in steps)
-    if sliding:
-        text = f"All points slide in {sliding} of {len(steps)} steps: the tangential force is all that friction bears."
-        made.append(Advice("note", "gross sliding", text))
-    if solved.path is not None and len(steps) > 2:
-        # share of the tangential work that the length of the steps takes
-        balance = solved.path.energies
-        work = float(abs(balance.tangential_work).max())
-        lost = abs(float(balance.step_work[-1])) / work if work > 0.0 else 0.0
-        if lost > COARSE:
-            text = (
-                f"The length of the steps takes {percent(lost)} of the tangential work, which is neither stored nor heat. Take more steps "
-                "(shear.steps, --cycle-steps; of time, --time-steps) where slip reverses or turns."
-            )
-            made.append(Advice("note", "length of the steps", text))
-    if factor > 0.0:  # where shear changes the pressure the two settle in turn
-        certificate = solved.result.certificate
-        check = next((item for item in certificate.couplings if item.name == "stick_slip"), None)
-        met = "" if check is None else f" After {certificate.rounds} rounds it was {check.residual:.1e}."
-        text = f"A round between pressure and shear multiplies their error by {factor:.2g}"
-        if factor >= 1.0:
-            more = "the alternation does not contract, and the solution found may be one of several"
-            remedy = "Lower the friction coefficient, or follow the path in smaller steps."
-            made.append(Advice("warning", "contraction of pressure and shear", f"{text}: {more}.{met} {remedy}"))
-        else:
-            made.append(Advice("note", "contraction of pressure and shear", f"{text}.{met}"))
-    return tuple(made)
-
-
 REMARK = (
     "A point sticks while its shear traction is below the bound of the friction, and slips along its traction at the bound. Steps are "
     "implicit: slip that turns or reverses within a step is seen at its end only."
@@ -177,19 +184,6 @@ def law_text(law: Any) -> str:
         limit = f", at most {show(law.limit, 'Pa')}" if math.isfinite(law.limit) else ""
         return f"{law.name}, coefficient {span(law.coefficient, '1')}{limit}"
     return f"{law.name}, {span(law.strength, 'Pa')}" if hasattr(law, "strength") else str(law.name)
-
-
-def cycle_table(loop: Loop) -> Table:
-    """Steps, range and heat of every closed cycle."""
-    cells = []
-    for number, ((first, last), heat) in enumerate(zip(loop.cycles, loop.cycle_energies, strict=True), start=1):
-        shift, force = loop.shift[first : last + 1], loop.force[first : last + 1]
-        ranges = (
-            f"{show(float(v.min()), unit, 4)} to {show(float(v.max()), unit, 4)}"
-            for v, unit in ((shift, "m"), (force, "N"))
-        )
-        cells.append((str(number), f"{first + 1} to {last + 1}", *ranges, show(float(heat), "J", 4)))
-    return Table(("Cycle", "Steps", "Shift", "Tangential force", "Heat"), tuple(cells))
 
 
 def step_table(path: HistoryResult) -> Table:

@@ -182,13 +182,36 @@ class DepthHardness(Coupling):
         before = exchange.note.before
         reached = before + added_indentation(contact)
         limit = self._limits(reached)
-        residual = self._disagreement(exchange.note, contact, reached, limit)
+        # relative excess of the pressure over the limit, at yielding points its difference from it either way
+        p, resolved = contact.pressure, _RESOLVED * contact.posed.height_scale
+        index, nearest = np.flatnonzero(reached > exchange.note.before), limit.copy()
+        deep, first, there = (field.reshape(-1)[index] for field in (reached, exchange.note.before, limit))
+        near = np.concatenate(
+            [there[None], *(self.law.cap_at(np.maximum(deep + by, first)[None]) for by in (-resolved, resolved))]
+        )
+        nearest.reshape(-1)[index] = np.clip(p.reshape(-1)[index], near.min(axis=0), near.max(axis=0))
+        off = np.where(p >= contact.cap, np.abs(p - nearest), p - nearest) / nearest
+        residual = max(float(off.max()), 0.0)
         smooth = exchange.smooth and not bool(np.any(limit < self._limits(before)))
         if smooth:
             place = contact.pressure + reached / self.own_compliance
             target = np.clip(place, exchange.lowest, self._place(np.maximum(before, self.deepest)))
         else:
-            target = self._foreseen(exchange, contact, reached, limit) if residual > self.tolerance else limit
+            target, sinking, last = limit, contact.pressure > limit, exchange.note.last
+            if residual > self.tolerance and self._gentle and sinking.any():
+                # the limit falls gently: at sinking points that at the depth to which they sink while their pressure follows it
+                begin, pressure = reached[sinking], contact.pressure[sinking]
+                compliance = np.full(begin.shape, _SINKING * self.own_compliance)
+                if last is not None:
+                    fell, sank = (last[0] - exchange.x)[sinking], (reached - last[1])[sinking]
+                    known = (fell > _RESOLVED_FALL * pressure) & (last[1] > before)[sinking]
+                    most = _GENTLE / max(self.fall, np.finfo(float).tiny)
+                    compliance[known] = np.clip(sank[known] / fell[known], compliance[known], most)
+                depth = begin
+                for _ in range(_HALVINGS):
+                    depth = begin + compliance * np.maximum(pressure - self.law.cap_at(depth), 0.0)
+                target = limit.copy()
+                target[sinking] = self.law.cap_at(depth)
         return replace(
             exchange,
             target=target,
@@ -202,26 +225,6 @@ class DepthHardness(Coupling):
             pressure=None,
             note=replace(exchange.note, bearing=exchange.x, last=(exchange.x, reached)),
         )
-
-    def _foreseen(self, exchange: Exchange, contact: Contact, reached: RealArray, limit: RealArray) -> RealArray:
-        """The ``limit`` at the depth ``reached``; if it falls gently, at that to which points sink while their pressure follows it."""
-        sinking, note = contact.pressure > limit, exchange.note
-        if not (self._gentle and sinking.any()):
-            return limit
-        first, pressure = reached[sinking], contact.pressure[sinking]
-        compliance = np.full(first.shape, _SINKING * self.own_compliance)
-        if note.last is not None:
-            fell, sank = (note.last[0] - exchange.x)[sinking], (reached - note.last[1])[sinking]
-            known = (fell > _RESOLVED_FALL * pressure) & (note.last[1] > note.before)[sinking]
-            compliance[known] = np.clip(
-                sank[known] / fell[known], compliance[known], _GENTLE / max(self.fall, np.finfo(float).tiny)
-            )
-        depth = first
-        for _ in range(_HALVINGS):
-            depth = first + compliance * np.maximum(pressure - self.law.cap_at(depth), 0.0)
-        foreseen = limit.copy()
-        foreseen[sinking] = self.law.cap_at(depth)
-        return foreseen
 
     def _place(self, depth: RealArray) -> RealArray:
         """y (nx, ny) in Pa of a depth (nx, ny) in m."""
@@ -244,18 +247,6 @@ class DepthHardness(Coupling):
             low, high = np.where(below, middle, low), np.where(below, high, middle)
         depth.reshape(-1)[index] = np.where(low > start, 0.5 * (low + high), start)[0]
         return depth
-
-    def _disagreement(self, note: _Note, contact: Contact, reached: RealArray, limit: RealArray) -> float:
-        """Largest relative excess of the pressure over the ``limit`` at the depth ``reached``, or at yielding points difference from it either way."""
-        p, resolved = contact.pressure, _RESOLVED * contact.posed.height_scale
-        index, nearest = np.flatnonzero(reached > note.before), limit.copy()
-        deep, first, there = (field.reshape(-1)[index] for field in (reached, note.before, limit))
-        near = np.concatenate(
-            [there[None], *(self.law.cap_at(np.maximum(deep + by, first)[None]) for by in (-resolved, resolved))]
-        )
-        nearest.reshape(-1)[index] = np.clip(p.reshape(-1)[index], near.min(axis=0), near.max(axis=0))
-        off = np.where(p >= contact.cap, np.abs(p - nearest), p - nearest) / nearest
-        return max(float(off.max()), 0.0)
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
         """Half the way to limits that bear ``mean``: the last that did, or those at the first depth that is the same more everywhere."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,7 +20,7 @@ from ...fem.mesh import Resolution
 from ...parts.part import Found, Rows, Solved, Stored, Words, Work
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic, Rigid
-from ...solids.layers import Body, Layered, materials_of
+from ...solids.layers import Layered, materials_of
 from ...solids.strength import flow_stress
 from ...theories.hardness.unloading import analyse_indentation
 from ..plastic_flow.figures import plots_of, step_label
@@ -251,7 +250,16 @@ def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Fo
     facts |= {"of_indenter": " on ".join(layer_names(course.of)), "friction": course.friction}
     zones = zone_table(shown, body)
     facts["zones"] = [list(zones.headings), [list(row) for row in zones.cells]]
-    findings = list(_findings(run, indenter, body))
+    findings = list(inferred_strengths(body))
+    radius = math.sqrt(float(run.shown.curve["area"][run.peak]) / math.pi)
+    if not indenter.is_cone and radius > SMALL_STRAIN * indenter.radius:
+        text = f"The contact radius is {radius / indenter.radius:.2g} of that of the indenter. Beyond {SMALL_STRAIN:g} small strains err by more than a few per cent."
+        findings.append(Advice("warning", "small strain", text))
+    if run.touching < FEW:
+        text = f"Only {run.touching} points of the mesh touch. Load and area err by several per cent below {FEW}; take more elements (--indent-elements)."
+        findings.append(Advice("warning", "mesh of the indentation", text))
+    if not run.shown.strain.max() > 0.0:
+        findings.append(Advice("note", "indentation", "Nothing flows at this depth: the indentation is elastic."))
     try:
         read = analyse_indentation(
             curve["approach"], curve["force"], indenter.area, shape=indenter.shape, true_area=area
@@ -274,21 +282,6 @@ def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Fo
     return Found({**values, **shown.values(PREFIX)}, Detail(facts, run), tuple(findings), KEYS)
 
 
-def _findings(run: Indented, indenter: Indenter, body: Body) -> tuple[Advice, ...]:
-    """Strains that are not small, few points in contact, yield stresses from the hardness, no flow at all."""
-    made = list(inferred_strengths(body))
-    radius = math.sqrt(float(run.shown.curve["area"][run.peak]) / math.pi)
-    if not indenter.is_cone and radius > SMALL_STRAIN * indenter.radius:
-        text = f"The contact radius is {radius / indenter.radius:.2g} of that of the indenter. Beyond {SMALL_STRAIN:g} small strains err by more than a few per cent."
-        made.append(Advice("warning", "small strain", text))
-    if run.touching < FEW:
-        text = f"Only {run.touching} points of the mesh touch. Load and area err by several per cent below {FEW}; take more elements (--indent-elements)."
-        made.append(Advice("warning", "mesh of the indentation", text))
-    if not run.shown.strain.max() > 0.0:
-        made.append(Advice("note", "indentation", "Nothing flows at this depth: the indentation is elastic."))
-    return tuple(made)
-
-
 SMALL_STRAIN = 0.15
 """Contact over indenter radius up to which small strains hold within a few per cent."""
 
@@ -306,13 +299,15 @@ class IndentationWork(Work):
 
     def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, before the contact is solved."""
-        require_flow(_body(ask, problem), unknown_is_elastic=ask.unknown_is_elastic)
+        body = meshed_body(problem, ask.inside, "indentation", "--indent-in")
+        require_flow(body, unknown_is_elastic=ask.unknown_is_elastic)
         _indenter(ask, problem)
         _of_indenter(ask, problem)
 
     def compute(self, ask: IndentationSettings, solved: Solved) -> Found:
         """Way in and out, hardness and zones."""
-        body, indenter = _body(ask, solved.problem), _indenter(ask, solved.problem)
+        body = meshed_body(solved.problem, ask.inside, "indentation", "--indent-in")
+        indenter = _indenter(ask, solved.problem)
         pair = (_of_indenter(ask, solved.problem), float(ask.friction))
         course = Course(float(ask.depth or 0.0), ask.steps, ask.unloading_steps, ask.elements, *pair)
         with solved.stage("indentation") as progress:
@@ -343,7 +338,16 @@ class IndentationWork(Work):
             ("Tension and shear that may crack layers", tension_table(values, "indent")),
         )
         hard = show(float(values["indent_hardness"]), "Pa", 3)
-        return Words(_sentence(values), [("hardness by indentation", hard)], rows, tables, (REMARK,))
+        force, depth = show(float(values["indent_force"]), "N", 3), show(float(values["indent_depth"]), "m", 3)
+        sentence = f"The indenter takes {force} at a depth of {depth}, and the body stays elastic."
+        if float(values["indent_plastic_strain"]) > 0.0:
+            read = float(values["indent_oliver_pharr_hardness"])
+            beside = "" if math.isnan(read) else f" (Oliver and Pharr's method reads {show(read, 'Pa', 3)})"
+            sentence = (
+                f"The indenter takes {force} at a depth of {depth}: a hardness of {hard}{beside}; the plastic strain reaches "
+                f"{percent(float(values['indent_plastic_strain']))}, and {show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
+            )
+        return Words(sentence, [("hardness by indentation", hard)], rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers, the fitted unloading and the table of zones."""
@@ -355,11 +359,6 @@ class IndentationWork(Work):
 
 
 KEYS = ("SimoTaylor1985", "Oliver1992")
-
-
-def _body(ask: IndentationSettings, problem: ContactProblem) -> Any:
-    """The body that is indented; InputError if it is rigid."""
-    return meshed_body(problem, ask.inside, "indentation", "--indent-in")
 
 
 def _of_indenter(ask: IndentationSettings, problem: ContactProblem) -> Any:
@@ -413,15 +412,3 @@ REMARK = (
     "read from the unloading; the other divides the force by the true area. Tensions are means over an element at the place of the maximum."
 )
 """What the model is."""
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    force, depth = show(float(values["indent_force"]), "N", 3), show(float(values["indent_depth"]), "m", 3)
-    if not float(values["indent_plastic_strain"]) > 0.0:
-        return f"The indenter takes {force} at a depth of {depth}, and the body stays elastic."
-    read, true = float(values["indent_oliver_pharr_hardness"]), float(values["indent_hardness"])
-    beside = "" if math.isnan(read) else f" (Oliver and Pharr's method reads {show(read, 'Pa', 3)})"
-    return (
-        f"The indenter takes {force} at a depth of {depth}: a hardness of {show(true, 'Pa', 3)}{beside}; the plastic strain reaches "
-        f"{percent(float(values['indent_plastic_strain']))}, and {show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
-    )

@@ -14,7 +14,7 @@ from ...core.units import percent, show
 from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
-from ...solids.layers import Body, Layered, RigidBase
+from ...solids.layers import Layered, RigidBase
 from ...solids.strength import flow_stress
 from ...theories.subsurface.point_shakedown import sphere_shakedown
 from ...theories.subsurface.shakedown import cylinder_shakedown
@@ -103,11 +103,6 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
     values |= {f"{PREFIX}_{name}": column for name, column in run.each.items()}
     names = ("profile_depth", "residual_along", "residual_across")
     values |= {f"{PREFIX}_{name}": column for name, column in zip(names, run.profile, strict=True)}
-    return Found(values, Detail(facts, run), _findings(run, values, course, body), KEYS)
-
-
-def _findings(run: Passed, values: dict[str, Any], course: Course, body: Body) -> tuple[Advice, ...]:
-    """Strains that are not small, coarse meshes and steps, contacts at the edge, flow that is not settled, no flow at all."""
     made, strain = list(inferred_strengths(body)), float(values["pass_plastic_strain"])
     share = run.numbers["contact"] / course.radius
     if strain > LARGE_STRAIN or share > 0.15:
@@ -132,7 +127,7 @@ def _findings(run: Passed, values: dict[str, Any], course: Course, body: Body) -
         cracks = "once the ductility is used up" if "adds up" in found else "by low-cycle fatigue"
         text = f"Every pass adds {percent(float(values['pass_strain_growth']))} of plastic strain: {found}. Cracks form {cracks}."
         made.append(Advice("warning", "passes", text))
-    return tuple(made)
+    return Found(values, Detail(facts, run), tuple(made), KEYS)
 
 
 CEASED = 0.01
@@ -152,13 +147,13 @@ class PassesWork(Work):
 
     def check(self, ask: Passing, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
-        body = _body(ask, problem)
+        body = meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
         require_course(course_of(ask.settings, body, problem, ask.coefficient), body)
 
     def compute(self, ask: Passing, solved: Solved) -> Found:
         """All passes, and what they leave."""
-        body = _body(ask, solved.problem)
+        body = meshed_body(solved.problem, ask.settings.inside, "passes", "--pass-in")
         course = course_of(ask.settings, body, solved.problem, ask.coefficient)
         with solved.stage("passes") as progress:
             run = passed(body, course, unknown_is_elastic=ask.settings.unknown_is_elastic, progress=progress)
@@ -195,7 +190,17 @@ class PassesWork(Work):
             ("pressure", str(facts["pressure"])),
             *number_rows(SCALARS, values),
         ]
-        return Words(_sentence(values, facts), [("repeated passes", verdict(values))], rows, tables, (REMARK,))
+        ends, pressure = verdict(values), show(float(values["pass_hertz_pressure"]), "Pa", 3)
+        size = np.atleast_1d(values["passes_growth"]).size
+        start = f"After {size} pass{'es' * (size > 1)} of a {facts['shape']} at Hertz's pressure of {pressure}"
+        sentence = f"{start} the middle of the track stays elastic."
+        if ends != "elastic":
+            reached = f"the plastic strain reaches {percent(float(values['pass_plastic_strain']))}"
+            sentence = f"{start} {reached}."
+            if ends != "one pass":
+                last, ratio = percent(float(values["pass_strain_growth"])), percent(float(values["pass_growth_ratio"]))
+                sentence = f"{start} {reached}; the last pass adds {last} in the middle of the track, {ratio} of the first: {ends}."
+        return Words(sentence, [("repeated passes", ends)], rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Names of layers, the motion and the table of zones."""
@@ -207,11 +212,6 @@ class PassesWork(Work):
 
 
 KEYS = ("SimoTaylor1985", "Johnson1962", "Hearle1985")
-
-
-def _body(ask: Passing, problem: ContactProblem) -> Any:
-    """The body that is passed over; InputError if it is rigid."""
-    return meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
 
 
 # In words and tables.
@@ -239,18 +239,3 @@ def verdict(values: Mapping[str, Any]) -> str:
         if onward[-1] >= STEADY * onward[-2]:
             return "strain adds up: ratchetting"
     return "flow is not settled"
-
-
-def _sentence(values: Mapping[str, Any], facts: Mapping[str, Any]) -> str:
-    growth = np.atleast_1d(values["passes_growth"])
-    count, found = growth.size, verdict(values)
-    passes = f"{count} pass{'es' * (count > 1)}"
-    pressure = show(float(values["pass_hertz_pressure"]), "Pa", 3)
-    start = f"After {passes} of a {facts['shape']} at Hertz's pressure of {pressure}"
-    if found == "elastic":
-        return f"{start} the middle of the track stays elastic."
-    strain, last = float(values["pass_plastic_strain"]), float(values["pass_strain_growth"])
-    reached = f"the plastic strain reaches {percent(strain)}"
-    if found == "one pass":
-        return f"{start} {reached}."
-    return f"{start} {reached}; the last pass adds {percent(last)} in the middle of the track, {percent(float(values['pass_growth_ratio']))} of the first: {found}."

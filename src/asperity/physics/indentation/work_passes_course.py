@@ -247,32 +247,28 @@ def passed(
         If a step is not found.
     """
     laws = meshed_laws(body, unknown_is_elastic=unknown_is_elastic)
-    track = course.mesh(body, laws, _width(body, course, laws))
+    width = course.half_width
+    if not course.given:
+        # the mesh is made for the half-width or radius of the contact when it is pressed in the middle for the first time
+        width, force = 1.15 * course.half_width, (0.5 if course.sphere else 1.0) * course.load
+        for _ in range(5):
+            track = course.mesh(body, laws, width, short=True)
+            state = track.virgin()
+            for share in (0.25, 0.5, 0.75, 1.0):
+                state = track.press(state, course.heights, place=0.0, force=share * force)
+            reached = _contact_radius(track, state)
+            if reached > 1.1 * width:
+                width *= 1.6
+            elif reached < 0.65 * width:
+                width = 1.15 * max(reached, 0.1 * width)
+            else:
+                break
+    track = course.mesh(body, laws, width)
     cut, record = _Cut.of(track, course, body), _Record(track, course)
     for number in range(course.count):
         record.follow(number, cut)
         progress.update(number + 1, 0.1 ** ((number + 1) / course.count), 0.1)
     return record.found(cut)
-
-
-def _width(body: Elastic | Layered, course: Course, laws: list[J2 | None]) -> float:
-    """Half-width or radius in m that the mesh is made for: that of the contact when it is pressed in the middle for the first time."""
-    if course.given:
-        return course.half_width
-    width, force = 1.15 * course.half_width, (0.5 if course.sphere else 1.0) * course.load
-    for _ in range(5):
-        track = course.mesh(body, laws, width, short=True)
-        state = track.virgin()
-        for share in (0.25, 0.5, 0.75, 1.0):
-            state = track.press(state, course.heights, place=0.0, force=share * force)
-        reached = _contact_radius(track, state)
-        if reached > 1.1 * width:
-            width *= 1.6
-        elif reached < 0.65 * width:
-            width = 1.15 * max(reached, 0.1 * width)
-        else:
-            break
-    return width
 
 
 def _contact_radius(track: Track, state: PassState) -> float:

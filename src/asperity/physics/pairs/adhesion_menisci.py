@@ -139,7 +139,42 @@ class _Search:
                 near = middle
             else:
                 far = middle
-        return self._ended(near, far, first)
+        # the contact between these two under the control, with how well its forces add up
+        best, across = sorted((near, far), key=lambda held: abs(held.force))
+        settled, allowed = best.settled, self.exact(best)
+        exchanges = dict(settled.exchanges)
+        adhesion, menisci = exchanges["adhesion"], exchanges["menisci"]
+        stands = menisci.note.found
+        if abs(best.force) > allowed and not self._apart_still(near, far):  # the jump is one of the liquid
+            share = (best.solids - best.liquid) / (across.liquid - best.liquid)
+            stands = between(stands, across.settled.exchanges["menisci"].note.found, min(max(share, 0.0), 1.0))
+        liquid = self.film.suction * stands.share("filled") * self.posed.operator.grid.area
+        missed = abs(best.solids - liquid)
+        exchanges["adhesion"] = replace(adhesion, note=replace(adhesion.note, posed=self.posed))
+        # with the force of the first round, which tells the feedback
+        known = replace(menisci.note, was_dry=False) if first is None else first.exchanges["menisci"].note
+        note = replace(known, external=self.posed.external_force or 0.0, found=stands, force=liquid)
+        exchanges["menisci"] = replace(menisci, x=np.asarray(liquid), note=note)
+        reference = self._reference(best)
+        check = CouplingCheck("menisci", missed / reference, 0.0, allowed / reference)
+        status, forces = settled.status, "Attraction, menisci and external force"
+        where = f"at the approach {best.approach:.6g} m, found by {self.count} contacts"
+        if status.converged and missed > allowed:
+            message = f"{forces} miss their balance by {missed:.3g} N in a jump of the contact {where}."
+            remedy = "Take smaller steps of the load, or prescribe the position, with FixedGrips(...)."
+            status = Status(Outcome.STAGNATED, message, remedy)
+        elif status.converged:
+            jump = f" in a jump of the menisci by {abs(far.liquid - near.liquid):.3g} N, of which part is there,"
+            inside = jump if abs(best.force) > allowed else ""
+            status = Status(Outcome.CONVERGED, f"{forces} are in balance to {missed:.1e} N{inside} {where}.")
+        return replace(
+            settled,
+            contact=replace(settled.contact, posed=self.posed).with_work_of(None if first is None else first.contact),
+            exchanges=exchanges,
+            checks=(check, *(item for item in settled.checks if item.name != check.name)),
+            rounds=self.count + (0 if first is None else first.rounds),
+            status=status,
+        )
 
     def measured(self, settled: Settled) -> _Held:
         """Approach and force of what has ``settled``."""
@@ -207,42 +242,4 @@ class _Search:
             f"force must be one that the adhesion and the menisci bear, but {self._wanted(near.approach):.6g} N is not: the surfaces part. "
             "Prescribe the position, with FixedGrips(...), to follow them.",
             subject="force",
-        )
-
-    def _ended(self, near: _Held, far: _Held, first: Settled | None) -> Settled:
-        """The contact between these two under the control, with how well its forces add up."""
-        best, across = sorted((near, far), key=lambda held: abs(held.force))
-        settled, allowed = best.settled, self.exact(best)
-        exchanges = dict(settled.exchanges)
-        adhesion, menisci = exchanges["adhesion"], exchanges["menisci"]
-        stands = menisci.note.found
-        if abs(best.force) > allowed and not self._apart_still(near, far):  # the jump is one of the liquid
-            share = (best.solids - best.liquid) / (across.liquid - best.liquid)
-            stands = between(stands, across.settled.exchanges["menisci"].note.found, min(max(share, 0.0), 1.0))
-        liquid = self.film.suction * stands.share("filled") * self.posed.operator.grid.area
-        missed = abs(best.solids - liquid)
-        exchanges["adhesion"] = replace(adhesion, note=replace(adhesion.note, posed=self.posed))
-        # with the force of the first round, which tells the feedback
-        known = replace(menisci.note, was_dry=False) if first is None else first.exchanges["menisci"].note
-        note = replace(known, external=self.posed.external_force or 0.0, found=stands, force=liquid)
-        exchanges["menisci"] = replace(menisci, x=np.asarray(liquid), note=note)
-        reference = self._reference(best)
-        check = CouplingCheck("menisci", missed / reference, 0.0, allowed / reference)
-        status, forces = settled.status, "Attraction, menisci and external force"
-        where = f"at the approach {best.approach:.6g} m, found by {self.count} contacts"
-        if status.converged and missed > allowed:
-            message = f"{forces} miss their balance by {missed:.3g} N in a jump of the contact {where}."
-            remedy = "Take smaller steps of the load, or prescribe the position, with FixedGrips(...)."
-            status = Status(Outcome.STAGNATED, message, remedy)
-        elif status.converged:
-            jump = f" in a jump of the menisci by {abs(far.liquid - near.liquid):.3g} N, of which part is there,"
-            inside = jump if abs(best.force) > allowed else ""
-            status = Status(Outcome.CONVERGED, f"{forces} are in balance to {missed:.1e} N{inside} {where}.")
-        return replace(
-            settled,
-            contact=replace(settled.contact, posed=self.posed).with_work_of(None if first is None else first.contact),
-            exchanges=exchanges,
-            checks=(check, *(item for item in settled.checks if item.name != check.name)),
-            rounds=self.count + (0 if first is None else first.rounds),
-            status=status,
         )

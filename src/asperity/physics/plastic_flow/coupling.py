@@ -174,7 +174,28 @@ class PlasticFlowCoupling(Coupling):
         if residual <= self.tolerance:
             course.settled, course.spread = course.settled or flow.flowed(), None
             return replace(exchange, target=exchange.x, residual=residual, scale=1.0)
-        pressure, lift = self._iterated(course, contact, exchange.x, step)
+        # until plastic strain and contact agree
+        pressure, wanted, least, worse = contact.pressure, _INNER * self.tolerance, np.inf, 0
+        for number in range(_MOST):
+            flow = self._flow(course)
+            flow.delta = course.mixing.ahead(flow.points, flow.delta, step, flow.weights)
+            course.spread = flow.spread()
+            lift = flow.displacement(course.spread)
+            pressure = self._pressed(contact, lift - exchange.x, pressure)
+            step, left = self._mapped(course, pressure)
+            if left <= wanted:
+                break
+            worse = worse + 1 if left > _WORSE * least else 0
+            if worse:
+                share = course.mixing.share * (0.5 if worse > _SWINGS else 1.0)
+                course.mixing = Extrapolation(max(share, _LEAST_SHARE))
+            least = min(least, left)
+            course.stuck = number == _MOST - 1
+        flow = self._flow(course)
+        course.settled = flow.flowed()
+        flow.delta = flow.delta + step
+        course.spread = flow.spread()
+        lift = flow.displacement(course.spread)
         size = float(np.linalg.norm(lift))
         return replace(
             exchange, target=lift, residual=residual, scale=size or 1.0, pressure=pressure, stuck=course.stuck
@@ -265,32 +286,6 @@ class PlasticFlowCoupling(Coupling):
         course.energy = -0.5 * (float(((flow.stress * flow.strain) @ WEIGHTS) @ weights) - by_load)
         course.work = float(((flow.stress * (strain - flow.before.plastic_strain)) @ WEIGHTS) @ weights)
         return step, residual
-
-    def _iterated(
-        self, course: _Course, contact: Contact, x: RealArray, step: RealArray
-    ) -> tuple[RealArray, RealArray]:
-        """Pressure (Pa) and displacement (m), both (nx, ny), once plastic strain and contact agree."""
-        pressure, wanted, least, worse = contact.pressure, _INNER * self.tolerance, np.inf, 0
-        for number in range(_MOST):
-            flow = self._flow(course)
-            flow.delta = course.mixing.ahead(flow.points, flow.delta, step, flow.weights)
-            course.spread = flow.spread()
-            lift = flow.displacement(course.spread)
-            pressure = self._pressed(contact, lift - x, pressure)
-            step, residual = self._mapped(course, pressure)
-            if residual <= wanted:
-                break
-            worse = worse + 1 if residual > _WORSE * least else 0
-            if worse:
-                share = course.mixing.share * (0.5 if worse > _SWINGS else 1.0)
-                course.mixing = Extrapolation(max(share, _LEAST_SHARE))
-            least = min(least, residual)
-            course.stuck = number == _MOST - 1
-        flow = self._flow(course)
-        course.settled = flow.flowed()
-        flow.delta = flow.delta + step
-        course.spread = flow.spread()
-        return pressure, flow.displacement(course.spread)
 
     def _pressed(self, contact: Contact, added: RealArray, start: RealArray) -> RealArray:
         """Pressure (nx, ny) in Pa of the contact whose surface is displaced by ``added`` (m) more."""

@@ -27,82 +27,9 @@ from .answer import PlasticBody
 from .figures import IMPRINT_MAP, ImprintMap, plots_of
 from .law import PlasticFlow as Law
 from .law import plastic_body
-from .part import IMPRINT, PREFIX, SCALARS, Flows, PlasticFlowSettings
+from .part import IMPRINT, PREFIX, SCALARS, Flows
 from .part_quantities import number_rows, tension_table, zones_table
 from .work_values import PlasticValues, inferred_strengths, interfaces_of, layer_names, picture_of, require_flow
-
-
-def flow_found(solved: Solved) -> Found:
-    """Values, facts and findings of the ``solved`` contact."""
-    flow, body = solved.result.require_plastic_flow(), plastic_body(solved.problem.body, solved.problem.counter_body)[0]
-    with solved.stage("residual stress"):
-        shown, tensions = _shown(flow, solved)
-    layers, base = flow.zones[:-1], flow.zones[-1]
-    first = [zone.first_yield for zone in flow.zones if math.isfinite(zone.first_yield)]
-    tops = [zone.top for zone in flow.zones if math.isfinite(zone.top)]
-    bottoms = [zone.bottom for zone in flow.zones if math.isfinite(zone.bottom)]
-    peak = _peak(solved)
-    area = float(peak.contact.sum()) * peak.problem.grid.pixel_area
-    values: dict[str, Any] = {
-        **{item.name: math.nan for item in SCALARS},
-        "flow_plastic_work": flow.work,
-        "flow_residual_energy": flow.residual_energy,
-        "flow_volume": sum(zone.volume for zone in flow.zones),
-        "flow_layer_volume": sum(zone.volume for zone in layers) if layers else math.nan,
-        "flow_largest_strain": max(zone.largest_strain for zone in flow.zones),
-        "flow_layer_strain": max((zone.largest_strain for zone in layers), default=math.nan),
-        "flow_base_strain": base.largest_strain,
-        "flow_top": min(tops, default=math.nan),
-        "flow_depth": max(bottoms, default=math.nan),
-        "flow_first_yield": min(first, default=math.nan),
-        "flow_imprint_depth": max(float(flow.displacement.max()), 0.0),
-        "flow_pile_up": max(-float(flow.displacement.min()), 0.0),
-        "flow_mean_contact_pressure": peak.force / area if area > 0.0 else math.nan,
-        **tensions,
-        IMPRINT.name: flow.displacement,
-        **shown.values(PREFIX),
-    }
-    names = layer_names(body)
-    headings = ["Layer", "Largest plastic strain", "at (x, y, depth)", "Depths", "Volume", "First yield at"]
-    cells = []
-    for name, zone in zip(names, flow.zones, strict=False):
-        if not zone.largest_strain > 0.0:
-            cells.append([name, "elastic", "–", "–", "–", "–"])
-            continue
-        place = ", ".join(show(value, "m", 3) for value in zone.place)
-        begin = show(zone.first_yield, "Pa", 3) if math.isfinite(zone.first_yield) else "–"
-        span = f"{show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)}"
-        cells.append([name, percent(zone.largest_strain), place, span, f"{zone.volume * 1e18:.3g} µm³", begin])
-    facts = {"layers": names, "axis": "x", "zones": [headings, cells], "row": _row(flow)}
-    findings = inferred_strengths(body)
-    if not values["flow_largest_strain"] > 0.0:
-        elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
-        findings = (*findings, elastic)
-    return Found(values, facts, findings, flow.citation_keys)
-
-
-def flow_law(table: PlasticFlowSettings, problem: ContactProblem) -> Law:
-    """Law of the deformable body of ``problem``: one entry for each of its layers and the base.
-
-    Raises
-    ------
-    InputError
-        If a yield stress is not known.
-    """
-    body, _ = plastic_body(problem.body, problem.counter_body)
-    materials = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
-    base = body.base if isinstance(body, Layered) else body
-    laws: list[J2 | None] = []
-    for material in [*materials, base]:
-        parts = (
-            plastic_parts(material, unknown_is_elastic=table.unknown_is_elastic)
-            if isinstance(material, Elastic)
-            else ()
-        )
-        laws.append(parts[0] if parts and isinstance(parts[0], J2) else None)
-    depth = None if table.depth is None else float(table.depth)
-    whole: Any = laws if isinstance(body, Layered) else laws[0]
-    return Law(whole, table.cells, depth, float(table.tolerance))
 
 
 def _row(flow: PlasticBody) -> int:
@@ -208,8 +135,27 @@ class PlasticFlowWork(Work):
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
 
     def altered(self, ask: Flows, problem: ContactProblem) -> ContactProblem:
-        """``problem`` with the laws of its bodies, by which the flow joins the solve."""
-        return problem.with_physics(plastic_flow=flow_law(ask.settings, problem))
+        """``problem`` with the laws of its bodies, by which the flow joins the solve: one entry for each layer and the base.
+
+        Raises
+        ------
+        InputError
+            If a yield stress is not known.
+        """
+        body, _ = plastic_body(problem.body, problem.counter_body)
+        materials = [layer.material for layer in body.layers] if isinstance(body, Layered) else []
+        base = body.base if isinstance(body, Layered) else body
+        laws: list[J2 | None] = []
+        for material in [*materials, base]:
+            parts = (
+                plastic_parts(material, unknown_is_elastic=ask.settings.unknown_is_elastic)
+                if isinstance(material, Elastic)
+                else ()
+            )
+            laws.append(parts[0] if parts and isinstance(parts[0], J2) else None)
+        depth = None if ask.settings.depth is None else float(ask.settings.depth)
+        whole: Any = laws if isinstance(body, Layered) else laws[0]
+        return problem.with_physics(plastic_flow=Law(whole, ask.settings.cells, depth, float(ask.settings.tolerance)))
 
     def course(self, ask: Flows, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """A single load in steps, and the way back."""
@@ -226,7 +172,52 @@ class PlasticFlowWork(Work):
 
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Zones, residual stress, imprint and tensions."""
-        return flow_found(solved)
+        flow = solved.result.require_plastic_flow()
+        body = plastic_body(solved.problem.body, solved.problem.counter_body)[0]
+        with solved.stage("residual stress"):
+            shown, tensions = _shown(flow, solved)
+        layers, base = flow.zones[:-1], flow.zones[-1]
+        first = [zone.first_yield for zone in flow.zones if math.isfinite(zone.first_yield)]
+        tops = [zone.top for zone in flow.zones if math.isfinite(zone.top)]
+        bottoms = [zone.bottom for zone in flow.zones if math.isfinite(zone.bottom)]
+        peak = _peak(solved)
+        area = float(peak.contact.sum()) * peak.problem.grid.pixel_area
+        values: dict[str, Any] = {
+            **{item.name: math.nan for item in SCALARS},
+            "flow_plastic_work": flow.work,
+            "flow_residual_energy": flow.residual_energy,
+            "flow_volume": sum(zone.volume for zone in flow.zones),
+            "flow_layer_volume": sum(zone.volume for zone in layers) if layers else math.nan,
+            "flow_largest_strain": max(zone.largest_strain for zone in flow.zones),
+            "flow_layer_strain": max((zone.largest_strain for zone in layers), default=math.nan),
+            "flow_base_strain": base.largest_strain,
+            "flow_top": min(tops, default=math.nan),
+            "flow_depth": max(bottoms, default=math.nan),
+            "flow_first_yield": min(first, default=math.nan),
+            "flow_imprint_depth": max(float(flow.displacement.max()), 0.0),
+            "flow_pile_up": max(-float(flow.displacement.min()), 0.0),
+            "flow_mean_contact_pressure": peak.force / area if area > 0.0 else math.nan,
+            **tensions,
+            IMPRINT.name: flow.displacement,
+            **shown.values(PREFIX),
+        }
+        names = layer_names(body)
+        headings = ["Layer", "Largest plastic strain", "at (x, y, depth)", "Depths", "Volume", "First yield at"]
+        cells = []
+        for name, zone in zip(names, flow.zones, strict=False):
+            if not zone.largest_strain > 0.0:
+                cells.append([name, "elastic", "–", "–", "–", "–"])
+                continue
+            place = ", ".join(show(value, "m", 3) for value in zone.place)
+            begin = show(zone.first_yield, "Pa", 3) if math.isfinite(zone.first_yield) else "–"
+            span = f"{show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)}"
+            cells.append([name, percent(zone.largest_strain), place, span, f"{zone.volume * 1e18:.3g} µm³", begin])
+        facts = {"layers": names, "axis": "x", "zones": [headings, cells], "row": _row(flow)}
+        findings = inferred_strengths(body)
+        if not values["flow_largest_strain"] > 0.0:
+            elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
+            findings = (*findings, elastic)
+        return Found(values, facts, findings, flow.citation_keys)
 
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of the method."""

@@ -244,7 +244,33 @@ def roll(
             f"start of rolling must have the shape {problem.grid.shape} of the grid, but has {start.traction.shape[1:]}."
         )
     found = _balanced(bodies, friction, control, (method, tolerance, rounds), start)
-    result = _result(found, creepage, direction, method, friction)
+    shear, qp, grid = found.found, found.qp, found.qp.operator.grid
+    moves = "moves" if method == "transient" else "Newton steps"
+    status = Status(Outcome.CONVERGED, f"Steady to {shear.steadiness:.1e} after {found.steps} {moves}.")
+    if not found.settled:
+        message = f"Rolling did not come to rest: traction is off by {shear.steadiness:.1e}, displacement by shear by {found.change:.1e}."
+        status = Status(Outcome.STAGNATED, message, "Use a finer grid or a larger tolerance.")
+    moved = slip_of(qp, shear.traction, shear.slip, found.normal.pressure, qp.displacement(shear.traction))
+    slip = moved / grid.spacing[qp.direction.axis]
+    force_x, force_y, torque = resultant(grid, shear.traction)
+    along_x, along_y = creepage.along_axes(qp.direction)
+    result = RollingContact(
+        normal=found.normal,
+        creepage=creepage,
+        traction=shear.traction,
+        slip=slip,
+        force_x=force_x,
+        force_y=force_y,
+        torque=torque,
+        friction_limit=float(qp.bound.sum()) * grid.pixel_area,
+        power_density=np.einsum("kij,kij->ij", shear.traction, slip),
+        dissipated=force_x * along_x + force_y * along_y + torque * creepage.spin,
+        steadiness=shear.steadiness,
+        steps=found.steps,
+        status=status,
+        law=friction,
+        direction=direction,
+    )
     if not result.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
@@ -437,36 +463,3 @@ def slip_of(qp: RollingQP, traction: RealArray, slip: RealArray, pressure: RealA
     if not bare.any():
         return slip
     return np.where(bare, qp.moved(before).target - qp.operator.displacement(traction), slip)
-
-
-def _result(
-    balance: _Balance, creepage: Creepage, direction: Rolling, method: Method, law: FrictionLaw
-) -> RollingContact:
-    """What was found."""
-    found, qp, grid = balance.found, balance.qp, balance.qp.operator.grid
-    moves = "moves" if method == "transient" else "Newton steps"
-    status = Status(Outcome.CONVERGED, f"Steady to {found.steadiness:.1e} after {balance.steps} {moves}.")
-    if not balance.settled:
-        message = f"Rolling did not come to rest: traction is off by {found.steadiness:.1e}, displacement by shear by {balance.change:.1e}."
-        status = Status(Outcome.STAGNATED, message, "Use a finer grid or a larger tolerance.")
-    moved = slip_of(qp, found.traction, found.slip, balance.normal.pressure, qp.displacement(found.traction))
-    slip = moved / grid.spacing[qp.direction.axis]
-    force_x, force_y, torque = resultant(grid, found.traction)
-    along_x, along_y = creepage.along_axes(qp.direction)
-    return RollingContact(
-        normal=balance.normal,
-        creepage=creepage,
-        traction=found.traction,
-        slip=slip,
-        force_x=force_x,
-        force_y=force_y,
-        torque=torque,
-        friction_limit=float(qp.bound.sum()) * grid.pixel_area,
-        power_density=np.einsum("kij,kij->ij", found.traction, slip),
-        dissipated=force_x * along_x + force_y * along_y + torque * creepage.spin,
-        steadiness=found.steadiness,
-        steps=balance.steps,
-        status=status,
-        law=law,
-        direction=direction,
-    )

@@ -159,22 +159,19 @@ class SteadyNewton:
             nothing = np.zeros((2, 0)), np.zeros((2, 0)), np.zeros(2)
             return ended(step, points, nothing, Deviation(0.0, 0.0), tolerance=1.0, work=(0, 0.0))
         if start is None:
-            start, pairs = self._from_coarser(qp)
+            # in proportion to the bound as on the grid of half as many points per side
+            shape = qp.bound.shape
+            start = np.zeros((2, *shape))
+            if max(shape) > COARSEST and np.isfinite(qp.bound).all():
+                coarse = qp.coarsened
+                rough = replace(self, tolerance=max(self.tolerance, _LOOSEST)).solve(coarse)
+                ratio = rough.traction / np.where(coarse.bound > 0.0, coarse.bound, 1.0)
+                fine = ratio.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]]
+                start, pairs = fine * qp.bound, rough.pairs * coarse.bound.size / qp.bound.size
         iteration = _Iteration(qp, points, start, self)
         iteration.pairs += pairs
         found, iterate, count = iteration.solved()
         return ended(step, points, iterate, found, tolerance=self.tolerance, work=(count, iteration.pairs))
-
-    def _from_coarser(self, qp: RollingQP) -> tuple[RealArray, float]:
-        """Traction in proportion to the bound as on the grid of half as many points per side, and its FFT pairs."""
-        shape = qp.bound.shape
-        if max(shape) <= COARSEST or not np.isfinite(qp.bound).all():
-            return np.zeros((2, *shape)), 0.0
-        coarse = qp.coarsened
-        found = replace(self, tolerance=max(self.tolerance, _LOOSEST)).solve(coarse)
-        ratio = found.traction / np.where(coarse.bound > 0.0, coarse.bound, 1.0)
-        fine = ratio.repeat(2, axis=1).repeat(2, axis=2)[:, : shape[0], : shape[1]]
-        return fine * qp.bound, found.pairs * coarse.bound.size / qp.bound.size
 
 
 class _Iteration:

@@ -19,7 +19,7 @@ from ...surfaces.prepare.extent import cropped, periodised
 from ...surfaces.prepare.level import filled, levelled
 from ...surfaces.read import read
 from ..friction.work_stick_slip import law_text
-from .creep_curve import CREEPAGES, FORCES, CreepCurve, creep_curve, mean_forces, theories_of, theory_forces
+from .creep_curve import CREEPAGES, FORCES, creep_curve, mean_forces, theories_of, theory_forces
 from .figures import CURVE_PLOT, PATH_PLOT, ROLLING_PLOTS, RollingPicture
 from .part import SCALARS, Rolls
 from .rolling import DIRECTIONS, RollingContact, require_rolling, roll
@@ -48,7 +48,15 @@ class RollingWork(Work):
         with solved.stage("rolling") as progress:
             rough = None if ask.roughness is None else _rolled(problem, solved.control, ask, progress)
             contact = roll(problem, solved.control, ask.creepage, direction=way) if rough is None else rough.last  # type: ignore[arg-type]
-            curve = _curve(problem, solved.control, ask) if ask.settings.points and solved.lines else None
+            curve, table = None, ask.settings
+            if table.points and solved.lines:
+                share = np.arange(1, table.points + 1) / table.points
+                options: Any = {
+                    "lateral": float(table.lateral) * share,
+                    "spin": float(table.spin) * share,
+                    "direction": table.direction,
+                }
+                curve = creep_curve(problem, solved.control, float(table.longitudinal) * share, **options)
         values: dict[str, Any] = dict(_numbers(contact, rough))
         for name, both in (("traction", contact.traction), ("slip", contact.slip)):
             values |= {f"rolling_{name}_{axis}": part for axis, part in zip("xy", both, strict=True)}
@@ -72,7 +80,19 @@ class RollingWork(Work):
             "beside": beside,
         }
         keys = contact.citation_keys if curve is None else curve.citation_keys
-        return Found(values, facts, _findings(contact, ask), keys)
+        made = []
+        if contact.slip_area_fraction == 1.0:
+            text = "All points slip: the creepages are beyond those of partial slip, and the tangential force is all that friction bears."
+            made.append(Advice("note", "gross sliding", text))
+        if max(abs(ask.creepage.x), abs(ask.creepage.y)) > LARGE:
+            text = f"A creepage of more than {percent(LARGE)} is not small, as the theory of rolling assumes."
+            made.append(Advice("warning", "large creepage", text))
+        touched = np.flatnonzero(DIRECTIONS[contact.direction].oriented(contact.normal.pressure).any(axis=1))
+        length = int(touched[-1] - touched[0]) + 1 if touched.size else 0
+        if 0 < length < FEW:
+            text = f"The contact is {length} pixels long. Errors of the forces fall with the pixel, and are several per cent below {FEW}. Take a finer grid."
+            made.append(Advice("note", "pixels of the rolling contact", text))
+        return Found(values, facts, tuple(made), keys)
 
     def citations(self, ask: Rolls, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of law and method."""
@@ -104,7 +124,15 @@ class RollingWork(Work):
             ("longitudinal force / normal force", f"{float(values['traction_coefficient']):.3g}"),
             ("heat per distance rolled", show(float(values["rolling_heat"]), "J/m", 3)),
         ]
-        return Words(_sentence(values), headline, rows, tables, (REMARK,))
+        share, slips = float(values["rolling_friction_share"]), float(values["rolling_slip_area_fraction"])
+        sentence = "The surfaces do not touch: nothing rolls."
+        if not math.isnan(slips):
+            along, across = float(values["rolling_longitudinal_force"]), float(values["rolling_lateral_force"])
+            limit = "" if math.isnan(share) else f", {percent(share)} of what friction bears"
+            heat = show(float(values["rolling_heat"]), "J/m", 3)
+            area = "all of the contact sticks" if slips == 0.0 else f"{percent(slips)} of the contact area slips"
+            sentence = f"The rolling contact transmits {show(math.hypot(along, across), 'N', 3)} along the surface{limit}; {area}, and rolling turns {heat} into heat."
+        return Words(sentence, headline, rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """Direction, law and creepages."""
@@ -125,18 +153,6 @@ def _rolled(problem: ContactProblem, control: Control, ask: Rolls, progress: Any
         roughness = periodised(cropped(roughness, **{across: (0.0, width)}))
     options: dict[str, Any] = {"distance": table.distance, "direction": table.direction, "progress": progress}
     return roll_rough(problem, control, ask.creepage, roughness, **options)
-
-
-def _curve(problem: ContactProblem, control: Control, ask: Rolls) -> CreepCurve:
-    """Curve of the smooth wheel from a share of the creepages to all of them."""
-
-    table, share = ask.settings, np.arange(1, ask.settings.points + 1) / ask.settings.points
-    options: Any = {
-        "lateral": float(table.lateral) * share,
-        "spin": float(table.spin) * share,
-        "direction": table.direction,
-    }
-    return creep_curve(problem, control, float(table.longitudinal) * share, **options)
 
 
 def _numbers(contact: RollingContact, rough: RoughRolling | None) -> dict[str, float]:
@@ -163,24 +179,6 @@ def _numbers(contact: RollingContact, rough: RoughRolling | None) -> dict[str, f
         size = math.nan if found is None else float(found.force_x if force == "longitudinal" else found.force_y)
         values[f"{name}_{force}_force"] = size
     return values
-
-
-def _findings(contact: RollingContact, ask: Rolls) -> tuple[Advice, ...]:
-    """Gross sliding, large creepages, and few pixels."""
-
-    made = []
-    if contact.slip_area_fraction == 1.0:
-        text = "All points slip: the creepages are beyond those of partial slip, and the tangential force is all that friction bears."
-        made.append(Advice("note", "gross sliding", text))
-    if max(abs(ask.creepage.x), abs(ask.creepage.y)) > LARGE:
-        text = f"A creepage of more than {percent(LARGE)} is not small, as the theory of rolling assumes."
-        made.append(Advice("warning", "large creepage", text))
-    touched = np.flatnonzero(DIRECTIONS[contact.direction].oriented(contact.normal.pressure).any(axis=1))
-    length = int(touched[-1] - touched[0]) + 1 if touched.size else 0
-    if 0 < length < FEW:
-        text = f"The contact is {length} pixels long. Errors of the forces fall with the pixel, and are several per cent below {FEW}. Take a finer grid."
-        made.append(Advice("note", "pixels of the rolling contact", text))
-    return tuple(made)
 
 
 def picture_of(found: Found, solved: Solved) -> RollingPicture:
@@ -214,21 +212,6 @@ REMARK = (
     "other one they are the opposite. Shear tractions that lift unlike surfaces are balanced with the pressure."
 )
 """What the model is."""
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    share, slips = float(values["rolling_friction_share"]), float(values["rolling_slip_area_fraction"])
-    if math.isnan(slips):
-        return "The surfaces do not touch: nothing rolls."
-    force = show(
-        math.hypot(float(values["rolling_longitudinal_force"]), float(values["rolling_lateral_force"])), "N", 3
-    )
-    limit = "" if math.isnan(share) else f", {percent(share)} of what friction bears"
-    heat = show(float(values["rolling_heat"]), "J/m", 3)
-    area = "all of the contact sticks" if slips == 0.0 else f"{percent(slips)} of the contact area slips"
-    return (
-        f"The rolling contact transmits {force} along the surface{limit}; {area}, and rolling turns {heat} into heat."
-    )
 
 
 def _curve_table(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Table:

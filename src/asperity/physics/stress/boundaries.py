@@ -41,26 +41,6 @@ from .tractions import ShearTraction, Tractions
 _BALANCED = 1e-9  # mean over largest shear traction: rounding, in single precision that of a sum
 
 
-def mean_displacement(loads: tuple[float, float, float], body: object, plane: Plane) -> tuple[float, ...]:
-    """Mean displacement (m) of ``plane`` under mean ``loads`` (Pa): these times the compliance down to the datum."""
-    parts = regions(body)
-    from_base = isinstance(stack(body).base, RigidBase)
-    direct = shear = 0.0
-    for region in parts:
-        low, high = (
-            (max(plane.depth, region.top), region.bottom)
-            if from_base
-            else (region.top, min(plane.depth, region.bottom))
-        )
-        if high > low:
-            G, nu = region.material.shear_modulus, region.material.poisson_ratio
-            if not math.isclose(nu, 0.5):  # 1/M = (1-2ν) / 2G(1-ν), the compliance in uniaxial strain
-                direct += (high - low) * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu))
-            shear += (high - low) / G
-    sign = 1.0 if from_base else -1.0
-    return tuple(sign * load * c for load, c in zip(loads, (shear, shear, direct), strict=True))
-
-
 def require_held(tractions: Tractions, body: object) -> None:
     """Refuse a mean shear traction on layers that nothing holds.
 
@@ -189,8 +169,23 @@ class PeriodicPlanes:
         return found
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
-        """Displacement (m) of ``plane``; the datum is that of ``mean_displacement``."""
-        means = mean_displacement(self._means, self._given, plane)
+        """Displacement (m) of ``plane``; its mean is the mean load times the compliance down to the datum."""
+        parts = regions(self._given)
+        from_base = isinstance(stack(self._given).base, RigidBase)
+        direct = shear = 0.0
+        for region in parts:
+            low, high = (
+                (max(plane.depth, region.top), region.bottom)
+                if from_base
+                else (region.top, min(plane.depth, region.bottom))
+            )
+            if high > low:
+                G, nu = region.material.shear_modulus, region.material.poisson_ratio
+                if not math.isclose(nu, 0.5):  # 1/M = (1-2ν) / 2G(1-ν), the compliance in uniaxial strain
+                    direct += (high - low) * (1.0 - 2.0 * nu) / (2.0 * G * (1.0 - nu))
+                shear += (high - low) / G
+        sign = 1.0 if from_base else -1.0
+        means = tuple(sign * load * c for load, c in zip(self._means, (shear, shear, direct), strict=True))
         make = self._maker("displacement_spectra", plane, _DISPLACEMENT)
         given = None if out is None else list(vars(out).values())
         return Displacement(*self._fields(make, plane, means, given, (slice(0, 3),)))
@@ -371,7 +366,18 @@ class FreePlanes:
         self._padded = fast_length(2 * nx - 1), fast_length(2 * ny - 1)
         self._whole = RealTransform(self._padded, threads)
         self._transform = PaddedTransform(tractions.grid.shape, self._padded, threads)
-        self._groups = self._transformed()
+        shear = self.tractions.shear
+        with_pressure: dict[Load, float] = {"z": 1.0}
+        # spectra of the tractions, each with the loads it stands for and their ratios to it
+        groups = [(self._forward(self.tractions.pressure), with_pressure)]
+        if isinstance(shear, ShearTraction):
+            if self.tractions.sheared:
+                groups += [(self._forward(shear.x), {"x": 1.0}), (self._forward(shear.y), {"y": 1.0})]
+        else:
+            x, y = shear.ratios
+            with_pressure |= {"x": x} if x != 0.0 else {}
+            with_pressure |= {"y": y} if y != 0.0 else {}
+        self._groups = groups
 
     def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
         """Stress (Pa) on ``plane``, written into the arrays of ``out`` if given."""
@@ -428,20 +434,6 @@ class FreePlanes:
     @property
     def _loads(self) -> list[Load]:
         return list(dict.fromkeys(load for _, ratios in self._groups for load in ratios))
-
-    def _transformed(self) -> list[tuple[ComplexArray, dict[Load, float]]]:
-        """Spectra of the tractions, each with the loads it stands for and their ratios to it."""
-        shear = self.tractions.shear
-        with_pressure: dict[Load, float] = {"z": 1.0}
-        groups = [(self._forward(self.tractions.pressure), with_pressure)]
-        if isinstance(shear, ShearTraction):
-            if self.tractions.sheared:
-                groups += [(self._forward(shear.x), {"x": 1.0}), (self._forward(shear.y), {"y": 1.0})]
-        else:
-            x, y = shear.ratios
-            with_pressure |= {"x": x} if x != 0.0 else {}
-            with_pressure |= {"y": y} if y != 0.0 else {}
-        return groups
 
     def _forward(self, field: RealArray) -> ComplexArray:
         spectrum = np.empty(self._transform.spectrum_shape, np.result_type(self.dtype, np.complex64))

@@ -122,31 +122,27 @@ class _Deviator:
         self.first = half_determinant >= 0.0
         largest = 2.0 * np.cos(np.arccos(np.minimum(np.abs(half_determinant), 1.0)) / 3.0)
         self.apart = np.where(self.first, largest, -largest)
-        self.n = _kernel(a - self.apart, b - self.apart, c - self.apart, d, e, f)
-        self.u, self.v = _across(self.n)
+        # the unit vector that the singular matrix [[a d e], [d b f], [e f c]] less that value, of rank 2, maps to zero
+        rows = (
+            np.stack([a - self.apart, d, e]),
+            np.stack([d, b - self.apart, f]),
+            np.stack([e, f, c - self.apart]),
+        )
+        crosses = np.stack([_cross(rows[0], rows[1]), _cross(rows[1], rows[2]), _cross(rows[2], rows[0])])
+        squares = (crosses**2).sum(axis=1)
+        best = np.argmax(squares, axis=0)
+        vector = np.take_along_axis(crosses, best[None, None], axis=0)[0]
+        length = np.sqrt(np.take_along_axis(squares, best[None], axis=0)[0])
+        vector[0] = np.where(length > 0.0, vector[0], 1.0)
+        self.n = np.asarray(vector / np.where(length > 0.0, length, 1.0))
+        # two unit vectors that make an orthonormal triad with it
+        x, y, z = self.n
+        wide = np.abs(x) > np.abs(y)
+        breadth = np.where(wide, np.hypot(x, z), np.hypot(y, z))
+        zero = np.zeros_like(x)
+        u = np.where(wide, np.stack([-z, zero, x]), np.stack([zero, z, -y])) / breadth
+        self.u, self.v = u, _cross(self.n, u)
         self.uu, self.vv, self.uv = _form(self.u, self.u, m), _form(self.v, self.v, m), _form(self.u, self.v, m)
-
-
-def _kernel(a: RealArray, b: RealArray, c: RealArray, d: RealArray, e: RealArray, f: RealArray) -> RealArray:
-    """Unit vector (3, ...) that the singular matrix [[a d e], [d b f], [e f c]] of rank 2 maps to zero."""
-    rows = (np.stack([a, d, e]), np.stack([d, b, f]), np.stack([e, f, c]))
-    crosses = np.stack([_cross(rows[0], rows[1]), _cross(rows[1], rows[2]), _cross(rows[2], rows[0])])
-    squares = (crosses**2).sum(axis=1)
-    best = np.argmax(squares, axis=0)
-    vector = np.take_along_axis(crosses, best[None, None], axis=0)[0]
-    length = np.sqrt(np.take_along_axis(squares, best[None], axis=0)[0])
-    vector[0] = np.where(length > 0.0, vector[0], 1.0)
-    return np.asarray(vector / np.where(length > 0.0, length, 1.0))
-
-
-def _across(n: RealArray) -> tuple[RealArray, RealArray]:
-    """Two unit vectors that make an orthonormal triad with the unit vectors ``n`` (3, ...)."""
-    x, y, z = n
-    wide = np.abs(x) > np.abs(y)
-    length = np.where(wide, np.hypot(x, z), np.hypot(y, z))
-    zero = np.zeros_like(x)
-    u = np.where(wide, np.stack([-z, zero, x]), np.stack([zero, z, -y])) / length
-    return u, _cross(n, u)
 
 
 def _cross(u: RealArray, v: RealArray) -> RealArray:

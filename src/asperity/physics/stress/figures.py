@@ -93,6 +93,8 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     magnitude, of principal stresses the largest tension. Signed stresses are white about zero. Depth is to the scale of the section unless that were less than a sixth of its length.
     Raises InputError if the field is no section, has a region with one plane only, or the quantity is unknown.
     """
+    from matplotlib.colors import BoundaryNorm
+
     kind = _known(quantity)
     if len(field.dims) != 2 or len(field.planes) < 2:
         raise InputError("field of a stress section must have the axes plane and x or y; compute it on a Section(...).")
@@ -102,7 +104,21 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
     in_unit, length = scale(values, "Pa"), scale(float(line[-1] - line[0]), "m")
     depth_unit = scale(field.depth, "m")
     levels = _levels(in_unit(values), kind, log=log)
-    contours = _contours(field, ax, (length(line), depth_unit, in_unit(values)), levels, kind)
+    # filled contours, region by region, on common levels
+    along, shown = length(line), in_unit(values)
+    colours = SIGNED_MAP if kind.name not in MAGNITUDES else UNSIGNED_MAP
+    extend, low = ("min", -np.inf) if kind.name in TENSIONS else ("neither", levels[0])
+    norm = BoundaryNorm(levels, 256)
+    contours: Any = None
+    for part in _parts(field):
+        if len(part) < 2:
+            raise InputError(
+                "field of a stress section must have at least two planes in every region; see depths_through."
+            )
+        depth = depth_unit(field.depth[part])
+        inside = np.clip(shown[part], low, levels[-1])
+        contours = ax.contourf(along, depth, inside, levels, cmap=colours, norm=norm, extend=extend)
+        ax.contour(along, depth, inside, levels[1:-1], colors="black", linewidths=0.3, alpha=0.5)
     beside = _draw_interfaces(field, ax, depth_unit)
     peak = field.peak(values if kind.name in TENSIONS else np.abs(values))
     x = float(length(getattr(peak, axis) + 0.5 * field.spacing["xy".index(axis)]))
@@ -239,29 +255,6 @@ def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
         )
     )
     return steps[np.abs(steps) > 1e-9 * high] if kind.name not in MAGNITUDES else steps
-
-
-def _contours(
-    field: StressField, ax: Axes, drawn: tuple[RealArray, Any, RealArray], levels: RealArray, kind: Quantity
-) -> Any:
-    """Filled contours, region by region, on common levels."""
-    from matplotlib.colors import BoundaryNorm
-
-    line, depth_unit, values = drawn
-    colours = SIGNED_MAP if kind.name not in MAGNITUDES else UNSIGNED_MAP
-    extend, low = ("min", -np.inf) if kind.name in TENSIONS else ("neither", levels[0])
-    norm = BoundaryNorm(levels, 256)
-    contours = None
-    for part in _parts(field):
-        if len(part) < 2:
-            raise InputError(
-                "field of a stress section must have at least two planes in every region; see depths_through."
-            )
-        depth = depth_unit(field.depth[part])
-        inside = np.clip(values[part], low, levels[-1])
-        contours = ax.contourf(line, depth, inside, levels, cmap=colours, norm=norm, extend=extend)
-        ax.contour(line, depth, inside, levels[1:-1], colors="black", linewidths=0.3, alpha=0.5)
-    return contours
 
 
 def _draw_interfaces(field: StressField, ax: Axes, depth_unit: Any) -> float:

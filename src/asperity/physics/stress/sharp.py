@@ -153,7 +153,15 @@ class _Surface:
             value, bar, doubt = float(values[at_edge]), float(bars[at_edge]), edge.doubt(at_edge)
             x, y = edge.place(at_edge)
         if doubt := doubt or edge.roughness_doubt():
-            value, x, y = self._raw(name)
+            # the largest stress of the pixels as they are
+            points = self._raw_points
+            bound = points.bound(name)
+            least = points.at(name, [int(np.argmax(bound))])[0]
+            chosen = np.flatnonzero(bound >= least - 1e-9 * abs(least))
+            values = points.at(name, chosen)
+            i, j = np.unravel_index(int(chosen[np.argmax(values)]), self.wrong.shape[1:])
+            dx, dy = self.loads.grid.spacing
+            value, x, y = float(values.max()), float(i * dx), float(j * dy)
         error = math.nan if doubt else max(bar, highest - value) + more * abs(value)
         return Peak(value, x, y, self.plane.depth, self.plane.region, self.plane.side, error, doubt)
 
@@ -174,17 +182,6 @@ class _Surface:
         wrong, ratio = self.wrong.reshape(2, -1)[:, at], (self.ratio[0].ravel()[at], self.ratio[1].ravel()[at])
         found.reshape(3, -1)[:, at] -= _by_slopes(wrong, ratio, self.nu, self.modulus)
         return _Points.of(found, self.loads.pressure, self.ratio)
-
-    def _raw(self, name: str) -> tuple[float, float, float]:
-        """Largest stress of the pixels as they are, with its place."""
-        points = self._raw_points
-        bound = points.bound(name)
-        least = points.at(name, [int(np.argmax(bound))])[0]
-        chosen = np.flatnonzero(bound >= least - 1e-9 * abs(least))
-        values = points.at(name, chosen)
-        i, j = np.unravel_index(int(chosen[np.argmax(values)]), self.wrong.shape[1:])
-        dx, dy = self.loads.grid.spacing
-        return float(values.max()), float(i * dx), float(j * dy)
 
 
 class _Points(NamedTuple):

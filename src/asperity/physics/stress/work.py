@@ -149,7 +149,7 @@ def setting_rows(survey: StressSurvey) -> Rows:
     own = request.sheared and getattr(survey.result, "stick_slip", None) is not None
     if own:
         rows.append(("shear traction", "that found with stick and slip"))
-    elif not _prescribed(survey):
+    elif not isinstance(survey.result, LoadedBody):
         rows.append(("friction coefficient", f"{request.friction:g}"))
     if request.friction and not own:
         rows.append(
@@ -263,7 +263,7 @@ def remarks(survey: StressSurvey) -> list[str]:
     """What to know about these stresses before using them."""
     found = [
         "The load factor multiplies the prescribed tractions."
-        if _prescribed(survey)
+        if isinstance(survey.result, LoadedBody)
         else "The load factor multiplies the stresses of this contact. A rough contact grows with its load, so that its "
         "stresses rise more slowly than the load.",
         "Largest values are those on the planes that were computed; at the surface those of a contact are taken at its edges, between the pixels, with their error.",
@@ -283,11 +283,6 @@ def remarks(survey: StressSurvey) -> list[str]:
             "pressures: where they pass the yield stress they say that it yields, not how large they really are."
         )
     return found
-
-
-def _prescribed(survey: StressSurvey) -> bool:
-    """Whether the tractions were given, and no contact was solved."""
-    return isinstance(survey.result, LoadedBody)
 
 
 def region_text(regions: Sequence[Region]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -92,26 +93,24 @@ def _against_time(shown: TimePicture, ax: Axes, curves: Mapping[str, tuple[str, 
     return legend_above(ax) if len(curves) > 1 else ax
 
 
-def plot_area_in_time(shown: TimePicture, ax: Axes) -> Axes:
-    """Draw the real over nominal contact area against time on ``ax``."""
-    curves = {"area_fraction": ("real contact area", BLUE)}
-    return _against_time(shown, ax, curves, "1", "real contact area / nominal area")
-
-
-def plot_approach_in_time(shown: TimePicture, ax: Axes) -> Axes:
-    """Draw the approach against time on ``ax``."""
-    return _against_time(shown, ax, {"approach": ("approach", BLUE)}, "m", "approach from first touch")
-
-
-def plot_load_in_time(shown: TimePicture, ax: Axes) -> Axes:
-    """Draw the mean pressure against time on ``ax``."""
-    return _against_time(shown, ax, {"mean_pressure": ("mean pressure", BLACK)}, "Pa", "mean pressure")
-
-
-def plot_energy_in_time(shown: TimePicture, ax: Axes) -> Axes:
-    """Draw stored energy and heat against time on ``ax``."""
-    curves = {"stored_energy": ("stored in the solids", BLUE), "dissipated": ("heat", VERMILLION)}
-    return _against_time(shown, ax, curves, "J", "energy")
+plot_area_in_time = partial(
+    _against_time,
+    curves={"area_fraction": ("real contact area", BLUE)},
+    unit="1",
+    label="real contact area / nominal area",
+)
+plot_approach_in_time = partial(
+    _against_time, curves={"approach": ("approach", BLUE)}, unit="m", label="approach from first touch"
+)
+plot_load_in_time = partial(
+    _against_time, curves={"mean_pressure": ("mean pressure", BLACK)}, unit="Pa", label="mean pressure"
+)
+plot_energy_in_time = partial(
+    _against_time,
+    curves={"stored_energy": ("stored in the solids", BLUE), "dissipated": ("heat", VERMILLION)},
+    unit="J",
+    label="energy",
+)
 
 
 def _name(solid: Viscoelastic, number: int) -> str:
@@ -170,6 +169,7 @@ def plot_sliding_pressure(shown: SpeedPicture | StartPicture, ax: Axes) -> Axes:
 
 
 def _against_speed(shown: SpeedPicture, ax: Axes, names: tuple[str, str], label: str) -> Axes:
+    """The column of the first of ``names`` against speed, that of the second, by Persson's theory, beside it."""
     speed = shown.curve["speed"]
     ax.semilogx(speed, shown.curve[names[0]], color=BLUE, marker=".", label="this contact")
     beside = shown.curve.get(names[1], np.array(np.nan))
@@ -179,18 +179,17 @@ def _against_speed(shown: SpeedPicture, ax: Axes, names: tuple[str, str], label:
     return legend_above(ax)
 
 
-def plot_friction_by_speed(shown: SpeedPicture, ax: Axes) -> Axes:
-    """Draw the coefficient of hysteretic friction against speed on ``ax``, that of Persson's theory beside it."""
-    return _against_speed(shown, ax, ("friction", "persson_friction"), "coefficient of hysteretic friction")
+plot_friction_by_speed = partial(
+    _against_speed, names=("friction", "persson_friction"), label="coefficient of hysteretic friction"
+)
+plot_area_by_speed = partial(
+    _against_speed, names=("area_fraction", "persson_area_fraction"), label="real contact area / nominal area"
+)
 
 
-def plot_area_by_speed(shown: SpeedPicture, ax: Axes) -> Axes:
-    """Draw the real over nominal contact area against speed on ``ax``, that of Persson's theory beside it."""
-    return _against_speed(shown, ax, ("area_fraction", "persson_area_fraction"), "real contact area / nominal area")
-
-
-def _along_the_way(shown: StartPicture, ax: Axes, name: str, steady: float, label: str) -> Axes:
-    """Column ``name`` against the distance moved, with the ``steady`` value as a line."""
+def _along_the_way(shown: StartPicture, ax: Axes, name: str, label: str) -> Axes:
+    """Column ``name`` against the distance moved, with the value of steady sliding as a line."""
+    steady: float = getattr(shown, name)
     in_m = scale(shown.columns["distance"], "m")
     ax.plot(in_m(shown.columns["distance"]), shown.columns[name], color=BLUE, label="start of sliding")
     if np.isfinite(steady):
@@ -199,14 +198,8 @@ def _along_the_way(shown: StartPicture, ax: Axes, name: str, steady: float, labe
     return legend_above(ax)
 
 
-def plot_friction_at_start(shown: StartPicture, ax: Axes) -> Axes:
-    """Draw the coefficient of friction against the distance moved on ``ax``, that of steady sliding beside it."""
-    return _along_the_way(shown, ax, "friction", shown.friction, "coefficient of friction")
-
-
-def plot_area_at_start(shown: StartPicture, ax: Axes) -> Axes:
-    """Draw the real over nominal contact area against the distance moved on ``ax``, that of steady sliding beside it."""
-    return _along_the_way(shown, ax, "area_fraction", shown.area_fraction, "real contact area / nominal area")
+plot_friction_at_start = partial(_along_the_way, name="friction", label="coefficient of friction")
+plot_area_at_start = partial(_along_the_way, name="area_fraction", label="real contact area / nominal area")
 
 
 def plot_energy_at_start(shown: StartPicture, ax: Axes) -> Axes:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...contact.answer import Answer, outside
-from ...contact.area import touching_fraction
+from ...contact.area import edges_in, real_area
 from ...contact.controls import Approach, Control, MeanGap, Step, as_step
 from ...contact.couplings.driver import Settled
 from ...contact.couplings.protocol import Contact, Coupling, Memory, Posed, height_scale
@@ -208,7 +208,9 @@ class InTime:
         memories = {name: memory for name, (memory, _) in ends.items() if memory}
         earlier = moment.state.pressure if moment.state is not None and moment.state.pressure.any() else None
         state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
-        fraction = touching_fraction(problem, contact)
+        capped = contact.touching & (contact.pressure >= contact.cap)
+        edges = edges_in(problem, contact.pressure, contact.gap, capped)
+        fraction = real_area(problem, contact.pressure, capped, edges).total / area
         force = contact.force if not beside else outside(beside, contact.force)
         top = contact.pressure.max()
         numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)

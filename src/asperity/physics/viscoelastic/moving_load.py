@@ -161,7 +161,26 @@ def _influences(creep: AnyCreep, problem: ContactProblem, grid: Grid, speed: flo
             continue
         length = speed * lam
         line = isinstance(problem.boundary, FreeLine)
-        A = _upstream(K, dx / length, _tail(K, dx, nx, grid.spacing[1], length, line=line))[: 2 * nx - 1]
+        # A = ∫ K(x + s) exp(-s/L) ds/L at every pixel, from that beyond the last one. Of a pixel by weights of the values at
+        # 0, 1/5 … 1 for the integral of their polynomial times r exp(-r t) from 0 to 1, for r pixels over L.
+        r = dx / length
+        nodes = np.arange(_PARTS + 1) / _PARTS
+        moments = np.empty(nodes.size)
+        if r < 2.0:
+            t, w = rule(24)
+            t, w = 0.5 * (t + 1.0), 0.5 * w
+            moments[:] = [(w * t**n * r * np.exp(-r * t)).sum() for n in range(nodes.size)]
+        else:
+            moments[0] = -math.expm1(-r)
+            for n in range(1, nodes.size):
+                moments[n] = n / r * moments[n - 1] - math.exp(-r)
+        weights, decay = np.linalg.solve(np.vander(nodes, increasing=True).T, moments), math.exp(-r)
+        pixels = (len(K) - 1) // _PARTS
+        A = np.empty((pixels + 1, K.shape[1]))
+        A[-1] = _tail(K, dx, nx, grid.spacing[1], length, line=line)
+        for pixel in range(pixels - 1, -1, -1):
+            A[pixel] = weights @ K[pixel * _PARTS : (pixel + 1) * _PARTS + 1] + decay * A[pixel + 1]
+        A = A[: 2 * nx - 1]
         total += A
         loss += (here - A) / length
     both = [np.concatenate([field[:, :0:-1], field], axis=1) for field in (total, loss)]
@@ -181,30 +200,6 @@ def _between(fine: RealArray, nx: int) -> RealArray:
     both = np.concatenate([fine[start + half : 0 : -1], fine])
     running = np.concatenate([np.zeros((1, fine.shape[1])), np.cumsum(both, axis=0)])
     return np.asarray(running[_PARTS:] - running[:-_PARTS])
-
-
-def _upstream(K: RealArray, r: float, tail: RealArray) -> RealArray:
-    """∫ K(x + s) exp(-s/L) ds/L at every pixel, for ``r`` pixels over L, from that beyond the last one, the ``tail``.
-
-    Of a pixel by weights of the values at 0, 1/5 … 1 for the integral of their polynomial times r exp(-r t) from 0 to 1.
-    """
-    nodes = np.arange(_PARTS + 1) / _PARTS
-    moments = np.empty(nodes.size)
-    if r < 2.0:
-        t, w = rule(24)
-        t, w = 0.5 * (t + 1.0), 0.5 * w
-        moments[:] = [(w * t**n * r * np.exp(-r * t)).sum() for n in range(nodes.size)]
-    else:
-        moments[0] = -math.expm1(-r)
-        for n in range(1, nodes.size):
-            moments[n] = n / r * moments[n - 1] - math.exp(-r)
-    weights, decay = np.linalg.solve(np.vander(nodes, increasing=True).T, moments), math.exp(-r)
-    pixels = (len(K) - 1) // _PARTS
-    A = np.empty((pixels + 1, K.shape[1]))
-    A[-1] = tail
-    for pixel in range(pixels - 1, -1, -1):
-        A[pixel] = weights @ K[pixel * _PARTS : (pixel + 1) * _PARTS + 1] + decay * A[pixel + 1]
-    return A
 
 
 def _tail(K: RealArray, dx: float, nx: int, dy: float, length: float, *, line: bool) -> RealArray:

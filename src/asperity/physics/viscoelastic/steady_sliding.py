@@ -357,7 +357,19 @@ def slide(
     if isinstance(control, Unloaded):
         raise InputError("control of steady sliding must be a load or position, but is Unloaded().")
     v = require.not_negative(speed, "sliding speed (m/s)")
-    kernel, operator = _prepared(problem, v, angle)
+    # kernel of pressure that moves, and its symmetric operator
+    engine, symmetric = CpuEngine(), _Symmetric(problem, v)
+    kernel: MovingKernel | FreeMovingKernel
+    operator: Operator
+    if isinstance(problem.boundary, Periodic):
+        velocity = v * math.cos(angle), v * math.sin(angle)
+        kernel = MovingKernel.of(problem, velocity, engine.threads_for(problem.grid.shape))
+        compliance: Compliance = symmetric  # type: ignore[assignment]
+        operator = PeriodicOperator(compliance, problem.grid, engine=engine, kernel=kernel.storage)
+    else:
+        first = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
+        kernel = FreeMovingKernel.of(problem, first, v, angle)
+        operator = kernel.symmetric(first)
     profile, before = problem.profile(), None if after is None else after.normal.state
     couplings = (*couplings_of(problem, operator, rounds), LagCoupling(kernel, kernel.lags, tolerance))
     start = None
@@ -382,21 +394,6 @@ def slide(
     if not result.converged:
         raise ConvergenceError(f"{result.status.message} {result.status.remedy}", result)
     return result
-
-
-def _prepared(
-    problem: ContactProblem, speed: float, direction: float
-) -> tuple[MovingKernel | FreeMovingKernel, Operator]:
-    """Kernel of pressure that moves with a ``speed`` (m/s) in a ``direction`` (rad), and its symmetric operator."""
-    engine, symmetric = CpuEngine(), _Symmetric(problem, speed)
-    compliance: Compliance = symmetric  # type: ignore[assignment]
-    if not isinstance(problem.boundary, Periodic):
-        first = prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
-        moving = FreeMovingKernel.of(problem, first, speed, direction)
-        return moving, moving.symmetric(first)
-    velocity = speed * math.cos(direction), speed * math.sin(direction)
-    kernel = MovingKernel.of(problem, velocity, engine.threads_for(problem.grid.shape))
-    return kernel, PeriodicOperator(compliance, problem.grid, engine=engine, kernel=kernel.storage)
 
 
 def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:

@@ -201,7 +201,28 @@ class _Motion:
         self, problem: ContactProblem, control: Control, speed: float, direction: float, step: float, rounds: Rounds
     ) -> None:
         self.problem, self.control, self.speed, self.direction, self.step = problem, control, speed, direction, step
-        self.name = _moving(problem, control)
+        if problem.friction is not None:
+            raise InputError(
+                "friction of sliding in time must be None: the friction found is that of hysteresis alone, and shear of the interface adds to it."
+            )
+        if problem.plastic_flow is not None:
+            raise InputError(
+                "plastic_flow of sliding in time must be None, since what flows would have to move with the surface."
+            )
+        if isinstance(control, Unloaded):
+            raise InputError("control of sliding in time must be a load or position, but is Unloaded().")
+        relaxing = [relaxes(body) for body in (problem.body, problem.counter_body)]
+        if sum(relaxing) != 1:
+            raise InputError(
+                f"bodies of sliding in time must be one that is viscoelastic and one that is not, but {sum(relaxing)} of them relax. "
+                "Write ContactProblem(rough, Rigid(), counter_body=rubber)."
+            )
+        name = "counter_surface" if relaxing[0] else "surface"
+        if not isinstance(getattr(problem, name), Surface):
+            raise InputError(
+                f"{name} of sliding in time must be a Surface, for it moves over the viscoelastic body, but is Flat()."
+            )
+        self.name = name
         moving = getattr(problem, self.name)
         assert isinstance(moving, Surface)
         self.moving, self.heights = moving, np.asarray(moving.heights, dtype=float)
@@ -262,7 +283,16 @@ class _Motion:
             )
         )
         if isinstance(self.problem.boundary, Periodic):
-            return _turned(self.heights, x, y)
+            # in Fourier space; whole pixels are exact
+            if x == round(x) and y == round(y):
+                return np.roll(self.heights, (round(x), round(y)), (0, 1))
+            nx, ny = self.heights.shape
+            transform = RealTransform(self.heights.shape, 1)
+            spectrum = transform.forward(self.heights, np.empty(transform.spectrum_shape, np.complex128))
+            row = np.arange(nx)
+            fx, fy = np.where(row <= nx // 2, row, row - nx) / nx, np.arange(ny // 2 + 1) / ny
+            spectrum *= _phase(fx, x, nx)[:, None] * _phase(fy, y, ny)
+            return transform.backward(spectrum, np.empty(self.heights.shape))
         from scipy.ndimage import shift
 
         return np.asarray(shift(self.heights, (x, 0.0 if self.heights.shape[1] == 1 else y), order=3, mode="nearest"))
@@ -287,47 +317,8 @@ class _Motion:
         return np.array(numbers)
 
 
-def _turned(heights: RealArray, x: float, y: float) -> RealArray:
-    """Periodic ``heights`` moved by ``x`` and ``y`` pixels in Fourier space; whole pixels are exact."""
-    if x == round(x) and y == round(y):
-        return np.roll(heights, (round(x), round(y)), (0, 1))
-    nx, ny = heights.shape
-    transform = RealTransform(heights.shape, 1)
-    spectrum = transform.forward(heights, np.empty(transform.spectrum_shape, np.complex128))
-    row = np.arange(nx)
-    fx, fy = np.where(row <= nx // 2, row, row - nx) / nx, np.arange(ny // 2 + 1) / ny
-    spectrum *= _phase(fx, x, nx)[:, None] * _phase(fy, y, ny)
-    return transform.backward(spectrum, np.empty(heights.shape))
-
-
 def _phase(frequency: RealArray, shift: float, number: int) -> ComplexArray:
     """Factors of waves of so many periods a pixel; the shortest one of an even grid stands for both directions."""
     found = np.exp(-2j * np.pi * frequency * shift)
     lone = np.abs(frequency) == 0.5
     return np.asarray(np.where(lone & (number % 2 == 0), found.real, found))
-
-
-def _moving(problem: ContactProblem, control: Control) -> str:
-    """Name of the surface that moves, opposite the body that relaxes."""
-    if problem.friction is not None:
-        raise InputError(
-            "friction of sliding in time must be None: the friction found is that of hysteresis alone, and shear of the interface adds to it."
-        )
-    if problem.plastic_flow is not None:
-        raise InputError(
-            "plastic_flow of sliding in time must be None, since what flows would have to move with the surface."
-        )
-    if isinstance(control, Unloaded):
-        raise InputError("control of sliding in time must be a load or position, but is Unloaded().")
-    relaxing = [relaxes(body) for body in (problem.body, problem.counter_body)]
-    if sum(relaxing) != 1:
-        raise InputError(
-            f"bodies of sliding in time must be one that is viscoelastic and one that is not, but {sum(relaxing)} of them relax. "
-            "Write ContactProblem(rough, Rigid(), counter_body=rubber)."
-        )
-    name = "counter_surface" if relaxing[0] else "surface"
-    if not isinstance(getattr(problem, name), Surface):
-        raise InputError(
-            f"{name} of sliding in time must be a Surface, for it moves over the viscoelastic body, but is Flat()."
-        )
-    return name

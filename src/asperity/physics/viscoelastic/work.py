@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -112,7 +111,18 @@ class ViscoelasticityWork(Work):
         values |= {item.name: number for item, number in zip(OSCILLATION, oscillation, strict=True)}
         keys = ("Ferry1980", "Lee1960", "Park1999", "Ting1966")
         detail = {"temperature": table.temperature and float(table.temperature)}
-        return Found(values, detail, _findings(values, ask), keys)
+        made = []
+        if float(values["viscoelastic_time"]) == 0.0 and not ask.slides:
+            text = "All loads come at once: the viscoelastic solids are as stiff as at the first instant. Give ramp or hold (--ramp, --hold) for what time does to the contact."
+            made.append(Advice("note", "first instant", text))
+        if ask.settings.frequency is not None and math.isnan(float(values["storage_stiffness"])):
+            text = "The surfaces do not touch under the last load: there is no contact that would oscillate."
+            made.append(Advice("warning", "oscillation", text))
+        error = float(values["time_error"])
+        if error > MUCH:
+            text = f"The steps of time may add {percent(error)} to the error of the displacement. Take a smaller tolerance (--time-tolerance) or more steps (--time-steps)."
+            made.append(Advice("warning", "steps of time", text))
+        return Found(values, detail, tuple(made), keys)
 
     def citations(self, ask: InTime, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of viscoelastic contact."""
@@ -158,7 +168,18 @@ class ViscoelasticityWork(Work):
                 cells.append((f"{number}", show(float(end), "s"), *state, *energies))
             heads = ("Step", "Until", "Mean pressure", "Approach", "Real area", "Heat of the step", "Stored energy")
             tables = (("The contact in time", Table(heads, tuple(cells))),)
-        return Words(_sentence(values), headline, rows, tables, (REMARK,))
+        time, area = (np.atleast_1d(values[f"moment_{name}"]) for name in ("time", "area_fraction"))
+        sentence = "The load came at once: the viscoelastic solids are as stiff as at the first instant."
+        if time[-1] != 0.0:
+            approach = np.atleast_1d(values["moment_approach"])
+            touched = int(np.flatnonzero(area > 0.0)[0]) if (area > 0.0).any() else 0
+            heat = show(float(values["viscoelastic_heat"]), "J", 3)
+            sentence = (
+                f"From {show(float(time[touched]), 's', 3)} to {show(float(time[-1]), 's', 3)} the contact area went from "
+                f"{percent(float(area[touched]))} to {percent(float(area[-1]))} of the nominal area and the approach from "
+                f"{show(float(approach[touched]), 'm', 3)} to {show(float(approach[-1]), 'm', 3)}; {heat} became heat."
+            )
+        return Words(sentence, headline, rows, tables, (REMARK,))
 
     def stored(self, found: Found) -> Stored:
         """The temperature."""
@@ -167,22 +188,6 @@ class ViscoelasticityWork(Work):
     def restored(self, stored: Stored, solved: Solved) -> Any:
         """The same again."""
         return dict(stored.facts)
-
-
-def _findings(values: Mapping[str, Any], ask: InTime) -> tuple[Advice, ...]:
-    """That nothing took time, or that steps of time are long."""
-    made = []
-    if float(values["viscoelastic_time"]) == 0.0 and not ask.slides:
-        text = "All loads come at once: the viscoelastic solids are as stiff as at the first instant. Give ramp or hold (--ramp, --hold) for what time does to the contact."
-        made.append(Advice("note", "first instant", text))
-    if ask.settings.frequency is not None and math.isnan(float(values["storage_stiffness"])):
-        text = "The surfaces do not touch under the last load: there is no contact that would oscillate."
-        made.append(Advice("warning", "oscillation", text))
-    error = float(values["time_error"])
-    if error > MUCH:
-        text = f"The steps of time may add {percent(error)} to the error of the displacement. Take a smaller tolerance (--time-tolerance) or more steps (--time-steps)."
-        made.append(Advice("warning", "steps of time", text))
-    return tuple(made)
 
 
 def picture_of(found: Found, solved: Solved) -> TimePicture:
@@ -199,17 +204,3 @@ REMARK = (
     "the load, but for the error of the steps of time. On a periodic surface creep of the mean displacement is not included."
 )
 """What the numbers mean."""
-
-
-def _sentence(values: Mapping[str, Any]) -> str:
-    time, area = (np.atleast_1d(values[f"moment_{name}"]) for name in ("time", "area_fraction"))
-    if time[-1] == 0.0:
-        return "The load came at once: the viscoelastic solids are as stiff as at the first instant."
-    approach = np.atleast_1d(values["moment_approach"])
-    touched = int(np.flatnonzero(area > 0.0)[0]) if (area > 0.0).any() else 0
-    heat = show(float(values["viscoelastic_heat"]), "J", 3)
-    return (
-        f"From {show(float(time[touched]), 's', 3)} to {show(float(time[-1]), 's', 3)} the contact area went from "
-        f"{percent(float(area[touched]))} to {percent(float(area[-1]))} of the nominal area and the approach from "
-        f"{show(float(approach[touched]), 'm', 3)} to {show(float(approach[-1]), 'm', 3)}; {heat} became heat."
-    )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -70,7 +69,15 @@ class HysteresisWork(Work):
             values |= {item.name: column for item, column in zip(COLUMNS, np.array(rows).T, strict=True)}
         facts = {"speed": found.speed, "direction": found.direction, "reduction": reduction}
         keys = (*found.citation_keys, "Persson2001")
-        return Found(values, facts, _findings(values), keys)
+        made = []
+        friction, slope = float(values["hysteresis_friction"]), float(values["hysteresis_slope_friction"])
+        if abs(slope - friction) > APART * max(abs(friction), 1e-12) and friction > 1e-6:
+            text = f"Friction by the loss in all waves is {friction:.3g} and by the slope of the surface {slope:.3g}: the grid does not resolve the edges of the contact. Take a finer one."
+            made.append(Advice("warning", "two ways to the friction", text))
+        if friction > STEEP:
+            text = f"A coefficient of friction of {friction:.3g} by hysteresis alone says that slopes are too steep for a theory of small slopes."
+            made.append(Advice("warning", "steep slopes", text))
+        return Found(values, facts, tuple(made), keys)
 
     def citations(self, ask: HysteresisSettings, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of sliding over viscoelastic bodies."""
@@ -140,19 +147,6 @@ def _persson(found: SteadySliding, reduction: float) -> tuple[float, float]:
     except InputError:
         return math.nan, math.nan
     return theory.friction, theory.area_fraction
-
-
-def _findings(values: Mapping[str, Any]) -> tuple[Advice, ...]:
-    """Edges that the grid does not resolve, and slopes that are too steep."""
-    made = []
-    friction, slope = float(values["hysteresis_friction"]), float(values["hysteresis_slope_friction"])
-    if abs(slope - friction) > APART * max(abs(friction), 1e-12) and friction > 1e-6:
-        text = f"Friction by the loss in all waves is {friction:.3g} and by the slope of the surface {slope:.3g}: the grid does not resolve the edges of the contact. Take a finer one."
-        made.append(Advice("warning", "two ways to the friction", text))
-    if friction > STEEP:
-        text = f"A coefficient of friction of {friction:.3g} by hysteresis alone says that slopes are too steep for a theory of small slopes."
-        made.append(Advice("warning", "steep slopes", text))
-    return tuple(made)
 
 
 def picture_of(found: Found, solved: Solved) -> SpeedPicture:

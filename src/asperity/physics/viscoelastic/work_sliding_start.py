@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,7 @@ from ...plots.picture import Figure, figures_by
 from .figures import START_PLOTS, StartPicture
 from .part_hysteresis import HysteresisSettings
 from .part_sliding_start import FIELD, FRICTION, SCALARS
-from .transient_sliding import COLUMNS, STEPS_PER_PIXEL, TransientSliding, slide_in_time, step_length
+from .transient_sliding import COLUMNS, STEPS_PER_PIXEL, slide_in_time, step_length
 from .work_hysteresis import bare
 
 LAST = 0.25
@@ -79,7 +78,28 @@ class SlidingStartWork(Work):
         steady = solved.found["hysteresis"].values if "hysteresis" in solved.found else {}
         for name in ("hysteresis_friction", "sliding_area_fraction"):
             facts[name] = float(steady.get(name, math.nan))
-        return Found(values, facts, _findings(values, facts, found), found.citation_keys)
+        made = []
+        slope, by_heat, last_area = (
+            float(values[f"start_last_{name}"]) for name in ("friction", "heat_friction", "area_fraction")
+        )
+        unsteady = abs(slope - by_heat) > UNSTEADY * max(abs(slope), abs(by_heat))
+        if unsteady:
+            text = f"Over the last quarter of the distance friction is {slope:.3g} by the slope and {by_heat:.3g} by the heat: the motion is not steady. Take a longer distance (--sliding-distance), or a finer grid if that changes nothing."
+            made.append(Advice("note", "start of sliding", text))
+        touching, wraps = found.last.contact, found.last.problem.boundary.wraps
+        ends = (touching[[0, -1]], touching[:, [0, -1]])
+        sizes = touching.shape
+        if any(end.any() and not wrap and n > 1 for end, wrap, n in zip(ends, wraps, sizes, strict=True)):
+            text = "After the distance the contact has come to an edge of its grid, beyond which nothing is known. Take a shorter distance (--sliding-distance), or a larger surface."
+            made.append(Advice("warning", "edge of the grid", text))
+        known = float(facts["sliding_area_fraction"])
+        if not (math.isnan(known) or unsteady or abs(last_area - known) <= OTHER_BRANCH * max(last_area, known)):
+            text = (
+                f"The motion has come to {percent(last_area)} of the nominal area with a friction of {slope:.3g}, the steady state found at once to {percent(known)} with "
+                f"{float(facts['hysteresis_friction']):.3g}: adhesive contacts may have several steady states, and the motion after the first load comes to the former."
+            )
+            made.append(Advice("warning", "two steady states", text))
+        return Found(values, facts, tuple(made), found.citation_keys)
 
     def citations(self, ask: HysteresisSettings, problem: ContactProblem) -> tuple[str, ...]:
         """Papers of sliding over viscoelastic bodies."""
@@ -125,31 +145,6 @@ class SlidingStartWork(Work):
         """The same again."""
         steady = {"hysteresis_friction": math.nan, "sliding_area_fraction": math.nan}
         return {**steady, **stored.facts}
-
-
-def _findings(values: Mapping[str, Any], facts: Mapping[str, float], found: TransientSliding) -> tuple[Advice, ...]:
-    """That the motion is not steady yet, that the contact has come to an edge of its grid, and that the motion has come to another steady
-    contact than the one found at once, as adhesive contacts may."""
-    made = []
-    slope, heat, area = (float(values[f"start_last_{name}"]) for name in ("friction", "heat_friction", "area_fraction"))
-    unsteady = abs(slope - heat) > UNSTEADY * max(abs(slope), abs(heat))
-    if unsteady:
-        text = f"Over the last quarter of the distance friction is {slope:.3g} by the slope and {heat:.3g} by the heat: the motion is not steady. Take a longer distance (--sliding-distance), or a finer grid if that changes nothing."
-        made.append(Advice("note", "start of sliding", text))
-    touching, wraps = found.last.contact, found.last.problem.boundary.wraps
-    ends = (touching[[0, -1]], touching[:, [0, -1]])
-    sizes = touching.shape
-    if any(end.any() and not wrap and n > 1 for end, wrap, n in zip(ends, wraps, sizes, strict=True)):
-        text = "After the distance the contact has come to an edge of its grid, beyond which nothing is known. Take a shorter distance (--sliding-distance), or a larger surface."
-        made.append(Advice("warning", "edge of the grid", text))
-    steady = float(facts["sliding_area_fraction"])
-    if not (math.isnan(steady) or unsteady or abs(area - steady) <= OTHER_BRANCH * max(area, steady)):
-        text = (
-            f"The motion has come to {percent(area)} of the nominal area with a friction of {slope:.3g}, the steady state found at once to {percent(steady)} with "
-            f"{float(facts['hysteresis_friction']):.3g}: adhesive contacts may have several steady states, and the motion after the first load comes to the former."
-        )
-        made.append(Advice("warning", "two steady states", text))
-    return tuple(made)
 
 
 def picture_of(found: Found, solved: Solved) -> StartPicture:

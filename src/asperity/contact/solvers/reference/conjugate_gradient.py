@@ -69,7 +69,50 @@ class ConjugateGradient:
         """One constrained conjugate-gradient step, or one of steepest descent where that would raise the energy."""
         memory = state.memory
         assert isinstance(memory, _Memory)
-        taken = _conjugate_step(qp, state, memory)
+        # Polonsky & Keer (1999), steps 1-8; the pressures leaving and entering the bounds treated alike at both
+        p = state.pressure
+        working = (p > 0.0) & (p < qp.cap)
+        gap: RealArray = state.deflection - qp.profile  # under load relative to its mean over the working points
+        if isinstance(qp.constraint, FixedOffset):
+            gap = gap + qp.constraint.offset
+        else:
+            gap = gap - (gap[working].mean() if working.any() else gap.mean())
+        norm = float((gap[working] ** 2).sum())
+        ratio = norm / memory.norm if memory.conjugate else 0.0
+        direction = np.where(working, gap + ratio * memory.direction, 0.0)
+        response = qp.operator.apply(direction)
+        # pressure per gap (Pa/m) that minimises the energy along the direction
+        centred = isinstance(qp.constraint, FixedMean) and working.any()
+        along = response - response[working].mean() if centred else response
+        curvature = float((along[working] * direction[working]).sum())
+        length = float((gap[working] * direction[working]).sum()) / curvature if curvature > 0.0 else 0.0
+        length = length or memory.pixel_step
+
+        trial: RealArray = p - length * direction
+        bounded: RealArray = np.clip(trial, 0.0, qp.cap)
+        entering = (bounded == 0.0) & (gap < 0.0) | (bounded == qp.cap) & (gap > 0.0)
+        clipped = bool((bounded != trial).any())
+        re_entered = bool(entering.any())
+        if re_entered:
+            bounded[entering] -= length * gap[entering]
+            bounded = np.clip(bounded, 0.0, qp.cap)
+        if isinstance(qp.constraint, FixedMean):
+            bounded = scaled_to_load(bounded, qp.cap, qp.constraint.mean_pressure)
+
+        linear = not (clipped or re_entered) and (qp.elastic or isinstance(qp.constraint, FixedOffset))
+        if linear:  # a combination and a common factor: no need to apply the operator again
+            factor = bounded.sum() / trial.sum() if isinstance(qp.constraint, FixedMean) else 1.0
+            deflection = factor * (state.deflection - length * response)
+        else:
+            deflection = qp.operator.apply(bounded)
+        taken = SolverState(
+            bounded,
+            deflection,
+            relative_error(qp, bounded, deflection),
+            state.iterations + 1,
+            state.applications + (1 if linear else 2),
+            memory=replace(memory, direction=direction, norm=norm, conjugate=not re_entered),
+        )
         before, after = energy(qp, state.pressure, state.deflection), energy(qp, taken.pressure, taken.deflection)
         if after <= before + _ROUNDING * abs(before):
             return taken
@@ -78,50 +121,3 @@ class ConjugateGradient:
         if lower.exhausted:  # no decrease above rounding in either: the conjugate step is as good
             return replace(taken, applications=applications)
         return replace(lower, applications=applications, memory=replace(memory, conjugate=False))
-
-
-def _conjugate_step(qp: ContactQP, state: SolverState, memory: _Memory) -> SolverState:
-    """Polonsky & Keer (1999), steps 1-8; the pressures leaving and entering the bounds treated alike at both."""
-    p = state.pressure
-    working = (p > 0.0) & (p < qp.cap)
-    gap: RealArray = state.deflection - qp.profile  # under load relative to its mean over the working points
-    if isinstance(qp.constraint, FixedOffset):
-        gap = gap + qp.constraint.offset
-    else:
-        gap = gap - (gap[working].mean() if working.any() else gap.mean())
-    norm = float((gap[working] ** 2).sum())
-    ratio = norm / memory.norm if memory.conjugate else 0.0
-    direction = np.where(working, gap + ratio * memory.direction, 0.0)
-    response = qp.operator.apply(direction)
-    # pressure per gap (Pa/m) that minimises the energy along the direction
-    centred = isinstance(qp.constraint, FixedMean) and working.any()
-    along = response - response[working].mean() if centred else response
-    curvature = float((along[working] * direction[working]).sum())
-    length = float((gap[working] * direction[working]).sum()) / curvature if curvature > 0.0 else 0.0
-    length = length or memory.pixel_step
-
-    trial: RealArray = p - length * direction
-    bounded: RealArray = np.clip(trial, 0.0, qp.cap)
-    entering = (bounded == 0.0) & (gap < 0.0) | (bounded == qp.cap) & (gap > 0.0)
-    clipped = bool((bounded != trial).any())
-    re_entered = bool(entering.any())
-    if re_entered:
-        bounded[entering] -= length * gap[entering]
-        bounded = np.clip(bounded, 0.0, qp.cap)
-    if isinstance(qp.constraint, FixedMean):
-        bounded = scaled_to_load(bounded, qp.cap, qp.constraint.mean_pressure)
-
-    linear = not (clipped or re_entered) and (qp.elastic or isinstance(qp.constraint, FixedOffset))
-    if linear:  # a combination and a common factor: no need to apply the operator again
-        factor = bounded.sum() / trial.sum() if isinstance(qp.constraint, FixedMean) else 1.0
-        deflection = factor * (state.deflection - length * response)
-    else:
-        deflection = qp.operator.apply(bounded)
-    return SolverState(
-        bounded,
-        deflection,
-        relative_error(qp, bounded, deflection),
-        state.iterations + 1,
-        state.applications + (1 if linear else 2),
-        memory=replace(memory, direction=direction, norm=norm, conjugate=not re_entered),
-    )

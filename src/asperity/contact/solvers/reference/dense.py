@@ -357,33 +357,26 @@ class Lemke:
             If pivoting ends on a ray, which proves that no pressure meets the conditions.
         """
         dense = dense_form(qp)
-        basic, pivots = solve_lcp(*complementarity_problem(dense), self.max_iterations - state.iterations)
+        # M and q of: find z >= 0 with w = Mz + q >= 0 and z·w = 0; z holds x, then overlaps mu, then the level.
+        # w_x = Ax - h + mu - level, w_mu = cap - x, w_level = sum(x) - total. Fixing the sum by an inequality is exact: with
+        # all heights measured downwards from above the highest point, x > 0 needs a level > 0, and then w_level = 0.
+        n = dense.heights.size
+        matrix, vector = dense.matrix, -dense.heights
+        if np.isfinite(dense.cap).any():
+            eye = np.eye(n)
+            matrix = np.block([[matrix, eye], [-eye, np.zeros((n, n))]])
+            vector = np.concatenate([vector, dense.cap])
+        if dense.total is not None:
+            ones = np.zeros(vector.size)
+            ones[:n] = 1.0
+            matrix = np.block([[matrix, -ones[:, None]], [ones[None, :], np.zeros((1, 1))]])
+            vector = np.append(vector + ones, -dense.total)
+        basic, pivots = solve_lcp(matrix, vector, self.max_iterations - state.iterations)
         x: RealArray | None = None
         if basic is not None:
-            n = dense.heights.size
             at_cap = basic[n : 2 * n] if np.isfinite(dense.cap).any() else np.zeros(n, dtype=bool)
             x = solve_on(dense, basic[:n] & ~at_cap, basic[:n] & at_cap).x
         return answered(qp, state, x, dense.unit, iterations=pivots, tolerance=self.tolerance)
-
-
-def complementarity_problem(qp: DenseQP) -> tuple[RealArray, RealArray]:
-    """M and q of: find z >= 0 with w = Mz + q >= 0 and z·w = 0; z holds x, then overlaps mu, then the level.
-
-    w_x = Ax - h + mu - level, w_mu = cap - x, w_level = sum(x) - total. Fixing the sum by an inequality is exact: with
-    all heights measured downwards from above the highest point, x > 0 needs a level > 0, and then w_level = 0.
-    """
-    n = qp.heights.size
-    matrix, vector = qp.matrix, -qp.heights
-    if np.isfinite(qp.cap).any():
-        eye = np.eye(n)
-        matrix = np.block([[matrix, eye], [-eye, np.zeros((n, n))]])
-        vector = np.concatenate([vector, qp.cap])
-    if qp.total is not None:
-        ones = np.zeros(vector.size)
-        ones[:n] = 1.0
-        matrix = np.block([[matrix, -ones[:, None]], [ones[None, :], np.zeros((1, 1))]])
-        vector = np.append(vector + ones, -qp.total)
-    return matrix, vector
 
 
 def solve_lcp(matrix: RealArray, vector: RealArray, limit: int) -> tuple[BoolArray | None, int]:
@@ -414,29 +407,20 @@ def solve_lcp(matrix: RealArray, vector: RealArray, limit: int) -> tuple[BoolArr
         if leaving == artificial:
             return np.isin(np.arange(m, 2 * m), basis), count + 1
         entering = leaving + m if leaving < m else leaving - m
-        found = _leaving_row(tableau, basis, entering, artificial)
-        if found is None:
+        column = tableau[:, entering]
+        rows = np.flatnonzero(column > _ZERO)
+        if not rows.size:
             raise NoSolutionError(
                 "contact conditions must have a solution, but Lemke's pivots end on a ray: no pressure within the bounds "
                 "balances the prescribed load or position. Lower the load, raise the hardness or prescribe MeanPressure(...)."
             )
-        row = found
+        # row of the lexicographic minimum ratio; the artificial variable goes first where it ties
+        ratios = tableau[rows, -1] / column[rows]
+        tied = rows[ratios <= ratios.min() + _ZERO * (1.0 + abs(ratios.min()))]
+        last = tied[basis[tied] == artificial]
+        inverse = tableau[tied, : basis.size] / column[tied, None]
+        row = int(last[0]) if last.size else _lexicographic_least(inverse, tied)
     return None, limit
-
-
-def _leaving_row(tableau: RealArray, basis: IntArray, entering: int, artificial: int) -> int | None:
-    """Row of the lexicographic minimum ratio; the artificial variable goes first where it ties; None on a ray."""
-    column = tableau[:, entering]
-    rows = np.flatnonzero(column > _ZERO)
-    if not rows.size:
-        return None
-    ratios = tableau[rows, -1] / column[rows]
-    tied = rows[ratios <= ratios.min() + _ZERO * (1.0 + abs(ratios.min()))]
-    for row in tied:
-        if basis[row] == artificial:
-            return int(row)
-    inverse = tableau[tied, : basis.size] / column[tied, None]
-    return _lexicographic_least(inverse, tied)
 
 
 def _lexicographic_least(values: RealArray, rows: IntArray) -> int:

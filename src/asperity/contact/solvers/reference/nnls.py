@@ -84,7 +84,16 @@ def _solve(qp: DenseQP, start: RealArray, limit: int, shape: tuple[int, ...]) ->
         low, high = (low, level) if excess > 0.0 else (level, high)
         newton = exact.level + qp.shift * float(exact.x.sum())
         if qp.total is not None and not trial.free.any():  # the load curve is flat here: take its next piece
-            newton = _beyond_next_kink(qp, trial, rising=excess < 0.0)
+            # the level with the prescribed load if the point nearest to leaving its bound left it
+            r = qp.matrix @ trial.x - qp.heights
+            if excess < 0.0:
+                nearest = int(np.argmin(np.where(trial.capped, np.inf, r)))
+            else:
+                nearest = int(np.argmax(np.where(trial.capped, r, -np.inf)))
+            free, capped = trial.free.copy(), trial.capped.copy()
+            free[nearest], capped[nearest] = True, False
+            following = solve_on(qp, free, capped)
+            newton = following.level + qp.shift * float(following.x.sum())
         level = newton if low < newton < high else 0.5 * (low + high)
         if not np.isfinite(level) or level in (low, high):  # least squares has lost the set to rounding
             return exact.x, count + 1
@@ -121,19 +130,6 @@ def _from_coarser(qp: DenseQP, start: RealArray, limit: int, shape: tuple[int, .
         touching = touching | np.roll(touching, 1, axis) | np.roll(touching, -1, axis)
     fine = np.repeat(np.repeat(np.stack([x / 4.0, touching]), 2, axis=1), 2, axis=2)
     return fine[0].ravel(), fine[1].ravel() > 0.0
-
-
-def _beyond_next_kink(qp: DenseQP, trial: OnSet, *, rising: bool) -> float:
-    """Level with the prescribed load if the point nearest to leaving its bound left it."""
-    r = qp.matrix @ trial.x - qp.heights
-    if rising:
-        nearest = int(np.argmin(np.where(trial.capped, np.inf, r)))
-    else:
-        nearest = int(np.argmax(np.where(trial.capped, r, -np.inf)))
-    free, capped = trial.free.copy(), trial.capped.copy()
-    free[nearest], capped[nearest] = True, False
-    following = solve_on(qp, free, capped)
-    return following.level + qp.shift * float(following.x.sum())
 
 
 def _bounded(qp: DenseQP, heights: RealArray, near: BoolArray) -> OnSet:

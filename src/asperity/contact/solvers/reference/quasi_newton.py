@@ -116,7 +116,30 @@ class QuasiNewton:
             applications += int(math.isfinite(kink))
             p = scaled_to_load(p, qp.cap, qp.constraint.mean_pressure)
             nearer = abs(load_error) < memory.nearest
-            memory = replace(_next_level(memory, load_error, kink), nearest=min(abs(load_error), memory.nearest))
+            # Secant of the load curve, between safe bounds. The load grows with the level by at most 1/load_stiffness, so that the
+            # multiplier rule, counted from the kink up to which the curve is flat, never goes too far: a secant is at least as
+            # long. Every third run halves the bracket, for a secant may keep one end of it.
+            plane = memory.plane
+            low, high = (memory.low, plane) if load_error > 0.0 else (plane, memory.high)
+            base = kink if math.isfinite(kink) else plane
+            safe = following = base - memory.load_stiffness * load_error
+            if memory.last is not None:
+                before, error_before = memory.last
+                slope = (load_error - error_before) / (plane - before) if plane != before else 0.0
+                if slope > 0.0:
+                    following = plane - load_error / slope
+                following = min(following, safe) if load_error > 0.0 else max(following, safe)
+            if not low < following < high or (memory.runs % 3 == 2 and math.isfinite(low + high)):
+                following = 0.5 * (low + high) if math.isfinite(low + high) else safe
+            memory = replace(
+                memory,
+                plane=following,
+                low=low,
+                high=high,
+                last=(plane, load_error),
+                runs=memory.runs + 1,
+                nearest=min(abs(load_error), memory.nearest),
+            )
         deflection = qp.operator.apply(p)
         error = relative_error(qp, p, deflection)
         stalls = 0 if nearer or error < memory.best else memory.stalls + 1
@@ -169,25 +192,3 @@ class QuasiNewton:
         moved = np.where(fit.x.reshape(shape) >= upper.reshape(shape), qp.cap, np.clip(moved, 0.0, qp.cap))
         moved = np.where(fit.x.reshape(shape) <= lower.reshape(shape), 0.0, moved)
         return _Minimum(moved, int(fit.nit), int(fit.nfev))
-
-
-def _next_level(memory: _Memory, load_error: float, kink: float) -> _Memory:
-    """Level after a run that ended with ``load_error``: secant of the load curve, kept between safe bounds.
-
-    The load grows with the level by at most 1/load_stiffness, so that the multiplier rule, counted from the ``kink``
-    up to which the curve is flat, never goes too far: a secant is at least as long. Every third run halves the
-    bracket, for a secant may keep one end of it.
-    """
-    plane = memory.plane
-    low, high = (memory.low, plane) if load_error > 0.0 else (plane, memory.high)
-    base = kink if math.isfinite(kink) else plane
-    safe = following = base - memory.load_stiffness * load_error
-    if memory.last is not None:
-        before, error_before = memory.last
-        slope = (load_error - error_before) / (plane - before) if plane != before else 0.0
-        if slope > 0.0:
-            following = plane - load_error / slope
-        following = min(following, safe) if load_error > 0.0 else max(following, safe)
-    if not low < following < high or (memory.runs % 3 == 2 and math.isfinite(low + high)):
-        following = 0.5 * (low + high) if math.isfinite(low + high) else safe
-    return replace(memory, plane=following, low=low, high=high, last=(plane, load_error), runs=memory.runs + 1)

@@ -141,8 +141,15 @@ class Continuation:
                 point.deflection + step * along.deflection,
                 point.offset + step * along.offset,
             )
-            found, row = self._further(point, ahead, along, step)
-            if found is None:
+            # the equilibrium near the point ahead, and what was prescribed to find it
+            for row in (along, self._of_crossing(point, ahead)):
+                found = None if row is None else self._corrected(ahead, row)
+                if row is None or found is None:
+                    continue
+                moved, by = found.deflection - ahead.deflection, found.offset - ahead.offset
+                if float((along.weight * moved * moved).mean()) + by * by <= (_AWAY * step) ** 2:
+                    break
+            else:
                 step *= 0.5
                 if step < _SHORTEST * self.first * self.problem.law.range:
                     break
@@ -168,19 +175,6 @@ class Continuation:
     def needed_pixel(self) -> float:
         """Largest pixel in m with which the branch can be followed; the compliance of a point goes about as its pixel."""
         return max(self.operator.grid.pixels) * _FOLLOWS / (self.single * self.problem.law.steepest)
-
-    def _further(
-        self, point: BranchPoint, ahead: BranchPoint, along: _Tangent, step: float
-    ) -> tuple[BranchPoint | None, _Tangent]:
-        """The equilibrium of the branch near ``ahead``, and what was prescribed to find it; None where there is none nearby."""
-        for row in (along, self._of_crossing(point, ahead)):
-            found = None if row is None else self._corrected(ahead, row)
-            if row is None or found is None:
-                continue
-            moved, by = found.deflection - ahead.deflection, found.offset - ahead.offset
-            if float((along.weight * moved * moved).mean()) + by * by <= (_AWAY * step) ** 2:
-                return found, row
-        return None, along
 
     def _point(self, traction: RealArray, deflection: RealArray, offset: float) -> BranchPoint:
         law = self.problem.law

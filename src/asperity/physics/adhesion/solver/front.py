@@ -20,7 +20,7 @@ from typing import ClassVar
 import numpy as np
 
 from ....contact.operators import Operator
-from ....core.arrays import BoolArray, RealArray
+from ....core.arrays import RealArray
 from ....core.status import Outcome, Status
 from ..jkr import JKRAdhesion
 from ..law import Adhesion
@@ -95,6 +95,7 @@ class MovingFront:
         work, tolerance, count = Work(), _LOOSE, 0
         closed, parted = pull > 0.0, np.zeros(pull.shape, dtype=bool)
         most = self.tension(problem.law)
+        closes = not isinstance(problem.law, JKRAdhesion) or problem.law.closes
         grip = _GRIP * most
         energies = []
         while True:
@@ -107,7 +108,13 @@ class MovingFront:
             closed, pressure = closed | (state.pressure > 0.0), state.pressure
             energies.append(problem.energy(state))
             loose = closed & ((-state.traction > most) | (state.pressure <= 0.0))
-            ahead = loose if loose.any() else self._closing(problem, closed, state) & ~parted
+            ahead = loose
+            if not loose.any() and closes:
+                # open points next to closed ones whose closing releases energy
+                behind = np.where(closed, np.maximum(-state.traction, 0.0), -1.0)
+                tension = neighbouring(behind, wraps=problem.operator.boundary.wraps)
+                near = state.gap < _AHEAD * most * self.compliance
+                ahead = ~closed & near & (tension >= 0.0) & (0.5 * tension * state.gap < problem.law.work) & ~parted
             if count >= self.max_steps or (not ahead.any() and tolerance == FINEST):
                 break
             if loose.any():
@@ -141,16 +148,6 @@ class MovingFront:
         """1 less the energy that the most strained point would release over the work of adhesion."""
         most = max(float(-state.traction.min()), 0.0)
         return 1.0 - (most / self.tension(problem.law)) ** 2
-
-    def _closing(self, problem: AdhesiveProblem, closed: BoolArray, state: Adhered) -> BoolArray:
-        """Open points next to closed ones whose closing releases energy."""
-        law = problem.law
-        if isinstance(law, JKRAdhesion) and not law.closes:
-            return np.zeros_like(closed)
-        behind = np.where(closed, np.maximum(-state.traction, 0.0), -1.0)
-        tension = neighbouring(behind, wraps=problem.operator.boundary.wraps)
-        near = state.gap < _AHEAD * self.tension(law) * self.compliance
-        return ~closed & near & (tension >= 0.0) & (0.5 * tension * state.gap < law.work)
 
 
 def neighbouring(field: RealArray, *, wraps: tuple[bool, bool]) -> RealArray:

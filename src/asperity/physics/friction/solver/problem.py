@@ -261,7 +261,35 @@ def best_shift(points: Points, traction: RealArray, residual: RealArray, *, by_f
     """
     inside = size_of(traction) < points.bound * AT_BOUND
     if np.count_nonzero(inside) <= (0.0 if by_few else _FEW) * inside.size:
-        return _median_shift(points, traction, residual)
+        # Minimum over the shift d of Σ B |r + d| - d·Σ q, which is the duality gap but for a constant, by Newton's method on magnitudes
+        # smoothed by less and less of the largest residual: the minimum may lie where one of them vanishes.
+        total, bound = traction.sum(axis=1), points.bound
+        scale = float(np.abs(residual).max()) or 1.0
+        direction = total / (float(np.hypot(*total)) or 1.0)
+        shift = np.asarray(scale * direction - residual.mean(axis=1))
+
+        def smoothed(at: RealArray, least: float) -> tuple[float, RealArray, RealArray]:
+            x, y = residual + at[:, None]
+            size = np.sqrt(x * x + y * y + least * least)
+            value = float(bound @ size - total @ at)
+            slope = np.array([bound @ (x / size), bound @ (y / size)]) - total
+            over = bound / size
+            xx, yy, xy = over @ (1.0 - (x / size) ** 2), over @ (1.0 - (y / size) ** 2), -(over @ (x * y / size**2))
+            return value, slope, np.array([[xx, xy], [xy, yy]])
+
+        least = scale
+        while least > _SMOOTHEST * scale:
+            for _ in range(_SWEEPS):
+                value, slope, curvature = smoothed(shift, least)
+                step = -np.asarray(np.linalg.lstsq(curvature, slope, rcond=1e-14)[0])
+                part = 1.0
+                while part > 1e-8 and smoothed(shift + part * step, least)[0] > value:
+                    part *= 0.5
+                shift = shift + part * step
+                if float(np.hypot(*(part * step))) <= 1e-3 * least or part <= 1e-8:
+                    break
+            least *= _SMOOTHER
+        return np.asarray(shift)
     room = np.where(np.isfinite(points.bound), points.bound - size_of(traction), 1.0)
     weight = np.where(inside, room, 0.0)
     return np.asarray(-(residual * weight).sum(axis=1) / weight.sum())
@@ -272,40 +300,6 @@ _FEW = 0.03
 
 _SMOOTHER = 0.1
 _SMOOTHEST = 1e-12
-
-
-def _median_shift(points: Points, traction: RealArray, residual: RealArray) -> RealArray:
-    """Minimum over the shift d of Σ B |r + d| - d·Σ q, which is the duality gap but for a constant.
-
-    By Newton's method on magnitudes smoothed by less and less of the largest residual: the minimum may lie where one of them vanishes.
-    """
-    total, bound = traction.sum(axis=1), points.bound
-    scale = float(np.abs(residual).max()) or 1.0
-    direction = total / (float(np.hypot(*total)) or 1.0)
-    shift = np.asarray(scale * direction - residual.mean(axis=1))
-
-    def smoothed(at: RealArray, least: float) -> tuple[float, RealArray, RealArray]:
-        x, y = residual + at[:, None]
-        size = np.sqrt(x * x + y * y + least * least)
-        value = float(bound @ size - total @ at)
-        slope = np.array([bound @ (x / size), bound @ (y / size)]) - total
-        over = bound / size
-        xx, yy, xy = over @ (1.0 - (x / size) ** 2), over @ (1.0 - (y / size) ** 2), -(over @ (x * y / size**2))
-        return value, slope, np.array([[xx, xy], [xy, yy]])
-
-    least = scale
-    while least > _SMOOTHEST * scale:
-        for _ in range(_SWEEPS):
-            value, slope, curvature = smoothed(shift, least)
-            step = -np.asarray(np.linalg.lstsq(curvature, slope, rcond=1e-14)[0])
-            part = 1.0
-            while part > 1e-8 and smoothed(shift + part * step, least)[0] > value:
-                part *= 0.5
-            shift = shift + part * step
-            if float(np.hypot(*(part * step))) <= 1e-3 * least or part <= 1e-8:
-                break
-        least *= _SMOOTHER
-    return np.asarray(shift)
 
 
 def ended(
