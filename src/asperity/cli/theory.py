@@ -167,11 +167,7 @@ def _command(kind: type[Described]) -> Any:
     blocks += [f"From the inputs alone: {', '.join(numbers)}."] if numbers else []
     blocks += [f"Holds for {bound.rule}. [{bound.citation}]" for bound in kind.limits]
     run.__doc__ = "\n\n".join([*blocks, *(f"Source: {reference(key)}" for key in kind.citation_keys)])
-    return built(run, kind.name, _options(kind))
-
-
-def _options(kind: type[Described]) -> list[Option]:
-    """Options of a theory: what it is made from, what it is asked, and where its parameters may come from instead."""
+    # what it is made from, what it is asked, and where its parameters may come from instead
     made = [replace(option, required=False) for option in options_of(kind, ("made",), INPUTS)]
     asked = [
         Option(option_of(item), ("asked", name), replace(item, default=None) if item.required else item, ASKED)
@@ -183,7 +179,7 @@ def _options(kind: type[Described]) -> list[Option]:
         asked += reading_options()
     if any(item.name in OF_BODIES for item in parameters(kind)):
         asked += [option for option in body_options() if option.name in ("--body", "--counter")]
-    return [*made, *asked, *ANSWERS]
+    return built(run, kind.name, [*made, *asked, *ANSWERS])
 
 
 def _made(kind: type[Described], given: Given) -> Described:
@@ -192,13 +188,22 @@ def _made(kind: type[Described], given: Given) -> Described:
     Raises
     ------
     InputError
-        If a parameter is missing, or given twice, or a number that is measured is also given.
+        If a parameter is missing, or given twice, a number that is measured is also given, a body is not understood, or its strength is
+        needed and not known.
     """
     texts = given.under("made").table()
     values = {item.name: _read(item, texts) for item in parameters(kind) if item.name in texts}
     chosen = given.table()
     if "body" in chosen:
-        values = _of_bodies(kind, values, chosen["body"], chosen.get("counter_body"))
+        # what follows from the bodies and is not given; the weaker body yields
+        first, other = body_of_text(chosen["body"], "--body"), chosen.get("counter_body")
+        second = Rigid() if other is None else body_of_text(other, "--counter")
+        known = {"E_star": contact_modulus(first, second)} | weaker_strength(first, second)
+        for item in parameters(kind):
+            if item.name in ("hardness", "yield_stress") and item.required and item.name not in (values | known):
+                raise InputError(f"{option_of(item)} must be given: no body states its {item.name.replace('_', ' ')}.")
+        names = {item.name for item in parameters(kind)}
+        values = {name: value for name, value in known.items() if name in names} | values
     elif "counter_body" in chosen:
         raise InputError("--counter must be given together with --body, but is given alone.")
     if "file" in chosen:
@@ -231,25 +236,6 @@ def _made(kind: type[Described], given: Given) -> Described:
         also = " Or measure the surface's numbers with --surface FILE." if measured else ""
         raise InputError(f"{kind.name} must be given {needed}, but is not.{also}")
     return kind(**values)
-
-
-def _of_bodies(kind: type[Described], values: dict[str, Any], body: str, counter: str | None) -> dict[str, Any]:
-    """``values`` with the parameters of ``kind`` that follow from the bodies and are not given; the weaker body yields.
-
-    Raises
-    ------
-    InputError
-        If a body is not understood, or its strength is needed and not known.
-    """
-
-    first = body_of_text(body, "--body")
-    second = Rigid() if counter is None else body_of_text(counter, "--counter")
-    known = {"E_star": contact_modulus(first, second)} | weaker_strength(first, second)
-    for item in parameters(kind):
-        if item.name in ("hardness", "yield_stress") and item.required and item.name not in (values | known):
-            raise InputError(f"{option_of(item)} must be given: no body states its {item.name.replace('_', ' ')}.")
-    names = {item.name for item in parameters(kind)}
-    return {name: value for name, value in known.items() if name in names} | values
 
 
 def _read(item: Parameter, texts: dict[str, Any]) -> Any:
@@ -306,7 +292,17 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
         console().out(json.dumps(answer_record(found), indent=2), highlight=False)
         return
     theory = found.theory
-    rows = [(item.help, _input_text(item, getattr(theory, item.name))) for item in parameters(type(theory))]
+    rows = []
+    for item in parameters(type(theory)):
+        value: Any = getattr(theory, item.name)
+        text = next((word for word, choice in item.words.items() if choice == value), None)
+        if text is None and item.many:
+            text = f"{np.size(value)} values"
+        elif text is None and value is None:
+            text = "not given"
+        elif text is None and isinstance(value, int | float):
+            text = show(float(value), item.unit if item.unit != "m^(1-n)" else "")
+        rows.append((item.help, str(getattr(value, "name", value)) if text is None else text))
     _print_table(theory.title, table("", rows))
     if found.numbers:
         numbers = [(column.label, show(value, column.unit)) for column, value in found.numbers]
@@ -352,16 +348,3 @@ def _print_table(title: str, made: Table) -> None:
     made.title = None
     say(title, "bold")
     console().print(made)
-
-
-def _input_text(item: Parameter, value: Any) -> str:
-    for word, choice in item.words.items():
-        if choice == value:
-            return word
-    if item.many:
-        return f"{np.size(value)} values"
-    if value is None:
-        return "not given"
-    if isinstance(value, int | float):
-        return show(float(value), item.unit if item.unit != "m^(1-n)" else "")
-    return str(getattr(value, "name", value))

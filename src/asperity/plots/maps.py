@@ -347,7 +347,10 @@ def enlarge_contact(result: ContactResult, ax: Axes) -> bool:
     if result not in _LARGEST_CONTACTS:
         problem = result.problem
         _LARGEST_CONTACTS[result] = island(result.contact, problem.grid, problem.boundary.wraps)
-    return _enlarged(result.problem.grid, _LARGEST_CONTACTS[result], "largest contact", ax)
+    window = _LARGEST_CONTACTS[result]
+    if window is not None:
+        enlarge(ax, result.problem.grid, window, "largest contact")
+    return window is not None
 
 
 _LARGEST_CONTACTS: WeakKeyDictionary[ContactResult, Window | None] = WeakKeyDictionary()
@@ -369,10 +372,7 @@ def enlarge_island(
     at: tuple[int, int] | None = None,
 ) -> bool:
     """Draw an island of the points ``there`` enlarged beside its map on ``ax``, as ``island`` chooses it; whether it is one."""
-    return _enlarged(grid, island(there, grid, wraps, at), title, ax)
-
-
-def _enlarged(grid: Grid, window: Window | None, title: str, ax: Axes) -> bool:
+    window = island(there, grid, wraps, at)
     if window is not None:
         enlarge(ax, grid, window, title)
     return window is not None

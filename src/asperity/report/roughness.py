@@ -140,7 +140,12 @@ def summit_comparison(found: Characterisation) -> list[Row]:
     if measured.count == 0:
         return []
     difference, spectral = found.moments.difference, found.moments.spectral
-    theories = [_nayak(difference.m0, difference.m2, difference.m4), _nayak(spectral.m0, spectral.m2, spectral.m4)]
+    theories: list[NayakSummits | None] = []
+    for m0, m2, m4 in ((difference.m0, difference.m2, difference.m4), (spectral.m0, spectral.m2, spectral.m4)):
+        try:
+            theories.append(NayakSummits(m0, m2, m4))
+        except InputError:  # undefined moments, or α < 1.5 by differences on a coarse grid
+            theories.append(None)
     table = (
         ("density of summits", "m**-2", measured.density, "density"),
         ("mean summit height", "m", measured.mean_height, "mean_height"),
@@ -173,13 +178,6 @@ def peak_comparison(found: Characterisation) -> list[tuple[str, str, str]]:
             ),
         ]
     return rows
-
-
-def _nayak(m0: float, m2: float, m4: float) -> NayakSummits | None:
-    try:
-        return NayakSummits(m0, m2, m4)
-    except InputError:  # undefined moments, or α < 1.5 by differences on a coarse grid
-        return None
 
 
 def _text(theory: NayakSummits | None, name: str, unit: str) -> str:

@@ -106,9 +106,12 @@ class Store:
 
     def append(self, finished: Iterable[Record]) -> None:
         """Write all records at once."""
-        text = b"".join(_line(record) for record in finished)
+        lines = []
+        for record in finished:  # ``key state checksum json`` and the end of the line; the checksum is of the json
+            payload = json.dumps(record, separators=(",", ":")).encode()
+            lines.append(b"%s %s %08x %s\n" % (record["key"].encode(), _state(record), zlib.crc32(payload), payload))
         try:
-            self._file.write(text)
+            self._file.write(b"".join(lines))
             self._file.flush()
             if time.monotonic() - self._synced > BETWEEN_SYNCS:
                 os.fsync(self._file.fileno())
@@ -124,12 +127,6 @@ class Store:
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         self._file.close()
-
-
-def _line(record: Record) -> bytes:
-    """``key state checksum json`` and the end of the line; the checksum is of the json."""
-    payload = json.dumps(record, separators=(",", ":")).encode()
-    return b"%s %s %08x %s\n" % (record["key"].encode(), _state(record), zlib.crc32(payload), payload)
 
 
 def _lines(path: Path) -> Iterator[tuple[int, bytes, Record]]:

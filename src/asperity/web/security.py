@@ -160,7 +160,16 @@ class _Page:
         if self.counted is not None and self.counted.over and not self.started:
             return  # what the application says of a body that was cut off
         if message["type"] == "http.response.start":
-            await self._begin(message)
+            self.started = True
+            given = {key.lower(): value for key, value in message.get("headers", ())}
+            page = given.get(b"content-type", b"").startswith(b"text/html") and b"content-encoding" not in given
+            scripts = f"'self' 'nonce-{self._nonce}' 'unsafe-eval'"  # Vue compiles the templates of its components
+            more = [(k.encode(), v.encode()) for k, v in _strict(self._host, scripts) if k.encode() not in given]
+            begun = {**message, "headers": [*message.get("headers", ()), *more]}
+            if page:
+                self._start = begun
+            else:
+                await self._send(begun)
         elif self._start is None:
             await self._send(message)
         else:
@@ -171,18 +180,6 @@ class _Page:
                 kept.append((b"content-length", str(len(body)).encode()))
                 await self._send({**self._start, "headers": kept})
                 await self._send({"type": "http.response.body", "body": body})
-
-    async def _begin(self, message: Message) -> None:
-        self.started = True
-        given = {key.lower(): value for key, value in message.get("headers", ())}
-        page = given.get(b"content-type", b"").startswith(b"text/html") and b"content-encoding" not in given
-        scripts = f"'self' 'nonce-{self._nonce}' 'unsafe-eval'"  # Vue compiles the templates of its components
-        more = [(k.encode(), v.encode()) for k, v in _strict(self._host, scripts) if k.encode() not in given]
-        message = {**message, "headers": [*message.get("headers", ()), *more]}
-        if page:
-            self._start = message
-        else:
-            await self._send(message)
 
 
 def _strict(host: str, scripts: str) -> list[tuple[str, str]]:
