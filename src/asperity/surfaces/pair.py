@@ -35,10 +35,18 @@ def largest_rectangle(
     low_x, high_x, low_y, high_y = limits
     own = corners[(corners[:, 0] > low_x) & (corners[:, 0] < high_x), 0]
     best, width = (low_x, high_x), high_x - low_x
+    slack = _ROUNDING * np.ptp(corners[:, 0])
     for _ in range(_REFINEMENTS):
         near = np.concatenate([np.linspace(end - width, end + width, _CANDIDATES) for end in best])
         x = np.unique(np.concatenate([np.clip(near, low_x, high_x), own, [low_x, high_x]]))
-        lower, upper = _borders(corners, x)
+        lower, upper = np.full(x.shape, np.inf), np.full(x.shape, -np.inf)  # borders y of the polygon
+        for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+            left, right = (start, end) if start[0] <= end[0] else (end, start)
+            if right[0] - left[0] <= slack:
+                continue
+            on = (x >= left[0] - slack) & (x <= right[0] + slack)
+            y = left[1] + (x[on] - left[0]) / (right[0] - left[0]) * (right[1] - left[1])
+            lower[on], upper[on] = np.minimum(lower[on], y), np.maximum(upper[on], y)
         lower, upper = np.maximum(lower, low_y), np.minimum(upper, high_y)
         height = np.minimum(upper[:, None], upper[None, :]) - np.maximum(lower[:, None], lower[None, :])
         area = (x[None, :] - x[:, None]) * np.where(x[None, :] > x[:, None], np.maximum(height, 0.0), 0.0)
@@ -46,20 +54,6 @@ def largest_rectangle(
         best, width = (float(x[i]), float(x[j])), 4.0 * width / _CANDIDATES
     bottom, top = max(lower[i], lower[j]), min(upper[i], upper[j])
     return best[0], best[1], float(bottom), float(top)
-
-
-def _borders(corners: RealArray, x: RealArray) -> tuple[RealArray, RealArray]:
-    """Lower and upper border y of the convex polygon ``corners`` at ``x`` within it."""
-    lower, upper = np.full(x.shape, np.inf), np.full(x.shape, -np.inf)
-    slack = _ROUNDING * np.ptp(corners[:, 0])
-    for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        left, right = (start, end) if start[0] <= end[0] else (end, start)
-        if right[0] - left[0] <= slack:
-            continue
-        on = (x >= left[0] - slack) & (x <= right[0] + slack)
-        y = left[1] + (x[on] - left[0]) / (right[0] - left[0]) * (right[1] - left[1])
-        lower[on], upper[on] = np.minimum(lower[on], y), np.maximum(upper[on], y)
-    return lower, upper
 
 
 _ROUNDING = 1e-9  # relative; lengths that differ by less are equal

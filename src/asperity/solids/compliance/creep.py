@@ -186,16 +186,12 @@ class RetardedSurface:
         assert self.creep.shear is not None
         return self.creep.shear
 
-    @property
-    def _rigid_base(self) -> bool:
-        return bool(self._shear.mean_modes.any())
-
     def _plane(self, wavenumber: RealArray) -> PlaneCompliance:
         """q c of the term at ``wavenumber`` > 0 (rad/m)."""
-        planes = self._shear.planes
+        planes, rigid_base = self._shear.planes, bool(self._shear.mean_modes.any())
         each = (component[self.number] for component in (planes.LL, planes.zz, planes.Lz, planes.T))
         return PlaneCompliance(
-            *(_between(self.creep.nodes, strength, wavenumber, rigid_base=self._rigid_base) for strength in each)
+            *(_between(self.creep.nodes, strength, wavenumber, rigid_base=rigid_base) for strength in each)
         )
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
@@ -231,7 +227,9 @@ class RetardedSurface:
         nodes = self.creep.nodes
         depth, ends = 1.0 / math.sqrt(nodes[0] * nodes[-1]), nodes[[0, -1]]
         low, high = (self._plane(ends[at]) for at in (0, 1))
-        return Samples(depth, self._plane(wavenumber_grid(depth)), high, low.scaled(0.0) if self._rigid_base else low)
+        return Samples(
+            depth, self._plane(wavenumber_grid(depth)), high, low.scaled(0.0) if self._shear.mean_modes.any() else low
+        )
 
 
 AnyCreep: TypeAlias = SharedCreep | LayeredCreep

@@ -200,7 +200,8 @@ class MaterialRatioCurve:
     def height(self, ratio: ArrayLike) -> RealArray:
         """Smc(p): height in m above the mean plane at the material ``ratio`` 0 <= p <= 1 (any shape)."""
         place, below = self._place(np.asarray(ratio, dtype=float))
-        return self.heights[below] + (place - below) * (self._next[below] - self.heights[below])
+        following = self.heights[np.minimum(below + 1, self.heights.size - 1)]
+        return self.heights[below] + (place - below) * (following - self.heights[below])
 
     def ratio(self, height: ArrayLike) -> RealArray:
         """Smr(c): share of the valid points with z >= c, for the ``height`` c in m above the mean plane (any shape)."""
@@ -229,10 +230,6 @@ class MaterialRatioCurve:
         below = int(np.searchsorted(-h, -height, side="left"))  # first point at or below the height
         upper, lower = float(h[below - 1]), float(h[below])
         return (below - 0.5 + (upper - height) / (upper - lower)) / n
-
-    @cached_property
-    def _next(self) -> RealArray:
-        return np.append(self.heights[1:], self.heights[-1])
 
     @cached_property
     def _areas(self) -> RealArray:
@@ -323,7 +320,8 @@ def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
     whole = int(np.floor(_CORE * n + 1e-9))
     share = max(0.0, _CORE * n - whole)
     highest = curve.heights[: max(1, n - whole - (share > 1e-9))]
-    lowest, following = (part[whole : whole + highest.size] for part in (curve.heights, curve._next))
+    lowest = curve.heights[whole : whole + highest.size]
+    following = np.append(curve.heights[1:], curve.heights[-1])[whole : whole + highest.size]
     drops = highest - (lowest + share * (following - lowest))
     first = int(np.argmin(drops))  # the window begins at one of the samples
     start = (first + 0.5) / n

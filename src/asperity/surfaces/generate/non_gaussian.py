@@ -76,7 +76,15 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
     if abs(skewness) < _ON_LINE:
         skewness = 0.0
     if skewness < 0.0:
-        return _mirrored(johnson(-skewness, kurtosis))
+        # the distribution of -z as an increasing function of a normal number
+        other = johnson(-skewness, kurtosis)
+        if other.kind == "unbounded":
+            return replace(other, gamma=-other.gamma, xi=-other.xi)
+        if other.kind == "bounded":
+            return replace(other, gamma=-other.gamma, xi=-(other.xi + other.scale))
+        if other.kind == "lognormal":  # -z(-G) = -ξ - λ exp(-(G + γ)/δ)
+            return replace(other, gamma=-other.gamma, delta=-other.delta, xi=-other.xi, scale=-other.scale)
+        return other
     from scipy.optimize import brentq
 
     # w = exp(1/δ²) >= 1 of the lognormal, (w - 1)(w + 2)² = skewness²; the bracket from (w + 2)² >= 9
@@ -89,17 +97,6 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
         scale = 1.0 / math.sqrt(w * (w - 1.0))  # exp(G/δ) has the mean w^½ and the variance w (w - 1)
         return Johnson("lognormal", 0.0, 1.0 / math.sqrt(math.log(w)), -scale * math.sqrt(w), scale)
     return _unbounded(skewness, kurtosis) if kurtosis > line else _bounded(skewness, kurtosis, w)
-
-
-def _mirrored(other: Johnson) -> Johnson:
-    """Distribution of -z as an increasing function of a normal number."""
-    if other.kind == "unbounded":
-        return replace(other, gamma=-other.gamma, xi=-other.xi)
-    if other.kind == "bounded":
-        return replace(other, gamma=-other.gamma, xi=-(other.xi + other.scale))
-    if other.kind == "lognormal":  # -z(-G) = -ξ - λ exp(-(G + γ)/δ)
-        return replace(other, gamma=-other.gamma, delta=-other.delta, xi=-other.xi, scale=-other.scale)
-    return other
 
 
 def _unbounded(skewness: float, kurtosis: float) -> Johnson:

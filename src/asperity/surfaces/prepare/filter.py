@@ -100,23 +100,19 @@ def local_regression(
     beyond = (0, 0) if periodic else (counts[0], counts[1])  # zero padding separates opposite borders
     nx, ny = (n if periodic else fast_length(n + k) for n, k in zip(grid.shape, beyond, strict=True))
     padded = (nx, ny)
-    windows = [
-        _windows(n, count, d / c, width, 2 * order)
-        for n, count, d, c in zip(padded, counts, grid.spacing, cutoff, strict=True)
-    ]
+    # exp(-π (u/γ)²) u^a, a = 0 … 2 order, at u = k d/λ, |k| <= count, periodic on n nodes
+    windows = []
+    for n, count, d, c in zip(padded, counts, grid.spacing, cutoff, strict=True):
+        offsets = np.arange(-count, count + 1)
+        u = offsets * (d / c)
+        window = np.exp(-np.pi * (u / width) ** 2)
+        window /= window.sum()
+        powers = range(2 * order + 1)
+        windows.append([np.bincount(offsets % n, window * u**a, n).astype(np.float64) for a in powers])
     # correlation, not convolution: the conjugate of the transform
     along_x = tuple(RealTransform((padded[0], 1)).forward(w[:, None]).conj() for w in windows[0])
     along_y = tuple(RealTransform((1, padded[1])).forward(w[None, :]).conj() for w in windows[1])
     return LocalRegression(grid.shape, padded, order, along_x, along_y)
-
-
-def _windows(n: int, count: int, step: float, width: float, highest: int) -> list[RealArray]:
-    """exp(-π (u/γ)²) u^a, a = 0 … ``highest``, at u = k ``step``, |k| <= ``count``, periodic on ``n`` nodes."""
-    offsets = np.arange(-count, count + 1)
-    u = offsets * step
-    window = np.exp(-np.pi * (u / width) ** 2)
-    window /= window.sum()
-    return [np.bincount(offsets % n, window * u**a, n).astype(np.float64) for a in range(highest + 1)]
 
 
 def _solved(powers: list[tuple[int, int]], sums: dict[tuple[int, int], RealArray], right: list[RealArray]) -> RealArray:

@@ -271,10 +271,15 @@ class SphericalIndenter(Theory):
             raise InputError(
                 f"contact radius must be less than that of the sphere, {self.radius:g} m, but is {float(a.max()):g} m."
             )
+        from scipy.special import spence
+
         s = a / self.radius
+        # ∫ artanh(x)/x dx over 0 < x < s: the Legendre chi function of order two, by its series where the difference loses digits
+        series = sum(s ** (2 * n + 1) / (2 * n + 1) ** 2 for n in range(9))
+        chi = np.where(s < 0.1, series, 0.5 * (spence(1.0 - s) - spence(1.0 + s)))
         with np.errstate(invalid="ignore", divide="ignore"):
             # p at the axis: (E*/π) ∫ g'(x)/x dx, g = x artanh(x/R)
-            mean_slope = np.where(s > 0.0, np.arctanh(s), 0.0) + _integral_artanh_over_x(s)
+            mean_slope = np.where(s > 0.0, np.arctanh(s), 0.0) + chi
         return ContactAnswer(
             load=self._load(s),
             approach=a * np.arctanh(s),
@@ -300,14 +305,6 @@ class SphericalIndenter(Theory):
         exact = (1.0 + s**2) * np.arctanh(s) - s
         terms = [(1.0 / (2 * n + 1) + 1.0 / (2 * n - 1)) * s ** (2 * n + 1) for n in range(1, 9)]
         return self.E_star * self.radius**2 * np.where(s < 0.1, sum(terms), exact)
-
-
-def _integral_artanh_over_x(s: RealArray) -> RealArray:
-    """∫ artanh(x)/x dx over 0 < x < s: the Legendre chi function of order two."""
-    from scipy.special import spence
-
-    series = sum(s ** (2 * n + 1) / (2 * n + 1) ** 2 for n in range(9))  # where the difference loses digits
-    return np.asarray(np.where(s < 0.1, series, 0.5 * (spence(1.0 - s) - spence(1.0 + s))))
 
 
 # Rigid symmetric indenters in plane strain: power laws (wedge, cylinder, …) and flat punch (Galin 1946; Johnson 1985, ch. 2).
@@ -341,12 +338,14 @@ class LinePowerLawIndenter(Theory):
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N/m, >= 0, of any shape."""
         P = checked(load, "load per length (N/m)")
-        return self.at_half_width((P / self._stiff) ** (1.0 / self.exponent))
+        stiff = self.E_star * self.exponent * self.coefficient * self.load_factor
+        return self.at_half_width((P / stiff) ** (1.0 / self.exponent))
 
     def at_half_width(self, half_width: ArrayLike) -> ContactAnswer:
         """The contact of the ``half_width`` a in m, >= 0, of any shape."""
         a = checked(half_width, "half-width (m)")
-        load, unknown = self._stiff * a**self.exponent, np.full_like(a, np.nan)
+        stiff = self.E_star * self.exponent * self.coefficient * self.load_factor
+        load, unknown = stiff * a**self.exponent, np.full_like(a, np.nan)
         # the pressure of n <= 2 is largest in the middle, (n P/πa)/(n - 1)
         n = self.exponent
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -366,10 +365,6 @@ class LinePowerLawIndenter(Theory):
         scale = self.exponent * answer.load / (np.pi * answer.radius)
         values = scale * power_integral(np.where((xi > 0.0) & (xi < 1.0), xi, 1.0), self.exponent)
         return np.where(xi == 0.0, scale / (self.exponent - 1.0) if self.exponent > 1.0 else np.inf, values)
-
-    @property
-    def _stiff(self) -> float:
-        return self.E_star * self.exponent * self.coefficient * self.load_factor
 
 
 @dataclass(frozen=True)
