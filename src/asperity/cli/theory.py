@@ -135,6 +135,8 @@ def theory(
 
 def _command(kind: type[Described]) -> Any:
     """The subcommand of ``kind``."""
+    # everything by which it can be asked, by name
+    arguments = {item.name: item for way in ways_of(kind) for item in (way.axis, *way.given)}
 
     def run(given: Given) -> None:
         chosen = given.under("answer").table()
@@ -144,7 +146,6 @@ def _command(kind: type[Described]) -> Any:
             raise InputError(f"--plot must be the name of a PNG file, such as curve.png, but is {str(plot)!r}.")
         written = [path for path in (csv, plot) if path is not None]
         require_new_files(written, overwrite=force)
-        arguments = _arguments(kind)
         asked = {
             name: read_range(arguments[name], text, points=points, linear=bool(chosen.get("linear")))
             for name, text in given.under("asked").table().items()
@@ -171,7 +172,7 @@ def _command(kind: type[Described]) -> Any:
     made = [replace(option, required=False) for option in options_of(kind, ("made",), INPUTS)]
     asked = [
         Option(option_of(item), ("asked", name), replace(item, default=None) if item.required else item, ASKED)
-        for name, item in _arguments(kind).items()
+        for name, item in arguments.items()
     ]
     measured = _measured(kind)
     if measured is not None:
@@ -262,11 +263,6 @@ def read_range(item: Parameter, text: str, *, points: int, linear: bool) -> Real
     if linear or not first * last > 0.0:
         return np.linspace(first, last, points)
     return np.asarray(np.sign(first) * np.geomspace(abs(first), abs(last), points))
-
-
-def _arguments(kind: type[Described]) -> dict[str, Parameter]:
-    """Everything by which ``kind`` can be asked, by name."""
-    return {item.name: item for way in ways_of(kind) for item in (way.axis, *way.given)}
 
 
 def _measured(kind: type[Described]) -> Any:

@@ -94,11 +94,15 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
         variables["error"] = on_axes(texts, {"long_name": "why the case failed"})
     coordinates: dict[str, Any] = {}
     for item in plan.axes:
-        labels = {"units": item.unit, "long_name": item.path or item.name}
-        coordinates[item.name] = (item.name, _column([point.coordinate for point in item.points]), labels)
+        labels: dict[str, Any] = {item.name: {"units": item.unit, "long_name": item.path or item.name}}
+        columns: dict[str, list[Any]] = {item.name: [point.coordinate for point in item.points]}
         for name, unit in item.columns.items():
-            column = _column([point.columns[name] for point in item.points])
-            coordinates[name] = (item.name, column, {"units": unit} if unit else {})
+            labels[name] = {"units": unit} if unit else {}
+            columns[name] = [point.columns[name] for point in item.points]
+        for name, column in columns.items():
+            numbers = all(isinstance(value, float) for value in column)
+            array = np.array(column, float) if numbers else np.array([str(value) for value in column], object)
+            coordinates[name] = (item.name, array, labels[name])
     attributes = {
         "title": plan.document.title,
         "kind": plan.document.kind,
@@ -183,11 +187,6 @@ def state(plan: Plan, path: Path) -> CampaignState:
     counted = outcome if end is None else outcome[: end * (plan.n_cases // plan.shape[0])]
     done, failures, missing = (int(count) for count in np.bincount(counted, minlength=3))
     return CampaignState(done, failures, missing, end, causes(failed), causes(found, by_kind=True))
-
-
-def _column(values: list[Any]) -> Any:
-    numbers = all(isinstance(value, float) for value in values)
-    return np.array(values, float) if numbers else np.array([str(value) for value in values], object)
 
 
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)

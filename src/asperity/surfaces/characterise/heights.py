@@ -49,7 +49,7 @@ def height_parameters(surface: Surface) -> HeightParameters:
 
 def mean_height(surface: Surface) -> float:
     """Mean of the valid heights in m."""
-    valid = _valid(surface)
+    valid = surface.heights[~surface.mask].astype(np.float64, copy=False)
     return float(valid[0] + (valid - valid[0]).mean())  # avoids cancellation with a large common offset
 
 
@@ -75,7 +75,7 @@ def deepest_valley(surface: Surface) -> float:
 
 def peak_to_valley(surface: Surface) -> float:
     """Sz = Sp + Sv = max z - min z in m over the valid points (ISO 25178-2, 4.1.6)."""
-    valid = _valid(surface)
+    valid = surface.heights[~surface.mask].astype(np.float64, copy=False)
     return float(valid.max() - valid.min())
 
 
@@ -95,13 +95,9 @@ def kurtosis(surface: Surface) -> float:
     return _defined(height_parameters(surface).Sku, "kurtosis")
 
 
-def _valid(surface: Surface) -> RealArray:
-    return surface.heights[~surface.mask].astype(np.float64, copy=False)
-
-
 def deviations(surface: Surface) -> RealArray:
     """Heights (N,) of the valid points less their mean, in m."""
-    valid = _valid(surface)
+    valid = surface.heights[~surface.mask].astype(np.float64, copy=False)
     shifted = valid - valid[0]  # avoids cancellation with a large common offset
     return np.asarray(shifted - shifted.mean())
 

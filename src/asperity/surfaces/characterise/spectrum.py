@@ -53,20 +53,6 @@ def line_window(kind: str, n: int) -> RealArray:
     return np.asarray(weights / np.sqrt(np.mean(np.square(weights))))
 
 
-def map_window(kind: str, grid: Grid) -> RealArray:
-    """Weights at the nodes of ``grid``, shape (nx, ny) or one that broadcasts to it.
-
-    ``radial hann`` is 1 + cos(2π r/L) within r < L/2 of the centre, L the shorter side, and zero outside.
-    """
-    if kind == "radial hann":
-        x, y = grid.centred_coordinates()
-        shorter = min(grid.size)
-        radius = np.hypot(x, y)
-        weights = np.where(radius < 0.5 * shorter, 1.0 + np.cos(2.0 * np.pi * radius / shorter), 0.0)
-        return np.asarray(weights / np.sqrt(np.mean(np.square(weights))))
-    return line_window(kind, grid.shape[0])[:, None] * line_window(kind, grid.shape[1])[None, :]
-
-
 _ROUNDING = 1e-9  # upper bound of the rounding error of Parseval's identity, relative
 
 
@@ -138,8 +124,13 @@ def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
     kind = chosen_window(window, surface)
     heights = surface.heights.astype(np.float64)
     heights -= heights.mean()
-    if kind != "none":
-        heights *= map_window(kind, surface.grid)
+    if kind == "radial hann":  # 1 + cos(2π r/L) within r < L/2 of the centre, L the shorter side, and zero outside
+        x, y = surface.grid.centred_coordinates()
+        shorter, radius = min(surface.size), np.hypot(x, y)
+        weights = np.where(radius < 0.5 * shorter, 1.0 + np.cos(2.0 * np.pi * radius / shorter), 0.0)
+        heights *= weights / np.sqrt(np.mean(np.square(weights)))
+    elif kind != "none":
+        heights *= line_window(kind, surface.shape[0])[:, None] * line_window(kind, surface.shape[1])[None, :]
     amplitudes = RealTransform(surface.shape, thread_count()).forward(heights)
     psd: RealArray = np.square(amplitudes.real) + np.square(amplitudes.imag)
     psd *= surface.grid.pixel_area / surface.grid.n_points

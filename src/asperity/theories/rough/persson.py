@@ -524,11 +524,17 @@ def diffused_pressure(
         kept.append(density)
     # wavenumbers at which the integral of q³ C has grown by equal parts
     whole, last = spectrum.moment(3), float(spectrum.span[-1])
-
-    def lacking(span: float, part: float) -> float:
-        return float(spectrum.partial_moment(3, np.array([span]))[0]) - part * whole
-
-    inner = [brentq(lacking, 0.0, last, args=(number / rounds,), xtol=1e-14) for number in range(1, rounds)]
+    inner = []
+    for number in range(1, rounds):
+        part = number / rounds * whole
+        inner.append(
+            brentq(
+                lambda span, part=part: float(spectrum.partial_moment(3, np.array([span]))[0]) - part,
+                0.0,
+                last,
+                xtol=1e-14,
+            )
+        )
     spans = np.array([0.0, *inner, last])
     wavenumbers = np.asarray(spectrum.wavenumber)[0] * np.exp(spans)
     return PressureHistory(wavenumbers, grid, np.stack(kept))
