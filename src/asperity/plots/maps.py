@@ -282,7 +282,17 @@ def island(there: BoolArray, grid: Grid, wraps: tuple[bool, bool], at: tuple[int
         return None
     labels, _ = labelled(there, wraps=wraps)
     spot = labels == (np.argmax(np.bincount(labels[there])) if at is None else labels[at])
-    ends = [_ends(spot.any(axis=1 - axis), wraps[axis]) for axis in (0, 1)]
+    ends = []  # first and last pixel along each axis; the last is beyond the border where the island crosses it
+    for axis in (0, 1):
+        along = spot.any(axis=1 - axis)
+        places = np.flatnonzero(along)
+        first, last = int(places[0]), int(places[-1])
+        if wraps[axis] and not along.all():
+            gaps = np.diff(np.append(places, places[0] + along.size))
+            widest = int(np.argmax(gaps))
+            first, last = int(places[(widest + 1) % places.size]), int(places[widest])
+            last += along.size if last < first else 0
+        ends.append((first, last))
     widths = [(last - first + 1) * d for (first, last), d in zip(ends, grid.spacing, strict=True)]
     side = max(ROUND * max(widths), FEWEST * max(grid.spacing))
     if side > LARGEST * min(grid.size):
@@ -298,17 +308,6 @@ def island(there: BoolArray, grid: Grid, wraps: tuple[bool, bool], at: tuple[int
 
 ROUND, FEWEST, LARGEST = 1.8, 16, 0.5
 """Side of a window in widths of the contact, its fewest pixels, and the share of the map from which it is not drawn."""
-
-
-def _ends(there: BoolArray, wraps: bool) -> tuple[int, int]:
-    """First and last pixel of an island along an axis; the last is beyond the border where the island crosses it."""
-    places = np.flatnonzero(there)
-    if not wraps or there.all():
-        return int(places[0]), int(places[-1])
-    gaps = np.diff(np.append(places, places[0] + there.size))
-    widest = int(np.argmax(gaps))
-    first, last = int(places[(widest + 1) % places.size]), int(places[widest])
-    return first, last + (there.size if last < first else 0)
 
 
 def enlarge(ax: Axes, grid: Grid, window: Window, title: str) -> Axes:

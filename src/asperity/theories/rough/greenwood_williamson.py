@@ -86,13 +86,9 @@ class SphericalSummits(SeparationTheory):
 
     @property
     def _ends(self) -> tuple[float, float, float]:
-        return heights_between(self.heights, self.mean_height, self.height_deviation)
-
-
-def heights_between(heights: SummitHeights, mean: float, deviation: float) -> tuple[float, float, float]:
-    """Separations in m between which pressures are inverted for ``heights`` of ``mean`` and ``deviation`` in m, which ends."""
-    low, high = (mean + deviation * (D - heights.mean) for D in (LOWEST, min(HIGHEST, heights.support[1])))
-    return low, high, deviation
+        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
+        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
+        return low, high, self.height_deviation
 
 
 @dataclass(frozen=True)
@@ -417,7 +413,9 @@ class GreenwoodTripp(SeparationTheory):
 
     @property
     def _ends(self) -> tuple[float, float, float]:
-        return heights_between(self.heights, self.mean_height, self.height_deviation)
+        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
+        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
+        return low, high, self.height_deviation
 
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
         D = (h - self.mean_height) / self.height_deviation + self.heights.mean
