@@ -91,7 +91,13 @@ class Plan:
         outer = [number for number, item in enumerate(self.axes) if not item.is_load]
         inner = [number for number, item in enumerate(self.axes) if item.is_load]
         loads = list(itertools.product(*(range(len(self.axes[i])) for i in inner)))
-        loads.sort(key=lambda at: self._load(inner, at))
+        loads.sort(
+            key=lambda at: tuple(
+                (edit.keys[-1], edit.content)
+                for i, number in zip(inner, at, strict=True)
+                for edit in self.axes[i].points[number].edits
+            )
+        )
         for fixed in itertools.product(*(range(len(self.axes[i])) for i in outer)):
             points = {i: self.axes[i].points[at] for i, at in zip(outer, fixed, strict=True)}
             path = []
@@ -114,10 +120,6 @@ class Plan:
             point = item.points[number]
             found |= {item.name: point.coordinate, **point.columns}
         return found
-
-    def _load(self, inner: Sequence[int], at: Sequence[int]) -> tuple[Any, ...]:
-        points = [self.axes[i].points[number] for i, number in zip(inner, at, strict=True)]
-        return tuple((edit.keys[-1], edit.content) for point in points for edit in point.edits)
 
 
 def make_plan(study: LoadedStudy) -> Plan:

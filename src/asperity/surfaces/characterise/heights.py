@@ -195,8 +195,11 @@ class MaterialRatioCurve:
 
     def height(self, ratio: ArrayLike) -> RealArray:
         """Smc(p): height in m above the mean plane at the material ``ratio`` 0 <= p <= 1 (any shape)."""
-        place, below = self._place(np.asarray(ratio, dtype=float))
-        following = self.heights[np.minimum(below + 1, self.heights.size - 1)]
+        n = self.heights.size
+        # position in steps of the samples, within the first and the last, and the sample before it
+        place: RealArray = np.clip(np.asarray(ratio, dtype=float) * n - 0.5, 0.0, n - 1.0)
+        below = np.floor(place).astype(np.intp)
+        following = self.heights[np.minimum(below + 1, n - 1)]
         return self.heights[below] + (place - below) * (following - self.heights[below])
 
     def ratio(self, height: ArrayLike) -> RealArray:
@@ -237,19 +240,13 @@ class MaterialRatioCurve:
         areas[1:] += areas[0]
         return areas
 
-    def _place(self, ratio: RealArray) -> tuple[RealArray, np.ndarray[tuple[int, ...], np.dtype[np.intp]]]:
-        """Position of ``ratio`` in steps of the samples, within the first and the last, and the sample before it."""
-        n = self.heights.size
-        place: RealArray = np.clip(ratio * n - 0.5, 0.0, n - 1.0)
-        return place, np.floor(place).astype(np.intp)
-
     def _area_to(self, ratio: float) -> float:
         n = self.heights.size
         if ratio <= 0.5 / n:
             return ratio * float(self.heights[0])
         if ratio >= 1.0 - 0.5 / n:
             return float(self._areas[-1] + (ratio - 1.0 + 0.5 / n) * self.heights[-1])
-        below = int(self._place(np.asarray(ratio))[1])
+        below = int(np.floor(np.clip(ratio * n - 0.5, 0.0, n - 1.0)))
         step = ratio - (below + 0.5) / n
         return float(self._areas[below] + 0.5 * step * (self.heights[below] + float(self.height(ratio))))
 

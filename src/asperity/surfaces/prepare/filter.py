@@ -60,8 +60,14 @@ class LocalRegression:
     def smooth(self, heights: RealArray, weights: RealArray) -> RealArray:
         """Fitted values (nx, ny) in m; ``weights`` (nx, ny) >= 0 of the nodes, 0 to exclude ``heights`` (m)."""
         transform = RealTransform(self.padded, thread_count())
-        of_weights = self._transformed(transform, weights)
-        of_heights = self._transformed(transform, weights * heights)
+        spectra = []
+        for field in (weights, weights * heights):
+            work = np.ascontiguousarray(field)
+            if self.padded != self.shape:
+                work = np.zeros(self.padded)
+                work[: self.shape[0], : self.shape[1]] = field
+            spectra.append(transform.forward(work))
+        of_weights, of_heights = spectra
         powers = [(a, b) for a in range(self.order + 1) for b in range(self.order + 1 - a)]
         right = [self._moment(transform, of_heights, *power) for power in powers]
         if len(powers) == 1:
@@ -74,13 +80,6 @@ class LocalRegression:
             for b in range(2 * self.order + 1 - a)
         }
         return _solved(powers, sums, right)
-
-    def _transformed(self, transform: RealTransform, field: RealArray) -> ComplexArray:
-        if self.padded == self.shape:
-            return transform.forward(np.ascontiguousarray(field))
-        work = np.zeros(self.padded)
-        work[: self.shape[0], : self.shape[1]] = field
-        return transform.forward(work)
 
     def _moment(self, transform: RealTransform, spectrum: ComplexArray, a: int, b: int) -> RealArray:
         """Σ s(x' - x) (x' - x)^a (y' - y)^b f(x') over all nodes x', for every node x."""
