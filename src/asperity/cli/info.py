@@ -89,6 +89,7 @@ def info(
     found, (flat, removed) = channels(file), levelled_as(surface, level)
     whole = characterise(flat, tip_radius=radius) if full or report or plots else None
     shown = whole if full else None
+    levelling = f"degree-{removed} levelling" if removed.isdigit() else f"{removed} levelling"
     if as_json:
         record = _record(file, found, surface, flat, shown) | {"levelled": removed}
         console().out(json.dumps(record, indent=2), highlight=False)
@@ -96,9 +97,9 @@ def info(
         _print(file, found, chosen(found, given.get("surface", "channel"), file).index, surface)
         if shown is None:
             values = [(label, show(value, unit)) for value, unit, label in _roughness(flat).values()]
-            console().print(table(f"Roughness after {_levelling(removed)}", values))
+            console().print(table(f"Roughness after {levelling}", values))
         else:
-            say(f"Roughness after {_levelling(removed)}", "bold")
+            say(f"Roughness after {levelling}", "bold")
             for heading, rows in quantity_rows(shown):
                 console().print(table(heading, [(name, text) for name, text, _ in rows]))
             for remark in shown.remarks:
@@ -114,7 +115,7 @@ def info(
         write_roughness_report(whole, report, figures=figures, overwrite=force)
         written.append(report)
     if written and not as_json:
-        say(f"Pictures and pages show the heights after {_levelling(removed)}.", "dim")
+        say(f"Pictures and pages show the heights after {levelling}.", "dim")
         print_files(written)
 
 
@@ -208,7 +209,3 @@ def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface:
     ]
     rows += [(f"instrument: {key}", text) for key, text in surface.origin.instrument.items()]
     console().print(table(str(file), rows))
-
-
-def _levelling(level: str) -> str:
-    return f"degree-{level} levelling" if level.isdigit() else f"{level} levelling"

@@ -129,7 +129,19 @@ def on_common_grid(
     if surface.periodic and other.periodic and same_size and angle == 0.0:
         grid = _grid((0.0, surface.size[0], 0.0, surface.size[1]), pixel, fill=True)
         return SurfacePair(_moved(surface, (0.0, 0.0), grid, ""), _moved(other, (shift_x, shift_y), grid, words))
-    region = _overlap(surface, other, (shift_x, shift_y), angle)
+    # the largest rectangle x0, x1, y0, y1 (m) in the frame of the surface that both maps cover
+    size_x, size_y = surface.size
+    region = 0.0, size_x, 0.0, size_y
+    if not other.periodic:
+        half = 0.5 * np.array(other.size)
+        turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+        corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]) * half @ turn.T
+        corners += np.array([0.5 * size_x + shift_x, 0.5 * size_y + shift_y])
+        if surface.periodic:
+            region = -np.inf, np.inf, -np.inf, np.inf
+        low_x, high_x = max(region[0], corners[:, 0].min()), min(region[1], corners[:, 0].max())
+        covered = low_x < high_x
+        region = largest_rectangle(corners, (low_x, high_x, *region[2:])) if covered else (0.0, 0.0, 0.0, 0.0)
     grid = _grid(region, pixel, fill=False)
     x = region[0] + (np.arange(grid.shape[0]) + 0.5)[:, None] * grid.spacing[0]
     y = region[2] + (np.arange(grid.shape[1]) + 0.5)[None, :] * grid.spacing[1]
@@ -157,26 +169,6 @@ def _grid(region: tuple[float, float, float, float], pixel: tuple[float, float],
         shape.append(count)
         spacing.append((high - low) / count if fill else d)
     return Grid((shape[0], shape[1]), (spacing[0], spacing[1]))
-
-
-def _overlap(
-    surface: Surface, other: Surface, shift: tuple[float, float], angle: float
-) -> tuple[float, float, float, float]:
-    """Largest rectangle x0, x1, y0, y1 (m) in the frame of ``surface`` that both maps cover."""
-    size_x, size_y = surface.size
-    if other.periodic:
-        return 0.0, size_x, 0.0, size_y
-    half = 0.5 * np.array(other.size)
-    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]) * half @ turn.T
-    corners += np.array([0.5 * size_x + shift[0], 0.5 * size_y + shift[1]])
-    low_x, high_x, low_y, high_y = (
-        (-np.inf, np.inf, -np.inf, np.inf) if surface.periodic else (0.0, size_x, 0.0, size_y)
-    )
-    low_x, high_x = max(low_x, corners[:, 0].min()), min(high_x, corners[:, 0].max())
-    if not low_x < high_x:
-        return 0.0, 0.0, 0.0, 0.0
-    return largest_rectangle(corners, (low_x, high_x, low_y, high_y))
 
 
 def _moved(surface: Surface, shift: tuple[float, float], grid: Grid, words: str) -> Surface:

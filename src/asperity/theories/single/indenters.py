@@ -95,7 +95,23 @@ class PowerLawIndenter(Theory):
         n, a = self.exponent, checked(contact_radius, "contact radius (m)")
         approach = self.approach_factor * self.coefficient * a**n
         load = 2.0 * n / (n + 1.0) * self.E_star * a * approach
-        return ContactAnswer(load, approach, a, np.pi * a**2, self._max_pressure(a, approach), 2.0 * self.E_star * a)
+        # the largest pressure is at the centre for n <= 2; for larger n on a ring inside, found on a fine grid of radii and refined
+        with np.errstate(invalid="ignore"):
+            scale = np.where(a > 0.0, n * self.E_star * approach / (np.pi * a), 0.0)
+        if n == 1.0:
+            peak = np.where(a > 0.0, np.inf, 0.0)
+        elif n <= 2.0:
+            peak = scale / (n - 1.0)
+        else:
+            low, high = 0.0, 1.0
+            for _ in range(12):  # each a twentieth of the one before
+                rho = np.linspace(low, high, 41)[1:]
+                values = power_integral(rho, n)
+                best = float(rho[np.argmax(values)])
+                step = (high - low) / 40.0
+                low, high = max(0.0, best - step), min(1.0, best + step)
+            peak = scale * values.max()
+        return ContactAnswer(load, approach, a, np.pi * a**2, np.asarray(peak), 2.0 * self.E_star * a)
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
         """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in N, > 0.
@@ -109,24 +125,6 @@ class PowerLawIndenter(Theory):
         values = scale * power_integral(np.where(open_, rho, 1.0), self.exponent)
         at_apex = np.inf if self.exponent == 1.0 else scale / (self.exponent - 1.0)
         return np.where(rho == 0.0, at_apex, values)
-
-    def _max_pressure(self, a: RealArray, approach: RealArray) -> RealArray:
-        """At the centre for n <= 2; for larger n on a ring inside, found on a fine grid of radii and refined."""
-        n = self.exponent
-        if n == 1.0:
-            return np.where(a > 0.0, np.inf, 0.0)
-        with np.errstate(invalid="ignore"):
-            scale = np.where(a > 0.0, n * self.E_star * approach / (np.pi * a), 0.0)
-        if n <= 2.0:
-            return np.asarray(scale / (n - 1.0))
-        low, high = 0.0, 1.0
-        for _ in range(12):  # each a twentieth of the one before
-            rho = np.linspace(low, high, 41)[1:]
-            values = power_integral(rho, n)
-            best = float(rho[np.argmax(values)])
-            step = (high - low) / 40.0
-            low, high = max(0.0, best - step), min(1.0, best + step)
-        return np.asarray(scale * values.max())
 
 
 @dataclass(frozen=True)
