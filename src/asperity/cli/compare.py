@@ -22,7 +22,7 @@ from ..report.comparison import (
     slope_table,
     write_comparison_report,
 )
-from ..run.build import build, large_grid, stated_points
+from ..run.build import Case, build, large_grid, stated_points
 from ..run.document import checked, relocated, save_document
 from ..studies.compare import LOADS, MOST_CONTACTS
 from ..studies.compare import compare as compare_theories
@@ -104,29 +104,7 @@ def compare(
     confirmed(large_grid(stated_points(document.surface)), yes=bool(given.get("yes")))
     case = build(document, base)
     with output_folder(out, force=force) as folder:
-        chosen = given.under("compare").table()
-        read = {
-            item.name: item.values.read(chosen[item.name], option_of(item))
-            for item, _ in OWN[3:]
-            if item.name in chosen
-        }
-        text, loads, theories = chosen.get("pressures"), chosen.get("loads"), chosen.get("theories")
-        if loads is not None and (text is None or ".." not in text):
-            raise InputError("--loads must be given together with a range only, such as --pressures 1MPa..1GPa.")
-        count = LOADS if loads is None else Whole(2).read(loads, "--loads")
-        values = None if text is None else read_range(PRESSURES, text, points=count, linear=False)
-        with stage("solving every load") as progress:
-            comparison = compare_theories(
-                case.problem,
-                pressures=values,
-                theories=theories and [name.strip() for name in theories.split(",")],
-                inputs={"work": read["work"]} if "work" in read else {},
-                numerical=not no_numerical,
-                most_contacts=read.get("most_contacts", MOST_CONTACTS),
-                solver=case.solver,
-                progress=progress,
-                engine=case.engine(),
-            )
+        comparison = _compared(case, given, numerical=not no_numerical)
         if folder is not None and out is not None:
             highest = ControlTable.model_validate({"mean_pressure": f"{float(comparison.pressures[-1])!r} Pa"})
             moved = relocated(document, base, out).model_copy(update={"control": highest})
@@ -140,6 +118,30 @@ def compare(
     print_files([] if out is None else [out / name for name in NAMES_IN_FOLDER])
     solved = comparison.numerical
     raise typer.Exit(NOT_CONVERGED if solved is not None and solved.notes else OK)
+
+
+def _compared(case: Case, given: Given, *, numerical: bool) -> Comparison:
+    chosen = given.under("compare").table()
+    read = {
+        item.name: item.values.read(chosen[item.name], option_of(item)) for item, _ in OWN[3:] if item.name in chosen
+    }
+    text, loads, theories = chosen.get("pressures"), chosen.get("loads"), chosen.get("theories")
+    if loads is not None and (text is None or ".." not in text):
+        raise InputError("--loads must be given together with a range only, such as --pressures 1MPa..1GPa.")
+    count = LOADS if loads is None else Whole(2).read(loads, "--loads")
+    values = None if text is None else read_range(PRESSURES, text, points=count, linear=False)
+    with stage("solving every load") as progress:
+        return compare_theories(
+            case.problem,
+            pressures=values,
+            theories=theories and [name.strip() for name in theories.split(",")],
+            inputs={"work": read["work"]} if "work" in read else {},
+            numerical=numerical,
+            most_contacts=read.get("most_contacts", MOST_CONTACTS),
+            solver=case.solver,
+            progress=progress,
+            engine=case.engine(),
+        )
 
 
 _PLACEHOLDER = "1 Pa"

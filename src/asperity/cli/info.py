@@ -95,15 +95,7 @@ def info(
         console().out(json.dumps(record, indent=2), highlight=False)
     else:
         _print(file, found, chosen(found, given.get("surface", "channel"), file).index, surface)
-        if shown is None:
-            values = [(label, show(value, unit)) for value, unit, label in _roughness(flat).values()]
-            console().print(table(f"Roughness after {levelling}", values))
-        else:
-            say(f"Roughness after {levelling}", "bold")
-            for heading, rows in quantity_rows(shown):
-                console().print(table(heading, [(name, text) for name, text, _ in rows]))
-            for remark in shown.remarks:
-                say(remark, "yellow")
+        _print_roughness(flat, shown, levelling)
     written: list[Path] = []
     figures = () if whole is None else roughness_figures(whole)
     if plot is not None:
@@ -209,3 +201,15 @@ def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface:
     ]
     rows += [(f"instrument: {key}", text) for key, text in surface.origin.instrument.items()]
     console().print(table(str(file), rows))
+
+
+def _print_roughness(flat: Surface, whole: Characterisation | None, levelling: str) -> None:
+    if whole is None:
+        values = [(label, show(value, unit)) for value, unit, label in _roughness(flat).values()]
+        console().print(table(f"Roughness after {levelling}", values))
+        return
+    say(f"Roughness after {levelling}", "bold")
+    for heading, rows in quantity_rows(whole):
+        console().print(table(heading, [(name, text) for name, text, _ in rows]))
+    for remark in whole.remarks:
+        say(remark, "yellow")
