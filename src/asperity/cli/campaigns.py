@@ -118,7 +118,8 @@ def status(folder: Folder) -> None:
     campaign = open_study(folder)
     state = campaign.state()
     console().print(table(campaign.title, axis_rows(campaign)))
-    _print_state(campaign, state)
+    say(summary(campaign, state), "green" if state.complete and not state.failed else "yellow")
+    _print_causes(campaign, state)
 
 
 def collect(folder: Folder) -> None:
@@ -133,14 +134,10 @@ def _report(campaign: Campaign) -> int:
     if derived is not None:
         found = derived_table(campaign, campaign.dataset(), derived)
         console().print(table("Findings", found.cells, found.headings))
-    _print_state(campaign, state)
-    print_files(written)
-    return NOT_CONVERGED if state.failed else OK
-
-
-def _print_state(campaign: Campaign, state: CampaignState) -> None:
     say(summary(campaign, state), "green" if state.complete and not state.failed else "yellow")
     _print_causes(campaign, state)
+    print_files(written)
+    return NOT_CONVERGED if state.failed else OK
 
 
 def _print_causes(campaign: Campaign, state: CampaignState) -> None:

@@ -269,9 +269,13 @@ def built(command: Callable[..., None], name: str, options: Sequence[Option] | N
             shown += [option.shown() for option in options]
         else:
             shown.append(item.replace(kind=inspect.Parameter.KEYWORD_ONLY))
-    shown.append(_flag("quiet", "--quiet", "-q", help="Print errors and warnings only, no answers and no progress."))
+    quiet_help = "Print errors and warnings only, no answers and no progress."
+    flags: dict[str, Any] = {"quiet": typer.Option("--quiet", "-q", help=quiet_help)}
     if any((option.panel or "").startswith(ADVANCED) for option in options):
-        shown.append(_flag("help_all", "--help-all", help="Show all options.", is_eager=True, callback=_whole_page))
+        flags["help_all"] = typer.Option("--help-all", help="Show all options.", is_eager=True, callback=_whole_page)
+    for key, flag in flags.items():
+        annotation: Any = Annotated[bool, flag]
+        shown.append(inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=annotation))
     run.__dict__["__signature__"] = inspect.Signature(shown)
     run.__annotations__ = {item.name: item.annotation for item in shown}
     run.__doc__ = inspect.cleandoc(command.__doc__ or "")
@@ -279,11 +283,6 @@ def built(command: Callable[..., None], name: str, options: Sequence[Option] | N
     app.command(name, cls=Command)(run)
     app.callback()(lambda: None)
     return typer.main.get_group(app).commands[name]
-
-
-def _flag(name: str, *names: str, **more: Any) -> inspect.Parameter:
-    annotation: Any = Annotated[bool, typer.Option(*names, **more)]
-    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=annotation)
 
 
 def explained(item: Parameter) -> str:

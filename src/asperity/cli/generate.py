@@ -25,7 +25,6 @@ from ..surfaces.characterise.slopes import rms_slope
 from ..surfaces.generate.digital_filter import endless
 from ..surfaces.generate.gaussian import Spectrum
 from ..surfaces.generate.non_gaussian import Marginal
-from ..surfaces.surface import Surface
 from .declared import Given, Option, built, options_of
 from .main import Listing
 from .options import steps
@@ -85,21 +84,33 @@ def _command(kind: str) -> Any:
         for part in asked.values():
             if isinstance(part, dict) and "surface" in part:
                 part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(Given({}))}
-        table: Any = validated(SURFACE_TABLES[kind], asked, COMMAND_LINE, given.names)
+        asked_for: Any = validated(SURFACE_TABLES[kind], asked, COMMAND_LINE, given.names)
         if memory is not None:
-            _stream(table, out, memory, force)
+            _stream(asked_for, out, memory, force)
             print_files([out])
             return
-        confirmed(large_grid(stated_points(table)), yes=yes)
+        confirmed(large_grid(stated_points(asked_for)), yes=yes)
         if kind == "rank_ordered":
             with shown("ordering ranks") as bar, interruptible(bar) as progress:
-                surface = build_generated(table, Path(), progress=progress)
+                surface = build_generated(asked_for, Path(), progress=progress)
         else:
-            surface = build_generated(table, Path())
+            surface = build_generated(asked_for, Path())
         save_surface(surface, out, overwrite=force)
         if plot is not None:
             save_surface_plot(surface, plot, overwrite=force)
-        _print(surface)
+        found = height_parameters(surface)
+        rows = [
+            ("surface", f"{surface.origin.source}: {surface_text(surface)}"),
+            ("pixel", f"{show(surface.dx, 'm')} × {show(surface.dy, 'm')}"),
+            ("boundary", "periodic" if surface.periodic else "not periodic"),
+            ("rms height Sq", show(found.Sq, "m")),
+            ("rms slope Sdq", show(rms_slope(surface), "1") if min(surface.shape) > 1 else "of a profile: none"),
+            ("skewness Ssk, kurtosis Sku", f"{found.Ssk:.4g}, {found.Sku:.4g}"),
+            ("peak to valley Sz", show(found.Sz, "m")),
+        ]
+        console().print(table("Generated", rows))
+        for step in surface.origin.history:
+            say(f"  {step}", "dim")
         print_files(written)
 
     run.__doc__ = (SURFACE_TABLES[kind].__doc__ or "").replace("``", "")
@@ -163,20 +174,3 @@ def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
     with stage("writing tiles") as progress:
         save_endless(made, grid.shape, out, memory=bytes_allowed, overwrite=force, progress=progress)
     say(f"  {made.origin.history[0]}", "dim")
-
-
-def _print(surface: Surface) -> None:
-
-    found = height_parameters(surface)
-    rows = [
-        ("surface", f"{surface.origin.source}: {surface_text(surface)}"),
-        ("pixel", f"{show(surface.dx, 'm')} × {show(surface.dy, 'm')}"),
-        ("boundary", "periodic" if surface.periodic else "not periodic"),
-        ("rms height Sq", show(found.Sq, "m")),
-        ("rms slope Sdq", show(rms_slope(surface), "1") if min(surface.shape) > 1 else "of a profile: none"),
-        ("skewness Ssk, kurtosis Sku", f"{found.Ssk:.4g}, {found.Sku:.4g}"),
-        ("peak to valley Sz", show(found.Sz, "m")),
-    ]
-    console().print(table("Generated", rows))
-    for step in surface.origin.history:
-        say(f"  {step}", "dim")

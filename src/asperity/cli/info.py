@@ -89,12 +89,13 @@ def info(
     found, (flat, removed) = channels(file), levelled_as(surface, level)
     whole = characterise(flat, tip_radius=radius) if full or report or plots else None
     shown = whole if full else None
+    levelling = f"degree-{removed} levelling" if removed.isdigit() else f"{removed} levelling"
     if as_json:
         record = _record(file, found, surface, flat, shown) | {"levelled": removed}
         console().out(json.dumps(record, indent=2), highlight=False)
     else:
         _print(file, found, chosen(found, given.get("surface", "channel"), file).index, surface)
-        _print_roughness(flat, shown, removed)
+        _print_roughness(flat, shown, levelling)
     written: list[Path] = []
     figures = () if whole is None else roughness_figures(whole)
     if plot is not None:
@@ -106,7 +107,7 @@ def info(
         write_roughness_report(whole, report, figures=figures, overwrite=force)
         written.append(report)
     if written and not as_json:
-        say(f"Pictures and pages show the heights after {_levelling(removed)}.", "dim")
+        say(f"Pictures and pages show the heights after {levelling}.", "dim")
         print_files(written)
 
 
@@ -202,20 +203,13 @@ def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface:
     console().print(table(str(file), rows))
 
 
-def _print_roughness(flat: Surface, whole: Characterisation | None, level: str) -> None:
-
-    out = console()
+def _print_roughness(flat: Surface, whole: Characterisation | None, levelling: str) -> None:
     if whole is None:
         values = [(label, show(value, unit)) for value, unit, label in _roughness(flat).values()]
-        out.print(table(f"Roughness after {_levelling(level)}", values))
+        console().print(table(f"Roughness after {levelling}", values))
         return
-
-    say(f"Roughness after {_levelling(level)}", "bold")
+    say(f"Roughness after {levelling}", "bold")
     for heading, rows in quantity_rows(whole):
-        out.print(table(heading, [(name, text) for name, text, _ in rows]))
+        console().print(table(heading, [(name, text) for name, text, _ in rows]))
     for remark in whole.remarks:
         say(remark, "yellow")
-
-
-def _levelling(level: str) -> str:
-    return f"degree-{level} levelling" if level.isdigit() else f"{level} levelling"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -89,7 +89,20 @@ def _print(
     if wanted is not None:
         records = [record for record in records if record.name == wanted]
     if as_json:
-        console().out(json.dumps([_described(record) for record in records], indent=2), highlight=False)
+        # of a viscoelastic one with relaxed modulus (Pa), terms (Pa, s), whether the bulk is elastic, and the shift
+        described = []
+        for record in records:
+            values = {key: {"value": item.value, "source": item.source} for key, item in record.values.items()}
+            made = {"name": record.name, "aliases": list(record.aliases), "note": record.note, **values}
+            if isinstance(record, MaterialRecord) and record.relaxation is not None:
+                shift = None if record.shift is None else {"kind": record.shift.name, **asdict(record.shift)}
+                series = {
+                    "relaxed": record.relaxation.relaxed,
+                    "terms": [list(term) for term in record.relaxation.terms],
+                }
+                made["relaxation"] = {**series, "elastic_bulk": record.elastic_bulk, "shift": shift}
+            described.append(made)
+        console().out(json.dumps(described, indent=2), highlight=False)
         return
     if wanted is None:
         rows = [
@@ -120,14 +133,3 @@ def _print(
         say(f"also called {', '.join(record.aliases)}")
     if record.note:
         say(record.note)
-
-
-def _described(record: MaterialRecord | LiquidRecord) -> dict[str, Any]:
-    """Record as JSON; of a viscoelastic one with relaxed modulus (Pa), terms (Pa, s), whether the bulk is elastic, and the shift."""
-    values = {key: {"value": item.value, "source": item.source} for key, item in record.values.items()}
-    made = {"name": record.name, "aliases": list(record.aliases), "note": record.note, **values}
-    if isinstance(record, MaterialRecord) and record.relaxation is not None:
-        shift = None if record.shift is None else {"kind": record.shift.name, **asdict(record.shift)}
-        series = {"relaxed": record.relaxation.relaxed, "terms": [list(term) for term in record.relaxation.terms]}
-        made["relaxation"] = {**series, "elastic_bulk": record.elastic_bulk, "shift": shift}
-    return made

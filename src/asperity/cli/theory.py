@@ -135,6 +135,8 @@ def theory(
 
 def _command(kind: type[Described]) -> Any:
     """The subcommand of ``kind``."""
+    # everything by which it can be asked, by name
+    arguments = {item.name: item for way in ways_of(kind) for item in (way.axis, *way.given)}
 
     def run(given: Given) -> None:
         chosen = given.under("answer").table()
@@ -144,7 +146,6 @@ def _command(kind: type[Described]) -> Any:
             raise InputError(f"--plot must be the name of a PNG file, such as curve.png, but is {str(plot)!r}.")
         written = [path for path in (csv, plot) if path is not None]
         require_new_files(written, overwrite=force)
-        arguments = _arguments(kind)
         asked = {
             name: read_range(arguments[name], text, points=points, linear=bool(chosen.get("linear")))
             for name, text in given.under("asked").table().items()
@@ -167,15 +168,11 @@ def _command(kind: type[Described]) -> Any:
     blocks += [f"From the inputs alone: {', '.join(numbers)}."] if numbers else []
     blocks += [f"Holds for {bound.rule}. [{bound.citation}]" for bound in kind.limits]
     run.__doc__ = "\n\n".join([*blocks, *(f"Source: {reference(key)}" for key in kind.citation_keys)])
-    return built(run, kind.name, _options(kind))
-
-
-def _options(kind: type[Described]) -> list[Option]:
-    """Options of a theory: what it is made from, what it is asked, and where its parameters may come from instead."""
+    # what it is made from, what it is asked, and where its parameters may come from instead
     made = [replace(option, required=False) for option in options_of(kind, ("made",), INPUTS)]
     asked = [
         Option(option_of(item), ("asked", name), replace(item, default=None) if item.required else item, ASKED)
-        for name, item in _arguments(kind).items()
+        for name, item in arguments.items()
     ]
     measured = _measured(kind)
     if measured is not None:
@@ -183,7 +180,7 @@ def _options(kind: type[Described]) -> list[Option]:
         asked += reading_options()
     if any(item.name in OF_BODIES for item in parameters(kind)):
         asked += [option for option in body_options() if option.name in ("--body", "--counter")]
-    return [*made, *asked, *ANSWERS]
+    return built(run, kind.name, [*made, *asked, *ANSWERS])
 
 
 def _made(kind: type[Described], given: Given) -> Described:
@@ -192,13 +189,22 @@ def _made(kind: type[Described], given: Given) -> Described:
     Raises
     ------
     InputError
-        If a parameter is missing, or given twice, or a number that is measured is also given.
+        If a parameter is missing, or given twice, a number that is measured is also given, a body is not understood, or its strength is
+        needed and not known.
     """
     texts = given.under("made").table()
     values = {item.name: _read(item, texts) for item in parameters(kind) if item.name in texts}
     chosen = given.table()
     if "body" in chosen:
-        values = _of_bodies(kind, values, chosen["body"], chosen.get("counter_body"))
+        # what follows from the bodies and is not given; the weaker body yields
+        first, other = body_of_text(chosen["body"], "--body"), chosen.get("counter_body")
+        second = Rigid() if other is None else body_of_text(other, "--counter")
+        known = {"E_star": contact_modulus(first, second)} | weaker_strength(first, second)
+        for item in parameters(kind):
+            if item.name in ("hardness", "yield_stress") and item.required and item.name not in (values | known):
+                raise InputError(f"{option_of(item)} must be given: no body states its {item.name.replace('_', ' ')}.")
+        names = {item.name for item in parameters(kind)}
+        values = {name: value for name, value in known.items() if name in names} | values
     elif "counter_body" in chosen:
         raise InputError("--counter must be given together with --body, but is given alone.")
     if "file" in chosen:
@@ -233,25 +239,6 @@ def _made(kind: type[Described], given: Given) -> Described:
     return kind(**values)
 
 
-def _of_bodies(kind: type[Described], values: dict[str, Any], body: str, counter: str | None) -> dict[str, Any]:
-    """``values`` with the parameters of ``kind`` that follow from the bodies and are not given; the weaker body yields.
-
-    Raises
-    ------
-    InputError
-        If a body is not understood, or its strength is needed and not known.
-    """
-
-    first = body_of_text(body, "--body")
-    second = Rigid() if counter is None else body_of_text(counter, "--counter")
-    known = {"E_star": contact_modulus(first, second)} | weaker_strength(first, second)
-    for item in parameters(kind):
-        if item.name in ("hardness", "yield_stress") and item.required and item.name not in (values | known):
-            raise InputError(f"{option_of(item)} must be given: no body states its {item.name.replace('_', ' ')}.")
-    names = {item.name for item in parameters(kind)}
-    return {name: value for name, value in known.items() if name in names} | values
-
-
 def _read(item: Parameter, texts: dict[str, Any]) -> Any:
     """Value of a parameter from its text; numbers as floats, several as an array."""
     values, option = item.values, option_of(item)
@@ -278,11 +265,6 @@ def read_range(item: Parameter, text: str, *, points: int, linear: bool) -> Real
     return np.asarray(np.sign(first) * np.geomspace(abs(first), abs(last), points))
 
 
-def _arguments(kind: type[Described]) -> dict[str, Parameter]:
-    """Everything by which ``kind`` can be asked, by name."""
-    return {item.name: item for way in ways_of(kind) for item in (way.axis, *way.given)}
-
-
 def _measured(kind: type[Described]) -> Any:
     """What makes ``kind`` from a roughness, or None."""
     return getattr(kind, "from_roughness", getattr(kind, "of_roughness", None))
@@ -306,7 +288,17 @@ def print_answer(found: Evaluation, *, as_json: bool) -> None:
         console().out(json.dumps(answer_record(found), indent=2), highlight=False)
         return
     theory = found.theory
-    rows = [(item.help, _input_text(item, getattr(theory, item.name))) for item in parameters(type(theory))]
+    rows = []
+    for item in parameters(type(theory)):
+        value: Any = getattr(theory, item.name)
+        text = next((word for word, choice in item.words.items() if choice == value), None)
+        if text is None and item.many:
+            text = f"{np.size(value)} values"
+        elif text is None and value is None:
+            text = "not given"
+        elif text is None and isinstance(value, int | float):
+            text = show(float(value), item.unit if item.unit != "m^(1-n)" else "")
+        rows.append((item.help, str(getattr(value, "name", value)) if text is None else text))
     _print_table(theory.title, table("", rows))
     if found.numbers:
         numbers = [(column.label, show(value, column.unit)) for column, value in found.numbers]
@@ -352,16 +344,3 @@ def _print_table(title: str, made: Table) -> None:
     made.title = None
     say(title, "bold")
     console().print(made)
-
-
-def _input_text(item: Parameter, value: Any) -> str:
-    for word, choice in item.words.items():
-        if choice == value:
-            return word
-    if item.many:
-        return f"{np.size(value)} values"
-    if value is None:
-        return "not given"
-    if isinstance(value, int | float):
-        return show(float(value), item.unit if item.unit != "m^(1-n)" else "")
-    return str(getattr(value, "name", value))

@@ -76,10 +76,13 @@ def plot_curves(x: Labelled, y: Labelled, curves: Sequence[Curve], ax: Axes) -> 
             half = up(curve.band)[order]
             ax.fill_between(places, values - half, values + half, color=colour, alpha=0.2, linewidth=0.0)
         ax.plot(places, values, color=colour, marker="o", markersize=3.0, label=literal(curve.label) or None)
-    if _spans_decades(x.values):
-        ax.set_xscale("log")
-    if _spans_decades(np.concatenate([curve.values for curve in curves])):
-        ax.set_yscale("log")
+    for drawn, set_scale in (
+        (x.values, ax.set_xscale),
+        (np.concatenate([curve.values for curve in curves]), ax.set_yscale),
+    ):
+        good = drawn[np.isfinite(drawn)]
+        if good.size and good.min() > 0.0 and good.max() / good.min() > LOGARITHMIC:
+            set_scale("log")
     return _labelled(ax, (x.quantity.label, along), (y.quantity.label, up), legend=any(curve.label for curve in curves))
 
 
@@ -168,11 +171,6 @@ def plot_sensitivities(
     ax.set_yticks(rows, [literal(names[number]) for number in order])
     ax.set_xlabel(_text(y.quantity.label, along))
     return legend_above(ax)
-
-
-def _spans_decades(values: RealArray) -> bool:
-    good = values[np.isfinite(values)]
-    return bool(good.size and good.min() > 0.0 and good.max() / good.min() > LOGARITHMIC)
 
 
 def _labelled(ax: Axes, x: tuple[str, Scale], y: tuple[str, Scale], *, legend: bool) -> Axes:

@@ -65,7 +65,7 @@ def plot_comparison_area(data: xarray.Dataset, ax: Axes) -> Axes:
     curves = _draw(data, "area_fraction", ax)
     if "numerical_area_fraction" in data:
         pixels = _values(data["numerical_area_fraction"])
-        ax.plot(_pressure(data), pixels, color=BLACK, linestyle="", marker=".", markersize=2.0)
+        ax.plot(_values(data["relative_pressure"]), pixels, color=BLACK, linestyle="", marker=".", markersize=2.0)
         curves += _points(data, "numerical_area_fraction_corrected", ax)
     ax.set(xscale="log", yscale="log", xlabel="p/E*", ylabel="real area / nominal area")
     ax.set_ylim(top=1.3)
@@ -187,7 +187,7 @@ def _draw(
 ) -> list[_Curve]:
     """Curves of ``data[name]`` in ``unit``, grey where the theory is beyond its limits."""
     curves = []
-    x = _pressure(data) if against is None else against
+    x = _values(data["relative_pressure"]) if against is None else against
     for number, theory in enumerate(data["theory"].values):
         row = data.sel(theory=theory)
         values = _values(row[name]) / unit
@@ -209,7 +209,7 @@ def _draw(
 def _points(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0) -> list[_Curve]:
     if name not in data:
         return []
-    x, values = _pressure(data), _values(data[name]) / unit
+    x, values = _values(data["relative_pressure"]), _values(data[name]) / unit
     ax.plot(x, values, color=BLACK, marker="o", markersize=3.0, linewidth=0.8, label="numerical")
     return [_Curve("numerical", x, values, BLACK, "-")]
 
@@ -258,10 +258,6 @@ def _last_inside(points: RealArray) -> tuple[float, float]:
             return float(x), float(y)
     x, y = np.clip(points[-1], 0.0, 1.0)
     return float(x), float(y)
-
-
-def _pressure(data: xarray.Dataset) -> RealArray:
-    return _values(data["relative_pressure"])
 
 
 def _values(variable: xarray.DataArray) -> RealArray:

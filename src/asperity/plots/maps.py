@@ -299,7 +299,17 @@ def island(there: BoolArray, grid: Grid, wraps: tuple[bool, bool], at: tuple[int
         return None
     labels, _ = labelled(there, wraps=wraps)
     spot = labels == (np.argmax(np.bincount(labels[there])) if at is None else labels[at])
-    ends = [_ends(spot.any(axis=1 - axis), wraps[axis]) for axis in (0, 1)]
+    ends = []  # first and last pixel along each axis; the last is beyond the border where the island crosses it
+    for axis in (0, 1):
+        along = spot.any(axis=1 - axis)
+        places = np.flatnonzero(along)
+        first, last = int(places[0]), int(places[-1])
+        if wraps[axis] and not along.all():
+            gaps = np.diff(np.append(places, places[0] + along.size))
+            widest = int(np.argmax(gaps))
+            first, last = int(places[(widest + 1) % places.size]), int(places[widest])
+            last += along.size if last < first else 0
+        ends.append((first, last))
     widths = [(last - first + 1) * d for (first, last), d in zip(ends, grid.spacing, strict=True)]
     side = max(ROUND * max(widths), FEWEST * max(grid.spacing))
     if side > LARGEST * min(grid.size):
@@ -315,17 +325,6 @@ def island(there: BoolArray, grid: Grid, wraps: tuple[bool, bool], at: tuple[int
 
 ROUND, FEWEST, LARGEST = 1.8, 16, 0.5
 """Side of a window in widths of the contact, its fewest pixels, and the share of the map from which it is not drawn."""
-
-
-def _ends(there: BoolArray, wraps: bool) -> tuple[int, int]:
-    """First and last pixel of an island along an axis; the last is beyond the border where the island crosses it."""
-    places = np.flatnonzero(there)
-    if not wraps or there.all():
-        return int(places[0]), int(places[-1])
-    gaps = np.diff(np.append(places, places[0] + there.size))
-    widest = int(np.argmax(gaps))
-    first, last = int(places[(widest + 1) % places.size]), int(places[widest])
-    return first, last + (there.size if last < first else 0)
 
 
 def enlarge(ax: Axes, grid: Grid, window: Window, title: str) -> Axes:
@@ -364,7 +363,10 @@ def enlarge_contact(result: ContactResult, ax: Axes) -> bool:
     if result not in _LARGEST_CONTACTS:
         problem = result.problem
         _LARGEST_CONTACTS[result] = island(result.contact, problem.grid, problem.boundary.wraps)
-    return _enlarged(result.problem.grid, _LARGEST_CONTACTS[result], "largest contact", ax)
+    window = _LARGEST_CONTACTS[result]
+    if window is not None:
+        enlarge(ax, result.problem.grid, window, "largest contact")
+    return window is not None
 
 
 _LARGEST_CONTACTS: WeakKeyDictionary[ContactResult, Window | None] = WeakKeyDictionary()
@@ -386,10 +388,7 @@ def enlarge_island(
     at: tuple[int, int] | None = None,
 ) -> bool:
     """Draw an island of the points ``there`` enlarged beside its map on ``ax``, as ``island`` chooses it; whether it is one."""
-    return _enlarged(grid, island(there, grid, wraps, at), title, ax)
-
-
-def _enlarged(grid: Grid, window: Window | None, title: str, ax: Axes) -> bool:
+    window = island(there, grid, wraps, at)
     if window is not None:
         enlarge(ax, grid, window, title)
     return window is not None

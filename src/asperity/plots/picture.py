@@ -385,13 +385,34 @@ def _pixels(
     """What ``png`` encodes. Nothing refers to its figure any more, so that the next search for garbage frees it at once."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+    from matplotlib.patches import StepPatch
 
     figure = Figure(figsize=size, dpi=dpi)
     FigureCanvasAgg(figure)
     draw(figure.add_subplot(projection=projection))
     pixels, content = content_of(figure)
-    if curves is not None:
-        curves.extend(_curves_of(figure, content))
+    if curves is None:
+        return pixels
+    every: Any = figure.axes
+    for ax in every:
+        found = []
+        for line in ax.get_lines():
+            if line.get_transform() == ax.transData and len(line.get_xdata()) > 1:  # others mark a value
+                label = str(line.get_label())
+                x, y = (np.asarray(values, dtype=float) for values in line.get_data())
+                found.append(("" if label.startswith("_") else label, x, y))
+        for patch in ax.patches:
+            if isinstance(patch, StepPatch):
+                bars: Any = patch.get_data()
+                found.append(("", 0.5 * (bars.edges[1:] + bars.edges[:-1]), np.asarray(bars.values, dtype=float)))
+        if not found:
+            continue
+        place = ax.get_window_extent()
+        left, right = ((float(edge) / figure.dpi - content.x0) / content.width for edge in (place.x0, place.x1))
+        top, bottom = (1.0 - (float(edge) / figure.dpi - content.y0) / content.height for edge in (place.y1, place.y0))
+        across = (ax.get_xlabel(), ax.get_xlim(), ax.get_xscale() == "log")
+        up = (ax.get_ylabel(), ax.get_ylim(), ax.get_yscale() == "log")
+        curves.append(AxesCurves((left, top, right, bottom), across, up, tuple(found)))
     return pixels
 
 
@@ -447,31 +468,6 @@ def encoded(pixels: NDArray[np.uint8], dpi: float) -> bytes:
     image = Image.fromarray(np.ascontiguousarray(pixels))
     image.save(buffer, format="png", dpi=(dpi, dpi), compress_level=_LEVEL, compress_type=_RUN_LENGTHS)
     return buffer.getvalue()
-
-
-def _curves_of(figure: Any, content: Any) -> Iterator[AxesCurves]:
-    """Curves and bars on every axes of ``figure``, of which the picture shows the ``content`` (a box in inches)."""
-    from matplotlib.patches import StepPatch
-
-    for ax in figure.axes:
-        found = []
-        for line in ax.get_lines():
-            if line.get_transform() == ax.transData and len(line.get_xdata()) > 1:  # others mark a value
-                label = str(line.get_label())
-                x, y = (np.asarray(values, dtype=float) for values in line.get_data())
-                found.append(("" if label.startswith("_") else label, x, y))
-        for patch in ax.patches:
-            if isinstance(patch, StepPatch):
-                bars: Any = patch.get_data()
-                found.append(("", 0.5 * (bars.edges[1:] + bars.edges[:-1]), np.asarray(bars.values, dtype=float)))
-        if not found:
-            continue
-        place = ax.get_window_extent()
-        left, right = ((float(edge) / figure.dpi - content.x0) / content.width for edge in (place.x0, place.x1))
-        top, bottom = (1.0 - (float(edge) / figure.dpi - content.y0) / content.height for edge in (place.y1, place.y0))
-        across = (ax.get_xlabel(), ax.get_xlim(), ax.get_xscale() == "log")
-        up = (ax.get_ylabel(), ax.get_ylim(), ax.get_yscale() == "log")
-        yield AxesCurves((left, top, right, bottom), across, up, tuple(found))
 
 
 def map_size(grid: Grid) -> tuple[float, float]:

@@ -76,13 +76,14 @@ def plot_material_ratio(found: Characterisation, ax: Axes) -> Axes:
     ax.hlines([top, bottom], 0.0, 100.0, color="0.6", linewidth=0.7)
     for ratio, name in ((line.ratio_1, "Smr1"), (line.ratio_2, "Smr2")):
         ax.axvline(100.0 * ratio, color="0.6", linewidth=0.7, linestyle=":", label=f"{name} {percent(ratio)}")
-    _fill_reduced(ax, line.ratio_1, (top, float(in_unit(line.reduced_peak))), at_left=True)
-    _fill_reduced(ax, 1.0 - line.ratio_2, (bottom, -float(in_unit(line.reduced_valley))), at_left=False)
-    ax.set_title(
-        f"Sk {top - bottom:.3g}   Spk {float(in_unit(line.reduced_peak)):.3g}   Svk "
-        f"{float(in_unit(line.reduced_valley)):.3g} {in_unit.symbol}",
-        loc="right",
-    )
+    peak, valley = float(in_unit(line.reduced_peak)), float(in_unit(line.reduced_valley))
+    # triangles with the areas of peaks and valleys
+    for corners in (
+        [(0.0, top), (0.0, top + peak), (100.0 * line.ratio_1, top)],
+        [(100.0, bottom), (100.0, bottom - valley), (100.0 - 100.0 * (1.0 - line.ratio_2), bottom)],
+    ):
+        ax.fill(*zip(*corners, strict=True), color=SKY, alpha=0.5, linewidth=0.0)
+    ax.set_title(f"Sk {top - bottom:.3g}   Spk {peak:.3g}   Svk {valley:.3g} {in_unit.symbol}", loc="right")
     ax.legend(loc="lower left", frameon=True, edgecolor="none", framealpha=0.9)
     return ax
 
@@ -118,15 +119,6 @@ def plot_autocorrelation(found: Characterisation, ax: Axes) -> Axes:
             ax.plot(in_unit(lags[part]), values[part] / covariance.mean_square, color=colour, label=label)
         ax.legend(loc="upper right")
     return ax
-
-
-def _fill_reduced(ax: Axes, width: float, heights: tuple[float, float], *, at_left: bool) -> None:
-    """Triangle of the area of peaks or valleys, from the level ``heights[0]`` by ``heights[1]``."""
-    base, rise = heights
-    corners = [(0.0, base), (0.0, base + rise), (100.0 * width, base)]
-    if not at_left:
-        corners = [(100.0 - x, y) for x, y in corners]
-    ax.fill(*zip(*corners, strict=True), color=SKY, alpha=0.5, linewidth=0.0)
 
 
 # A surface seen from the side in space, and its summits seen from above.

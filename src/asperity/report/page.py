@@ -59,7 +59,8 @@ def write_page(
         )
         # nothing is allowed but embedded pictures, the page's own style sheet and this script
         sheet = page[page.index("<style>") + 7 : page.index("</style>")]
-        allowed = f"img-src data:; script-src {_digest(code)}; style-src {_digest(sheet)}"
+        digests = [base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in (code, sheet)]
+        allowed = f"img-src data:; script-src 'sha256-{digests[0]}'; style-src 'sha256-{digests[1]}'"
         policy = f"default-src 'none'; {allowed}; base-uri 'none'; form-action 'none'"
         file.write_text(page.replace(POLICY, policy, 1), encoding="utf-8")
 
@@ -114,10 +115,6 @@ def script() -> str:
 def style() -> str:
     """The style sheet of the viewer."""
     return _source("viewer.css")
-
-
-def _digest(text: str) -> str:
-    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
 
 
 def software_rows(software: Mapping[str, str], **digests: str) -> Rows:

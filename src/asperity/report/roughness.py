@@ -76,11 +76,6 @@ def quantity_text(quantity: Quantity, value: float, digits: int = 4) -> str:
     return show(value, quantity.unit, digits)
 
 
-def quantity_name(quantity: Quantity) -> str:
-    """Label of ``quantity`` with its symbol."""
-    return f"{quantity.label} {quantity.symbol}".rstrip()
-
-
 def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, str, str]]]]:
     """Heading of each group with the name, the text and the definition of its numbers, those along x and y in one row.
 
@@ -98,7 +93,7 @@ def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, st
         if quantity.name in errors or quantity in along_y.values():
             continue
         text = _with_error(quantity, values)
-        name = quantity_name(quantity)
+        name = f"{quantity.label} {quantity.symbol}".rstrip()
         if quantity.name in along_y:
             other = _with_error(along_y[quantity.name], values)
             text = NOT_DEFINED if text == other == NOT_DEFINED else f"{text} (x), {other} (y)"
@@ -112,7 +107,11 @@ def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, st
 def headline_values(found: Characterisation) -> list[tuple[str, str]]:
     """Name and text of the numbers that people look for first."""
     chosen = {quantity.name: (quantity, value) for quantity, value in found.values() if quantity.name in HEADLINE}
-    return [(quantity_name(chosen[path][0]), quantity_text(*chosen[path], digits=3)) for path in HEADLINE]
+    found_first = (chosen[path] for path in HEADLINE)
+    return [
+        (f"{quantity.label} {quantity.symbol}".rstrip(), quantity_text(quantity, value, digits=3))
+        for quantity, value in found_first
+    ]
 
 
 def _with_error(quantity: Quantity, values: dict[str, float]) -> str:
@@ -140,7 +139,12 @@ def summit_comparison(found: Characterisation) -> list[Row]:
     if measured.count == 0:
         return []
     difference, spectral = found.moments.difference, found.moments.spectral
-    theories = [_nayak(difference.m0, difference.m2, difference.m4), _nayak(spectral.m0, spectral.m2, spectral.m4)]
+    theories: list[NayakSummits | None] = []
+    for m0, m2, m4 in ((difference.m0, difference.m2, difference.m4), (spectral.m0, spectral.m2, spectral.m4)):
+        try:
+            theories.append(NayakSummits(m0, m2, m4))
+        except InputError:  # undefined moments, or α < 1.5 by differences on a coarse grid
+            theories.append(None)
     table = (
         ("density of summits", "m**-2", measured.density, "density"),
         ("mean summit height", "m", measured.mean_height, "mean_height"),
@@ -173,13 +177,6 @@ def peak_comparison(found: Characterisation) -> list[tuple[str, str, str]]:
             ),
         ]
     return rows
-
-
-def _nayak(m0: float, m2: float, m4: float) -> NayakSummits | None:
-    try:
-        return NayakSummits(m0, m2, m4)
-    except InputError:  # undefined moments, or α < 1.5 by differences on a coarse grid
-        return None
 
 
 def _text(theory: NayakSummits | None, name: str, unit: str) -> str:

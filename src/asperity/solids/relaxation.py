@@ -195,11 +195,11 @@ class Creep:
             (np.array(column) for column in zip(*self.terms, strict=True)) if self.terms else (_NONE, _NONE)
         )
         weights, rising = strengths * lams, self.instantaneous + float(strengths.sum())
-
-        def falling(distances: RealArray, tau: float) -> float:
-            return self.fluidity * tau - rising - float((weights / distances).sum())
-
-        zeros = _zeros_below(lams, falling, last=rising / self.fluidity if self.fluidity else None)
+        zeros = _zeros_below(
+            lams,
+            lambda distances, tau: self.fluidity * tau - rising - float((weights / distances).sum()),
+            last=rising / self.fluidity if self.fluidity else None,
+        )
         terms = [(1.0 / (tau * (float((weights / d**2).sum()) + self.fluidity)), tau) for tau, d in zeros]
         return Relaxation(0.0 if self.fluidity else 1.0 / rising, tuple(terms))
 

@@ -37,11 +37,12 @@ def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | 
         return _reduced(data, document.quantities, "level", lambda values: convergence(steps, list(values)))
     if document.critical_thickness is not None:
         inside, share = np.asarray(data["thickness"])[1:-1], document.critical_thickness.share
-
-        def critical(values: RealArray) -> object:
-            return critical_thickness(inside, values[1:-1], float(values[0]), float(values[-1]), share=share)
-
-        return _reduced(data, document.quantities, "thickness", critical)
+        return _reduced(
+            data,
+            document.quantities,
+            "thickness",
+            lambda values: critical_thickness(inside, values[1:-1], float(values[0]), float(values[-1]), share=share),
+        )
     return None if document.sensitivity is None else _sensitivities(data, document.quantities)
 
 

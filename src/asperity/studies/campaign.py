@@ -167,7 +167,8 @@ def prepare_study(
     if isinstance(study, Mapping):
         loaded, target = study_from_table(study, start), Path("study" if folder is None else folder)
     else:
-        loaded, target = load_study(study), default_folder(Path(study)) if folder is None else Path(folder)
+        beside = Path(study).with_name(f"{Path(study).stem}-results")
+        loaded, target = load_study(study), beside if folder is None else Path(folder)
     campaign = Campaign(target, loaded)
     _ = campaign.plan  # all mistakes are found before anything is written
     if target.is_dir() and any(target.iterdir()) and not (target / STUDY).is_file():
@@ -208,14 +209,9 @@ def open_study(folder: str | Path) -> Campaign:
 
     place = Path(folder)
     if place.is_file():
-        place = default_folder(place)
+        place = place.with_name(f"{place.stem}-results")
     if not (place / STUDY).is_file():
         raise FileFormatError(
             f"results of a study must lie in a folder with {STUDY}, but {place} has none; run it first: asperity run."
         )
     return Campaign(place, load_study(place / STUDY))
-
-
-def default_folder(document: Path) -> Path:
-    """Folder of the results of the study ``document``: beside it, with its name."""
-    return document.with_name(f"{document.stem}-results")

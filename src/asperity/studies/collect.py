@@ -32,28 +32,22 @@ KEPT_CHECKS = ("duality_gap", "iterations", "wall_time")
 """Entries of the certificates in the dataset."""
 
 
-class Collected:
-    """The finished cases of a plan by their place on the axes."""
+def placed_records(plan: Plan, path: Path) -> Iterator[tuple[int, Record]]:
+    """Number of each finished case of ``plan`` on the flattened axes, and its record in the store at ``path``.
 
-    def __init__(self, plan: Plan, path: Path) -> None:
-        self.plan = plan
-        keys = np.fromiter((int(case.key[:16], 16) for item in plan.paths() for case in item), np.uint64)
-        places = np.fromiter(
-            (np.ravel_multi_index(case.index, plan.shape) for item in plan.paths() for case in item), np.int64
-        )
-        order = np.argsort(keys, kind="stable")
-        self._keys, self._places = keys[order], places[order]
-        self._records = path
-
-    def records(self) -> Iterator[tuple[int, Record]]:
-        """Number of a case on the flattened axes, and its record; of a case that was done again also the older ones,
-        first.
-        """
-        for record in records(self._records):
-            key = np.uint64(int(record["key"][:16], 16))
-            low, high = np.searchsorted(self._keys, key, "left"), np.searchsorted(self._keys, key, "right")
-            for place in self._places[low:high]:
-                yield int(place), record
+    Of a case that was done again also the older records, first.
+    """
+    keys = np.fromiter((int(case.key[:16], 16) for item in plan.paths() for case in item), np.uint64)
+    places = np.fromiter(
+        (np.ravel_multi_index(case.index, plan.shape) for item in plan.paths() for case in item), np.int64
+    )
+    order = np.argsort(keys, kind="stable")
+    keys, places = keys[order], places[order]
+    for record in records(path):
+        key = np.uint64(int(record["key"][:16], 16))
+        low, high = np.searchsorted(keys, key, "left"), np.searchsorted(keys, key, "right")
+        for place in places[low:high]:
+            yield int(place), record
 
 
 def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
@@ -68,7 +62,7 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
     values = {name: np.full(plan.n_cases, np.nan) for name in (*wanted, *KEPT_CHECKS)}
     outcome = np.full(plan.n_cases, MISSING, np.int8)
     errors, cited = dict[int, str](), dict[str, None]()
-    for place, record in Collected(plan, path).records():
+    for place, record in placed_records(plan, path):
         error = record["error"]
         outcome[place] = DONE if error is None else FAILED
         for name in wanted:
@@ -94,11 +88,15 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
         variables["error"] = on_axes(texts, {"long_name": "why the case failed"})
     coordinates: dict[str, Any] = {}
     for item in plan.axes:
-        labels = {"units": item.unit, "long_name": item.path or item.name}
-        coordinates[item.name] = (item.name, _column([point.coordinate for point in item.points]), labels)
+        labels: dict[str, Any] = {item.name: {"units": item.unit, "long_name": item.path or item.name}}
+        columns: dict[str, list[Any]] = {item.name: [point.coordinate for point in item.points]}
         for name, unit in item.columns.items():
-            column = _column([point.columns[name] for point in item.points])
-            coordinates[name] = (item.name, column, {"units": unit} if unit else {})
+            labels[name] = {"units": unit} if unit else {}
+            columns[name] = [point.columns[name] for point in item.points]
+        for name, column in columns.items():
+            numbers = all(isinstance(value, float) for value in column)
+            array = np.array(column, float) if numbers else np.array([str(value) for value in column], object)
+            coordinates[name] = (item.name, array, labels[name])
     attributes = {
         "title": plan.document.title,
         "kind": plan.document.kind,
@@ -119,7 +117,7 @@ def stopped_at(plan: Plan, path: Path) -> int | None:
         return None
     found: dict[int, float] = {}
     quantity = str(stop_quantity(plan))
-    for place, record in Collected(plan, path).records():
+    for place, record in placed_records(plan, path):
         found[place] = record["values"].get(quantity, np.nan)
     points = max(1, plan.n_cases // plan.shape[0])
     for place in sorted(found):
@@ -161,7 +159,7 @@ def state(plan: Plan, path: Path) -> CampaignState:
     outcome = np.full(plan.n_cases, MISSING, np.int8)
     errors: dict[int, dict[str, str]] = {}
     told: dict[int, list[list[str]]] = {}
-    for place, record in Collected(plan, path).records():
+    for place, record in placed_records(plan, path):
         outcome[place] = DONE if record["error"] is None else FAILED
         errors.pop(place, None)
         told.pop(place, None)
@@ -183,11 +181,6 @@ def state(plan: Plan, path: Path) -> CampaignState:
     counted = outcome if end is None else outcome[: end * (plan.n_cases // plan.shape[0])]
     done, failures, missing = (int(count) for count in np.bincount(counted, minlength=3))
     return CampaignState(done, failures, missing, end, causes(failed), causes(found, by_kind=True))
-
-
-def _column(values: list[Any]) -> Any:
-    numbers = all(isinstance(value, float) for value in values)
-    return np.array(values, float) if numbers else np.array([str(value) for value in values], object)
 
 
 _NUMBER = re.compile(r"[-+]?\d+(\.\d+)?(e[-+]?\d+)?", re.IGNORECASE)

@@ -328,10 +328,11 @@ def export_comparison_csv(comparison: Comparison, path: str | Path, *, overwrite
 
 
 def _rows(comparison: Comparison) -> Iterator[tuple[object, ...]]:
-    nothing: RealArray = np.full_like(comparison.pressures, np.nan)
+    p = comparison.pressures
+    nothing: RealArray = np.full_like(p, np.nan)
+    found: list[tuple[str, tuple[RealArray, RealArray], tuple[RealArray | BoolArray, ...]]] = []
     if comparison.numerical is not None:
         solved = comparison.numerical
-        areas = (solved.area_fraction_corrected, solved.area_fraction)
         rest: tuple[RealArray | BoolArray, ...] = (
             solved.mean_gap,
             solved.contact_density,
@@ -339,10 +340,9 @@ def _rows(comparison: Comparison) -> Iterator[tuple[object, ...]]:
             *(3 * [nothing]),
             *(2 * [np.isfinite(solved.mean_gap)]),
         )
-        yield from _curve_rows(comparison, NUMERICAL, areas, rest)
+        found.append((NUMERICAL, (solved.area_fraction_corrected, solved.area_fraction), rest))
     for curve in comparison.curves:
         deviations = [comparison.deviation(curve.name, name) for name in ("area_fraction", "contact_density", "gap")]
-        areas = (curve.prediction.area_fraction, nothing)
         rest = (
             curve.gap,
             curve.prediction.contact_density,
@@ -351,17 +351,10 @@ def _rows(comparison: Comparison) -> Iterator[tuple[object, ...]]:
             curve.valid_for["gap"],
             curve.valid_for["contact_density"],
         )
-        yield from _curve_rows(comparison, curve.name, areas, rest)
-
-
-def _curve_rows(
-    comparison: Comparison,
-    name: str,
-    areas: tuple[RealArray, RealArray],
-    rest: tuple[RealArray | BoolArray, ...],
-) -> Iterator[tuple[object, ...]]:
-    area, p = areas[0], comparison.pressures
-    columns = (p, p / comparison.E_star, *areas, comparison.kappa(area), comparison.slope(area), *rest)
-    for row in zip(*columns, strict=True):
-        values = [value.item() for value in row]
-        yield (name, *("" if isinstance(value, float) and math.isnan(value) else value for value in values))
+        found.append((curve.name, (curve.prediction.area_fraction, nothing), rest))
+    for name, areas, rest in found:
+        area = areas[0]
+        columns = (p, p / comparison.E_star, *areas, comparison.kappa(area), comparison.slope(area), *rest)
+        for row in zip(*columns, strict=True):
+            values = [value.item() for value in row]
+            yield (name, *("" if isinstance(value, float) and math.isnan(value) else value for value in values))

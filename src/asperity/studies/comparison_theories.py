@@ -12,12 +12,12 @@ from ..contact.boundary import Periodic
 from ..contact.law import HardWall, LimitByDepth
 from ..contact.problem import ContactProblem
 from ..core import require
-from ..core.arrays import BoolArray, RealArray
+from ..core.arrays import BoolArray
 from ..core.errors import AsperityError, InputError
 from ..core.parameters import parameters
 from ..core.units import show
 from ..solids.layers import Layered, weaker_strength
-from ..theories.protocol import Limit, Prediction, SurfaceTheory, Theory
+from ..theories.protocol import Prediction, SurfaceTheory, Theory
 from ..theories.statistics.roughness import Roughness
 
 YIELDING, ADHESIVE = ("hardness", "yield_stress"), ("work",)
@@ -153,11 +153,31 @@ def check(theory: SurfaceTheory, prediction: Prediction, roughness: Roughness) -
         nowhere = np.zeros(len(prediction), dtype=bool)
         return Checked(dict.fromkeys(names, nowhere), (f"Its limits could not be checked: {error}",))
     valid = {name: np.ones(len(prediction), dtype=bool) for name in names}
+    sentences = []
     for limit in limits:
         for name, quantity in names.items():
             if limit.concerns(quantity):
                 valid[name] &= limit.holds
-    return Checked(valid, tuple(_sentence(limit, prediction.pressure) for limit in limits if not limit.holds.all()))
+        if limit.holds.all():
+            continue
+        outside, pressures = ~limit.holds, prediction.pressure
+        value = limit.value[outside]
+        finite = value[np.isfinite(value)]
+        end = limit.high if math.isfinite(limit.high) else limit.low  # from which excess is measured
+        worst = float(finite[np.argmax(np.abs(finite - end))]) if finite.size else math.nan
+        first, first_inside = int(np.argmax(outside)), int(np.argmin(outside))
+        if outside.all():
+            where = "at every load"
+        elif outside[-1] and outside[:first].sum() == 0 and outside[first:].all():
+            where = f"from {show(float(pressures[first]), 'Pa', 3)} on"
+        elif outside[0] and outside[:first_inside].all() and not outside[first_inside:].any():
+            where = f"below {show(float(pressures[first_inside]), 'Pa', 3)}"
+        else:
+            where = f"at {int(outside.sum())} of {outside.size} loads"
+        sentences.append(
+            f"{limit.criterion} {worst:.3g}, not {limit.bounds}, {where}: {limit.message} [{limit.citation}]"
+        )
+    return Checked(valid, tuple(sentences))
 
 
 def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest_spot: float) -> tuple[str, ...]:
@@ -206,20 +226,3 @@ def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest
 def _listed(names: list[str]) -> str:
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last
-
-
-def _sentence(limit: Limit, pressures: RealArray) -> str:
-    outside = ~limit.holds
-    value = limit.value[outside]
-    finite = value[np.isfinite(value)]
-    end = limit.high if math.isfinite(limit.high) else limit.low  # from which excess is measured
-    worst = float(finite[np.argmax(np.abs(finite - end))]) if finite.size else math.nan
-    if outside.all():
-        where = "at every load"
-    elif outside[-1] and outside[: int(np.argmax(outside))].sum() == 0 and outside[int(np.argmax(outside)) :].all():
-        where = f"from {show(float(pressures[int(np.argmax(outside))]), 'Pa', 3)} on"
-    elif outside[0] and outside[: int(np.argmin(outside))].all() and not outside[int(np.argmin(outside)) :].any():
-        where = f"below {show(float(pressures[int(np.argmin(outside))]), 'Pa', 3)}"
-    else:
-        where = f"at {int(outside.sum())} of {outside.size} loads"
-    return f"{limit.criterion} {worst:.3g}, not {limit.bounds}, {where}: {limit.message} [{limit.citation}]"

@@ -91,7 +91,13 @@ class Plan:
         outer = [number for number, item in enumerate(self.axes) if not item.is_load]
         inner = [number for number, item in enumerate(self.axes) if item.is_load]
         loads = list(itertools.product(*(range(len(self.axes[i])) for i in inner)))
-        loads.sort(key=lambda at: self._load(inner, at))
+        loads.sort(
+            key=lambda at: tuple(
+                (edit.keys[-1], edit.content)
+                for i, number in zip(inner, at, strict=True)
+                for edit in self.axes[i].points[number].edits
+            )
+        )
         for fixed in itertools.product(*(range(len(self.axes[i])) for i in outer)):
             points = {i: self.axes[i].points[at] for i, at in zip(outer, fixed, strict=True)}
             path = []
@@ -115,10 +121,6 @@ class Plan:
             found |= {item.name: point.coordinate, **point.columns}
         return found
 
-    def _load(self, inner: Sequence[int], at: Sequence[int]) -> tuple[Any, ...]:
-        points = [self.axes[i].points[number] for i, number in zip(inner, at, strict=True)]
-        return tuple((edit.keys[-1], edit.content) for point in points for edit in point.edits)
-
 
 def make_plan(study: LoadedStudy) -> Plan:
     """Plan of ``study``; all values are checked, one at a time with the others as in the base problem.
@@ -129,10 +131,10 @@ def make_plan(study: LoadedStudy) -> Plan:
         If a path leads nowhere, a value cannot be used, a quantity is unknown, names clash, or there are too many cases.
     """
     document, base = study.document, Base(study.problem, study.folder)
-    counts, cases = _cases(document)
+    counts, cases, memory = _extent(document)
     if max(counts, default=0) > MOST_POINTS:
         raise InputError(f"axis of a study must have at most {MOST_POINTS} points, but one has {max(counts)}.")
-    require_memory(_memory(document), "study", f"{cases:.3g} cases", "give fewer points or samples")
+    require_memory(memory, "study", f"{cases:.3g} cases", "give fewer points or samples")
     names = _names(document)
     axes = [make_axis(base, table, name) for table, name in zip(document.axes, names, strict=False)]
     if document.combine == "list" and axes:
@@ -172,7 +174,7 @@ def large_study(plan: Plan, free_disk: float) -> str:
     """What ``plan`` takes of time, memory and ``free_disk`` (bytes), if that is much; else empty."""
     grid = stated_points(plan.base.document.surface) or 512 * 512
     seconds = plan.n_cases * (SECONDS_OF_A_CASE + SECONDS_OF_A_POINT * grid)
-    memory, disk = _memory(plan.document), BYTES_OF_A_RECORD * plan.n_cases
+    (_, _, memory), disk = _extent(plan.document), BYTES_OF_A_RECORD * plan.n_cases
     cores = available_cores()
     if seconds <= LONG * cores and not is_large(memory) and not is_large(disk, free_disk):
         return ""
@@ -182,8 +184,8 @@ def large_study(plan: Plan, free_disk: float) -> str:
     )
 
 
-def _cases(document: StudyDocument) -> tuple[list[int], int]:
-    """Numbers of points of the axes of a study, samples aside, and of its cases."""
+def _extent(document: StudyDocument) -> tuple[list[int], int, float]:
+    """Numbers of points of the axes of a study, samples aside, and of its cases, and the memory in bytes of both."""
     counts = [len(table.values) if table.values is not None else table.count or 0 for table in document.axes]
     if document.combine == "list":
         counts = counts[:1]
@@ -194,13 +196,9 @@ def _cases(document: StudyDocument) -> tuple[list[int], int]:
         counts.append(2 + (len(found.values) if found.values is not None else found.count or 0))
     if document.sensitivity is not None:
         counts.append(1 + 2 * len(document.sensitivity.parameters))
-    return counts, prod(counts) * (1 if document.monte_carlo is None else document.monte_carlo.samples)
-
-
-def _memory(document: StudyDocument) -> float:
-    """Memory in bytes of the axes and cases of a study."""
-    counts, cases = _cases(document)
-    return BYTES_OF_A_POINT * sum(counts) + cases * (BYTES_OF_A_CASE + 24 * (len(document.quantities) + 4))
+    cases = prod(counts) * (1 if document.monte_carlo is None else document.monte_carlo.samples)
+    memory = BYTES_OF_A_POINT * sum(counts) + cases * (BYTES_OF_A_CASE + 24 * (len(document.quantities) + 4))
+    return counts, cases, memory
 
 
 def _names(document: StudyDocument) -> list[str]:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import reduce
+from operator import getitem
 from typing import Any
 
 from ..core.errors import InputError
-from ..io.schemas.study import ParameterTable, SensitivityTable
+from ..io.schemas.study import SensitivityTable
 from .axes import Axis, Base, Point, coordinate
-from .places import Place, locate, problem_table
+from .places import locate, problem_table
 
 BASE = "base"
 """Coordinate of the base problem on the axis of parameters."""
@@ -57,22 +59,19 @@ def parameter_axis(base: Base, table: SensitivityTable) -> Axis:
     points = [Point(BASE, (), {"value": math.nan})]
     for item in table.parameters:
         place = locate(base.document, item.path)
-        for end, value in zip(ENDS, _ends(base, place, item, table.change), strict=True):
+        if item.low is not None and item.high is not None:
+            ends = place.number(item.low), place.number(item.high)
+        else:
+            table_of_problem: Any = problem_table(base.document)
+            try:
+                middle = place.number(reduce(getitem, place.keys, table_of_problem))
+            except (KeyError, InputError):
+                raise InputError(
+                    f"{place.path} must have a number in the problem to be changed by a share; give low and high instead."
+                ) from None
+            share = item.change or table.change
+            ends = middle * (1.0 - share), middle * (1.0 + share)
+        for end, number in zip(ENDS, ends, strict=True):
+            value = place.written(number)
             points.append(Point(f"{item.path} {end}", (base.edit(place, value),), {"value": coordinate(place, value)}))
     return Axis("parameter", "1", "", points, False, {"value": ""})
-
-
-def _ends(base: Base, place: Place, item: ParameterTable, change: float) -> tuple[Any, Any]:
-    if item.low is not None and item.high is not None:
-        return place.written(place.number(item.low)), place.written(place.number(item.high))
-    value: Any = problem_table(base.document)
-    try:
-        for key in place.keys:
-            value = value[key]
-        middle = place.number(value)
-    except (KeyError, InputError):
-        raise InputError(
-            f"{place.path} must have a number in the problem to be changed by a share; give low and high instead."
-        ) from None
-    share = item.change or change
-    return place.written(middle * (1.0 - share)), place.written(middle * (1.0 + share))

@@ -46,10 +46,14 @@ class Finished:
     """
 
     def __init__(self, path: Path, *, retry: bool = False, quantity: str | None = None) -> None:
+        # the first 8 bytes of a digest: two of 10⁶ cases share them with a probability of 3e-8
         kinds = np.dtype([("key", np.uint64), ("value", float)])
         found = np.fromiter(
             (
-                (_short(record["key"]), math.nan if quantity is None else record["values"].get(quantity, math.nan))
+                (
+                    int(record["key"][:16], 16),
+                    math.nan if quantity is None else record["values"].get(quantity, math.nan),
+                )
                 for _, state, record in _lines(path)
                 if not (retry and state == FAILED)
             ),
@@ -71,7 +75,7 @@ class Finished:
         return math.nan if at is None or self._values is None else float(self._values[at])
 
     def _at(self, key: str) -> int | None:
-        short = np.uint64(_short(key))
+        short = np.uint64(int(key[:16], 16))
         at = int(np.searchsorted(self._keys, short))
         return at if at < self._keys.size and self._keys[at] == short else None
 
@@ -106,9 +110,12 @@ class Store:
 
     def append(self, finished: Iterable[Record]) -> None:
         """Write all records at once."""
-        text = b"".join(_line(record) for record in finished)
+        lines = []
+        for record in finished:  # ``key state checksum json`` and the end of the line; the checksum is of the json
+            payload = json.dumps(record, separators=(",", ":")).encode()
+            lines.append(b"%s %s %08x %s\n" % (record["key"].encode(), _state(record), zlib.crc32(payload), payload))
         try:
-            self._file.write(text)
+            self._file.write(b"".join(lines))
             self._file.flush()
             if time.monotonic() - self._synced > BETWEEN_SYNCS:
                 os.fsync(self._file.fileno())
@@ -124,12 +131,6 @@ class Store:
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
         self._file.close()
-
-
-def _line(record: Record) -> bytes:
-    """``key state checksum json`` and the end of the line; the checksum is of the json."""
-    payload = json.dumps(record, separators=(",", ":")).encode()
-    return b"%s %s %08x %s\n" % (record["key"].encode(), _state(record), zlib.crc32(payload), payload)
 
 
 def _lines(path: Path) -> Iterator[tuple[int, bytes, Record]]:
@@ -177,11 +178,6 @@ def _record(payload: bytes) -> Record | None:
 
 def _state(record: Record) -> bytes:
     return DONE if record["error"] is None else FAILED
-
-
-def _short(key: str) -> int:
-    """First 8 bytes of a digest: two of 10⁶ cases share them with a probability of 3e-8."""
-    return int(key[:16], 16)
 
 
 def _lock(file: IO[bytes], path: Path) -> None:

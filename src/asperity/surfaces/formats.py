@@ -156,9 +156,13 @@ def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
             except Exception as exc:  # its readers raise many types on damaged files
                 failure = exc
     assert failure is not None
+    reason = "no reader recognises its content"  # of a failed detection without the list of readers that were tried
+    if type(failure).__name__ != "CannotDetectFileFormat":
+        text = " ".join(str(failure).split())[:160].rstrip(".")
+        reason = f"{type(failure).__name__}: {text}" if text else type(failure).__name__
     raise FileFormatError(
         f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
-        f"but cannot be read ({_reason(failure)}). It may be damaged or of an unknown format."
+        f"but cannot be read ({reason}). It may be damaged or of an unknown format."
     ) from failure
 
 
@@ -188,14 +192,6 @@ def _quiet() -> Iterator[None]:
     finally:
         for logger, level in zip(loggers, levels, strict=True):
             logger.setLevel(level)
-
-
-def _reason(exc: Exception) -> str:
-    """Short reason for a failure; of a failed detection without the list of readers that were tried."""
-    if type(exc).__name__ == "CannotDetectFileFormat":
-        return "no reader recognises its content"
-    text = " ".join(str(exc).split())[:160].rstrip(".")
-    return f"{type(exc).__name__}: {text}" if text else type(exc).__name__
 
 
 def _listed(reader: Any, file: Path) -> tuple[ChannelInfo, ...]:

@@ -35,10 +35,18 @@ def largest_rectangle(
     low_x, high_x, low_y, high_y = limits
     own = corners[(corners[:, 0] > low_x) & (corners[:, 0] < high_x), 0]
     best, width = (low_x, high_x), high_x - low_x
+    slack = _ROUNDING * np.ptp(corners[:, 0])
     for _ in range(_REFINEMENTS):
         near = np.concatenate([np.linspace(end - width, end + width, _CANDIDATES) for end in best])
         x = np.unique(np.concatenate([np.clip(near, low_x, high_x), own, [low_x, high_x]]))
-        lower, upper = _borders(corners, x)
+        lower, upper = np.full(x.shape, np.inf), np.full(x.shape, -np.inf)  # borders y of the polygon
+        for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+            left, right = (start, end) if start[0] <= end[0] else (end, start)
+            if right[0] - left[0] <= slack:
+                continue
+            on = (x >= left[0] - slack) & (x <= right[0] + slack)
+            y = left[1] + (x[on] - left[0]) / (right[0] - left[0]) * (right[1] - left[1])
+            lower[on], upper[on] = np.minimum(lower[on], y), np.maximum(upper[on], y)
         lower, upper = np.maximum(lower, low_y), np.minimum(upper, high_y)
         height = np.minimum(upper[:, None], upper[None, :]) - np.maximum(lower[:, None], lower[None, :])
         area = (x[None, :] - x[:, None]) * np.where(x[None, :] > x[:, None], np.maximum(height, 0.0), 0.0)
@@ -46,20 +54,6 @@ def largest_rectangle(
         best, width = (float(x[i]), float(x[j])), 4.0 * width / _CANDIDATES
     bottom, top = max(lower[i], lower[j]), min(upper[i], upper[j])
     return best[0], best[1], float(bottom), float(top)
-
-
-def _borders(corners: RealArray, x: RealArray) -> tuple[RealArray, RealArray]:
-    """Lower and upper border y of the convex polygon ``corners`` at ``x`` within it."""
-    lower, upper = np.full(x.shape, np.inf), np.full(x.shape, -np.inf)
-    slack = _ROUNDING * np.ptp(corners[:, 0])
-    for start, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        left, right = (start, end) if start[0] <= end[0] else (end, start)
-        if right[0] - left[0] <= slack:
-            continue
-        on = (x >= left[0] - slack) & (x <= right[0] + slack)
-        y = left[1] + (x[on] - left[0]) / (right[0] - left[0]) * (right[1] - left[1])
-        lower[on], upper[on] = np.minimum(lower[on], y), np.maximum(upper[on], y)
-    return lower, upper
 
 
 _ROUNDING = 1e-9  # relative; lengths that differ by less are equal
@@ -135,7 +129,19 @@ def on_common_grid(
     if surface.periodic and other.periodic and same_size and angle == 0.0:
         grid = _grid((0.0, surface.size[0], 0.0, surface.size[1]), pixel, fill=True)
         return SurfacePair(_moved(surface, (0.0, 0.0), grid, ""), _moved(other, (shift_x, shift_y), grid, words))
-    region = _overlap(surface, other, (shift_x, shift_y), angle)
+    # the largest rectangle x0, x1, y0, y1 (m) in the frame of the surface that both maps cover
+    size_x, size_y = surface.size
+    region = 0.0, size_x, 0.0, size_y
+    if not other.periodic:
+        half = 0.5 * np.array(other.size)
+        turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+        corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]) * half @ turn.T
+        corners += np.array([0.5 * size_x + shift_x, 0.5 * size_y + shift_y])
+        if surface.periodic:
+            region = -np.inf, np.inf, -np.inf, np.inf
+        low_x, high_x = max(region[0], corners[:, 0].min()), min(region[1], corners[:, 0].max())
+        covered = low_x < high_x
+        region = largest_rectangle(corners, (low_x, high_x, *region[2:])) if covered else (0.0, 0.0, 0.0, 0.0)
     grid = _grid(region, pixel, fill=False)
     x = region[0] + (np.arange(grid.shape[0]) + 0.5)[:, None] * grid.spacing[0]
     y = region[2] + (np.arange(grid.shape[1]) + 0.5)[None, :] * grid.spacing[1]
@@ -163,26 +169,6 @@ def _grid(region: tuple[float, float, float, float], pixel: tuple[float, float],
         shape.append(count)
         spacing.append((high - low) / count if fill else d)
     return Grid((shape[0], shape[1]), (spacing[0], spacing[1]))
-
-
-def _overlap(
-    surface: Surface, other: Surface, shift: tuple[float, float], angle: float
-) -> tuple[float, float, float, float]:
-    """Largest rectangle x0, x1, y0, y1 (m) in the frame of ``surface`` that both maps cover."""
-    size_x, size_y = surface.size
-    if other.periodic:
-        return 0.0, size_x, 0.0, size_y
-    half = 0.5 * np.array(other.size)
-    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]) * half @ turn.T
-    corners += np.array([0.5 * size_x + shift[0], 0.5 * size_y + shift[1]])
-    low_x, high_x, low_y, high_y = (
-        (-np.inf, np.inf, -np.inf, np.inf) if surface.periodic else (0.0, size_x, 0.0, size_y)
-    )
-    low_x, high_x = max(low_x, corners[:, 0].min()), min(high_x, corners[:, 0].max())
-    if not low_x < high_x:
-        return 0.0, 0.0, 0.0, 0.0
-    return largest_rectangle(corners, (low_x, high_x, low_y, high_y))
 
 
 def _moved(surface: Surface, shift: tuple[float, float], grid: Grid, words: str) -> Surface:

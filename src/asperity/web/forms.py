@@ -88,11 +88,25 @@ def asked_of(model: type[Settings], leave: frozenset[str] = frozenset()) -> tupl
 
 def _asked(item: Parameter, base: Any) -> Asked:
     label = label_of(item.name)
+    values, default = item.values, item.default
+    plain = isinstance(default, str | int | float) and not isinstance(default, bool)
+    hint = ""
+    if plain and default != "":
+        shown: Any = default
+        if isinstance(values, Choice):
+            shown = next((word for word, value in values.words.items() if default in (value, word)), str(default))
+        elif isinstance(default, float) and item.unit:
+            shown = units.show(default, item.unit)
+        hint = f"default: {shown}"
+    elif isinstance(values, Number) and values.words:
+        hint = f"{units.EXAMPLES.get(values.quantity, 'a number')} or {', '.join(values.words)}"
+    elif isinstance(values, Number) and values.quantity:
+        hint = f"such as {units.EXAMPLES.get(values.quantity, f'1 {values.unit}')}"
     given: dict[str, Any] = {
         "name": item.name,
         "label": label,
         "help": item.help.rstrip(".").replace("``", ""),
-        "hint": _hint(item),
+        "hint": hint,
         "required": item.required,
         "parameter": item,
     }
@@ -103,7 +117,6 @@ def _asked(item: Parameter, base: Any) -> Asked:
         by_kind = {word: table for table in tables for word in (_constants(table, tag) or ("",))}
         shape: Shape = "list" if inner is not None else "kinds" if len(by_kind) > 1 else "table"
         return Asked(shape=shape, tables=by_kind, tag=tag if len(by_kind) > 1 or inner is not None else "", **given)
-    values = item.values
     if isinstance(values, Flag):
         return Asked(shape="flag", **given)
     if isinstance(values, Choice):
@@ -134,22 +147,6 @@ def _constants(table: type[Settings], key: str) -> tuple[str, ...]:
         return ()
     base, _ = taken_apart(field.annotation)
     return tuple(map(str, get_args(base))) if get_origin(base) is Literal else ()
-
-
-def _hint(item: Parameter) -> str:
-    values, default = item.values, item.default
-    plain = isinstance(default, str | int | float) and not isinstance(default, bool)
-    if plain and default != "":
-        if isinstance(values, Choice):
-            word = next((word for word, value in values.words.items() if default in (value, word)), str(default))
-            return f"default: {word}"
-        shown = units.show(default, item.unit) if isinstance(default, float) and item.unit else default
-        return f"default: {shown}"
-    if isinstance(values, Number) and values.words:
-        return f"{units.EXAMPLES.get(values.quantity, 'a number')} or {', '.join(values.words)}"
-    if isinstance(values, Number) and values.quantity:
-        return f"such as {units.EXAMPLES.get(values.quantity, f'1 {values.unit}')}"
-    return ""
 
 
 def summary_of(model: type[Settings] | Any) -> str:

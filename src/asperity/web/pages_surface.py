@@ -99,10 +99,7 @@ def surface_page(key: str, session: Session) -> None:
     """Choose a file or a generator; the preview follows."""
     shown: dict[str, Preview] = {}
 
-    def changed(keys: Keys) -> None:
-        shown["map"].later()
-
-    context = Context(session, changed)
+    context = Context(session, lambda keys: shown["map"].later())
     item = next(item for item in asked_of(document_model()) if item.name == SURFACE)
     assert item.tables is not None
     generators = tuple(word for word in item.tables if word != "file")

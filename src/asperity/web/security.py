@@ -69,7 +69,12 @@ class Guard:
             return
         query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
         given = query.get("token", [""])[0]
-        if scope["type"] == "http" and scope["method"] == "GET" and given and self._same(given, self.token):
+        if (
+            scope["type"] == "http"
+            and scope["method"] == "GET"
+            and given
+            and hmac.compare_digest(given.encode(), self.token.encode())
+        ):
             # the token in the address is exchanged for the cookie; the address no longer shows it
             cookie = f"{self.cookie}={self.secret}; Path=/; HttpOnly; SameSite=Strict"
             page = '<!doctype html><meta http-equiv="refresh" content="0; url=/"><title>asperity</title>'
@@ -78,7 +83,7 @@ class Guard:
             return
         pairs = (part.strip().partition("=") for part in headers.get("cookie", "").split(";"))
         cookies = {name: value for name, _, value in pairs}
-        if not self._same(cookies.get(self.cookie, ""), self.secret):
+        if not hmac.compare_digest(cookies.get(self.cookie, "").encode(), self.secret.encode()):
             await _refuse(scope, send, 403, NO_TOKEN)
             return
         if scope["type"] == "websocket":
@@ -97,10 +102,6 @@ class Guard:
         if headers.get("sec-fetch-site") == "cross-site" and headers.get("sec-fetch-mode") != "navigate":
             return "Requests of other pages are not served."
         return None
-
-    @staticmethod
-    def _same(given: str, wanted: str) -> bool:
-        return hmac.compare_digest(given.encode(), wanted.encode())
 
     async def _serve(
         self, scope: MutableMapping[str, Any], headers: dict[str, str], receive: Receive, send: Send
@@ -160,7 +161,16 @@ class _Page:
         if self.counted is not None and self.counted.over and not self.started:
             return  # what the application says of a body that was cut off
         if message["type"] == "http.response.start":
-            await self._begin(message)
+            self.started = True
+            given = {key.lower(): value for key, value in message.get("headers", ())}
+            page = given.get(b"content-type", b"").startswith(b"text/html") and b"content-encoding" not in given
+            scripts = f"'self' 'nonce-{self._nonce}' 'unsafe-eval'"  # Vue compiles the templates of its components
+            more = [(k.encode(), v.encode()) for k, v in _strict(self._host, scripts) if k.encode() not in given]
+            begun = {**message, "headers": [*message.get("headers", ()), *more]}
+            if page:
+                self._start = begun
+            else:
+                await self._send(begun)
         elif self._start is None:
             await self._send(message)
         else:
@@ -171,18 +181,6 @@ class _Page:
                 kept.append((b"content-length", str(len(body)).encode()))
                 await self._send({**self._start, "headers": kept})
                 await self._send({"type": "http.response.body", "body": body})
-
-    async def _begin(self, message: Message) -> None:
-        self.started = True
-        given = {key.lower(): value for key, value in message.get("headers", ())}
-        page = given.get(b"content-type", b"").startswith(b"text/html") and b"content-encoding" not in given
-        scripts = f"'self' 'nonce-{self._nonce}' 'unsafe-eval'"  # Vue compiles the templates of its components
-        more = [(k.encode(), v.encode()) for k, v in _strict(self._host, scripts) if k.encode() not in given]
-        message = {**message, "headers": [*message.get("headers", ()), *more]}
-        if page:
-            self._start = message
-        else:
-            await self._send(message)
 
 
 def _strict(host: str, scripts: str) -> list[tuple[str, str]]:

@@ -14,7 +14,6 @@ import numpy as np
 from ..contact.advice import doubts
 from ..contact.measure import labelled
 from ..contact.problem import ContactProblem
-from ..contact.result import ContactResult
 from ..core.arrays import RealArray
 from ..io.words import certificate_rows, headline_rows, result_rows, summary
 from ..physics.stress.figures import map_figure
@@ -55,10 +54,25 @@ def write_views(outcome: Outcome, views: Path) -> None:
         rows = np.ascontiguousarray(reduced(np.asarray(values, float), block, how).T, dtype="<f4")
         space[name] = base64.b64encode(rows.tobytes()).decode("ascii")
         space["shape"] = list(rows.shape)
+    # place of the largest pressure, area, load, mean and largest pressure of the largest contact spots, SI
+    grid, pressure = result.problem.grid, np.asarray(result.pressure, dtype=float)
+    labels, count = labelled(result.contact, wraps=result.problem.boundary.wraps)
+    pixel = math.prod(grid.spacing)
+    sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+    loads = np.bincount(labels.ravel(), pressure.ravel(), minlength=count + 1)[1:] * pixel
+    order = np.argsort(pressure, axis=None)  # the last of a label is its largest
+    tops = np.zeros(count + 1, dtype=np.intp)
+    tops[labels.ravel()[order]] = order
+    spots = []
+    for number in np.argsort(-sizes)[:MOST_SPOTS]:
+        i, j = np.unravel_index(tops[number + 1], pressure.shape)
+        place = [float((index + 0.5) * side) for index, side in zip((i, j), grid.spacing, strict=True)]
+        area, load = float(sizes[number] * pixel), float(loads[number])
+        spots.append([*place, area, load, load / area, float(pressure[i, j])])
     shown = {
         "space": space,
-        "spots": _spots(result),
-        "spot_count": int(labelled(result.contact, wraps=result.problem.boundary.wraps)[1]),
+        "spots": spots,
+        "spot_count": int(count),
         "stressed": "stress" in outcome.found,
         "steps": 0 if outcome.path is None else len(outcome.path.steps),
         **_words(outcome),
@@ -83,29 +97,6 @@ def _planes(outcome: Outcome) -> Iterator[Figure]:
     chosen = free[np.unique(np.linspace(0, free.size - 1, PLANES).round().astype(int))] if free.size else free
     for number, plane in enumerate(survey.planes(chosen), start=1):
         yield map_figure(plane, number, outcome.result.problem.boundary)
-
-
-def _spots(result: ContactResult) -> list[list[float]]:
-    """Place of the largest pressure, area, load, mean and largest pressure of the largest contact spots, SI."""
-    grid, pressure = result.problem.grid, np.asarray(result.pressure, dtype=float)
-    labels, count = labelled(result.contact, wraps=result.problem.boundary.wraps)
-    if count == 0:
-        return []
-    pixel = math.prod(grid.spacing)
-    sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
-    loads = np.bincount(labels.ravel(), pressure.ravel(), minlength=count + 1)[1:] * pixel
-    order = np.argsort(pressure, axis=None)  # the last of a label is its largest
-    tops = np.zeros(count + 1, dtype=np.intp)
-    tops[labels.ravel()[order]] = order
-    found = []
-    for number in np.argsort(-sizes)[:MOST_SPOTS]:
-        i, j = np.unravel_index(tops[number + 1], pressure.shape)
-        place = [(index + 0.5) * side for index, side in zip((i, j), grid.spacing, strict=True)]
-        area = float(sizes[number] * pixel)
-        found.append(
-            [*map(float, place), area, float(loads[number]), float(loads[number]) / area, float(pressure[i, j])]
-        )
-    return found
 
 
 def _words(outcome: Outcome) -> dict[str, Any]:

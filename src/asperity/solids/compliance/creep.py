@@ -116,10 +116,6 @@ class RetardedCompliance:
     def _strength(self) -> RealArray:
         return np.asarray(np.array(self.weights) @ self.creep.strengths)
 
-    def _retarded(self, wavenumber: RealArray) -> RealArray:
-        """q c of the terms."""
-        return _between(self.creep.nodes, self._strength, wavenumber, rigid_base=bool(self.mean_mode_of_terms))
-
     @property
     def mean_mode_of_terms(self) -> float:
         """c(0) of the terms alone, m/Pa."""
@@ -127,7 +123,8 @@ class RetardedCompliance:
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """c(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
-        found = self._retarded(wavenumber) / wavenumber
+        rigid_base = bool(self.mean_mode_of_terms)
+        found = _between(self.creep.nodes, self._strength, wavenumber, rigid_base=rigid_base) / wavenumber
         return found + self.share * self.creep.instantaneous.spectral(wavenumber) if self.share else found
 
     def mean_mode(self) -> float:
@@ -151,7 +148,8 @@ class RetardedCompliance:
         nodes, strength = self.creep.nodes, self._strength
         depth = 1.0 / math.sqrt(nodes[0] * nodes[-1])
         low = 0.0 if self.mean_mode_of_terms else float(strength[0])
-        return self._retarded(wavenumber_grid(depth)), Limits(float(strength[-1]), low, depth)
+        values = _between(nodes, strength, wavenumber_grid(depth), rigid_base=bool(self.mean_mode_of_terms))
+        return values, Limits(float(strength[-1]), low, depth)
 
 
 def _between(nodes: RealArray, strength: RealArray, wavenumber: RealArray, *, rigid_base: bool) -> RealArray:
@@ -186,16 +184,12 @@ class RetardedSurface:
         assert self.creep.shear is not None
         return self.creep.shear
 
-    @property
-    def _rigid_base(self) -> bool:
-        return bool(self._shear.mean_modes.any())
-
     def _plane(self, wavenumber: RealArray) -> PlaneCompliance:
         """q c of the term at ``wavenumber`` > 0 (rad/m)."""
-        planes = self._shear.planes
+        planes, rigid_base = self._shear.planes, bool(self._shear.mean_modes.any())
         each = (component[self.number] for component in (planes.LL, planes.zz, planes.Lz, planes.T))
         return PlaneCompliance(
-            *(_between(self.creep.nodes, strength, wavenumber, rigid_base=self._rigid_base) for strength in each)
+            *(_between(self.creep.nodes, strength, wavenumber, rigid_base=rigid_base) for strength in each)
         )
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
@@ -231,7 +225,9 @@ class RetardedSurface:
         nodes = self.creep.nodes
         depth, ends = 1.0 / math.sqrt(nodes[0] * nodes[-1]), nodes[[0, -1]]
         low, high = (self._plane(ends[at]) for at in (0, 1))
-        return Samples(depth, self._plane(wavenumber_grid(depth)), high, low.scaled(0.0) if self._rigid_base else low)
+        return Samples(
+            depth, self._plane(wavenumber_grid(depth)), high, low.scaled(0.0) if self._shear.mean_modes.any() else low
+        )
 
 
 AnyCreep: TypeAlias = SharedCreep | LayeredCreep

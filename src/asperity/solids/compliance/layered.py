@@ -125,7 +125,16 @@ def layer_matrices(alpha: ArrayLike, thickness: ArrayLike, *, shear_modulus: Mod
     SH = -0.25 * m * (m + 2.0)  # sinh cosh
     x1, x2 = x * E2, x * x * E2
     H, S = 0.5 * (1.0 + E2) * e, -0.5 * m * e
-    difference, flexure = _sinh_cosh_minus(x, SH - x1, E2), _sinh_minus_x_cosh(x, S - x * H, E2)
+    # (sinh x cosh x - x) exp(-2x), for small x by the series of (sinh 2x - 2x)/2
+    y = 4.0 * np.minimum(x, _SERIES) ** 2
+    series: RealArray = np.ones_like(y)
+    for power in range(19, 3, -2):
+        series = 1.0 + y / (power * (power - 1.0)) * series
+    difference = np.where(x > _SERIES, SH - x1, E2 * x * y * series / 6.0)
+    # (sinh x - x cosh x) exp(-2x), for small x by the series -(x³/3 + x⁵/30 + …)
+    y = np.minimum(x, _SERIES) ** 2
+    series = np.polynomial.polynomial.polyval(y, [2.0 * j / math.factorial(2 * j + 1) for j in range(1, 9)])
+    flexure = np.where(x > _SERIES, S - x * H, -E2 * x * y * series)
     scale = 1.0 / (kappa * S2 + x2 + n * n * E2)
     a, b, d = 0.5 * n * scale, n * scale, 2.0 * n * scale
     tanh = -m / (1.0 + E2)
@@ -145,22 +154,6 @@ def layer_matrices(alpha: ArrayLike, thickness: ArrayLike, *, shear_modulus: Mod
         D_Lz=2.0 * scale * (k * S2 + x2),
         D_T=tanh,
     )
-
-
-def _sinh_cosh_minus(x: RealArray, direct: RealArray, E2: RealArray) -> RealArray:
-    """(sinh x cosh x - x) exp(-2x): ``direct``, and for small x the series of (sinh 2x - 2x)/2."""
-    y = 4.0 * np.minimum(x, _SERIES) ** 2
-    series: RealArray = np.ones_like(y)
-    for k in range(19, 3, -2):
-        series = 1.0 + y / (k * (k - 1.0)) * series
-    return np.where(x > _SERIES, direct, E2 * x * y * series / 6.0)
-
-
-def _sinh_minus_x_cosh(x: RealArray, direct: RealArray, E2: RealArray) -> RealArray:
-    """(sinh x - x cosh x) exp(-2x): ``direct``, and for small x the series -(x³/3 + x⁵/30 + …)."""
-    y = np.minimum(x, _SERIES) ** 2
-    series = np.polynomial.polynomial.polyval(y, [2.0 * n / math.factorial(2 * n + 1) for n in range(1, 9)])
-    return np.where(x > _SERIES, direct, -E2 * x * y * series)
 
 
 def half_space(alpha: ArrayLike, *, shear_modulus: Modulus, nu: Modulus) -> PlaneCompliance:
@@ -276,7 +269,7 @@ def _lower_face_compliance(
     c: PlaneCompliance, m: LayerMatrices, interface: Interface
 ) -> tuple[RealArray, RealArray, RealArray, RealArray]:
     """LL, zz, Lz of X and X_T, all times G alpha, as is ``c``."""
-    det_C, det_D = _det(c), _det_D(m)
+    det_C, det_D = c.LL * c.zz - c.Lz**2, _det_D(m)
     if isinstance(interface, Frictionless):
         free = 1.0 / (c.zz * det_D + m.D_LL)
         return (1.0 + c.zz * m.D_zz) * free, c.zz * m.D_LL * free, -c.zz * m.D_Lz * free, 1.0 / m.D_T
@@ -289,17 +282,14 @@ def _lower_face_compliance(
     )
 
 
-def _det(c: PlaneCompliance) -> RealArray:
-    return c.LL * c.zz - c.Lz**2
-
-
 def _det_D(m: LayerMatrices) -> RealArray:
     return m.D_LL * m.D_zz - m.D_Lz**2
 
 
 def _det_one_plus_CD(c: PlaneCompliance, m: LayerMatrices) -> RealArray:
     """1 + tr(C D) + det C det D."""
-    return 1.0 + c.LL * m.D_LL + c.zz * m.D_zz + 2.0 * c.Lz * m.D_Lz + _det(c) * _det_D(m)
+    det_C = c.LL * c.zz - c.Lz**2
+    return 1.0 + c.LL * m.D_LL + c.zz * m.D_zz + 2.0 * c.Lz * m.D_Lz + det_C * _det_D(m)
 
 
 # Compliance of a body on a logarithmic grid of wavenumbers, with its limits: all that responses in real space need.

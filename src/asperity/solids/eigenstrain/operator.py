@@ -36,16 +36,6 @@ class Wavevectors:
     rows: RealArray
 
     @classmethod
-    def of_grid(cls, grid: Grid) -> Self:
-        """Those of the half spectrum of ``grid``; wavenumbers of its first half of rows."""
-        parts = [part for flag in (False, True) for part in grid.wavevector(odd=flag)]
-        q = np.ascontiguousarray(np.stack(np.broadcast_arrays(*parts)))
-        q[::2, 0, 0] = 2.0 * np.pi / grid.size[0]
-        index = np.arange(grid.shape[0])
-        half = grid.shape[0] // 2 + 1
-        return cls(q, np.hypot(q[0], q[1])[:half], np.minimum(index, grid.shape[0] - index))
-
-    @classmethod
     def single(cls, x: RealArray, y: RealArray) -> Self:
         """One row of any wavevectors but zero."""
         q = np.stack([x, y, x, y])[:, None, :]
@@ -193,7 +183,13 @@ class EigenstrainOperator:
     def prepared(cls, grid: Grid, cells: DepthCells, *, free: bool = False, threads: int | None = None) -> Self:
         """Operator on ``grid``; if ``free`` nothing repeats, up to images of the residual stress on a zero-padded grid of twice the length."""
         padded = None if not free else (fast_length(2 * grid.shape[0]), fast_length(2 * grid.shape[1]))
-        waves = Wavevectors.of_grid(grid if padded is None else Grid(padded, grid.spacing))
+        wide = grid if padded is None else Grid(padded, grid.spacing)
+        parts = [part for flag in (False, True) for part in wide.wavevector(odd=flag)]
+        q = np.ascontiguousarray(np.stack(np.broadcast_arrays(*parts)))
+        q[::2, 0, 0] = 2.0 * np.pi / wide.size[0]
+        index = np.arange(wide.shape[0])
+        half = wide.shape[0] // 2 + 1
+        waves = Wavevectors(q, np.hypot(q[0], q[1])[:half], np.minimum(index, wide.shape[0] - index))
         table = SweepTable.of(cells, waves.alpha)
         base, stretch = cells.stack.base, 0.0
         if free and isinstance(base, Elastic):

@@ -296,7 +296,7 @@ class FractalParameters:
     @property
     def self_affine(self) -> bool:
         """Whether D lies between 1 and 2 by more than its accuracy, so that the profile is fractal in this range."""
-        return _is_fractal(self.dimension)
+        return 1.0 + _MARGIN < self.dimension < 2.0 - _MARGIN
 
 
 def fractal_parameters(
@@ -357,13 +357,14 @@ def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParame
     dimension = 0.5 * (4.0 - slope)
     # S = C η^(2D-3) τ^(4-2D) = C η (τ/η)^(4-2D)
     amplitude = math.exp(float(y.mean()) - slope * float(x.mean())) / resolution
+    is_fractal = 1.0 + _MARGIN < dimension < 2.0 - _MARGIN
     return FractalParameters(
         curve.axis,
         dimension=dimension,
         dimension_error=0.5 * error,
         amplitude=amplitude,
         resolution=resolution,
-        roughness=fractal_roughness(dimension, amplitude, resolution) if _is_fractal(dimension) else math.nan,
+        roughness=fractal_roughness(dimension, amplitude, resolution) if is_fractal else math.nan,
         first_lag=float(curve.lag[0]),
         last_lag=float(curve.lag[-1]),
         residual=math.sqrt(square / x.size),
@@ -403,7 +404,3 @@ def fractal_roughness(dimension: float, amplitude: float, resolution: float, gam
     log_power = math.log(amplitude) + (2.0 * dimension - 3.0) * math.log(resolution)
     log_power += math.log(math.log(gamma) / structure_coefficient(dimension))
     return math.exp(log_power / (2.0 * (dimension - 1.0)))
-
-
-def _is_fractal(dimension: float) -> bool:
-    return 1.0 + _MARGIN < dimension < 2.0 - _MARGIN

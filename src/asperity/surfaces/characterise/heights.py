@@ -49,7 +49,7 @@ def height_parameters(surface: Surface) -> HeightParameters:
 
 def mean_height(surface: Surface) -> float:
     """Mean of the valid heights in m."""
-    valid = _valid(surface)
+    valid = surface.heights[~surface.mask].astype(np.float64, copy=False)
     return float(valid[0] + (valid - valid[0]).mean())  # avoids cancellation with a large common offset
 
 
@@ -75,7 +75,7 @@ def deepest_valley(surface: Surface) -> float:
 
 def peak_to_valley(surface: Surface) -> float:
     """Sz = Sp + Sv = max z - min z in m over the valid points (ISO 25178-2, 4.1.6)."""
-    valid = _valid(surface)
+    valid = surface.heights[~surface.mask].astype(np.float64, copy=False)
     return float(valid.max() - valid.min())
 
 
@@ -95,13 +95,9 @@ def kurtosis(surface: Surface) -> float:
     return _defined(height_parameters(surface).Sku, "kurtosis")
 
 
-def _valid(surface: Surface) -> RealArray:
-    return surface.heights[~surface.mask].astype(np.float64, copy=False)
-
-
 def deviations(surface: Surface) -> RealArray:
     """Heights (N,) of the valid points less their mean, in m."""
-    valid = _valid(surface)
+    valid = surface.heights[~surface.mask].astype(np.float64, copy=False)
     shifted = valid - valid[0]  # avoids cancellation with a large common offset
     return np.asarray(shifted - shifted.mean())
 
@@ -199,8 +195,12 @@ class MaterialRatioCurve:
 
     def height(self, ratio: ArrayLike) -> RealArray:
         """Smc(p): height in m above the mean plane at the material ``ratio`` 0 <= p <= 1 (any shape)."""
-        place, below = self._place(np.asarray(ratio, dtype=float))
-        return self.heights[below] + (place - below) * (self._next[below] - self.heights[below])
+        n = self.heights.size
+        # position in steps of the samples, within the first and the last, and the sample before it
+        place: RealArray = np.clip(np.asarray(ratio, dtype=float) * n - 0.5, 0.0, n - 1.0)
+        below = np.floor(place).astype(np.intp)
+        following = self.heights[np.minimum(below + 1, n - 1)]
+        return self.heights[below] + (place - below) * (following - self.heights[below])
 
     def ratio(self, height: ArrayLike) -> RealArray:
         """Smr(c): share of the valid points with z >= c, for the ``height`` c in m above the mean plane (any shape)."""
@@ -231,10 +231,6 @@ class MaterialRatioCurve:
         return (below - 0.5 + (upper - height) / (upper - lower)) / n
 
     @cached_property
-    def _next(self) -> RealArray:
-        return np.append(self.heights[1:], self.heights[-1])
-
-    @cached_property
     def _areas(self) -> RealArray:
         """∫ of the curve from 0 to each of the ratios, m."""
         n, h = self.heights.size, self.heights
@@ -244,19 +240,13 @@ class MaterialRatioCurve:
         areas[1:] += areas[0]
         return areas
 
-    def _place(self, ratio: RealArray) -> tuple[RealArray, np.ndarray[tuple[int, ...], np.dtype[np.intp]]]:
-        """Position of ``ratio`` in steps of the samples, within the first and the last, and the sample before it."""
-        n = self.heights.size
-        place: RealArray = np.clip(ratio * n - 0.5, 0.0, n - 1.0)
-        return place, np.floor(place).astype(np.intp)
-
     def _area_to(self, ratio: float) -> float:
         n = self.heights.size
         if ratio <= 0.5 / n:
             return ratio * float(self.heights[0])
         if ratio >= 1.0 - 0.5 / n:
             return float(self._areas[-1] + (ratio - 1.0 + 0.5 / n) * self.heights[-1])
-        below = int(self._place(np.asarray(ratio))[1])
+        below = int(np.floor(np.clip(ratio * n - 0.5, 0.0, n - 1.0)))
         step = ratio - (below + 0.5) / n
         return float(self._areas[below] + 0.5 * step * (self.heights[below] + float(self.height(ratio))))
 
@@ -323,7 +313,8 @@ def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
     whole = int(np.floor(_CORE * n + 1e-9))
     share = max(0.0, _CORE * n - whole)
     highest = curve.heights[: max(1, n - whole - (share > 1e-9))]
-    lowest, following = (part[whole : whole + highest.size] for part in (curve.heights, curve._next))
+    lowest = curve.heights[whole : whole + highest.size]
+    following = np.append(curve.heights[1:], curve.heights[-1])[whole : whole + highest.size]
     drops = highest - (lowest + share * (following - lowest))
     first = int(np.argmin(drops))  # the window begins at one of the samples
     start = (first + 0.5) / n

@@ -32,21 +32,17 @@ class SlopeTensor:
     @property
     def largest(self) -> float:
         """Mean square slope of profiles along ``direction``."""
-        return 0.5 * (self.xx + self.yy) + self._half_difference
+        return 0.5 * (self.xx + self.yy) + math.hypot(0.5 * (self.xx - self.yy), self.xy)
 
     @property
     def smallest(self) -> float:
         """Mean square slope of profiles across ``direction``, along the lay."""
-        return max(0.0, 0.5 * (self.xx + self.yy) - self._half_difference)
+        return max(0.0, 0.5 * (self.xx + self.yy) - math.hypot(0.5 * (self.xx - self.yy), self.xy))
 
     @property
     def direction(self) -> float:
         """Angle in rad of the steepest profiles from +x towards +y, in (-π/2, π/2]."""
         return 0.5 * math.atan2(2.0 * self.xy, self.xx - self.yy)
-
-    @property
-    def _half_difference(self) -> float:
-        return math.hypot(0.5 * (self.xx - self.yy), self.xy)
 
 
 @dataclass(frozen=True)

@@ -87,6 +87,7 @@ def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16
     """
     least = require.integer(smallest, 4, "least number of points along a side")
     sides = _halvings(min(surface.shape), least)
+    origin = Origin(surface.origin.source)
     lengths, levels = [], []
     for power in reversed(sides):
         shape = tuple(n >> power for n in surface.shape)
@@ -96,7 +97,8 @@ def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16
         for i, j in _spread_evenly([(i, j) for i in along_x for j in along_y], most):
             part = (slice(i, i + shape[0]), slice(j, j + shape[1]))
             if np.count_nonzero(surface.mask[part]) <= 0.5 * shape[0] * shape[1]:
-                level.append(_measured(_like(surface, surface.heights[part], 1, periodic=periodic), form))
+                window = Surface(surface.heights[part], surface.dx, surface.dy, periodic=periodic, origin=origin)
+                level.append(_measured(window, form))
         levels.append(level)
     return _study("scan size", form, lengths, levels)
 
@@ -135,7 +137,9 @@ def sampling_interval_study(
             nx, ny = (n // step for n in surface.shape)
             whole = surface.heights[: nx * step, : ny * step].astype(np.float64, copy=False)
             parts = [whole.reshape(nx, step, ny, step).mean(axis=(1, 3))]
-        levels.append([_measured(_like(surface, part, step, periodic=periodic), form) for part in parts])
+        dx, dy, origin = step * surface.dx, step * surface.dy, Origin(surface.origin.source)
+        maps = (Surface(part, dx, dy, periodic=periodic, origin=origin) for part in parts)
+        levels.append([_measured(map_, form) for map_ in maps])
     return _study(f"sampling interval, {mode}", form, lengths, levels)
 
 
@@ -143,12 +147,6 @@ def _halvings(points: int, least: int) -> list[int]:
     if points < least:
         raise InputError(f"surface must have at least {least} points along each side for a study, but has {points}.")
     return list(range(int(math.log2(points / least)) + 1))
-
-
-def _like(surface: Surface, heights: RealArray, step: int, *, periodic: bool) -> Surface:
-    return Surface(
-        heights, step * surface.dx, step * surface.dy, periodic=periodic, origin=Origin(surface.origin.source)
-    )
 
 
 def _spread_evenly(items: list[tuple[int, int]], most: int) -> list[tuple[int, int]]:

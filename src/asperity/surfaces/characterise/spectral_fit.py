@@ -456,20 +456,17 @@ def fit_spectrum(
     criteria = {item.shape.name: item.deviance / lost + item.shape.parameters * information for item in found}
     best = min(found, key=lambda item: criteria[item.shape.name])
     model = replace(best.model(2.0 * math.pi / rings.low[0]), shortest_wavelength=0.0 if math.isnan(cutoff) else cutoff)
+    # of mean square height and slope, in the range of the rings
+    weights = [rings.modes * rings.q**power for power in (0, 2)]
+    ratios = [float(weight @ model.psd(rings.q) / (weight @ rings.psd)) for weight in weights]
     return SpectralFit(
         model,
         best.errors(weighed, lost),
         first=float(rings.low[0]),
         last=float(rings.high[-1]),
         short_cutoff=cutoff,
-        mean_square_ratio=_ratio(model, rings, 0),
-        slope_ratio=_ratio(model, rings, 2),
+        mean_square_ratio=ratios[0],
+        slope_ratio=ratios[1],
         rings=rings,
         candidates={name: value - criteria[best.shape.name] for name, value in criteria.items()},
     )
-
-
-def _ratio(model: SpectralModel, rings: RadialSpectrum, power: int) -> float:
-    """Mean square height (``power`` 0) or slope (2) of ``model`` over that of the spectrum, in the range of ``rings``."""
-    weight = rings.modes * rings.q**power
-    return float(weight @ model.psd(rings.q) / (weight @ rings.psd))

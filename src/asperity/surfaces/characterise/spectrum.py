@@ -49,23 +49,7 @@ def line_window(kind: str, n: int) -> RealArray:
     """Weights at ``n`` points of a line; all one if the line is too short for a Hann window (one or two points)."""
     if kind == "none" or n < 3:
         return np.ones(n)
-    return _normalised(0.5 * (1.0 - np.cos(2.0 * np.pi * np.arange(n) / n)))
-
-
-def map_window(kind: str, grid: Grid) -> RealArray:
-    """Weights at the nodes of ``grid``, shape (nx, ny) or one that broadcasts to it.
-
-    ``radial hann`` is 1 + cos(2π r/L) within r < L/2 of the centre, L the shorter side, and zero outside.
-    """
-    if kind == "radial hann":
-        x, y = grid.centred_coordinates()
-        shorter = min(grid.size)
-        radius = np.hypot(x, y)
-        return _normalised(np.where(radius < 0.5 * shorter, 1.0 + np.cos(2.0 * np.pi * radius / shorter), 0.0))
-    return line_window(kind, grid.shape[0])[:, None] * line_window(kind, grid.shape[1])[None, :]
-
-
-def _normalised(weights: RealArray) -> RealArray:
+    weights = 0.5 * (1.0 - np.cos(2.0 * np.pi * np.arange(n) / n))
     return np.asarray(weights / np.sqrt(np.mean(np.square(weights))))
 
 
@@ -140,8 +124,13 @@ def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
     kind = chosen_window(window, surface)
     heights = surface.heights.astype(np.float64)
     heights -= heights.mean()
-    if kind != "none":
-        heights *= map_window(kind, surface.grid)
+    if kind == "radial hann":  # 1 + cos(2π r/L) within r < L/2 of the centre, L the shorter side, and zero outside
+        x, y = surface.grid.centred_coordinates()
+        shorter, radius = min(surface.size), np.hypot(x, y)
+        weights = np.where(radius < 0.5 * shorter, 1.0 + np.cos(2.0 * np.pi * radius / shorter), 0.0)
+        heights *= weights / np.sqrt(np.mean(np.square(weights)))
+    elif kind != "none":
+        heights *= line_window(kind, surface.shape[0])[:, None] * line_window(kind, surface.shape[1])[None, :]
     amplitudes = RealTransform(surface.shape, thread_count()).forward(heights)
     psd: RealArray = np.square(amplitudes.real) + np.square(amplitudes.imag)
     psd *= surface.grid.pixel_area / surface.grid.n_points
@@ -263,6 +252,8 @@ def mean_square_after_levelling(
     bend = min(high, 2.0 * _UNFILTERED / shorter)
     filtered = 0.0
     if bend > low:
+        from scipy.special import spherical_jn
+
         # resolves the oscillations of the Bessel functions, of period π in q L/2
         q, weight = gauss(_with_ripples(low, bend, longer), _NODES)
         # share of the power that remains, averaged over all directions
@@ -273,13 +264,17 @@ def mean_square_after_levelling(
             first, points = np.cumsum(n) - n, np.repeat(n, n)
             angle = (np.arange(points.size) - np.repeat(first, n) + 0.5) * (0.5 * np.pi / points)
             radius = np.repeat(0.5 * q[part], n)
-            along_x = _bessel_squares(radius * size[0] * np.cos(angle), degree)
-            along_y = _bessel_squares(radius * size[1] * np.sin(angle), degree)
+            along_x, along_y = (
+                [(2 * order + 1) * np.square(spherical_jn(order, x)) for order in range(degree + 1)]
+                for x in (radius * size[0] * np.cos(angle), radius * size[1] * np.sin(angle))
+            )
             fitted = sum(along_x[a] * along_y[b] for a in range(degree + 1) for b in range(degree + 1 - a))
             passed[part] = 1.0 - np.add.reduceat(fitted, first) / n
         filtered = float((weight * q * psd(q)) @ passed)
     if high > bend:
-        q, weight = gauss(_logarithmic(max(bend, low), high), _NODES)
+        start = max(bend, low)
+        edges = np.geomspace(start, high, 2 + math.ceil(_PIECES * math.log10(high / start)))
+        q, weight = gauss(edges, _NODES)
         filtered += float(weight @ (q * psd(q)))
     return filtered / (2.0 * np.pi)
 
@@ -327,18 +322,8 @@ def effective_samples(spectrum: PowerSpectrum) -> float:
     return 2.0 * total**2 / squares if squares > 0.0 else math.nan
 
 
-def _bessel_squares(x: RealArray, degree: int) -> list[RealArray]:
-    from scipy.special import spherical_jn
-
-    return [(2 * order + 1) * np.square(spherical_jn(order, x)) for order in range(degree + 1)]
-
-
-def _logarithmic(low: float, high: float) -> RealArray:
-    return np.geomspace(low, high, 2 + math.ceil(_PIECES * math.log10(high / low)))
-
-
 def _with_ripples(low: float, high: float, length: float) -> RealArray:
     """Edges of pieces, logarithmic and nowhere longer than one oscillation 2π/``length``."""
-    edges = _logarithmic(low, high)
+    edges = np.geomspace(low, high, 2 + math.ceil(_PIECES * math.log10(high / low)))
     pieces = [np.linspace(a, b, 2 + int((b - a) * length / (2.0 * np.pi)))[:-1] for a, b in pairwise(edges)]
     return np.append(np.concatenate(pieces), high)

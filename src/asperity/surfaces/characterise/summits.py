@@ -208,7 +208,11 @@ def profile_peaks(surface: Surface, *, axis: str = "x") -> ProfilePeaks:
     triples = int(np.count_nonzero(~np.isnan(curvature)))
     peak = (middle > left) & (middle > right)
     heights, curvatures = middle[peak], curvature[peak] / d**2
-    products = [_products(surface, z, lag) for lag in (1, 2)]
+    products = []  # of the heights of all valid pairs one and two points apart
+    for lag in (1, 2):
+        starts = max(0, z.shape[0] - (2 if surface.periodic else lag))
+        pairs = z[:starts] * z[lag : lag + starts]
+        products.append(pairs[~np.isnan(pairs)])
     crossings = np.mean(products[0] < 0.0) if products[0].size else math.nan
     return ProfilePeaks(
         axis,
@@ -221,13 +225,6 @@ def profile_peaks(surface: Surface, *, axis: str = "x") -> ProfilePeaks:
         rho_1=_mean(products[0]) / variance if variance > 0.0 else math.nan,
         rho_2=_mean(products[1]) / variance if variance > 0.0 else math.nan,
     )
-
-
-def _products(surface: Surface, z: RealArray, lag: int) -> RealArray:
-    """Products of the heights of all valid pairs ``lag`` points apart."""
-    starts = max(0, z.shape[0] - (2 if surface.periodic else lag))
-    products = z[:starts] * z[lag : lag + starts]
-    return products[~np.isnan(products)]
 
 
 def _mean(values: RealArray) -> float:

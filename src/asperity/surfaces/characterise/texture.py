@@ -61,6 +61,7 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
         max(1, round(0.5 * side / d)) for side, d in zip(autocovariance.size, autocovariance.spacing, strict=True)
     )
     centre = autocovariance.within((half[0], half[1]))
+    k_max, l_max = centre.range
     angles = np.deg2rad(np.arange(180.0))
     farthest = math.hypot(*(k * d for k, d in zip(centre.range, centre.spacing, strict=True)))
     step = min(centre.spacing) / _RAY_STEPS
@@ -70,7 +71,18 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
     level, block = drop * centre.mean_square, max(2, _BLOCK // angles.size)
     for start in range(0, distances.size - 1, block - 1):
         part = distances[start : start + block]
-        values = _bilinear(centre, np.cos(angles[open_rays])[:, None] * part, np.sin(angles[open_rays])[:, None] * part)
+        # R by bilinear interpolation, NaN outside the range
+        x, y = np.cos(angles[open_rays])[:, None] * part, np.sin(angles[open_rays])[:, None] * part
+        flip = np.where(x < 0.0, -1.0, 1.0)  # R(-r) = R(r)
+        row, column = flip * x / centre.spacing[0], flip * y / centre.spacing[1] + l_max
+        outside = (row > k_max) | (column < 0.0) | (column > 2 * l_max)
+        low_k = np.clip(np.floor(row).astype(int), 0, max(0, k_max - 1))
+        low_l = np.clip(np.floor(column).astype(int), 0, max(0, 2 * l_max - 1))
+        part_k, part_l = row - low_k, column - low_l
+        next_k, next_l = np.minimum(low_k + 1, k_max), np.minimum(low_l + 1, 2 * l_max)
+        lower = centre.values[low_k, low_l] * (1.0 - part_l) + centre.values[low_k, next_l] * part_l
+        upper = centre.values[next_k, low_l] * (1.0 - part_l) + centre.values[next_k, next_l] * part_l
+        values = np.where(outside, np.nan, lower * (1.0 - part_k) + upper * part_k)
         below = values <= level
         crossed = below.any(axis=1)
         after = np.maximum(below.argmax(axis=1), 1)[crossed]
@@ -111,21 +123,3 @@ def angular_spectrum(spectrum: PowerSpectrum) -> AngularSpectrum:
     total = density.sum() * np.pi / count
     middle = np.arange(count) * np.pi / count
     return AngularSpectrum(middle, density / total if total > 0.0 else np.full(count, np.nan))
-
-
-def _bilinear(centre: Autocovariance, x: RealArray, y: RealArray) -> RealArray:
-    """R at the lags (x, y) in m by bilinear interpolation, NaN outside the range."""
-    k_max, l_max = centre.range
-    flip = np.where(x < 0.0, -1.0, 1.0)  # R(-r) = R(r)
-    row, column = flip * x / centre.spacing[0], flip * y / centre.spacing[1] + l_max
-    outside = (row > k_max) | (column < 0.0) | (column > 2 * l_max)
-    low_k, low_l = (
-        np.clip(np.floor(c).astype(int), 0, top)
-        for c, top in ((row, max(0, k_max - 1)), (column, max(0, 2 * l_max - 1)))
-    )
-    part_k, part_l = row - low_k, column - low_l
-    next_k, next_l = np.minimum(low_k + 1, k_max), np.minimum(low_l + 1, 2 * l_max)
-    v = centre.values
-    lower = v[low_k, low_l] * (1.0 - part_l) + v[low_k, next_l] * part_l
-    upper = v[next_k, low_l] * (1.0 - part_l) + v[next_k, next_l] * part_l
-    return np.where(outside, np.nan, lower * (1.0 - part_k) + upper * part_k)

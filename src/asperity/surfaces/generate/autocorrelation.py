@@ -37,21 +37,19 @@ class _Autocorrelation(Declared):
     domain: ClassVar[float]
     smooth: ClassVar[bool]
 
-    def _decays(self, c: float) -> float:
-        """Decay lengths over which the autocorrelation falls as exp(-c)."""
-        return math.sqrt(c) if self.smooth else c
-
     @property
     def decay_lengths(self) -> tuple[float, float]:
         """Lengths (m) along x and y at which the autocorrelation is 1/e."""
-        decays = self._decays(math.log(1.0 / self.drop))
+        fall = math.log(1.0 / self.drop)
+        decays = math.sqrt(fall) if self.smooth else fall
         along_y = self.correlation_length if self.correlation_length_y is None else self.correlation_length_y
         return self.correlation_length / decays, along_y / decays
 
     @property
     def correlation_range(self) -> float:
         """Distance in m beyond which heights are uncorrelated (to 1e-3)."""
-        return self._decays(_INDEPENDENT) * max(self.decay_lengths)
+        decays = math.sqrt(_INDEPENDENT) if self.smooth else _INDEPENDENT
+        return decays * max(self.decay_lengths)
 
     @property
     def embedding_lengths(self) -> tuple[float, float]:

@@ -139,17 +139,6 @@ class PreparedFilter:
     reach: tuple[int, int]
     transfer: RealArray
 
-    def filtered(self, noise: RealArray) -> RealArray:
-        """Heights (nx, ny) in m from the ``noise`` of the window and of ``reach`` nodes around it (overlap-save)."""
-        transform = RealTransform(self.padded, thread_count())
-        field = np.zeros(self.padded)
-        field[: noise.shape[0], : noise.shape[1]] = noise
-        spectrum = transform.forward(field)
-        spectrum *= self.transfer
-        transform.backward(spectrum, out=field)
-        (k, m), (nx, ny) = self.reach, self.shape
-        return field[k : k + nx, m : m + ny]
-
 
 @dataclass(frozen=True, eq=False)
 class EndlessSurface:
@@ -188,10 +177,17 @@ class EndlessSurface:
         return PreparedFilter(shape, padded, (k, m), transfer)
 
     def heights(self, prepared: PreparedFilter, first: tuple[int, int]) -> RealArray:
-        """Heights in m of the window at ``first`` by the ``prepared`` filter."""
+        """Heights in m of the window at ``first`` by the ``prepared`` filter, from the noise of the window and around it (overlap-save)."""
         (k, m), (nx, ny) = prepared.reach, prepared.shape
-        noise = block_noise((first[0] - k, first[1] - m), (nx + 2 * k, ny + 2 * m), self.seed)
-        return prepared.filtered(self.noise.of_normal(noise))
+        normal = block_noise((first[0] - k, first[1] - m), (nx + 2 * k, ny + 2 * m), self.seed)
+        noise = self.noise.of_normal(normal)
+        transform = RealTransform(prepared.padded, thread_count())
+        field = np.zeros(prepared.padded)
+        field[: noise.shape[0], : noise.shape[1]] = noise
+        spectrum = transform.forward(field)
+        spectrum *= prepared.transfer
+        transform.backward(spectrum, out=field)
+        return field[k : k + nx, m : m + ny]
 
 
 def endless(

@@ -157,7 +157,19 @@ def wave_noise(shape: tuple[int, int], seed: int) -> ComplexArray:
     half = np.zeros((nx, ny // 2 + 1), dtype=complex)
     for ring in range(1, max(nx, ny) // 2 + 1):
         waves = draw.standard_normal(8 * ring).view(complex)  # 4 ring waves; the opposite ones are their conjugates
-        _place(half, shape, ring, waves)
+        # in the order (r, 0…r), (-r, 1…r), (-r+1…r-1, r), where the grid has them
+        if ring <= nx // 2:
+            count = min(ring, ny // 2)
+            half[ring, : count + 1] = waves[: count + 1]
+            if 2 * ring != nx:
+                half[-ring, 1 : count + 1] = waves[ring + 1 : ring + 1 + count]
+        if ring <= ny // 2:
+            across = waves[2 * ring + 1 :]  # kx from -r + 1 to r - 1
+            reach = min(ring - 1, nx // 2)
+            half[: reach + 1, ring] = across[ring - 1 : ring + reach]
+            negative = min(ring - 1, (nx - 1) // 2)
+            if negative:
+                half[-negative:, ring] = across[ring - 1 - negative : ring - 1]
     # the columns that are their own mirror image (ky = 0 and the Nyquist column) have the symmetry of a real field
     for column in (0, ny // 2) if ny % 2 == 0 else (0,):
         positive = half[1 : (nx - 1) // 2 + 1, column]
@@ -167,24 +179,6 @@ def wave_noise(shape: tuple[int, int], seed: int) -> ComplexArray:
             half[row, column] = np.sqrt(2.0) * half[row, column].real
     half *= np.sqrt(0.5 * nx * ny)
     return half
-
-
-def _place(half: ComplexArray, shape: tuple[int, int], ring: int, waves: ComplexArray) -> None:
-    """Put the waves of one ring, in the order (r, 0…r), (-r, 1…r), (-r+1…r-1, r), where the grid has them."""
-    nx, ny = shape
-    top_x, top_y = nx // 2, ny // 2
-    if ring <= top_x:
-        count = min(ring, top_y)
-        half[ring, : count + 1] = waves[: count + 1]
-        if 2 * ring != nx:
-            half[-ring, 1 : count + 1] = waves[ring + 1 : ring + 1 + count]
-    if ring <= top_y:
-        across = waves[2 * ring + 1 :]  # kx from -r + 1 to r - 1
-        reach = min(ring - 1, top_x)
-        half[: reach + 1, ring] = across[ring - 1 : ring + reach]
-        negative = min(ring - 1, (nx - 1) // 2)
-        if negative:
-            half[-negative:, ring] = across[ring - 1 - negative : ring - 1]
 
 
 VARIANTS = {"random": "PCG64", "fixed": "fixed amplitudes and phases of PCG64", "nested": "nested waves of PCG64"}

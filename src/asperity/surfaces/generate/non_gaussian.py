@@ -76,7 +76,15 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
     if abs(skewness) < _ON_LINE:
         skewness = 0.0
     if skewness < 0.0:
-        return _mirrored(johnson(-skewness, kurtosis))
+        # the distribution of -z as an increasing function of a normal number
+        other = johnson(-skewness, kurtosis)
+        if other.kind == "unbounded":
+            return replace(other, gamma=-other.gamma, xi=-other.xi)
+        if other.kind == "bounded":
+            return replace(other, gamma=-other.gamma, xi=-(other.xi + other.scale))
+        if other.kind == "lognormal":  # -z(-G) = -ξ - λ exp(-(G + γ)/δ)
+            return replace(other, gamma=-other.gamma, delta=-other.delta, xi=-other.xi, scale=-other.scale)
+        return other
     from scipy.optimize import brentq
 
     # w = exp(1/δ²) >= 1 of the lognormal, (w - 1)(w + 2)² = skewness²; the bracket from (w + 2)² >= 9
@@ -91,17 +99,6 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
     return _unbounded(skewness, kurtosis) if kurtosis > line else _bounded(skewness, kurtosis, w)
 
 
-def _mirrored(other: Johnson) -> Johnson:
-    """Distribution of -z as an increasing function of a normal number."""
-    if other.kind == "unbounded":
-        return replace(other, gamma=-other.gamma, xi=-other.xi)
-    if other.kind == "bounded":
-        return replace(other, gamma=-other.gamma, xi=-(other.xi + other.scale))
-    if other.kind == "lognormal":  # -z(-G) = -ξ - λ exp(-(G + γ)/δ)
-        return replace(other, gamma=-other.gamma, delta=-other.delta, xi=-other.xi, scale=-other.scale)
-    return other
-
-
 def _unbounded(skewness: float, kurtosis: float) -> Johnson:
     """Tuenter (2001): skewness² as a function of w alone, at the given kurtosis, and its one root."""
     from scipy.optimize import brentq
@@ -111,15 +108,14 @@ def _unbounded(skewness: float, kurtosis: float) -> Johnson:
     def m(w: float) -> float:
         return -2.0 + math.sqrt(max(0.0, 4.0 + 2.0 * (w * w - (kurtosis + 3.0) / (w * w + 2.0 * w + 3.0))))
 
-    def excess(w: float) -> float:
-        return (w - 1.0 - m(w)) * (w + 2.0 + 0.5 * m(w)) ** 2 - square
-
     # the lognormal with this kurtosis, m = 0
     low = float(brentq(lambda w: w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0 - kurtosis, 1.0, kurtosis**0.25 + 1.0))
     high = math.sqrt(math.sqrt(2.0 * kurtosis - 2.0) - 1.0)  # the symmetric one, m = w - 1
     w, omega = high, 0.0
     if square > 0.0:
-        w = float(brentq(excess, low, high, xtol=1e-15, rtol=1e-14))
+        w = float(
+            brentq(lambda w: (w - 1.0 - m(w)) * (w + 2.0 + 0.5 * m(w)) ** 2 - square, low, high, xtol=1e-15, rtol=1e-14)
+        )
         sinh_square = (w + 1.0) / (2.0 * w) * max(0.0, (w - 1.0) / m(w) - 1.0)
         omega = -math.asinh(math.sqrt(sinh_square))  # negative for positive skewness
     variance = 0.5 * (w - 1.0) * (w * math.cosh(2.0 * omega) + 1.0)
@@ -373,8 +369,28 @@ def translated(
     square = mean_square(grid, eigenvalues * grid.pixel_area)
     eigenvalues = eigenvalues / square
     clipped = 0.0
-    if predistorted:
-        eigenvalues, clipped = _predistorted(eigenvalues, law, grid)
+    if predistorted:  # eigenvalues of the Gaussian field
+        transform = RealTransform(grid.shape, thread_count())
+        wanted = transform.backward(eigenvalues.astype(complex))
+        table = np.linspace(-1.0, 1.0, _TABLE)
+        reachable = translated_correlation(law, table)
+        lowest = float(wanted.min())
+        if lowest < reachable[0]:
+            raise InputError(
+                f"autocorrelation of these heights must not fall below {reachable[0]:.4g}, the least that a translation of this "
+                f"skewness and kurtosis reaches, but falls to {lowest:.4g}. Use rank_ordered()."
+            )
+        needed = np.interp(wanted, reachable, table)
+        needed[0, 0] = 1.0
+        values = transform.forward(needed).real
+        clipped = negative_part(grid, values)
+        if clipped > CLIP_LIMIT:
+            raise InputError(
+                "no Gaussian field has the autocorrelation that a translation to this skewness and kurtosis needs: its spectrum "
+                f"would be negative by {clipped:.2g} of the whole. Use rank_ordered(), or predistorted=False.",
+                subject="autocorrelation of the Gaussian field",
+            )
+        eigenvalues = np.maximum(values, 0.0)
     heights = math.sqrt(square) * law.of_normal(filtered_noise(grid, eigenvalues, seed))
     how = (
         f"autocorrelation predistorted, negative part {clipped:.1e} clipped"
@@ -403,31 +419,6 @@ def translated_correlation(law: HeightLaw, correlation: RealArray) -> RealArray:
         before, now = now, (normal * now - math.sqrt(k) * before) / math.sqrt(k + 1.0)
     normalised = np.array(squares) / sum(squares)  # to the variance 1
     return np.asarray(np.polynomial.polynomial.polyval(correlation, np.concatenate([[0.0], normalised])))
-
-
-def _predistorted(eigenvalues: RealArray, law: HeightLaw, grid: Grid) -> tuple[RealArray, float]:
-    """Eigenvalues of the Gaussian field, and the negative part of them that was clipped."""
-    transform = RealTransform(grid.shape, thread_count())
-    wanted = transform.backward(eigenvalues.astype(complex))
-    table = np.linspace(-1.0, 1.0, _TABLE)
-    reachable = translated_correlation(law, table)
-    lowest = float(wanted.min())
-    if lowest < reachable[0]:
-        raise InputError(
-            f"autocorrelation of these heights must not fall below {reachable[0]:.4g}, the least that a translation of this "
-            f"skewness and kurtosis reaches, but falls to {lowest:.4g}. Use rank_ordered()."
-        )
-    needed = np.interp(wanted, reachable, table)
-    needed[0, 0] = 1.0
-    values = transform.forward(needed).real
-    negative = negative_part(grid, values)
-    if negative > CLIP_LIMIT:
-        raise InputError(
-            "no Gaussian field has the autocorrelation that a translation to this skewness and kurtosis needs: its spectrum "
-            f"would be negative by {negative:.2g} of the whole. Use rank_ordered(), or predistorted=False.",
-            subject="autocorrelation of the Gaussian field",
-        )
-    return np.maximum(values, 0.0), negative
 
 
 # Surfaces with a prescribed spectrum and prescribed heights at once, by alternating between the two.

@@ -109,8 +109,16 @@ class PowerLaws:
             start, end = edges[number], edges[number + 1]
             low, high = max(self.low, start), min(self.high, end)
             scale = start if start > 0.0 else end
-            if high > low:
-                total += level * scale ** (power + 1.0) * _monomial(power - exponent, low / scale, high / scale)
+            if high > low:  # ∫ x^p dx from a to b; infinite where it diverges
+                p, a, b = power - exponent, low / scale, high / scale
+                if p == -1.0:
+                    part = math.inf if a == 0.0 or math.isinf(b) else math.log(b / a)
+                elif (p < -1.0 and a == 0.0) or (p > -1.0 and math.isinf(b)):
+                    part = math.inf
+                else:
+                    upper = 0.0 if math.isinf(b) else b ** (p + 1.0)
+                    part = (upper - (0.0 if a == 0.0 else a ** (p + 1.0))) / (p + 1.0)
+                total += level * scale ** (power + 1.0) * part
             if 0 < number < len(self.bends):
                 level *= (end / start) ** -exponent
         return total
@@ -149,13 +157,3 @@ def lattice_level(law: PowerLaws, amplitude: Amplitude, grid: Grid, parts: Itera
             f"but has the size {grid.size[0]:g} x {grid.size[1]:g} m. Enlarge the grid."
         )
     return amplitude.value if isinstance(amplitude, PlateauPSD) else amplitude.value**2 / moment
-
-
-def _monomial(power: float, low: float, high: float) -> float:
-    """∫ x^power dx from ``low`` to ``high``; infinite where it diverges."""
-    if power == -1.0:
-        return math.inf if low == 0.0 or math.isinf(high) else math.log(high / low)
-    if (power < -1.0 and low == 0.0) or (power > -1.0 and math.isinf(high)):
-        return math.inf
-    upper = 0.0 if math.isinf(high) else high ** (power + 1.0)
-    return (upper - (0.0 if low == 0.0 else low ** (power + 1.0))) / (power + 1.0)

@@ -284,8 +284,12 @@ class MeasuredSpectrum:
         plane = np.concatenate([rows[::-1, before : before + 1], rows], axis=1)
         step_x, step_y = (2.0 * np.pi / side for side in measured.size)
         qx, qy = grid.wavevector()
-        row = np.broadcast_to(_on_modes(qx / step_x) + measured.shape[0] // 2, (qx.size, qy.size))
-        column = np.broadcast_to(_on_modes(qy / step_y) + 1.0, row.shape)
+        modes = []  # numbers, whole where they differ from a whole one by rounding only
+        for number in (qx / step_x, qy / step_y):
+            whole = np.round(number)
+            modes.append(np.where(np.abs(number - whole) < 1e-9, whole, number))
+        row = np.broadcast_to(modes[0] + measured.shape[0] // 2, (qx.size, qy.size))
+        column = np.broadcast_to(modes[1] + 1.0, row.shape)
         values: RealArray = map_coordinates(plane, [row, column], order=1, mode="constant", cval=0.0)
         values[0, 0] = 0.0
         return values
@@ -343,12 +347,6 @@ def spectrum_of(
     if isotropic:
         return TabulatedSpectrum(q, psd, words=f"radial spectrum of {source}", citation_keys=keys)
     return MeasuredSpectrum(replace(spectrum, psd=psd), source, keys)
-
-
-def _on_modes(number: RealArray) -> RealArray:
-    """Numbers of modes, whole where they differ from a whole one by rounding only."""
-    whole = np.round(number)
-    return np.where(np.abs(number - whole) < 1e-9, whole, number)
 
 
 # The table of an isotropic spectrum whose interpolation keeps the power of every ring of modes it was averaged over.

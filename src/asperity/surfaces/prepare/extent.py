@@ -7,7 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 import numpy as np
 
 from ...core import require
-from ...core.arrays import ComplexArray, RealArray
+from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
@@ -140,7 +140,30 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     if surface.periodic:
         how = "in Fourier space"
         spectrum = RealTransform(surface.shape).forward(heights)
-        spectrum = _resized(spectrum, surface.shape, (nx, ny))
+        old_x, old_y = surface.shape
+        if ny != old_y:  # a half spectrum
+            result = np.zeros((old_x, ny // 2 + 1), dtype=complex)
+            kept = min(spectrum.shape[1], result.shape[1])
+            result[:, :kept] = spectrum[:, :kept]
+            half = min(old_y, ny) // 2
+            if min(old_y, ny) % 2 == 0 and ny > old_y:
+                result[:, half] *= 0.5
+            elif min(old_y, ny) % 2 == 0:
+                line = spectrum[:, half]
+                result[:, half] = line + np.conj(np.roll(line[::-1], 1))  # both signs of the new Nyquist wavenumber
+            spectrum = result
+        if nx != old_x:  # all signs of the wavenumber
+            kept = min(old_x, nx)
+            positive, negative, half = (kept + 1) // 2, (kept - 1) // 2, kept // 2
+            result = np.zeros((nx, spectrum.shape[1]), dtype=complex)
+            result[:positive] = spectrum[:positive]
+            if negative:
+                result[-negative:] = spectrum[-negative:]
+            if kept % 2 == 0 and nx > old_x:
+                result[half] = result[-half] = 0.5 * spectrum[half]
+            elif kept % 2 == 0:
+                result[half] = spectrum[half] + spectrum[-half]
+            spectrum = result
         heights = RealTransform((nx, ny)).backward(spectrum * (nx * ny / heights.size))
     else:
         how = ", ".join(
@@ -152,34 +175,6 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     step = f"resampled: {surface.shape[0]} x {surface.shape[1]} -> {nx} x {ny} points, {how}"
     size_x, size_y = surface.size
     return Surface(heights, size_x / nx, size_y / ny, periodic=surface.periodic, origin=surface.origin.continued(step))
-
-
-def _resized(spectrum: ComplexArray, old: tuple[int, int], new: tuple[int, int]) -> ComplexArray:
-    """Half spectrum of ``old`` real points turned into that of ``new`` points."""
-    if new[1] != old[1]:
-        result = np.zeros((old[0], new[1] // 2 + 1), dtype=complex)
-        kept = min(spectrum.shape[1], result.shape[1])
-        result[:, :kept] = spectrum[:, :kept]
-        half = min(old[1], new[1]) // 2
-        if min(old[1], new[1]) % 2 == 0 and new[1] > old[1]:
-            result[:, half] *= 0.5
-        elif min(old[1], new[1]) % 2 == 0:
-            line = spectrum[:, half]
-            result[:, half] = line + np.conj(np.roll(line[::-1], 1))  # both signs of the new Nyquist wavenumber
-        spectrum = result
-    if new[0] != old[0]:  # all signs of the wavenumber
-        kept = min(old[0], new[0])
-        positive, negative, half = (kept + 1) // 2, (kept - 1) // 2, kept // 2
-        result = np.zeros((new[0], spectrum.shape[1]), dtype=complex)
-        result[:positive] = spectrum[:positive]
-        if negative:
-            result[-negative:] = spectrum[-negative:]
-        if kept % 2 == 0 and new[0] > old[0]:
-            result[half] = result[-half] = 0.5 * spectrum[half]
-        elif kept % 2 == 0:
-            result[half] = spectrum[half] + spectrum[-half]
-        spectrum = result
-    return spectrum
 
 
 def _axis_resampled(heights: RealArray, new: int) -> RealArray:

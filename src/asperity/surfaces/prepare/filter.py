@@ -60,8 +60,14 @@ class LocalRegression:
     def smooth(self, heights: RealArray, weights: RealArray) -> RealArray:
         """Fitted values (nx, ny) in m; ``weights`` (nx, ny) >= 0 of the nodes, 0 to exclude ``heights`` (m)."""
         transform = RealTransform(self.padded, thread_count())
-        of_weights = self._transformed(transform, weights)
-        of_heights = self._transformed(transform, weights * heights)
+        spectra = []
+        for field in (weights, weights * heights):
+            work = np.ascontiguousarray(field)
+            if self.padded != self.shape:
+                work = np.zeros(self.padded)
+                work[: self.shape[0], : self.shape[1]] = field
+            spectra.append(transform.forward(work))
+        of_weights, of_heights = spectra
         powers = [(a, b) for a in range(self.order + 1) for b in range(self.order + 1 - a)]
         right = [self._moment(transform, of_heights, *power) for power in powers]
         if len(powers) == 1:
@@ -74,13 +80,6 @@ class LocalRegression:
             for b in range(2 * self.order + 1 - a)
         }
         return _solved(powers, sums, right)
-
-    def _transformed(self, transform: RealTransform, field: RealArray) -> ComplexArray:
-        if self.padded == self.shape:
-            return transform.forward(np.ascontiguousarray(field))
-        work = np.zeros(self.padded)
-        work[: self.shape[0], : self.shape[1]] = field
-        return transform.forward(work)
 
     def _moment(self, transform: RealTransform, spectrum: ComplexArray, a: int, b: int) -> RealArray:
         """Σ s(x' - x) (x' - x)^a (y' - y)^b f(x') over all nodes x', for every node x."""
@@ -100,23 +99,19 @@ def local_regression(
     beyond = (0, 0) if periodic else (counts[0], counts[1])  # zero padding separates opposite borders
     nx, ny = (n if periodic else fast_length(n + k) for n, k in zip(grid.shape, beyond, strict=True))
     padded = (nx, ny)
-    windows = [
-        _windows(n, count, d / c, width, 2 * order)
-        for n, count, d, c in zip(padded, counts, grid.spacing, cutoff, strict=True)
-    ]
+    # exp(-π (u/γ)²) u^a, a = 0 … 2 order, at u = k d/λ, |k| <= count, periodic on n nodes
+    windows = []
+    for n, count, d, c in zip(padded, counts, grid.spacing, cutoff, strict=True):
+        offsets = np.arange(-count, count + 1)
+        u = offsets * (d / c)
+        window = np.exp(-np.pi * (u / width) ** 2)
+        window /= window.sum()
+        powers = range(2 * order + 1)
+        windows.append([np.bincount(offsets % n, window * u**a, n).astype(np.float64) for a in powers])
     # correlation, not convolution: the conjugate of the transform
     along_x = tuple(RealTransform((padded[0], 1)).forward(w[:, None]).conj() for w in windows[0])
     along_y = tuple(RealTransform((1, padded[1])).forward(w[None, :]).conj() for w in windows[1])
     return LocalRegression(grid.shape, padded, order, along_x, along_y)
-
-
-def _windows(n: int, count: int, step: float, width: float, highest: int) -> list[RealArray]:
-    """exp(-π (u/γ)²) u^a, a = 0 … ``highest``, at u = k ``step``, |k| <= ``count``, periodic on ``n`` nodes."""
-    offsets = np.arange(-count, count + 1)
-    u = offsets * step
-    window = np.exp(-np.pi * (u / width) ** 2)
-    window /= window.sum()
-    return [np.bincount(offsets % n, window * u**a, n).astype(np.float64) for a in range(highest + 1)]
 
 
 def _solved(powers: list[tuple[int, int]], sums: dict[tuple[int, int], RealArray], right: list[RealArray]) -> RealArray:

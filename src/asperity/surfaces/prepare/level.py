@@ -164,7 +164,11 @@ def despiked(
         block = np.lib.stride_tricks.sliding_window_view(padded[start : end + 2 * half], (window, window))
         values = np.sort(block.reshape(end - start, heights.shape[1], window**2), axis=-1)  # NaN last
         around = np.count_nonzero(~np.isnan(values), axis=-1)
-        median[start:end] = 0.5 * (_taken(values, (around - 1) // 2) + _taken(values, around // 2))
+        below, above = (
+            np.take_along_axis(values, np.clip(at, 0, window**2 - 1)[..., None].astype(np.intp), axis=-1)[..., 0]
+            for at in ((around - 1) // 2, around // 2)
+        )
+        median[start:end] = 0.5 * (below + above)
         median[start:end][around == 0] = np.nan
     distance = np.abs(heights - median)
     valid = ~surface.mask
@@ -197,11 +201,6 @@ def line_corrected(
     corrected = lines - offsets[None, :]
     text = f"line-corrected: offsets between lines along {axis} (rms {show(float(offsets.std()), 'm', 3)}) removed"
     return recorded(surface, corrected if axis == "x" else corrected.T, text, periodic=surface.periodic)
-
-
-def _taken(values: RealArray, index: RealArray | BoolArray) -> RealArray:
-    at = np.clip(index, 0, values.shape[-1] - 1)[..., None].astype(np.intp)
-    return np.take_along_axis(values, at, axis=-1)[..., 0]
 
 
 # Filling of missing points.

@@ -197,16 +197,14 @@ class AdhesiveWave(Theory):
     @property
     def pull_off_pressure(self) -> float:
         """Mean pressure in Pa at the pull-off."""
-        return self._at_extremum(0)
+        found = self._wave.stationary
+        return self._wave.mean_pressure(found[0]) * self.full_contact_pressure if found else math.nan
 
     @property
     def jump_pressure(self) -> float:
         """Mean pressure in Pa of the jump into full contact."""
-        return self._at_extremum(1)
-
-    def _at_extremum(self, number: int) -> float:
-        wave, found = self._wave, self._wave.stationary
-        return wave.mean_pressure(found[number]) * self.full_contact_pressure if found else math.nan
+        found = self._wave.stationary
+        return self._wave.mean_pressure(found[1]) * self.full_contact_pressure if found else math.nan
 
     def at_fraction(self, fraction: ArrayLike) -> WaveAnswer:
         """Mean pressure and approach at contact fractions between 0 and 1, of any shape; InputError if one is not."""

@@ -85,10 +85,6 @@ class AdhesiveCoatedSphere(Theory):
         rise = e * (lam + kappa + 4.0 * kappa * xi * (1.0 + xi) - 2.0 * lam * kappa * e)
         return np.asarray(rise / (1.0 - e * (lam + kappa + 4.0 * kappa * xi**2 - lam * kappa * e)))
 
-    @property
-    def _contact(self) -> CoatedJKR:
-        return CoatedJKR(self.coating_modulus, self.excess, self.thickness, self.radius, self.work)
-
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
         """The contact of the ``contact_radius`` a in m, > 0, of any shape; its pressure is infinitely tensile at the edge.
 
@@ -100,7 +96,8 @@ class AdhesiveCoatedSphere(Theory):
                 f"contact radius (m) must be at most {WIDEST:g} times the thickness {self.thickness:g} of the coating, but is {a.max():g}. "
                 "Use the theory jkr with the base alone."
             )
-        found = [self._contact.at_radius(float(value)) for value in a.ravel()]
+        contact = CoatedJKR(self.coating_modulus, self.excess, self.thickness, self.radius, self.work)
+        found = [contact.at_radius(float(value)) for value in a.ravel()]
         load = np.array([state.load for state in found]).reshape(a.shape)
         approach = np.array([state.approach for state in found]).reshape(a.shape)
         unknown = np.full_like(a, np.nan)
@@ -115,7 +112,7 @@ class AdhesiveCoatedSphere(Theory):
         radii = np.geomspace(0.1 * min(sizes), min(10.0 * max(sizes), widest), _SCANNED)
         if radii[0] >= radii[-1]:
             return None
-        contact = self._contact
+        contact = CoatedJKR(self.coating_modulus, self.excess, self.thickness, self.radius, self.work)
         least = int(np.argmin([contact.at_radius(float(a)).load for a in radii]))
         if least == _SCANNED - 1:
             return None

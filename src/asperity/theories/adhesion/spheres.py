@@ -325,7 +325,9 @@ class MaugisDugdale(Theory):
     @property
     def transition(self) -> float:
         """λ = 2σ0 (R/πwK²)^(1/3): DMT for small, JKR for large values."""
-        return 2.0 * self.attraction * float(np.cbrt(self.radius / (np.pi * self.work * self._K**2)))
+        return (
+            2.0 * self.attraction * float(np.cbrt(self.radius / (np.pi * self.work * (4.0 / 3.0 * self.E_star) ** 2)))
+        )
 
     @property
     def pull_off(self) -> float:
@@ -368,9 +370,5 @@ class MaugisDugdale(Theory):
         )
 
     @property
-    def _K(self) -> float:
-        return 4.0 / 3.0 * self.E_star
-
-    @property
     def _unit_radius(self) -> float:
-        return float(np.cbrt(np.pi * self.work * self.radius**2 / self._K))
+        return float(np.cbrt(np.pi * self.work * self.radius**2 / (4.0 / 3.0 * self.E_star)))

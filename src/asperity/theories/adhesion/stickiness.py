@@ -98,18 +98,16 @@ class PastewkaRobbins(Theory):
     )
 
     @property
-    def _found(self) -> Stickiness:
-        return stickiness_of(self.slope, self.laplacian, 0.0, E_star=self.E_star, work=self.work, reach=self.reach)
-
-    @property
     def share_of_limit(self) -> float:
         """The number over its limit."""
-        return self._found.share_of_limit
+        found = stickiness_of(self.slope, self.laplacian, 0.0, E_star=self.E_star, work=self.work, reach=self.reach)
+        return found.share_of_limit
 
     @property
     def repulsive_diameter(self) -> float:
         """d_rep in m."""
-        return self._found.repulsive_diameter
+        found = stickiness_of(self.slope, self.laplacian, 0.0, E_star=self.E_star, work=self.work, reach=self.reach)
+        return found.repulsive_diameter
 
 
 @dataclass(frozen=True)

@@ -84,7 +84,13 @@ class _Mesh:
         found = np.empty((*z.shape, _NODES))
         near, far = np.abs(z) < _NEAR, np.abs(z) > 8.0
         between = ~(near | far)
-        found[near] = -2.0 * _second_kind(z[near]).T @ self._coefficients
+        at = z[near]
+        second = np.empty((_NODES, at.size))  # Legendre functions Q_n of the second kind
+        second[0] = 0.5 * np.log(np.abs((1.0 + at) / (1.0 - at)))
+        second[1] = at * second[0] - 1.0
+        for n in range(1, _NODES - 1):
+            second[n + 1] = ((2 * n + 1) * at * second[n] - n * second[n - 1]) / (n + 1)
+        found[near] = -2.0 * second.T @ self._coefficients
         found[far] = self.rule / (self.local - z[far][:, None])
         fine, weight = rule(_FINE)
         found[between] = (weight / (fine - z[between][:, None])) @ self.values_at(fine)
@@ -107,16 +113,6 @@ class _Mesh:
             for b in range(_NODES):
                 matrix[rows, rows - a + b] += own[:, b]
         return np.eye(x.size) - 2.0 / np.pi * x[:, None] * matrix
-
-
-def _second_kind(z: RealArray) -> RealArray:
-    """Legendre functions Q_n(z) of the second kind, (n, z)."""
-    found = np.empty((_NODES, z.size))
-    found[0] = 0.5 * np.log(np.abs((1.0 + z) / (1.0 - z)))
-    found[1] = z * found[0] - 1.0
-    for n in range(1, _NODES - 1):
-        found[n + 1] = ((2 * n + 1) * z * found[n] - n * found[n - 1]) / (n + 1)
-    return found
 
 
 def _slip_kernel(x: RealArray, t: RealArray) -> RealArray:

@@ -209,11 +209,13 @@ class StickingIndenter(Theory):
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape; the largest pressure has no closed form (NaN)."""
-        return self._with_stick(self._free.at_load(checked(load, "load (N)") / self.load_gain))
+        free = PowerLawIndenter(self.E_star, self.coefficient, self.exponent)
+        return self._with_stick(free.at_load(checked(load, "load (N)") / self.load_gain))
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
         """The contact of the ``contact_radius`` a in m, >= 0, of any shape; as ``at_load``."""
-        return self._with_stick(self._free.at_radius(contact_radius))
+        free = PowerLawIndenter(self.E_star, self.coefficient, self.exponent)
+        return self._with_stick(free.at_radius(contact_radius))
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
         """Pressure in Pa at the distance ``r`` in m (any shape, less than a) from the axis under ``load`` in N, > 0.
@@ -269,10 +271,6 @@ class StickingIndenter(Theory):
         amplitude = 0.5 * self.E_star * grown / math.sqrt(1.0 - self.beta**2)
         return x, eta, 2.0 / np.pi * amplitude * weight * rest * width / x
 
-    @property
-    def _free(self) -> PowerLawIndenter:
-        return PowerLawIndenter(self.E_star, self.coefficient, self.exponent)
-
     def _with_stick(self, free: ContactAnswer) -> ContactAnswer:
         return ContactAnswer(
             load=free.load * self.load_gain,
@@ -322,11 +320,12 @@ class StickingIndenterLine(Theory):
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N/m, >= 0, of any shape; the largest pressure has no closed form (NaN)."""
-        return self.at_half_width(self._free.at_load(checked(load, "load per length (N/m)") / self.load_gain).radius)
+        free = LinePowerLawIndenter(self.E_star, self.coefficient, self.exponent)
+        return self.at_half_width(free.at_load(checked(load, "load per length (N/m)") / self.load_gain).radius)
 
     def at_half_width(self, half_width: ArrayLike) -> ContactAnswer:
         """The contact of the ``half_width`` a in m, >= 0, of any shape; as ``at_load``."""
-        free = self._free.at_half_width(half_width)
+        free = LinePowerLawIndenter(self.E_star, self.coefficient, self.exponent).at_half_width(half_width)
         unknown = np.full_like(free.load, np.nan)
         return ContactAnswer(free.load * self.load_gain, unknown, free.radius, free.area, unknown, unknown)
 
@@ -340,10 +339,6 @@ class StickingIndenterLine(Theory):
     def traction(self, x: ArrayLike, load: float) -> RealArray:
         """Shear traction on the body along +x in Pa at ``x`` in m (any shape), outwards; as ``pressure``."""
         return np.asarray(np.sign(np.asarray(x, dtype=float)) * self._superposed(x, load, np.sin))
-
-    @property
-    def _free(self) -> LinePowerLawIndenter:
-        return LinePowerLawIndenter(self.E_star, self.coefficient, self.exponent)
 
     def _superposed(self, x: ArrayLike, load: float, wave: Callable[[RealArray], RealArray]) -> RealArray:
         n, kappa = self.exponent, oscillation(self.beta)

@@ -309,15 +309,6 @@ _NODES = 48
 _POWER = 6  # of the distance from the ends: makes roots and powers of multiples of 1/6 smooth there
 
 
-def _graded(low: float, high: float) -> tuple[RealArray, RealArray]:
-    """Nodes and weights of a rule between ``low`` and ``high`` for powers of the distance from both ends."""
-    u, weight = gauss(np.array([0.0, 1.0]), _NODES)
-    density = (u * (1.0 - u)) ** (_POWER - 1)
-    step = math.factorial(2 * _POWER - 1) / math.factorial(_POWER - 1) ** 2
-    terms = [math.comb(2 * _POWER - 1, k) * u**k * (1.0 - u) ** (2 * _POWER - 1 - k) for k in range(_POWER, 2 * _POWER)]
-    return low + (high - low) * np.sum(terms, axis=0), (high - low) * step * density * weight
-
-
 def _work(leg: _Leg, contacts: Contacts, *, of_shifts: bool) -> float:
     """Work of friction over μκ: all of the annulus slips alike, ∫ [P - P* - P*'(δ - δ*)] dσ."""
     total = 0.0
@@ -326,7 +317,13 @@ def _work(leg: _Leg, contacts: Contacts, *, of_shifts: bool) -> float:
         s = leg.sign(middle)
         if not s:
             continue
-        t, weight = _graded(low, high)
+        # a rule for powers of the distance from both ends
+        u, part = gauss(np.array([0.0, 1.0]), _NODES)
+        density = (u * (1.0 - u)) ** (_POWER - 1)
+        step = math.factorial(2 * _POWER - 1) / math.factorial(_POWER - 1) ** 2
+        powers = range(_POWER, 2 * _POWER)
+        terms = [math.comb(2 * _POWER - 1, k) * u**k * (1.0 - u) ** (2 * _POWER - 1 - k) for k in powers]
+        t, weight = low + (high - low) * np.sum(terms, axis=0), (high - low) * step * density * part
         x = np.maximum(leg.x0 + t * (leg.x1 - leg.x0), 0.0)
         start, slope = leg.front(middle)
         rate = leg.drive - s * leg.friction * (leg.x1 - leg.x0)

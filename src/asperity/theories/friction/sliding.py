@@ -76,7 +76,8 @@ class SlidingCylinder(Theory):
         """The contact under ``load`` in N/m, >= 0, of any shape; approach and stiffness depend on the supports (NaN)."""
         P, gamma = checked(load, "load per length (N/m)"), self.exponent
         a = np.sqrt(4.0 * P * self.radius / (np.pi * self.E_star * (1.0 - 4.0 * gamma**2)))
-        peak = self._scale * a * (1.0 + 2.0 * gamma) ** (0.5 + gamma) * (1.0 - 2.0 * gamma) ** (0.5 - gamma)
+        scale = self.E_star * math.cos(math.pi * gamma) / (2.0 * self.radius)
+        peak = scale * a * (1.0 + 2.0 * gamma) ** (0.5 + gamma) * (1.0 - 2.0 * gamma) ** (0.5 - gamma)
         unknown = np.full_like(a, np.nan)
         return ContactAnswer(P, unknown, a, 2.0 * a, peak, unknown)
 
@@ -85,11 +86,8 @@ class SlidingCylinder(Theory):
         a, gamma = float(self.at_load(require.positive(load, "load per length (N/m)")).radius), self.exponent
         place = np.asarray(x, dtype=float) - 2.0 * gamma * a
         front, back = np.maximum(a - place, 0.0), np.maximum(a + place, 0.0)
-        return self._scale * back ** (0.5 + gamma) * front ** (0.5 - gamma)
-
-    @property
-    def _scale(self) -> float:
-        return self.E_star * math.cos(math.pi * self.exponent) / (2.0 * self.radius)
+        scale = self.E_star * math.cos(math.pi * gamma) / (2.0 * self.radius)
+        return scale * back ** (0.5 + gamma) * front ** (0.5 - gamma)
 
 
 @dataclass(frozen=True)

@@ -160,6 +160,8 @@ class LubkinSphere(Theory):
 
         (2μp0 r/π) ∫ E(sqrt(1 - x²/a²))/(x sqrt(x² - r²)) dx over c < x < a where it sticks.
         """
+        from scipy.special import ellipe
+
         answer = self.at_load(load, torque)
         a, c = float(answer.normal.radius), float(answer.stick_radius)
         distance = np.abs(np.asarray(r, dtype=float))
@@ -167,7 +169,7 @@ class LubkinSphere(Theory):
         inside = np.minimum(distance, c)[..., None]
         x, weight = geometric(np.sqrt(c**2 - inside[..., 0] ** 2), np.sqrt(a**2 - inside[..., 0] ** 2))
         square = x**2 + inside**2
-        integral = np.sum(weight * _second(square / a**2) / np.maximum(square, np.finfo(float).tiny), axis=-1)
+        integral = np.sum(weight * ellipe(1.0 - square / a**2) / np.maximum(square, np.finfo(float).tiny), axis=-1)
         sticking = 2.0 / np.pi * self.friction * answer.normal.max_pressure * inside[..., 0] * integral
         return np.where(distance < c, sticking, slipping)
 
@@ -182,15 +184,10 @@ class LubkinSphere(Theory):
 
     def _torque(self, share: RealArray) -> RealArray:
         """M over the largest torque, (64/3π²) ∫ x² E dx over c < x < 1."""
+        from scipy.special import ellipe
+
         x, weight = geometric(share, np.ones_like(share))
-        return np.asarray(64.0 / (3.0 * np.pi**2) * np.sum(weight * x**2 * _second(x**2), axis=-1))
-
-
-def _second(n: RealArray) -> RealArray:
-    """E of the complementary parameter n = 1 - k²."""
-    from scipy.special import ellipe
-
-    return np.asarray(ellipe(1.0 - n))
+        return np.asarray(64.0 / (3.0 * np.pi**2) * np.sum(weight * x**2 * ellipe(1.0 - x**2), axis=-1))
 
 
 def elliptic_ratio(n: RealArray) -> RealArray:

@@ -86,13 +86,9 @@ class SphericalSummits(SeparationTheory):
 
     @property
     def _ends(self) -> tuple[float, float, float]:
-        return heights_between(self.heights, self.mean_height, self.height_deviation)
-
-
-def heights_between(heights: SummitHeights, mean: float, deviation: float) -> tuple[float, float, float]:
-    """Separations in m between which pressures are inverted for ``heights`` of ``mean`` and ``deviation`` in m, which ends."""
-    low, high = (mean + deviation * (D - heights.mean) for D in (LOWEST, min(HIGHEST, heights.support[1])))
-    return low, high, deviation
+        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
+        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
+        return low, high, self.height_deviation
 
 
 @dataclass(frozen=True)
@@ -417,20 +413,20 @@ class GreenwoodTripp(SeparationTheory):
 
     @property
     def _ends(self) -> tuple[float, float, float]:
-        return heights_between(self.heights, self.mean_height, self.height_deviation)
-
-    def _standardised(self, h: RealArray) -> RealArray:
-        return np.asarray((h - self.mean_height) / self.height_deviation + self.heights.mean)
+        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
+        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
+        return low, high, self.height_deviation
 
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
-        D = self._standardised(h)
+        D = (h - self.mean_height) / self.height_deviation + self.heights.mean
         unit = 16.0 * math.sqrt(2.0) * math.pi / 15.0 * self._crowding**2 * self.E_star
         unit *= math.sqrt(self.roughness_ratio)
         slope = 2.5 * unit / self.height_deviation * self.heights.tail_moment(D, 1.5)
         return unit * self.heights.tail_moment(D, 2.5), slope
 
     def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
-        D, pairs = self._standardised(h), 4.0 * math.pi * self.density * self._crowding
+        D = (h - self.mean_height) / self.height_deviation + self.heights.mean
+        pairs = 4.0 * math.pi * self.density * self._crowding
         return (math.pi * self._crowding) ** 2 * self.heights.tail_moment(D, 2.0), pairs * self.heights.tail_moment(
             D, 1.0
         )

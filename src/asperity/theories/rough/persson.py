@@ -96,14 +96,18 @@ class IsotropicSpectrum:
 
         In the logarithm of q the integral keeps its digits next to q_L, where the upper limit differs little from it.
         """
+        from scipy.special import exprel
+
         q, level = np.asarray(self.wavenumber), np.asarray(self.psd)
         starts = level[:-1] * q[:-1] ** (order + 1.0)
         powers = self.exponents + order + 1.0
-        whole = starts * _exponential_integral(powers, np.diff(self.span))
+        # the integral of exp(power t) up to a length is length * exprel(power * length), also for power zero
+        lengths = np.diff(self.span)
+        whole = starts * (lengths * exprel(powers * lengths))
         below = np.concatenate([[0.0], np.cumsum(whole)])
         piece = np.clip(np.searchsorted(self.span, span, side="right") - 1, 0, self.exponents.size - 1)
         inside = np.minimum(span, self.span[-1]) - self.span[piece]
-        return np.asarray(below[piece] + starts[piece] * _exponential_integral(powers[piece], inside))
+        return np.asarray(below[piece] + starts[piece] * (inside * exprel(powers[piece] * inside)))
 
     def graded(self, first: float, *, growth: float = 1.0) -> RealArray:
         """Ends of panels in ln(q/q_L) from zero to the end of the table, its points among them, for functions of ∫ q^n C dq from q_L.
@@ -140,13 +144,6 @@ class IsotropicSpectrum:
         """m0 (m²), m2 and m4 (1/m²) of a profile."""
         m0, m2 = self.moment(1) / (2.0 * math.pi), self.moment(3) / (4.0 * math.pi)
         return m0, m2, 3.0 * self.moment(5) / (16.0 * math.pi)
-
-
-def _exponential_integral(power: RealArray, length: RealArray) -> RealArray:
-    """∫₀^length exp(power t) dt, also for power zero."""
-    from scipy.special import exprel
-
-    return length * exprel(power * length)
 
 
 # Persson's theory of the mean gap and of the stiffness of a rough contact, from the power spectrum.
@@ -527,11 +524,17 @@ def diffused_pressure(
         kept.append(density)
     # wavenumbers at which the integral of q³ C has grown by equal parts
     whole, last = spectrum.moment(3), float(spectrum.span[-1])
-
-    def lacking(span: float, part: float) -> float:
-        return float(spectrum.partial_moment(3, np.array([span]))[0]) - part * whole
-
-    inner = [brentq(lacking, 0.0, last, args=(number / rounds,), xtol=1e-14) for number in range(1, rounds)]
+    inner = []
+    for number in range(1, rounds):
+        part = number / rounds * whole
+        inner.append(
+            brentq(
+                lambda span, part=part: float(spectrum.partial_moment(3, np.array([span]))[0]) - part,
+                0.0,
+                last,
+                xtol=1e-14,
+            )
+        )
     spans = np.array([0.0, *inner, last])
     wavenumbers = np.asarray(spectrum.wavenumber)[0] * np.exp(spans)
     return PressureHistory(wavenumbers, grid, np.stack(kept))

@@ -221,14 +221,15 @@ class SampledPeaks(Theory):
     def height_deviation(self) -> float:
         """Standard deviation of the heights of the peaks in σ."""
         # the height is its regression on the curvature and an independent normal rest
-        regression = self._regression
+        regression = 2.0 * (1.0 - self.rho_1) / self._curvature_variance
         rest = 1.0 - regression**2 * self._curvature_variance
         return math.sqrt(rest + regression**2 * self.curvature_deviation**2)
 
     @property
     def height_curvature_correlation(self) -> float:
         """Correlation of height and curvature over the peaks."""
-        return self._regression * self.curvature_deviation / self.height_deviation
+        regression = 2.0 * (1.0 - self.rho_1) / self._curvature_variance  # slope of the mean height over the curvature
+        return regression * self.curvature_deviation / self.height_deviation
 
     @property
     def zero_crossings(self) -> float:
@@ -239,8 +240,3 @@ class SampledPeaks(Theory):
     def _curvature_variance(self) -> float:
         """Variance of C over all points: 2(3 - 4ρ1 + ρ2)."""
         return 2.0 * (3.0 - 4.0 * self.rho_1 + self.rho_2)
-
-    @property
-    def _regression(self) -> float:
-        """Slope of the mean height over the curvature: 2(1 - ρ1)/Var C."""
-        return 2.0 * (1.0 - self.rho_1) / self._curvature_variance

@@ -202,7 +202,7 @@ class PerssonFriction(Theory):
             raise InputError(
                 f"times of a relaxation must be as many as its moduli, but are {np.size(self.times)} for {np.size(self.moduli)}."
             )
-        _ = self._spectrum
+        IsotropicSpectrum(self.q, self.psd)  # checks them
 
     @classmethod
     def of_roughness(
@@ -212,10 +212,6 @@ class PerssonFriction(Theory):
         found = roughness.known(roughness.spectrum, "its spectrum", cls.name)
         holds = found.psd > 0.0
         return cls(relaxed, moduli, times, found.q[holds], found.psd[holds], reduction)
-
-    @property
-    def _spectrum(self) -> IsotropicSpectrum:
-        return IsotropicSpectrum(self.q, self.psd)
 
     def modulus(self, omega: RealArray) -> ComplexArray:
         """Complex modulus (Pa) at angular frequencies (rad/s)."""
@@ -236,8 +232,9 @@ class PerssonFriction(Theory):
         return self._answer(p, np.full(p.shape, float(real_numbers(speed, "sliding speed (m/s)"))))
 
     def _answer(self, pressure: RealArray, speed: RealArray) -> FrictionAnswer:
+        spectrum = IsotropicSpectrum(self.q, self.psd)
         found = [
-            rubber_friction(self._spectrum, self.modulus, speed=float(v), pressure=float(p), reduction=self.reduction)
+            rubber_friction(spectrum, self.modulus, speed=float(v), pressure=float(p), reduction=self.reduction)
             for p, v in zip(pressure, speed, strict=True)
         ]
         friction, area = (np.array([getattr(each, name) for each in found]) for name in ("friction", "area_fraction"))

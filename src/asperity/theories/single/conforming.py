@@ -217,11 +217,11 @@ class PinInHole(Theory):
     def _width(self, P: RealArray) -> RealArray:
         """b at the loads."""
         share = P / (2.0 * self.E_star * (self.outer - self.inner))
-
-        def miss(b: RealArray) -> RealArray:
-            return np.asarray(math.pi * b**2 * (1.0 + b**2) - share * (2.0 - np.log1p(b**2) - 2.0 * b**4))
-
-        return bisected(miss, np.zeros_like(P), np.ones_like(P))
+        return bisected(
+            lambda b: math.pi * b**2 * (1.0 + b**2) - share * (2.0 - np.log1p(b**2) - 2.0 * b**4),
+            np.zeros_like(P),
+            np.ones_like(P),
+        )
 
 
 def _persson(y: RealArray, b: RealArray) -> RealArray:

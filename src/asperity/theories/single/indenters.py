@@ -95,7 +95,23 @@ class PowerLawIndenter(Theory):
         n, a = self.exponent, checked(contact_radius, "contact radius (m)")
         approach = self.approach_factor * self.coefficient * a**n
         load = 2.0 * n / (n + 1.0) * self.E_star * a * approach
-        return ContactAnswer(load, approach, a, np.pi * a**2, self._max_pressure(a, approach), 2.0 * self.E_star * a)
+        # the largest pressure is at the centre for n <= 2; for larger n on a ring inside, found on a fine grid of radii and refined
+        with np.errstate(invalid="ignore"):
+            scale = np.where(a > 0.0, n * self.E_star * approach / (np.pi * a), 0.0)
+        if n == 1.0:
+            peak = np.where(a > 0.0, np.inf, 0.0)
+        elif n <= 2.0:
+            peak = scale / (n - 1.0)
+        else:
+            low, high = 0.0, 1.0
+            for _ in range(12):  # each a twentieth of the one before
+                rho = np.linspace(low, high, 41)[1:]
+                values = power_integral(rho, n)
+                best = float(rho[np.argmax(values)])
+                step = (high - low) / 40.0
+                low, high = max(0.0, best - step), min(1.0, best + step)
+            peak = scale * values.max()
+        return ContactAnswer(load, approach, a, np.pi * a**2, np.asarray(peak), 2.0 * self.E_star * a)
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
         """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in N, > 0.
@@ -109,24 +125,6 @@ class PowerLawIndenter(Theory):
         values = scale * power_integral(np.where(open_, rho, 1.0), self.exponent)
         at_apex = np.inf if self.exponent == 1.0 else scale / (self.exponent - 1.0)
         return np.where(rho == 0.0, at_apex, values)
-
-    def _max_pressure(self, a: RealArray, approach: RealArray) -> RealArray:
-        """At the centre for n <= 2; for larger n on a ring inside, found on a fine grid of radii and refined."""
-        n = self.exponent
-        if n == 1.0:
-            return np.where(a > 0.0, np.inf, 0.0)
-        with np.errstate(invalid="ignore"):
-            scale = np.where(a > 0.0, n * self.E_star * approach / (np.pi * a), 0.0)
-        if n <= 2.0:
-            return np.asarray(scale / (n - 1.0))
-        low, high = 0.0, 1.0
-        for _ in range(12):  # each a twentieth of the one before
-            rho = np.linspace(low, high, 41)[1:]
-            values = power_integral(rho, n)
-            best = float(rho[np.argmax(values)])
-            step = (high - low) / 40.0
-            low, high = max(0.0, best - step), min(1.0, best + step)
-        return np.asarray(scale * values.max())
 
 
 @dataclass(frozen=True)
@@ -271,10 +269,15 @@ class SphericalIndenter(Theory):
             raise InputError(
                 f"contact radius must be less than that of the sphere, {self.radius:g} m, but is {float(a.max()):g} m."
             )
+        from scipy.special import spence
+
         s = a / self.radius
+        # ∫ artanh(x)/x dx over 0 < x < s: the Legendre chi function of order two, by its series where the difference loses digits
+        series = sum(s ** (2 * n + 1) / (2 * n + 1) ** 2 for n in range(9))
+        chi = np.where(s < 0.1, series, 0.5 * (spence(1.0 - s) - spence(1.0 + s)))
         with np.errstate(invalid="ignore", divide="ignore"):
             # p at the axis: (E*/π) ∫ g'(x)/x dx, g = x artanh(x/R)
-            mean_slope = np.where(s > 0.0, np.arctanh(s), 0.0) + _integral_artanh_over_x(s)
+            mean_slope = np.where(s > 0.0, np.arctanh(s), 0.0) + chi
         return ContactAnswer(
             load=self._load(s),
             approach=a * np.arctanh(s),
@@ -300,14 +303,6 @@ class SphericalIndenter(Theory):
         exact = (1.0 + s**2) * np.arctanh(s) - s
         terms = [(1.0 / (2 * n + 1) + 1.0 / (2 * n - 1)) * s ** (2 * n + 1) for n in range(1, 9)]
         return self.E_star * self.radius**2 * np.where(s < 0.1, sum(terms), exact)
-
-
-def _integral_artanh_over_x(s: RealArray) -> RealArray:
-    """∫ artanh(x)/x dx over 0 < x < s: the Legendre chi function of order two."""
-    from scipy.special import spence
-
-    series = sum(s ** (2 * n + 1) / (2 * n + 1) ** 2 for n in range(9))  # where the difference loses digits
-    return np.asarray(np.where(s < 0.1, series, 0.5 * (spence(1.0 - s) - spence(1.0 + s))))
 
 
 # Rigid symmetric indenters in plane strain: power laws (wedge, cylinder, …) and flat punch (Galin 1946; Johnson 1985, ch. 2).
@@ -341,12 +336,14 @@ class LinePowerLawIndenter(Theory):
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N/m, >= 0, of any shape."""
         P = checked(load, "load per length (N/m)")
-        return self.at_half_width((P / self._stiff) ** (1.0 / self.exponent))
+        stiff = self.E_star * self.exponent * self.coefficient * self.load_factor
+        return self.at_half_width((P / stiff) ** (1.0 / self.exponent))
 
     def at_half_width(self, half_width: ArrayLike) -> ContactAnswer:
         """The contact of the ``half_width`` a in m, >= 0, of any shape."""
         a = checked(half_width, "half-width (m)")
-        load, unknown = self._stiff * a**self.exponent, np.full_like(a, np.nan)
+        stiff = self.E_star * self.exponent * self.coefficient * self.load_factor
+        load, unknown = stiff * a**self.exponent, np.full_like(a, np.nan)
         # the pressure of n <= 2 is largest in the middle, (n P/πa)/(n - 1)
         n = self.exponent
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -366,10 +363,6 @@ class LinePowerLawIndenter(Theory):
         scale = self.exponent * answer.load / (np.pi * answer.radius)
         values = scale * power_integral(np.where((xi > 0.0) & (xi < 1.0), xi, 1.0), self.exponent)
         return np.where(xi == 0.0, scale / (self.exponent - 1.0) if self.exponent > 1.0 else np.inf, values)
-
-    @property
-    def _stiff(self) -> float:
-        return self.E_star * self.exponent * self.coefficient * self.load_factor
 
 
 @dataclass(frozen=True)

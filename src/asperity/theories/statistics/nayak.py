@@ -132,7 +132,7 @@ class NayakSummits(Theory):
     @property
     def mean_curvature(self) -> float:
         """Mean of κ over the summits in 1/m: (8/3) sqrt(m4/π)."""
-        return self._curvature_unit * _curvature_moment(1)
+        return math.sqrt(2.0 * self.m4 / 3.0) * _curvature_moment(1)
 
     @property
     def radius(self) -> float:
@@ -142,7 +142,7 @@ class NayakSummits(Theory):
     @property
     def curvature_deviation(self) -> float:
         """Standard deviation of κ over the summits in 1/m: 0.5178 sqrt(m4)."""
-        return self._curvature_unit * math.sqrt(_curvature_cumulants()[0])
+        return math.sqrt(2.0 * self.m4 / 3.0) * math.sqrt(_curvature_cumulants()[0])
 
     @property
     def mean_geometric_curvature(self) -> float:
@@ -165,15 +165,11 @@ class NayakSummits(Theory):
         xi = real_numbers(height, "heights (m)") / math.sqrt(self.m0)
         moments = self._partial_moments(xi)[1]
         with np.errstate(invalid="ignore"):  # no summits below the mean plane where there is a single wavelength
-            return np.asarray(self._curvature_unit * moments[1] / moments[0])
+            return np.asarray(math.sqrt(2.0 * self.m4 / 3.0) * moments[1] / moments[0])
 
     def at_height(self, height: ArrayLike) -> SummitsAt:
         """Summits at ``height`` in m (any shape)."""
         return SummitsAt(self.height_density(height), self.mean_curvature_at(height))
-
-    @property
-    def _curvature_unit(self) -> float:
-        return math.sqrt(2.0 * self.m4 / 3.0)
 
     def _height_cumulants(self) -> tuple[float, float, float]:
         """Second to fourth cumulant of ξ = ρ t + sqrt(1 - ρ²) n, n standard normal and independent of t."""

@@ -256,8 +256,23 @@ class _Potential:
         from scipy.special import elliprd
 
         a, b = semi_axes
-        s = _confocal(x, y, z, semi_axes)
-        A, B = a**2 + s, b**2 + s
+        # λ >= 0 in m², the largest root of a cubic, by Newton's method from above, where the cubic is convex
+        a2, b2 = a**2, b**2
+        s = x**2 + y**2 + z**2
+        for _ in range(60):
+            value = s * (a2 + s) * (b2 + s) - x**2 * s * (b2 + s) - y**2 * s * (a2 + s) - z**2 * (a2 + s) * (b2 + s)
+            slope = (
+                (a2 + s) * (b2 + s)
+                + s * (a2 + b2 + 2.0 * s)
+                - x**2 * (b2 + 2.0 * s)
+                - y**2 * (a2 + 2.0 * s)
+                - z**2 * (a2 + b2 + 2.0 * s)
+            )
+            new = np.maximum(s - np.divide(value, slope, out=np.zeros_like(s), where=slope > 0.0), 0.0)
+            if np.all(np.abs(new - s) <= 1e-15 * s):
+                break
+            s = new
+        A, B = a2 + s, b2 + s
         root = np.sqrt(A * B)
         # z/√λ, which inside of the contact on the surface is the root of the pressure
         inside = np.sqrt(np.maximum(1.0 - x**2 / A - y**2 / B, 0.0))
@@ -276,26 +291,6 @@ class _Potential:
             V_xz=scale * x / A * tilt,
             V_yz=scale * y / B * tilt,
         )
-
-
-def _confocal(x: RealArray, y: RealArray, z: RealArray, semi_axes: tuple[float, float]) -> RealArray:
-    """λ >= 0 in m², the largest root of a cubic, by Newton's method from above, where the cubic is convex."""
-    a2, b2 = semi_axes[0] ** 2, semi_axes[1] ** 2
-    s = x**2 + y**2 + z**2
-    for _ in range(60):
-        value = s * (a2 + s) * (b2 + s) - x**2 * s * (b2 + s) - y**2 * s * (a2 + s) - z**2 * (a2 + s) * (b2 + s)
-        slope = (
-            (a2 + s) * (b2 + s)
-            + s * (a2 + b2 + 2.0 * s)
-            - x**2 * (b2 + 2.0 * s)
-            - y**2 * (a2 + 2.0 * s)
-            - z**2 * (a2 + b2 + 2.0 * s)
-        )
-        new = np.maximum(s - np.divide(value, slope, out=np.zeros_like(s), where=slope > 0.0), 0.0)
-        if np.all(np.abs(new - s) <= 1e-15 * s):
-            break
-        s = new
-    return s
 
 
 def _integrals(

@@ -172,26 +172,20 @@ def balance(contact: GreenwoodWilliamson, pull: Pull, pressure: RealArray) -> We
             f"load (Pa) with its menisci must be within what the summits carry, at most {densest:.4g} Pa at "
             f"{-LOWEST:g} standard deviations below their mean, but is {pressure[unborne][0]:g}."
         )
-    ends = h[first - 1][:, None], h[first][:, None]
-    separations = _crossing(lambda separation: rest(separation) - loads, *ends, _CLOSE * contact.height_deviation)
-    return WetPrediction(pressure, pull(separations)[:, 0], contact.at_separation(separations[:, 0]))
-
-
-def _crossing(function: Pull, low: RealArray, high: RealArray, close: float) -> RealArray:
-    """Where ``function`` falls through zero between ``low`` and ``high``, to a step of ``close``: false position
-    (Illinois).
-    """
-    at_low, at_high = function(low), function(high)
+    # where the rest falls through the load, to a small step: false position (Illinois)
+    low, high = h[first - 1][:, None], h[first][:, None]
+    at_low, at_high = rest(low) - loads, rest(high) - loads
     for _ in range(_STEPS):
         fall = at_high - at_low
         x = high - np.divide(at_high * (high - low), fall, out=np.zeros_like(high), where=fall != 0.0)
-        step, value = np.abs(x - high), function(x)
+        step, value = np.abs(x - high), rest(x) - loads
         passed = value * at_high < 0.0
         low, at_low = np.where(passed, high, low), np.where(passed, at_high, 0.5 * at_low)
         high, at_high = x, value
-        if np.all((step <= close) | (value == 0.0)):
+        if np.all((step <= _CLOSE * contact.height_deviation) | (value == 0.0)):
             break
-    return high
+    separations = high
+    return WetPrediction(pressure, pull(separations)[:, 0], contact.at_separation(separations[:, 0]))
 
 
 def _separations(contact: GreenwoodWilliamson) -> RealArray:
