@@ -80,13 +80,14 @@ def make_axis(base: Base, table: AxisTable, name: str) -> Axis:
     followers = [(locate(base.document, path), rule) for path, rule in table.also.items()]
     points = []
     for number, value in enumerate(values):
+        position = coordinate(place, value)
         changes = [(place, value)]
         changes += [(other, _following(other, rule, place, value, number, len(values))) for other, rule in followers]
         # checked together: a hardness alone may have no modulus to go with
         edits = tuple(Edit(at.keys, new, at.content(new, base.folder)) for at, new in changes)
         shown = ", ".join(f"{at.path} = {new!r}" for at, new in changes)
         checked(edited(problem_table(base.document), edits), f"problem with {shown}")
-        points.append(Point(coordinate(place, value), edits))
+        points.append(Point(position, edits))
     if not all(isinstance(point.coordinate, float) for point in points):  # all of them numbers, or else all words
         points = [Point(str(point.coordinate), point.edits, point.columns) for point in points]
     is_load = place.is_load and all(other.is_load for other, _ in followers)
