@@ -58,9 +58,12 @@ class CrestSystem:
     coupling: RealArray
 
     def residual(self, w: RealArray, delta: RealArray) -> RealArray:
-        """r_i in m; the approach ω_i of a punch is the displacement of its centre by its own load, too."""
-        own = two_term_approach(np.sqrt(w), self.A1, self.A2)
-        return own + self.coupling @ self.loads(w) - delta
+        """r_i in m."""
+        return self.own_approach(w) + self.coupling @ self.loads(w) - delta
+
+    def own_approach(self, w: RealArray) -> RealArray:
+        """ω_i in m; the approach of a punch is the displacement of its centre by its own load, too."""
+        return two_term_approach(np.sqrt(w), self.A1, self.A2)
 
     def own_slope(self, w: RealArray) -> RealArray:
         """dω_i/dw_i in 1/m."""
