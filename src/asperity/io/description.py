@@ -27,6 +27,7 @@ from ..core.registry import DESCRIBED, PHYSICS, home
 from ..core.spectral import fft_library
 from ..solids.elastic import Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
+from ..solids.plasticity import LinearHardening, Swift, Voce
 from ..solids.viscoelastic import TemperatureShift, Viscoelastic
 from ..surfaces.surface import Surface
 
@@ -44,9 +45,12 @@ TYPES: tuple[type, ...] = (
     Hardness,
     HardWall,
     Layer,
+    LinearHardening,
     RigidBase,
     Strength,
+    Swift,
     Viscoelastic,
+    Voce,
 )
 """Types that can be written beside those of the physics: frozen dataclasses of numbers, text, arrays, tuples and one another."""
 

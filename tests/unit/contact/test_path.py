@@ -8,6 +8,7 @@ import re
 import weakref
 from collections import Counter
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -150,7 +151,7 @@ def test_the_given_operator_serves_every_step(monkeypatch: pytest.MonkeyPatch) -
     def never(*_: object, **__: object) -> None:
         raise AssertionError("a second operator was prepared")
 
-    monkeypatch.setattr("asperity.contact.solve.prepare_operator", never)
+    monkeypatch.setattr(import_module("asperity.contact.solve"), "prepare_operator", never)
     seen = []
     for _ in steps(posed, pressures(LOADS), operator=counting):  # type: ignore[arg-type]
         seen.append(counting.asked["convolution"])
@@ -164,7 +165,7 @@ def test_without_operator_one_is_prepared(monkeypatch: pytest.MonkeyPatch) -> No
         made.append(options)
         return asp.solvers.prepare_operator(*arguments, **options)
 
-    monkeypatch.setattr("asperity.contact.solve.prepare_operator", counted)
+    monkeypatch.setattr(import_module("asperity.contact.solve"), "prepare_operator", counted)
     engine = asp.engines.CpuEngine(1)
     asp.solve(problem(), asp.History(pressures(LOADS)), engine=engine)
     assert made == [{"engine": engine}]

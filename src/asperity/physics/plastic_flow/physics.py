@@ -13,7 +13,7 @@ from ...contact.problem import ContactProblem, Physics, Preparing, Solved
 from ...core.errors import InputError
 from ...solids.eigenstrain.cells import stack_of
 from ...solids.layers import materials_of
-from ...solids.plasticity import J2, LinearHardening, Swift, Voce
+from ...solids.plasticity import J2
 from ...solids.viscoelastic import Viscoelastic
 from .law import PlasticFlow, plastic_body
 
@@ -101,5 +101,5 @@ class Flowing(Physics):
 
     @classmethod
     def types(cls) -> tuple[type, ...]:
-        """The flow, and the laws of its parts."""
-        return J2, LinearHardening, PlasticFlow, Swift, Voce
+        """The flow, and the law of a part of it; files know hardening by the strength of materials."""
+        return J2, PlasticFlow
