@@ -64,7 +64,6 @@ def run(
     Exit code 0: all cases done; 1: some failed (the others are there, and the causes are listed); 2: bad input;
     130: interrupted by Ctrl-C (all finished cases are kept: run it again to resume).
     """
-
     campaign = prepare_study(study, out, confirm=partial(confirmed, yes=yes))
     monte_carlo = campaign.study.document.monte_carlo
     most = "at most " if monte_carlo is not None and monte_carlo.stop is not None else ""

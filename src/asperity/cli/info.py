@@ -168,7 +168,6 @@ def _roughness(flat: Surface) -> dict[str, tuple[float, str, str]]:
 def _record(
     file: Path, found: tuple[ChannelInfo, ...], surface: Surface, flat: Surface, whole: Characterisation | None
 ) -> dict[str, Any]:
-
     roughness = {key: value if value == value else None for key, (value, _, _) in _roughness(flat).items()}
     return {
         "file": str(file),
@@ -185,7 +184,6 @@ def _record(
 
 
 def _print(file: Path, found: tuple[ChannelInfo, ...], read_index: int, surface: Surface) -> None:
-
     rows = [
         (
             f"channel {item.index}" + (" (read)" if item.index == read_index else ""),

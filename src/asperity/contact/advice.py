@@ -77,8 +77,7 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
 
 def findings(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
     """Everything that should be known before the numbers of what was ``solved`` are used: ``advise`` on it and ``review`` of it."""
-    steps = solved.steps if isinstance(solved, HistoryResult) else (solved,)
-    peak = max(steps, key=lambda step: step.force)
+    peak = solved.steps[_largest(solved)] if isinstance(solved, HistoryResult) else solved
     found = (*advise(peak.problem, peak.control), *review(solved))
     return tuple(sorted(found, key=lambda item: item.criterion != DOUBT))
 
@@ -90,16 +89,21 @@ def review(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
     """
     if not isinstance(solved, HistoryResult):
         return _review(solved)
-    steps = solved.steps
+    steps, number = solved.steps, _largest(solved)
     found = [item for item in _review(solved.last) if item.criterion != DOUBT]
-    number = max(range(len(steps)), key=lambda i: steps[i].force)
     known = {DOUBT, *(item.criterion for item in found)}
-    found += [
-        replace(item, message=f"At the largest force (step {number + 1}): {item.message}")
-        for item in _review(steps[number])
-        if item.criterion not in known
-    ]
+    if number < len(steps) - 1:
+        found += [
+            replace(item, message=f"At the largest force (step {number + 1}): {item.message}")
+            for item in _review(steps[number])
+            if item.criterion not in known
+        ]
     return (*doubts(*steps), *found)
+
+
+def _largest(history: HistoryResult) -> int:
+    """Number of the step of the largest force of a ``history``, from 0."""
+    return max(range(len(history.steps)), key=lambda step: history.steps[step].force)
 
 
 def _review(result: ContactResult) -> tuple[Advice, ...]:

@@ -278,9 +278,11 @@ class Choice(Values):
     def read(self, value: Any, what: str) -> Any:
         """What a word stands for."""
         if isinstance(value, str):
+            if value in self.words:
+                return self.words[value]
             same = [word for word in self.words if alike(word) == alike(value)]
-            if value in self.words or len(same) == 1:
-                return self.words[value if value in self.words else same[0]]
+            if len(same) == 1:
+                return self.words[same[0]]
         return self.check(value, what)
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:

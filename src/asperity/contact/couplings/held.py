@@ -41,7 +41,7 @@ def settle_position(
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
 ) -> Settled:
-    """``settle``; where a hardness bounds the pressure and no load is found for a position, with the position held. The arguments are the same.
+    """``settle`` of a prescribed position; where a hardness bounds the pressure and no load is found for it, with the position held. The arguments are the same.
 
     Raises
     ------
@@ -50,12 +50,10 @@ def settle_position(
     """
     searched = partial(settle, posed, couplings, memories, solver, rounds=rounds, progress=progress)
     bounding: list[Coupling] = []
-    if isinstance(posed.control, Approach | MeanGap) and not any(coupling.positions for coupling in couplings):
+    if not any(coupling.positions for coupling in couplings):
         bounding = [coupling for coupling in couplings if coupling.bounds]
     if len(bounding) != 1 or any(coupling.feedback for coupling in couplings if coupling is not bounding[0]):
-        return (
-            searched()
-        )  # no position is prescribed, no hardness bounds the pressure, or something else reacts to the contact
+        return searched()  # no hardness bounds the pressure, or something else reacts to the contact
     last: Contact | None = None
 
     def held(approach: float, start: RealArray | None) -> Settled:

@@ -17,7 +17,6 @@ def branch_values(solved: Solved, farthest: float) -> tuple[dict[str, Any], tupl
 
     Where the pixel is larger than the branch needs its folds may be those of single points.
     """
-
     assert solved.path is not None
     deepest = max(solved.path.steps, key=lambda step: step.approach)
     try:

@@ -21,9 +21,3 @@ WET_SCALARS = (
     Quantity("feedback", "1", "share of the meniscus force that the menisci themselves cause"),
 )
 """Every scalar of the menisci, in the order of tables."""
-
-WET_FIELDS = (
-    Quantity("menisci", "1", "whether a meniscus bridges the gap", dims=("x", "y")),
-    Quantity("wetted", "1", "whether the gap is in the film", dims=("x", "y")),
-)
-"""Fields of a wet contact."""

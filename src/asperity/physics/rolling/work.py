@@ -157,7 +157,6 @@ def _rolled(problem: ContactProblem, control: Control, ask: Rolls, progress: Any
 
 def _numbers(contact: RollingContact, rough: RoughRolling | None) -> dict[str, float]:
     """``SCALARS``: means over the distance of a rough wheel."""
-
     along, across, torque, slips, heat, deviation = mean_forces(contact, rough)
     load, limit = contact.normal.force, contact.friction_limit if rough is None else rough.mean("friction_limit")
     values = {
@@ -216,7 +215,6 @@ REMARK = (
 
 def _curve_table(values: Mapping[str, Any], facts: Mapping[str, Any]) -> Table:
     """Creepages and forces of every point, FASTSIM or Carter beside them."""
-
     names = {"fastsim": "FASTSIM", "carter": "Carter"}
     beside = next(iter(facts["beside"].items()), None)
     cells = []
