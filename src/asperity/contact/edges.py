@@ -1,4 +1,4 @@
-"""Where the edge of a contact runs between pixels, and what that makes of area, perimeter and spots.
+"""Where the edge of a contact runs between pixels, and the real area, perimeter and spots that follow, freed of the size of the pixels.
 
 Near its edge the pressure of a contact without adhesion is k √δ and the gap 4k/(3E*) δ^(3/2) at a distance δ inside and outside. What pixels hold there
 depends on the place of the edge between their centres alone (``edge_tables``). It follows from the ratio of the last two pressures, which looks inwards, and
@@ -48,6 +48,13 @@ RANDOM = 0.05
 PINNED, PINNED_ERROR = -0.17, 0.33
 """Pixels per edge between counted and true area of a contact whose attraction has no range, and their error: the grid holds its edge, and what it
 does depends on the history (spheres of 4 to 24 pixels against the exact JKR)."""
+
+
+SAME_LIMIT = 1e-6
+"""Relative difference of two pressures at the same limit."""
+
+LEAST_SPOT = 1.0 / 16.0
+"""Least area in pixels of a spot: what single pixels, barely in contact, hold is not told apart from nothing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -313,3 +320,57 @@ def _pressed(
     spread = np.where(here, CAPPED, np.where(next_one, 0.5 * (single - rigid), spread))
     factor = np.where(here, CAPPED_FACTOR, factor)
     return Places(distance, spread, factor, deep & ~here, deep)
+
+
+@dataclass(frozen=True, eq=False)
+class RealArea:
+    """Real contact area by the place of the edges.
+
+    Attributes
+    ----------
+    spots
+        Area in m² of every contact spot (pixels joined by their sides), largest first.
+    error
+        Error in m² of the sum: what all edges share in the worst case, and two standard deviations of what is random.
+    perimeter
+        Length of all edges in m.
+    """
+
+    spots: RealArray
+    error: float
+    perimeter: float
+
+    @property
+    def total(self) -> float:
+        """Area of all spots in m²."""
+        return float(self.spots.sum())
+
+
+def real_area(pressure: RealArray, plastic: BoolArray, edges: Edges, wraps: tuple[bool, bool]) -> RealArea:
+    """Real area of a contact with these fields, (nx, ny) each, and its ``edges`` in a map that ``wraps`` along x and along y.
+
+    A spot with pixels at the limit H of the pressure is at least as large as its force over H, which is exact for any contact.
+    """
+    grid, contact = edges.grid, pressure > 0.0
+    labels, count = labelled(contact, wraps=wraps)
+    if count == 0:
+        return RealArea(np.zeros(0), 0.0, 0.0)
+    flat = labels.ravel()
+    found = np.bincount(flat, minlength=count + 1).astype(float)
+    found += np.bincount(flat[edges.inner], edges.excess, minlength=count + 1)
+    least = np.full(count + 1, LEAST_SPOT)
+    if plastic.any():
+        force = np.bincount(flat, pressure.ravel().astype(np.float64), minlength=count + 1)
+        # pressure (count + 1,) that no point of a spot exceeds; infinite where the limit varies and none of its pixels is at it
+        p, capped = pressure.ravel(), plastic.ravel()
+        at_limit = p[capped].astype(np.float64)
+        limits = np.full(count + 1, float(at_limit.max()))
+        if float(at_limit.min()) < float(at_limit.max()) * (1.0 - SAME_LIMIT):
+            highest, reached = np.zeros(count + 1), np.zeros(count + 1, dtype=bool)
+            np.maximum.at(highest, flat, p)
+            reached[flat[capped]] = True
+            limits = np.where(reached, highest, np.inf)
+        np.maximum(least, force / limits, out=least)
+    spots = np.sort(np.maximum(found, least)[1:])[::-1]
+    spots *= min(1.0, grid.n_points / spots.sum())
+    return RealArea(spots * grid.pixel_area, edges.area_error() * grid.pixel_area, edges.perimeter())

@@ -20,11 +20,11 @@ from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from . import measure
 from .answer import Answer, WithOutcomes, outside
-from .area import RealArea, edges_in, real_area
 from .certificate import Certificate
 from .controls import Control
 from .couplings.protocol import Contact, Deflections, Memory
-from .edges import Edges
+from .edge_tables import PATCHES, WAVES
+from .edges import Edges, Kind, RealArea, Setting, edges_of, real_area
 from .found import ResultNames
 from .operators import Operator, prepare_operator
 from .peak_pressure import PeakPressure, peak_pressure
@@ -224,7 +224,7 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
 
     @cached_property
     def _real_area(self) -> RealArea:
-        return real_area(self.problem, self.pressure, self.plastic, self.edges)
+        return real_area(self.pressure, self.plastic, self.edges, self.problem.boundary.wraps)
 
     @property
     def contact_area(self) -> float:
@@ -238,7 +238,7 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
 
     @property
     def area_fraction_error(self) -> float:
-        """Error of ``area_fraction_corrected`` by the size of the pixels (see ``area.RealArea``)."""
+        """Error of ``area_fraction_corrected`` by the size of the pixels (see ``RealArea``)."""
         return self._real_area.error / self.problem.grid.area
 
     @property
@@ -445,3 +445,12 @@ def _indentation(
         "plastic_volume": 0.0 if virgin else float(dent.sum()) * pixel,
         "max_permanent_indentation": 0.0 if virgin else float(dent.max()),
     }
+
+
+def edges_in(problem: ContactProblem, pressure: RealArray, gap: RealArray, plastic: BoolArray) -> Edges:
+    """Edges of a contact of ``problem`` with these fields, (nx, ny) each."""
+    table = WAVES if problem.boundary.name == "periodic" else PATCHES
+    kinds = (physics.edges(problem) for physics in problem.physics)
+    kind = next((found for found in kinds if found is not None), Kind.elastic)
+    setting = Setting(problem.grid, problem.boundary.wraps, problem.contact_modulus, table, kind)
+    return edges_of(pressure, gap, plastic, setting)

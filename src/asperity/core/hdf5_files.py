@@ -2,40 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from .errors import FileFormatError
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 """First bytes of the superblock, which stands at byte 0, 512, 1024 and so on, doubling (HDF5 file format specification, II.A)."""
-
-
-def require_own_file(path: str | Path, what: str) -> None:
-    """Refuse the file ``path`` if it is of HDF5 and ``require_own_data`` refuses it, or the library cannot list what it holds.
-
-    Raises
-    ------
-    FileFormatError
-        If there is any of this.
-    """
-    size, place, found = Path(path).stat().st_size, 0, False
-    with Path(path).open("rb") as file:  # a superblock where the library looks for one
-        while place + len(SIGNATURE) <= size and not found:
-            file.seek(place)
-            found, place = file.read(len(SIGNATURE)) == SIGNATURE, 2 * place or 512
-    if not found:
-        return
-    import h5py
-
-    try:
-        with h5py.File(path, "r") as content:
-            require_own_data(content, what)
-    except FileFormatError:
-        raise
-    except Exception as error:  # the library raises many types on damaged bytes
-        reason = " ".join(str(error).split())[:160]
-        raise FileFormatError(f"{what} must be a whole HDF5 file, but cannot be read ({reason}).") from error
 
 
 def require_own_data(group: Any, what: str) -> None:

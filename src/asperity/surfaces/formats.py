@@ -16,7 +16,7 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import AsperityError, FileFormatError, InputError, UnitError
-from ..core.hdf5_files import require_own_file
+from ..core.hdf5_files import SIGNATURE, require_own_data
 from ..core.status import require_memory
 from ..core.units import show, unit_factor
 from .reader_library import opened_by_first_reader, opened_by_library
@@ -144,7 +144,7 @@ def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
     What cannot be read with the parts of the library that the reader imports is read with all of it.
     """
     failure: Exception | None = None
-    require_own_file(file, f"file {file}")
+    _require_own_data(file)
     with _quiet():
         for opened in (opened_by_first_reader, opened_by_library):
             try:
@@ -164,6 +164,28 @@ def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
         f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
         f"but cannot be read ({reason}). It may be damaged or of an unknown format."
     ) from failure
+
+
+def _require_own_data(path: Path) -> None:
+    """Refuse the file ``path`` if it is of HDF5 and ``require_own_data`` refuses it, or the library cannot list what it holds."""
+    what = f"file {path}"
+    size, place, found = path.stat().st_size, 0, False
+    with path.open("rb") as file:  # a superblock where the library looks for one
+        while place + len(SIGNATURE) <= size and not found:
+            file.seek(place)
+            found, place = file.read(len(SIGNATURE)) == SIGNATURE, 2 * place or 512
+    if not found:
+        return
+    import h5py
+
+    try:
+        with h5py.File(path, "r") as content:
+            require_own_data(content, what)
+    except FileFormatError:
+        raise
+    except Exception as error:  # the library raises many types on damaged bytes
+        reason = " ".join(str(error).split())[:160]
+        raise FileFormatError(f"{what} must be a whole HDF5 file, but cannot be read ({reason}).") from error
 
 
 def _require_signature(reader: Any, file: Path) -> None:

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...contact.answer import Answer, outside
-from ...contact.area import edges_in, real_area
 from ...contact.controls import Approach, Control, MeanGap, Step, as_step
 from ...contact.couplings.driver import Settled
 from ...contact.couplings.protocol import Contact, Coupling, Memory, Posed, height_scale
+from ...contact.edges import real_area
 from ...contact.operators import Operator
 from ...contact.operators.creep import OperatorsInTime
-from ...contact.result import ContactResult
+from ...contact.result import ContactResult, edges_in
 from ...contact.solvers.protocol import ContactQP, FixedOffset, Solution, SolverState
 from ...contact.state import InterfaceState
 from ...core.arrays import RealArray
@@ -210,7 +210,7 @@ class InTime:
         state = InterfaceState(contact.pressure, {**memories, "creep": past.memory}, earlier)
         capped = contact.touching & (contact.pressure >= contact.cap)
         edges = edges_in(problem, contact.pressure, contact.gap, capped)
-        fraction = real_area(problem, contact.pressure, capped, edges).total / area
+        fraction = real_area(contact.pressure, capped, edges, problem.boundary.wraps).total / area
         force = contact.force if not beside else outside(beside, contact.force)
         top = contact.pressure.max()
         numbers = (past.time, place[0], force, approach, gap, fraction, top, stored, past.dissipated, 0.0)
