@@ -15,6 +15,7 @@ from typing import Annotated, Any, ClassVar
 import typer
 from typer.core import TyperGroup
 
+from ..core.doors import speaking
 from ..core.errors import AsperityError, ConvergenceError
 from ..core.text import printable
 from ..core.units import prefixed
@@ -90,7 +91,8 @@ class Program(Listing):
     def invoke(self, ctx: Any) -> Any:
         """Run the command; leave deliberate exits to typer."""
         try:
-            return super().invoke(ctx)
+            with speaking("command"):
+                return super().invoke(ctx)
         except KeyboardInterrupt:
             _say(SENTENCE)
             raise typer.Exit(INTERRUPTED) from None

@@ -94,7 +94,7 @@ def review(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
     known = {DOUBT, *(item.criterion for item in found)}
     if number < len(steps) - 1:
         found += [
-            replace(item, message=f"At the largest force (step {number + 1}): {item.message}")
+            replace(item, fact=f"At the largest force (step {number + 1}): {item.fact}")
             for item in _review(steps[number])
             if item.criterion not in known
         ]

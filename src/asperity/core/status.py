@@ -6,11 +6,13 @@ import importlib.util
 import math
 import os
 import sys
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import Literal, Protocol
 
+from .doors import in_words
 from .errors import InputError
 
 
@@ -39,15 +41,35 @@ class Status:
 
 @dataclass(frozen=True)
 class Advice:
-    """One finding of the checks of resolution and regime.
+    """One finding of the checks of resolution and regime, as data; ``message`` is its text.
 
-    ``level`` is ``"note"`` (of interest) or ``"warning"`` (the answer may be wrong); ``criterion`` a short name;
-    ``message`` one or two sentences with the numbers and the remedy.
+    Attributes
+    ----------
+    level
+        ``"note"`` (of interest) or ``"warning"`` (the answer may be wrong).
+    criterion
+        Short name of the check.
+    fact
+        One or two sentences with what was found.
+    remedy
+        What to do about it, with the names of ``doors.ACTIONS`` in braces; empty where there is nothing to do.
+    numbers
+        What the criterion compares, by name, SI.
+    concerns
+        Names of the quantities, or beginnings of such names, whose values it puts in doubt; empty where it is about the whole.
     """
 
     level: Literal["note", "warning"]
     criterion: str
-    message: str
+    fact: str
+    remedy: str = ""
+    numbers: Mapping[str, float] = field(default_factory=dict, hash=False)
+    concerns: tuple[str, ...] = ()
+
+    @property
+    def message(self) -> str:
+        """Fact and remedy, in the words of the door that is speaking."""
+        return f"{self.fact} {in_words(self.remedy)}".rstrip()
 
 
 class Progress(Protocol):

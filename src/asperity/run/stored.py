@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -105,9 +105,14 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
         if "words" in groups.get(part.name, Node()).attributes
     }
     _require_provenance(json.loads(tree.attributes["provenance"]))
-    findings = tuple(Advice(**finding) for finding in json.loads(tree.attributes["findings"]))
+    findings = tuple(_finding(**finding) for finding in json.loads(tree.attributes["findings"]))
     outcome = Outcome(None, replace(solved, found=found), found, findings, status_in(tree.attributes))
     return replace(outcome, stored=dict(tree.attributes))
+
+
+def _finding(*, message: str = "", concerns: Sequence[str] = (), **values: Any) -> Advice:
+    """A finding of a file; earlier files hold its text as one ``message``."""
+    return Advice(**{"fact": message, **values}, concerns=tuple(concerns))
 
 
 def _require_provenance(stored: Any) -> None:

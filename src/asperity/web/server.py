@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..core.doors import speaking
 from ..core.errors import InputError
 from ..core.spectral import thread_count
 from .beginning import fill
@@ -79,7 +80,7 @@ def serve(options: Options, opened: Callable[[str], None]) -> None:
             server = uvicorn.Server(config)
             shown = f"[{host}]" if ":" in host else host
             opened(f"http://{shown}:{port}/?token={token}")
-            with _ended_by_signals(server):
+            with _ended_by_signals(server), speaking("form"):
                 server.run(sockets=[listener])
         except KeyboardInterrupt:
             pass

@@ -16,6 +16,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from pydantic import create_model
 
+from ..core.doors import speaking
 from ..core.errors import AsperityError
 from ..core.settings import Settings, validated
 from ..core.status import Progress, share_done
@@ -52,7 +53,7 @@ def guarded(work: Callable[[Task], dict[str, Any]]) -> Callable[[Task], dict[str
     def call(task: Task) -> dict[str, Any]:
         _limit(task.get("memory"))
         try:
-            with warnings.catch_warnings(), np.errstate(all="ignore"):
+            with warnings.catch_warnings(), np.errstate(all="ignore"), speaking("form"):
                 warnings.simplefilter("ignore")
                 return work(task)
         except AsperityError as error:
