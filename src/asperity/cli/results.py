@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..contact.advice import advise, review
+from ..contact.history import HistoryResult
 from ..core import require
 from ..core.citations import cite as references
 from ..core.errors import InputError
@@ -35,7 +35,7 @@ from .contact import Force, Out, file_options, files_in, output_folder, write_vo
 from .declared import Given, Option, offers, part_names, part_options, with_parts
 from .main import NOT_CONVERGED, OK
 from .options import solver_options
-from .show import console, print_advice, print_doubts, print_files, print_problem, print_words, say, stage
+from .show import console, print_files, print_problem, print_verdict, print_words, say, stage
 from .show import table as text_table
 
 Loaded = Annotated[
@@ -146,22 +146,21 @@ def stress(file: Loaded, given: Given, out: Out = None, force: Force = False) ->
     if file.suffix.lower() in (".toml", ".json"):
         _under_tractions(file, given, out, files, force=force)
         return
-    result = contact_of(load(file))
+    loaded = load(file)
+    result, path = contact_of(loaded), loaded if isinstance(loaded, HistoryResult) else None
     request, document, threads = _asked(document_in(file), given)
     Stress().at_work.check(request, result.problem)
     with output_folder(out, force=force) as folder:
         asks = {"stress": request, "yielding": True}
-        outcome = analysed(result, asks, threads=threads, lines=folder is not None, stage=stage)
+        outcome = analysed(result, asks, path, threads=threads, lines=folder is not None, stage=stage)
         if folder is not None and out is not None:
             write_parts(outcome, folder, document and relocated(document, file.parent, out))
             names = ["report.html", "result.nc", "plots", STRESSES, *(["problem.toml"] if document else [])]
             written = [*(out / name for name in names), *written]
     write_volume(outcome, files, force=force)
     print_problem(outcome, f"Stresses in {file}")
-    first = print_doubts(outcome)
     print_words(outcome)
-    findings = (*advise(result.problem, result.control), *review(result), *outcome.findings)
-    print_advice(finding for finding in findings if finding not in first)
+    print_verdict(outcome)
     print_files(written)
     raise typer.Exit(OK if result.converged else NOT_CONVERGED)
 

@@ -99,15 +99,15 @@ def short_names(files: Sequence[Path]) -> list[str]:
     return names if len(set(names)) == len(names) else [str(file) for file in files]
 
 
-def scalar_rows(result: ContactResult) -> list[tuple[str, str]]:
-    """The scalars of ``result`` and the checks that bound its error."""
+def scalar_rows(result: ContactResult, doubted: tuple[str, ...] = ()) -> list[tuple[str, str]]:
+    """The scalars of ``result``, with a mark where they begin with a name of ``doubted``, and the checks that bound its error."""
     from ..io.words import CERTIFICATE, result_rows
 
     checks = result.certificate
     labels = {q.name: q.label for q in CERTIFICATE}
     work = f"{checks.solver}, {checks.iterations} iterations, {show(checks.wall_time, 's', 3)}"
     return [
-        *result_rows(result),
+        *result_rows(result, doubted),
         (labels["duality_gap"], f"{checks.duality_gap:.1e}"),
         (labels["solver"], work),
     ]
@@ -126,26 +126,36 @@ def print_problem(outcome: Outcome, title: str) -> None:
 
 def print_result(outcome: Outcome) -> None:
     """Print scalars and status of ``outcome``, with the words and findings of its parts."""
-    first = print_doubts(outcome)
-    console().print(table("Result", scalar_rows(outcome.result)))
+    from ..run.verdict import doubted, told_of
+
+    reached, told = outcome.solved.at(), told_of(outcome)
+    heading = f"Result at {reached.where}" if reached.where else "Result"
+    console().print(table(heading, scalar_rows(reached.result, doubted(told))))
     print_words(outcome)
     say(outcome.status.message, "green" if outcome.converged else "bold red", warning=not outcome.converged)
     if outcome.status.remedy:
         say(outcome.status.remedy, "red", warning=True)
-    print_advice(finding for finding in outcome.findings if finding not in first)
+    print_verdict(outcome)
 
 
-def print_doubts(outcome: Outcome) -> tuple[Advice, ...]:
-    """Print and return the warnings that stand above the numbers of ``outcome``."""
-    from ..contact.advice import doubts
+def print_verdict(outcome: Outcome) -> None:
+    """Print findings, then what was found, whether it holds, and whether it can be trusted."""
+    from ..run.verdict import others, told_of, verdict
 
-    first = doubts(*(() if outcome.path is None else outcome.path.steps), outcome.result)
-    print_advice(first)
-    return first
+    given = verdict(outcome)
+    print_advice(others(told_of(outcome), given))
+    styles = (
+        "bold",
+        "bold red" if given.fails else "green",
+        {"good": "green", "doubtful": "yellow", "not": "bold red"}[given.grade],
+    )
+    warns = (False, given.fails, given.grade != "good")
+    for (name, text), style, warning in zip(given.rows, styles, warns, strict=True):
+        say(f"{name}: {text}", style, warning=warning)
 
 
 def print_words(outcome: Outcome) -> None:
-    """Print what the parts of ``outcome`` say, without their remarks."""
+    """Print what the parts of ``outcome`` say, without their remarks and what its verdict says."""
     out = console()
     for part, words in outcome.sections:
         if words.rows:
@@ -157,7 +167,7 @@ def print_words(outcome: Outcome) -> None:
             above = ("", *(row[0] for row in made.cells))
             rows = [("" if row[0] == name else row[0], *row[1:]) for name, row in zip(above, made.cells, strict=False)]
             out.print(table(heading, rows, made.headings))
-        if words.sentence:
+        if words.sentence and not (part.answers or words.holds):
             say(words.sentence, "yellow" if words.alarming else "")
 
 

@@ -77,7 +77,7 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
 
 def findings(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
     """Everything that should be known before the numbers of what was ``solved`` are used: ``advise`` on it and ``review`` of it."""
-    peak = solved.steps[_largest(solved)] if isinstance(solved, HistoryResult) else solved
+    peak = solved.steps[solved.peak] if isinstance(solved, HistoryResult) else solved
     found = (*advise(peak.problem, peak.control), *review(solved))
     return tuple(sorted(found, key=lambda item: item.criterion != DOUBT))
 
@@ -85,25 +85,20 @@ def findings(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
 def review(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
     """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, and those of each physics.
 
-    Of a history they are those of its last step, and those that its step of the largest force has beside these.
+    Of a history they are those of its step of the largest force, and those that its last step has beside these.
     """
     if not isinstance(solved, HistoryResult):
         return _review(solved)
-    steps, number = solved.steps, _largest(solved)
-    found = [item for item in _review(solved.last) if item.criterion != DOUBT]
-    known = {DOUBT, *(item.criterion for item in found)}
+    steps, number = solved.steps, solved.peak
+    found = [item for item in _review(steps[number]) if item.criterion != DOUBT]
     if number < len(steps) - 1:
-        found += [
-            replace(item, fact=f"At the largest force (step {number + 1}): {item.fact}")
-            for item in _review(steps[number])
-            if item.criterion not in known
+        known = {DOUBT, *(item.criterion for item in found)}
+        end = [item for item in _review(solved.last) if item.criterion not in known]
+        found = [
+            *(replace(item, fact=f"At the largest force (step {number + 1}): {item.fact}") for item in found),
+            *(replace(item, fact=f"At the end: {item.fact}") for item in end),
         ]
     return (*doubts(*steps), *found)
-
-
-def _largest(history: HistoryResult) -> int:
-    """Number of the step of the largest force of a ``history``, from 0."""
-    return max(range(len(history.steps)), key=lambda step: history.steps[step].force)
 
 
 def _review(result: ContactResult) -> tuple[Advice, ...]:

@@ -24,6 +24,9 @@ from .tangential import Shift, TangentialForce
 Ramped: TypeAlias = type[MeanPressure] | type[Force] | type[Approach] | type[MeanGap]
 """Kind of control that is changed step by step."""
 
+SAME_FORCE = 1e-6
+"""Relative difference of forces of steps under the same load."""
+
 
 @dataclass(frozen=True, init=False)
 class History:
@@ -184,6 +187,12 @@ class HistoryResult(Advised, Stored):
             If there is no such step.
         """
         return self.steps[index]
+
+    @property
+    def peak(self) -> int:
+        """Number from 0 of the step of the largest force, of the last such step where a load is held."""
+        force = self.force
+        return int(np.flatnonzero(force >= force.max() - SAME_FORCE * abs(force).max())[-1])
 
     @property
     def last(self) -> ContactResult:

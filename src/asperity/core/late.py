@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-    from .status import Advice
+    from .status import Advice, Verdict
 
 
 class LateNames:
@@ -126,7 +126,17 @@ class Drawn(Shown):
         return axes
 
 
-class Advised(Shown):
+class Judged(Shown):
+    """Base of results, histories and outcomes: a verdict is given on them."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """What was found, whether the bodies hold, and whether it can be trusted."""
+        given: Verdict = self._find("verdict")(self)
+        return given
+
+
+class Advised(Judged):
     """Base of results and histories: they say what should be known before their numbers are used."""
 
     @property

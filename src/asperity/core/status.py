@@ -72,6 +72,47 @@ class Advice:
         return f"{self.fact} {in_words(self.remedy)}".rstrip()
 
 
+GRADES = {"good": "Good", "doubtful": "Doubtful", "not": "Not to be trusted"}
+"""Grades of trust, and what they are called."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What was found, whether it holds, and whether it can be trusted, in a sentence or two each.
+
+    Attributes
+    ----------
+    what
+        Area, load and approach at the decisive step, and what each physics that was asked for found.
+    holds
+        What yields, flows or cracks, where and by which factor; or that it was not checked, and why.
+    trust
+        The grade, with the reason that matters most and its remedy.
+    grade
+        ``"good"``, ``"doubtful"`` or ``"not"``.
+    fails
+        Whether something does not hold.
+    step, steps
+        Number of the decisive step from 1, that of the largest load, and how many there are.
+    headline
+        Label and text of the numbers that people look for first, at that step.
+    """
+
+    what: str
+    holds: str
+    trust: str
+    grade: Literal["good", "doubtful", "not"]
+    fails: bool
+    step: int
+    steps: int
+    headline: list[tuple[str, str]]
+
+    @property
+    def rows(self) -> list[tuple[str, str]]:
+        """The three sentences with what each is about."""
+        return [("Result", self.what), ("Strength", self.holds), ("Trust", self.trust)]
+
+
 class Progress(Protocol):
     """Receives the state of an iterative computation after every iteration."""
 

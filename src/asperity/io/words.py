@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from itertools import groupby
+from textwrap import wrap
 from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
@@ -14,8 +15,9 @@ from ..contact.history import HistoryResult
 from ..contact.problem import ContactProblem
 from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
-from ..core.late import Stored
+from ..core.late import Judged, Stored
 from ..core.quantity import Quantity
+from ..core.status import Advice
 from ..core.text import printable
 from ..core.units import percent, show
 from ..solids.elastic import Elastic, Strength
@@ -341,10 +343,31 @@ def value_text(quantity: Quantity, value: float | int | str) -> str:
     return text
 
 
-def result_rows(result: ContactResult) -> Rows:
-    """Every scalar of ``result`` but for those that what its couplings found contradicts."""
+PLASTIC = (
+    "plastic_work",
+    "total_plastic_work",
+    "plastic_area_fraction",
+    "indented_area",
+    "plastic_volume",
+    "max_permanent_indentation",
+)
+"""Scalars of a contact whose pressure is limited, or was before."""
+
+
+def result_rows(result: ContactResult, doubted: tuple[str, ...] = ()) -> Rows:
+    """Every scalar of ``result`` that was asked for, but for those that what its couplings found contradicts.
+
+    Names that begin with one of ``doubted`` are marked.
+    """
     skipped = {name for answer in result.answers for name in answer.contradicted()}
-    return [(q.label, scalar_text(q, result)) for q in SCALARS if q.name not in skipped]
+    if not result.indented.any() and np.isinf(result.problem.law.pressure_cap()).all():
+        skipped.update(PLASTIC)
+    return [(q.label, marked(q.name, scalar_text(q, result), doubted)) for q in SCALARS if q.name not in skipped]
+
+
+def marked(name: str, text: str, doubted: tuple[str, ...]) -> str:
+    """``text`` of the quantity ``name``, with a mark where it begins with one of ``doubted``."""
+    return f"{text} (doubtful)" if doubted and name.startswith(doubted) else text
 
 
 def scalar_text(quantity: Quantity, result: ContactResult) -> str:
@@ -369,11 +392,11 @@ def with_error(value: float, error: float) -> str:
     return f"{value:.{places}f} ± {error:.{places}f}"
 
 
-def headline_rows(result: ContactResult) -> Rows:
-    """The scalars that people look for first; the real contact area in percent of the nominal area."""
+def headline_rows(result: ContactResult, doubted: tuple[str, ...] = ()) -> Rows:
+    """The scalars that people look for first; the real contact area in percent of the nominal area; ``doubted`` as in ``result_rows``."""
     chosen = {q.name: scalar_text(q, result) for q in SCALARS}
     chosen["area_fraction_corrected"] = area_text(result)
-    return [(label, chosen[name]) for name, label in HEADLINE.items()]
+    return [(label, marked(name, chosen[name], doubted)) for name, label in HEADLINE.items()]
 
 
 def certificate_rows(result: ContactResult) -> list[tuple[str, str, str]]:
@@ -453,23 +476,26 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
     if isinstance(thing, ContactProblem):
         return "Contact problem", problem_rows(thing)
     if isinstance(thing, ContactResult):
-        state = "converged" if thing.converged else "NOT CONVERGED"
+        state, given = "converged" if thing.converged else "NOT CONVERGED", thing.verdict
         rows = [
-            *_finding_rows(thing),
+            *given.rows,
+            *finding_rows(thing.advice),
             *problem_rows(thing.problem),
             (f"prescribed {thing.control.name}", _control_text(thing)),
         ]
-        return f"Contact, {state}", [*rows, *headline_rows(thing), ("status", thing.status.message)]
+        return f"Contact, {state}", [*rows, *given.headline, ("status", thing.status.message)]
     if isinstance(thing, HistoryResult):
         failed = sum(not step.converged for step in thing.steps)
         ended = "all converged" if not failed else f"{failed} NOT CONVERGED"
+        given = thing.verdict
         rows = [
-            *_finding_rows(thing),
+            *given.rows,
+            *finding_rows(thing.advice),
             *problem_rows(thing.last.problem),
             ("steps", f"{len(thing.steps)}, {ended}"),
         ]
         loads = " → ".join(show(float(thing.mean_pressure[turn]), "Pa") for turn in thing.turns)
-        return "Load history", [*rows, ("mean pressure where it turns", loads), *headline_rows(thing.last)]
+        return "Load history", [*rows, ("mean pressure where it turns", loads), *given.headline]
     if isinstance(thing, Characterisation):
         numbers = [(q.symbol, show(value, q.unit, 3)) for q, value in thing.values() if q.name in ROUGHNESS]
         return f"Characterisation of {surface_text(thing.surface)}", numbers
@@ -478,19 +504,31 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
     raise InputError(f"thing to put in words must be a surface, problem, result or stress field, but is {type(thing)}.")
 
 
-def _finding_rows(solved: ContactResult | HistoryResult) -> Rows:
+def finding_rows(told: Iterable[Advice]) -> Rows:
     """Warnings and notes, the warnings first."""
-    made = sorted(solved.advice, key=lambda item: item.level != "warning")
+    made = sorted(told, key=lambda item: item.level != "warning")
     return [("WARNING" if item.level == "warning" else "note", item.message) for item in made]
 
 
 def text(thing: object) -> str:
     """The ``repr`` of a ``thing``: at most a screen of a surface, problem, result or stress field, one line of anything else."""
-    if not isinstance(thing, Surface | ContactProblem | Stored):
+    if not isinstance(thing, Surface | ContactProblem | Stored | Judged):
         return printable(f"<{_line(thing)}>")
     heading, rows = heading_and_rows(thing)
     wide = max(len(label) for label, _ in rows)
-    return "\n".join([heading, *(f"  {label:<{wide}}  {_cut(text)}" for label, text in rows)])
+    given = [text for _, text in thing.verdict.rows] if isinstance(thing, Judged) else []
+    lines = [
+        f"  {label if first else '':<{wide}}  {line}"
+        for label, text in rows
+        for first, line in _lines(text, whole=text in given)
+    ]
+    return "\n".join([heading, *lines])
+
+
+def _lines(text: str, *, whole: bool) -> Iterator[tuple[bool, str]]:
+    """Lines of a screen, and whether each is the first: one that is cut, or the ``whole`` text in several."""
+    for number, line in enumerate(wrap(printable(text), LINE) if whole else [_cut(text)]):
+        yield not number, line
 
 
 def _line(thing: object) -> str:

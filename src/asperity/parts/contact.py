@@ -46,6 +46,7 @@ class LoadPath(Part):
 
     name = "path"
     title = "Load path"
+    answers = False
     table = "control.path"
     work = "parts.contact_work:LoadPathWork"
 

@@ -6,10 +6,12 @@ from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
+from ..core.errors import InputError
 from ..core.registry import home
 from ..core.status import NoProgress, Progress
+from ..core.units import show
 
 if TYPE_CHECKING:
     from ..contact.controls import Control, Step
@@ -127,6 +129,38 @@ class Solved:
     lines: bool = True
     stage: Stage = no_stage
 
+    def at(self, step: Literal["peak", "last"] | int = "peak") -> Reached:
+        """The contact at a ``step`` of the load path: that of the largest force, the last one, or by its number from 1.
+
+        Raises
+        ------
+        InputError
+            If the path has no such step, or its steps were not kept.
+        """
+        if self.path is None:
+            if isinstance(step, int) and step != 1:
+                raise InputError(f"step must be one of a load path, but there is no path and it is {step}.")
+            return Reached(self.result, 1, 1)
+        steps = self.path.steps
+        number = {"peak": self.path.peak + 1, "last": len(steps)}.get(step, step) if isinstance(step, str) else step
+        if not 1 <= int(number) <= len(steps):
+            raise InputError(f"step must be from 1 to {len(steps)}, those of the load path, but is {step}.")
+        return Reached(steps[int(number) - 1], int(number), len(steps))
+
+
+class Reached(NamedTuple):
+    """The contact at one step: its ``number`` from 1, and how ``many`` steps there are."""
+
+    result: ContactResult
+    number: int
+    many: int
+
+    @property
+    def where(self) -> str:
+        """Step and load in words; empty where there are no others."""
+        load = show(self.result.mean_pressure, "Pa")
+        return f"step {self.number} of {self.many}, mean pressure {load}" if self.many > 1 else ""
+
 
 @dataclass(frozen=True, eq=False)
 class Words:
@@ -145,7 +179,9 @@ class Words:
     remarks
         What to know before using the numbers.
     alarming
-        Whether the sentence belongs at the top of a report.
+        Whether something does not hold.
+    holds
+        Whether the bodies hold: what yields, flows, cracks or wears, and where; empty where this is not what was asked.
     """
 
     sentence: str = ""
@@ -154,9 +190,10 @@ class Words:
     tables: tuple[tuple[str, Table], ...] = ()
     remarks: tuple[str, ...] = ()
     alarming: bool = False
+    holds: str = ""
 
     def __bool__(self) -> bool:
-        return bool(self.sentence or self.rows or self.tables or self.remarks)
+        return bool(self.sentence or self.holds or self.rows or self.tables or self.remarks)
 
 
 class Work:
@@ -227,6 +264,8 @@ class Part(Work):
     """Module and name of the ``Work`` of a part of this package, such as ``physics.rolling.work:RollingWork``."""
     whole_path: ClassVar[bool] = False
     """Whether it needs all steps of a load path."""
+    answers: ClassVar[bool] = True
+    """Whether its sentence says what was found, rather than how well."""
     of_result: ClassVar[str] = ""
     """Name of the coupling whose answer a result must have for the part to be made from the result alone; empty if that is not enough."""
 

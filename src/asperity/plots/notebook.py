@@ -83,6 +83,7 @@ def _chosen(thing: Any, kind: str) -> _Chosen:
         if name == f"asperity.{drawn.home}":
             return _Chosen(*home(drawn.figure)(thing, kind))
     thing = getattr(thing, "dataset", thing)  # of a comparison
+    thing = getattr(thing, "drawn", thing)  # of an outcome
     what, first, plots = _plots(thing)
     by_name = {plot.name: plot for plot in plots}
     plot = by_name[require.one_of(kind or first, by_name, f"figure of {what}")]

@@ -176,7 +176,7 @@ def scene_of(
 
     Arrays hold at most ``most_points`` points, and take at most ``budget`` characters together.
     """
-    result = outcome.result
+    result = outcome.solved.at().result
     figures = [*outcome.all_figures, *more]
     made = scene(figures, result.problem.grid, path=outcome.path, budget=budget, most_points=most_points)
     if made is None:

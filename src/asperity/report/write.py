@@ -6,7 +6,6 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..contact.advice import doubts
 from ..contact.result import ContactResult
 from ..core.errors import InputError
 from ..core.status import Advice
@@ -15,15 +14,14 @@ from ..io.words import (
     Rows,
     body_rows,
     certificate_rows,
-    headline_rows,
     result_rows,
     setting_rows,
-    summary,
     surface_rows,
 )
 from ..parts.registry import versions
 from ..plots.together import drawing
 from ..run.execute import Outcome, analysed
+from ..run.verdict import doubted, others, told_of, verdict
 from .page import shown, software_rows, write_page
 from .scene import scene_of
 
@@ -65,7 +63,9 @@ def write_report(
         if not isinstance(item, Advice):
             raise InputError(f"advice of a report must hold Advice, but holds {type(item).__name__}.")
     outcome = answer if isinstance(answer, Outcome) else analysed(answer, {"plasticity": True})
-    result, path_steps = outcome.result, () if outcome.path is None else outcome.path.steps
+    reached, given = outcome.solved.at(), verdict(outcome)
+    result, told = reached.result, tuple(dict.fromkeys((*told_of(outcome), *advice)))
+    names = doubted(told)
     source = result.problem.surface.origin.source
     stored = json.loads(outcome.stored["provenance"]) if outcome.stored else provenance(result, versions())
     surfaces = [key for key in ("surface", "counter_surface") if key in stored]
@@ -84,15 +84,17 @@ def write_report(
         "report.html",
         title=title or (f"Contact report: {source}" if source else "Contact report"),
         status=outcome.status,
-        summary=" ".join([summary(result), *(words.sentence for _, words in outcome.sections if words.alarming)]),
-        headline=headline_rows(result),
+        summary=given.what,
+        verdict=given,
+        at=reached.where,
+        headline=given.headline,
         inputs=inputs,
         certificate=certificate_rows(result),
-        results=result_rows(result),
+        results=result_rows(result, names),
         figures=outcome.pictures,
         scene=maps,
         sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in outcome.sections],
-        advice=tuple(dict.fromkeys((*doubts(*path_steps, result), *outcome.findings, *advice))),
+        advice=others(told, given),
         provenance=[
             ("written (UTC)", stored["created"]),
             *software_rows(stored["software"], **{key: stored[key]["digest"] for key in surfaces}),

@@ -15,8 +15,10 @@ from ..contact.result import ContactResult, follows_from_pressure, stiffness_of
 from ..contact.solve import Keep, solve, steps
 from ..contact.state import InterfaceState
 from ..core.errors import AsperityError, ConvergenceError
+from ..core.late import Drawn, Judged
 from ..core.quantity import Labelled
 from ..core.status import Advice, Status
+from ..io.words import Rows, finding_rows
 from ..parts.contact import STIFFNESS
 from ..parts.part import Found, Part, Solved, Stage, Words, no_stage
 from ..parts.registry import parts
@@ -26,8 +28,8 @@ if TYPE_CHECKING:
     from ..plots.picture import Figure
 
 
-@dataclass(frozen=True, eq=False)
-class Outcome:
+@dataclass(frozen=True, eq=False, repr=False)
+class Outcome(Judged, Drawn):
     """What came out of a problem document.
 
     Attributes
@@ -62,6 +64,17 @@ class Outcome:
     def path(self) -> HistoryResult | None:
         """The load path, if the document has one and its steps were kept."""
         return self.solved.path
+
+    def in_words(self) -> tuple[str, Rows]:
+        """Heading, verdict, findings, and the numbers that people look for first."""
+        given = self.verdict
+        title = self.stored.get("report_title") or "Outcome"
+        return str(title), [*given.rows, *finding_rows(self.findings), *given.headline, ("status", self.status.message)]
+
+    @property
+    def drawn(self) -> ContactResult | HistoryResult:
+        """What its card shows."""
+        return self.path or self.solved.at().result
 
     @property
     def converged(self) -> bool:
@@ -109,10 +122,10 @@ class Outcome:
 
     @cached_property
     def pictures(self) -> tuple[Figure, ...]:
-        """Figures of the contact itself."""
+        """Figures of the contact itself, at the step of the largest load."""
         from ..plots.contact import contact_figures
 
-        return contact_figures(self.result)
+        return contact_figures(self.solved.at().result)
 
     @property
     def all_figures(self) -> tuple[Figure, ...]:
@@ -223,6 +236,17 @@ def analysed(
     found, failed = _found(asks, solved, parts())
     findings = (*(finding for item in found.values() for finding in item.findings), *failed)
     return Outcome(None, replace(solved, found=found), found, findings, result.status)
+
+
+def answered(result: ContactResult, path: HistoryResult | None, *asked: str) -> Outcome:
+    """What the parts ``asked`` for, and all that need nothing but the result, find in a ``result``, the end of ``path`` if one is given."""
+    there = [part for part in parts() if part.of_result in result.couplings]
+    made = {part.name: part.at_work.made_from(result) for part in there}
+    outcome = analysed(
+        result, dict.fromkeys((*asked, *(name for name, item in made.items() if item is None)), True), path
+    )
+    found = {**outcome.found} | {name: item for name, item in made.items() if item is not None}
+    return replace(outcome, found=found, solved=replace(outcome.solved, found=found))
 
 
 def _found(

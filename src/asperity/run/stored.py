@@ -18,7 +18,7 @@ from ..io.results import contact_of, path_in, result_in, result_tree, root_attri
 from ..io.tree import Node, datatree, read_tree, write_tree
 from ..parts.part import Found, Part, Solved, Stored, Table, Words
 from ..parts.registry import parts, versions
-from .execute import Outcome, analysed
+from .execute import Outcome, answered
 
 if TYPE_CHECKING:
     import xarray
@@ -90,14 +90,7 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
     steps = groups.get("path")
     course = None if steps is None or "control" not in steps else path_in(tree, contact)
     if OF_OUTCOME not in tree.attributes:
-        asks = {"contact": True, "plasticity": True} | ({} if course is None else {"path": True})
-        there = [part for part in parts() if part.of_result in contact.couplings]
-        made = {part.name: part.at_work.made_from(contact) for part in there}
-        asks |= {name: True for name, found in made.items() if found is None}
-        outcome = analysed(contact, asks, course)
-        return replace(
-            outcome, found={**outcome.found} | {name: found for name, found in made.items() if found is not None}
-        )
+        return answered(contact, course, "contact", "plasticity", *(() if course is None else ("path",)))
     solved = Solved(contact.problem, contact.control, contact, course)
     found = {
         part.name: _found(part, groups[part.name], solved, course if part.name == "path" else None)
@@ -168,5 +161,6 @@ def _words(described: Mapping[str, Any]) -> Words:
         tables=tables,
         remarks=tuple(map(str, described["remarks"])),
         alarming=bool(described["alarming"]),
+        holds=str(described.get("holds", "")),
         **rows,
     )

@@ -103,20 +103,30 @@ class _Explored:
         message, remedy, converged = shown["status"]
         if not converged:
             failure(f"Not converged: {message} {remedy}")
-        for level, criterion, text in shown["findings"]:
-            with ui.element("div").classes("finding" if level == "warning" else "finding note"):
-                ui.label(criterion).classes("table-title")
+        grade, fails = shown["grade"], shown["fails"]
+        classes = (
+            "",
+            "failure" if fails else "",
+            "failure" if grade == "not" else "finding" if grade == "doubtful" else "",
+        )
+        for (name, text), style in zip(shown["verdict"], classes, strict=True):
+            with ui.element("div").classes(f"verdict {style}").props(f"data-verdict={name}"):
+                ui.label(name).classes("table-title")
                 ui.label(text)
-        ui.label(shown["summary"])
         with ui.element("div").classes("tiles"):
             for label, text in shown["headline"]:
                 with ui.element("div").classes("tile"):
                     ui.label(text).classes("value")
                     ui.label(label).classes("hint")
+        for level, criterion, text in shown["findings"]:
+            with ui.element("div").classes("finding" if level == "warning" else "finding note"):
+                ui.label(criterion).classes("table-title")
+                ui.label(text)
         downloads(self.key, self.session, self.run)
         ui.button("Fields as VTK", icon="download", on_click=self.vtk).props("no-caps flat dense")
         name = f"scene-{self.run.key}"
-        ui.html("<h2>Maps and section</h2>", sanitize=False)
+        at = f" at {shown['at']}" if shown["at"] else ""
+        ui.html(f"<h2>Maps and section{at}</h2>", sanitize=False)
         if not shown["stressed"]:
             with ui.row().classes("item-head"):
                 ui.label("No stresses were asked for.").classes("hint")

@@ -11,16 +11,16 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.advice import doubts
 from ..contact.measure import labelled
 from ..contact.problem import ContactProblem
 from ..core.arrays import RealArray
-from ..io.words import certificate_rows, headline_rows, result_rows, summary
+from ..io.words import certificate_rows, result_rows
 from ..physics.stress.figures import map_figure
 from ..plots.picture import Figure
 from ..report.comparison import comparison_sentence
 from ..report.scene import reduced, scene_of
 from ..run.execute import Outcome
+from ..run.verdict import doubted, others, told_of, verdict
 from ..studies.compare import compare
 
 SCENE, SHOWN, THEORIES = ".scene.json", ".shown.json", ".theories.json"
@@ -43,7 +43,7 @@ def write_views(outcome: Outcome, views: Path) -> None:
     """Write scene, surface in space, spots and words of ``outcome`` to files whose names begin with ``views``."""
     scene = scene_of(outcome, more=_planes(outcome), budget=BUDGET)
     _write(views.with_name(views.name + SCENE), scene)
-    result = outcome.result
+    result = outcome.solved.at().result
     # in space: heights, pressure and plastic state of blocks of points, single precision, rows of y
     heights = np.asarray(result.problem.surface.heights, dtype=float)
     block = max(1, math.ceil(max(heights.shape) / IN_SPACE))
@@ -101,15 +101,17 @@ def _planes(outcome: Outcome) -> Iterator[Figure]:
 
 def _words(outcome: Outcome) -> dict[str, Any]:
     """Findings, headline, results, certificate, and the words of every part."""
-    result = outcome.result
-    steps = () if outcome.path is None else outcome.path.steps
-    findings = dict.fromkeys((*doubts(*steps, result), *outcome.findings))
+    reached, given, told = outcome.solved.at(), verdict(outcome), told_of(outcome)
+    result = reached.result
     return {
-        "summary": summary(result),
+        "verdict": [list(row) for row in given.rows],
+        "grade": given.grade,
+        "fails": given.fails,
+        "at": reached.where,
         "status": [outcome.status.message, outcome.status.remedy, outcome.converged],
-        "findings": [[item.level, item.criterion, item.message] for item in findings],
-        "headline": [list(row) for row in headline_rows(result)],
-        "results": [list(row) for row in result_rows(result)],
+        "findings": [[item.level, item.criterion, item.message] for item in others(told, given)],
+        "headline": [list(row) for row in given.headline],
+        "results": [list(row) for row in result_rows(result, doubted(told))],
         "certificate": [list(row) for row in certificate_rows(result)],
         "parts": [
             {

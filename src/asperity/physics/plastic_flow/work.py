@@ -235,12 +235,21 @@ class PlasticFlowWork(Work):
         strain = percent(float(values["flow_largest_strain"]))
         depth, dent = (show(float(values[name]), "m", 3) for name in ("flow_depth", "flow_imprint_depth"))
         work = show(float(values["flow_plastic_work"]), "J", 3)
+        flowed = float(values["flow_largest_strain"]) > 0.0
         sentence = f"The body flows down to {depth} with plastic strains of up to {strain}; an imprint of {dent} stays, and plastic flow took {work}."
-        if not float(values["flow_largest_strain"]) > 0.0:
+        if not flowed:
             sentence = "Nothing flows beneath the contact: it is elastic."
         zones = ("Plastic zones", zones_table(found.detail))
         tables = (zones, ("Tension and shear that may crack layers", tension_table(values, "flow")))
-        return Words(sentence, [("largest plastic strain", strain)], number_rows(SCALARS, values), tables, (REMARK,))
+        return Words(
+            sentence,
+            [("largest plastic strain", strain)],
+            number_rows(SCALARS, values),
+            tables,
+            (REMARK,),
+            flowed,
+            sentence,
+        )
 
     def stored(self, found: Found) -> Stored:
         """Names of layers and table of zones."""

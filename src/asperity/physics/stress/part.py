@@ -69,6 +69,8 @@ class ProfileTable(Placed):
     """Line into the body; a position that is left out is that of the largest equivalent stress, ``"max"``."""
 
 
+StepOfPath: TypeAlias = Annotated[float | str, Number(least=1.0, words=("peak", "last"))]
+
 Body = Annotated[str, Choice({"body": "body", "counter_body": "counter_body", "counter": "counter_body"})]
 
 
@@ -76,12 +78,17 @@ class StressSettings(Settings):
     """Stresses that are computed after the contact; those on the section y = max if nothing else is asked for.
 
     The shear traction is that of the table [friction], unless ``shear`` is false. ``depths`` are planes, ``sections`` vertical
-    planes and ``profiles`` lines down to the depth ``deepest``. The strengths are compared with the largest tension, and with
+    planes and ``profiles`` lines down to the depth ``deepest``. Of a load path they are those at one ``step``. The strengths are compared with the largest tension, and with
     shear and peel of the interfaces.
     """
 
     shear: bool = setting(True, option="--shear", help="Whether the friction loads the body, too")
     inside: Body = setting("body", option="--stress-in", help="The body whose stresses are computed")
+    step: StepOfPath = setting(
+        "peak",
+        option="--stress-step",
+        help="Of a load path: peak for that of the largest load, last, or its number from 1",
+    )
     depths: tuple[NonNegativeLength, ...] = setting((), option="--depths", help="Whole planes: 1nm,5nm,20nm")
     sections: tuple[SectionTable, ...] = setting(
         (),
@@ -161,6 +168,7 @@ class Stress(Part):
         Quantity("interface_max_peel", "Pa", "largest peel of the interface", dims=("interface",)),
     )
     work = "physics.stress.work:StressWork"
+    whole_path = True
 
     def asked(self, document: Any, folder: Path) -> StressRequest:
         """The request of the table [stress], with the friction of the table [friction]."""
@@ -202,6 +210,7 @@ def stress_request(table: StressSettings, friction: FrictionSettings | None = No
         criterion=Tresca() if table.criterion == "tresca" else VonMises(),
         strengths=Strengths(**strengths),
         dtype="float32" if table.precision == "single" else "float64",
+        step=table.step if isinstance(table.step, str) else int(table.step),  # type: ignore[arg-type]
     )
 
 

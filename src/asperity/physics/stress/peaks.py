@@ -56,9 +56,13 @@ def peak_text(peak: Peak, factor: float = 1.0) -> str:
     return value if math.isnan(peak.error) else f"{value} ± {show(factor * peak.error, 'Pa', 2)}"
 
 
+FAILS = "fails"
+"""What is said of a strength that does not hold."""
+
+
 def verdict(peak: Peak, strength: float) -> str:
     """Whether a ``strength`` holds, with the error of the largest stress."""
     error = 0.0 if math.isnan(peak.error) else peak.error
     if peak.value - error >= strength or (peak.doubt and peak.value >= strength):
-        return "fails"
+        return FAILS
     return "not certain" if peak.doubt or peak.value + error >= strength else "holds"

@@ -90,6 +90,8 @@ class StressRequest:
         Type of the numbers.
     sheared
         Whether the shear traction of a contact with stick and slip, which takes the place of ``friction``, loads the body.
+    step
+        Step of a load path: that of the largest load, the last one, or a number from 1.
     """
 
     friction: float = 0.0
@@ -104,6 +106,7 @@ class StressRequest:
     strengths: Strengths = Strengths()
     dtype: str = "float64"
     sheared: bool = True
+    step: Literal["peak", "last"] | int = "peak"
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -282,7 +285,7 @@ class StressSurvey:
 
     ``depths`` are those of all planes, on which the maxima and the onset of yield rest. Sections and profiles end where
     the contact is no longer felt, or as asked; the interfaces below that are planes, too. ``whole`` holds the largest principal stress in planes parallel to the
-    surface and the largest |σxz| and |σyz| of the whole body, by the name of the stress.
+    surface and the largest |σxz| and |σyz| of the whole body, by the name of the stress. ``where`` names the step of a load path in words.
     """
 
     request: StressRequest
@@ -296,6 +299,7 @@ class StressSurvey:
     whole: Mapping[str, Peak]
     citation_keys: tuple[str, ...]
     threads: int | None = None
+    where: str = ""
 
     def planes(self, depths: Iterable[float]) -> Iterator[StressField]:
         """Whole planes at ``depths`` in m, one by one, computed anew."""

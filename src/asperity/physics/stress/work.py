@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import chain, groupby
 from typing import Any
 
 import numpy as np
 
+from ...contact.controls import Control, Step
 from ...contact.problem import ContactProblem
 from ...core.errors import InputError
 from ...core.units import percent, show
@@ -17,7 +19,7 @@ from ...plots.picture import Figure
 from ...solids.elastic import TABOR, Rigid
 from .figures import line_figures, map_figure
 from .part import _LARGEST, StoredSurvey
-from .peaks import Peak, peak_text, verdict
+from .peaks import FAILS, Peak, peak_text, verdict
 from .regions import Region
 from .survey import Planned, StressRequest, StressSurvey, SurveyedSection, survey
 from .tractions import LoadedBody
@@ -37,10 +39,19 @@ class StressWork(Work):
             )
         ask.check(problem)
 
+    def course(self, ask: StressRequest, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
+        """The same steps; InputError if the one that is asked for is not among them."""
+        if isinstance(ask.step, int) and ask.step > max(1, len(controls)):
+            raise InputError(
+                f"step of the stresses must be peak, last or from 1 to {max(1, len(controls))}, but is {ask.step}."
+            )
+        return controls
+
     def compute(self, ask: StressRequest, solved: Solved) -> Found:
         """Largest stresses; the survey with sections and profiles as detail."""
+        reached = solved.at(ask.step)
         with solved.stage("stresses") as progress:
-            found = survey(ask, solved.result, lines=solved.lines, threads=solved.threads, progress=progress)
+            found = survey(ask, reached.result, lines=solved.lines, threads=solved.threads, progress=progress)
         values: dict[str, Any] = {}
         attributes = ("von_mises", "tension", "shear")
         for name, attribute in zip(_LARGEST, attributes, strict=True):
@@ -67,7 +78,7 @@ class StressWork(Work):
             values["interface_depth"] = np.array([item.shear.depth for item in interfaces])
             values["interface_max_shear"] = np.array([item.shear.value for item in interfaces])
             values["interface_max_peel"] = np.array([item.peel.value for item in interfaces])
-        return Found(values, found, (), found.citation_keys)
+        return Found(values, replace(found, where=reached.where), (), found.citation_keys)
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Sections, profiles and whole planes."""
@@ -98,13 +109,24 @@ class StressWork(Work):
     def words(self, found: Found, solved: Solved) -> Words:
         """Largest stresses of layers and interfaces."""
         survey = found.detail
+        strengths = strength_table(survey)
         tables = (
             ("Largest stresses inside each layer", maxima_table(survey)),
             ("Interfaces", interface_table(survey)),
-            ("Given strengths", strength_table(survey)),
+            ("Given strengths", strengths),
         )
         shown = tuple((heading, table) for heading, table in tables if table.cells)
-        return Words(rows=setting_rows(survey), tables=shown, remarks=tuple(remarks(survey)))
+        worst = [
+            f"the {name} of {value} is {text.partition(': ')[0]} of the strength ({text.partition(': ')[2]})"
+            for name, value, _, text, _ in strengths.cells
+        ]
+        return Words(
+            rows=setting_rows(survey),
+            tables=shown,
+            remarks=tuple(remarks(survey)),
+            holds=f"Cracking: {'; '.join(worst)}." if worst else "",
+            alarming=any(cells[3].endswith(FAILS) for cells in strengths.cells),
+        )
 
     def citations(self, ask: StressRequest, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the papers that the stresses will rest on."""
@@ -131,7 +153,8 @@ def yield_words(survey: StressSurvey) -> Words:
     """Which part of the body yields first, and when; of a body whose plastic flow is solved, what has flowed."""
     if not has_flowed(survey):
         table, yields = yield_table(survey), survey.yielding.yields
-        return Words(yield_sentence(survey), tables=(("", table),) if table.cells else (), alarming=yields)
+        sentence = yield_sentence(survey)
+        return Words(sentence, tables=(("", table),) if table.cells else (), alarming=yields, holds=sentence)
     zones = [zone for zone in survey.result.plastic_flow.zones if zone.volume > 0.0]  # type: ignore[attr-defined]
     parts = " and ".join(
         f"{zone.name} ({show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)} deep, strain up to {percent(zone.largest_strain)})"
@@ -139,13 +162,16 @@ def yield_words(survey: StressSurvey) -> Words:
     )
     known = [zone.first_yield for zone in zones if math.isfinite(zone.first_yield)]
     first = f" First yield is found in the step to a mean pressure of {show(min(known), 'Pa', 3)}." if known else ""
-    return Words(f"The body has flowed plastically in {parts}; the stresses hold that plastic strain.{first}")
+    sentence = f"The body has flowed plastically in {parts}; the stresses hold that plastic strain.{first}"
+    return Words(sentence, holds=sentence)
 
 
 def setting_rows(survey: StressSurvey) -> Rows:
     """What the stresses are those of, and where they were computed."""
     request, depths = survey.request, survey.depths
     rows = [("inside", "the body" if request.of == "body" else "the counter body")]
+    if survey.where:
+        rows.append(("at", survey.where))
     own = request.sheared and getattr(survey.result, "stick_slip", None) is not None
     if own:
         rows.append(("shear traction", "that found with stick and slip"))
@@ -248,13 +274,14 @@ def yield_sentence(survey: StressSurvey) -> str:
     unknown = list(dict.fromkeys(part.region.name for part in report.regions if math.isnan(part.load_factor)))
     beside = f" The strength of {' and '.join(unknown)} is not known." if unknown else ""
     where = _where(first.peak)
+    at = f"At {survey.where}: " if survey.where else ""
     if report.yields:
         return (
-            f"The body yields: {where}, the {report.criterion.name} stress is {1.0 / report.load_factor:.3g} times the "
+            f"{at}{'t' if at else 'T'}he body yields: {where}, the {report.criterion.name} stress is {1.0 / report.load_factor:.3g} times the "
             f"yield stress (load factor {report.load_factor:.3g}).{beside}"
         )
     return (
-        f"No part of known strength yields. First would be {where}, at {report.load_factor:.3g} times these stresses "
+        f"{at}{'n' if at else 'N'}o part of known strength yields. First would be {where}, at {report.load_factor:.3g} times these stresses "
         f"({report.criterion.name}).{beside}"
     )
 
