@@ -91,7 +91,7 @@ class Program(Listing):
     def invoke(self, ctx: Any) -> Any:
         """Run the command; leave deliberate exits to typer."""
         try:
-            with speaking("command"):
+            with speaking("command", _options_by_key):
                 return super().invoke(ctx)
         except KeyboardInterrupt:
             _say(SENTENCE)
@@ -109,6 +109,12 @@ class Program(Listing):
             code, sentence = diagnosis(error)
             _say(sentence, traceback=bool(ctx.params.get("debug")))
             raise typer.Exit(code) from None
+
+
+def _options_by_key() -> dict[str, str]:
+    from .options import option_words  # brings the schemas of documents
+
+    return option_words()
 
 
 def diagnosis(error: Exception) -> tuple[int, str]:

@@ -30,7 +30,7 @@ from ..io.schemas.surfaces import STEPS, AnySurface, FileSurface, Place
 from ..run.build import build_surface
 from ..surfaces.prepare.level import levelled, usual_form
 from ..surfaces.surface import Surface
-from .declared import FILE, Given, Option, declarations, options_of
+from .declared import FILE, Given, Option, declarations, options_of, part_options
 
 READING, PREPARATION, BODIES = "Reading the file", "Preparation, in this order", "Bodies and interface"
 COUNTER, LOAD, SOLVER, OUTPUT = "Counter surface", "Load: one of", "Solver", "Output"
@@ -194,6 +194,12 @@ def levelled_as(surface: Surface, level: str) -> tuple[Surface, str]:
     """``surface`` after levelling and what was removed: left to itself (auto) the mean of a periodic one, else the plane."""
     found = level if level != "auto" else usual_form(surface)
     return levelled(surface, int(found) if found.isdecimal() and len(found) < 10 else found), found
+
+
+def option_words() -> dict[str, str]:
+    """Option of every key of documents that has one, by the dotted key."""
+    named = {".".join(option.path): option.name for option in (*document_options(), *part_options())}
+    return {**named, "control.path.steps": "--path-steps"}
 
 
 CORE = ("surface", "counter_surface", "prepare")

@@ -58,6 +58,18 @@ PIXELS_PER_LAYER = 1.0
 LARGEST_THICKNESS = 0.5
 """Thickness over period at which the longest wave has decayed to (1 + pi) exp(-pi) = 18 % of its pressure below the layers."""
 
+AREAS = ("area_fraction", "contact_area", "mean_real_pressure", "n_spots", "mean_spot_area", "contact_perimeter")
+"""Numbers of a result that follow from what touches."""
+
+PRESSURES = ("max_pressure",)
+"""Numbers of a result that follow from the pressure of single pixels."""
+
+STRESSES = (
+    *("max_von_mises", "max_tension", "max_shear", "max_interface", "layer_max", "interface_max"),
+    "yield_load_factor",
+)
+"""Numbers of the stresses under those pressures, or their beginnings."""
+
 DOUBT = "duality gap"
 """Criterion of the warning that stands above all others."""
 
@@ -121,8 +133,10 @@ def _slope(profile: Surface) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "slope",
-            f"The rms slope is {slope:.2g}; half-space theory assumes small slopes (up to about {LARGEST_SLOPE:g}). "
-            "Treat areas and pressures as qualitative, or smooth the surface to the scale of interest.",
+            f"The rms slope is {slope:.2g}; half-space theory assumes small slopes (up to about {LARGEST_SLOPE:g}).",
+            "Treat areas and pressures as qualitative, or smooth the surface to the scale of interest: {smooth}.",
+            {"rms_slope": slope, "largest": LARGEST_SLOPE},
+            (*AREAS, *PRESSURES, *STRESSES),
         )
 
 
@@ -140,8 +154,10 @@ def _resolution(profile: Surface) -> Iterator[Advice]:
             "warning",
             "resolution",
             f"The shortest effective wavelength 2π√(m2/m4) is {found} (at least {PIXELS_PER_WAVE:g} wanted): asperities "
-            "are not resolved, so contact area and peak pressure depend on the pixel size. Resample to a finer grid or "
-            "give the surface a short-wavelength cut-off.",
+            "are not resolved, so contact area and peak pressure depend on the pixel size.",
+            "Resample to a finer grid ({resample}) or give the surface a short-wavelength cut-off ({smooth}).",
+            {f"pixels_{axis}": pixels for axis, pixels in wavelengths.items()} | {"least": PIXELS_PER_WAVE},
+            (*AREAS, *PRESSURES, *STRESSES),
         )
     if min(profile.shape) < 3:
         return
@@ -152,7 +168,10 @@ def _resolution(profile: Surface) -> Iterator[Advice]:
             "warning",
             "asperity radius",
             f"The mean asperity radius 3/8 √(π/m4) is {radius / pixel:.2g} pixels (at least {PIXELS_PER_RADIUS:g} "
-            "wanted): asperities are spikes of single pixels. Check the height unit, refine the grid or smooth the surface.",
+            "wanted): asperities are spikes of single pixels.",
+            "Check the height unit ({no_height_unit}), refine the grid ({resample}), or smooth the surface ({smooth}).",
+            {"pixels": radius / pixel, "radius": radius, "least": PIXELS_PER_RADIUS},
+            (*AREAS, *PRESSURES, *STRESSES),
         )
 
 
@@ -170,8 +189,10 @@ def _edges(problem: ContactProblem, profile: Surface) -> Iterator[Advice]:
                 "warning",
                 "periodic edges",
                 f"The surface does not repeat along {name}: across the border its rms step is {jump}, and the "
-                "periodic boundary turns that into a cliff. Periodise it (--periodise, periodised()), taper it (--taper), "
-                "or use the free boundary.",
+                "periodic boundary turns that into a cliff.",
+                "Periodise it ({periodise}), taper it ({taper}), or use the free boundary ({free}).",
+                {"jump": math.sqrt(across), "rms_step": math.sqrt(inside), "largest_ratio": LARGEST_EDGE_JUMP},
+                (*AREAS, *PRESSURES, *STRESSES),
             )
 
 
@@ -187,7 +208,9 @@ def _load(problem: ContactProblem, control: Control) -> Iterator[Advice]:
             "warning",
             "load",
             f"The mean pressure is {ratio:.2g} of the contact modulus E* of the softest materials; linear elasticity holds up to about "
-            f"{LARGEST_LOAD_RATIO:g}. Check unit and value of the load.",
+            f"{LARGEST_LOAD_RATIO:g}.",
+            "Check unit and value of the load ({load}).",
+            {"ratio": ratio, "largest": LARGEST_LOAD_RATIO},
         )
 
 
@@ -195,8 +218,13 @@ def _memory(problem: ContactProblem) -> Iterator[Advice]:
     padding = 1 if all(problem.boundary.wraps) else 4
     needed = 8.0 * FIELDS_OF_A_SOLVE * padding * problem.grid.n_points
     if needed > free_memory():
-        text = f"The solve needs about {room_text(needed)}. Crop the surface or resample it to fewer points."
-        yield Advice("warning", "memory", text)
+        yield Advice(
+            "warning",
+            "memory",
+            f"The solve needs about {room_text(needed)}.",
+            "Crop the surface ({crop}) or resample it to fewer points ({resample}).",
+            {"needed": needed, "free": free_memory()},
+        )
 
 
 def doubts(*results: ContactResult) -> tuple[Advice, ...]:
@@ -204,11 +232,12 @@ def doubts(*results: ContactResult) -> tuple[Advice, ...]:
     gap = max(result.certificate.duality_gap for result in results)
     if gap <= LARGEST_DUALITY_GAP:
         return ()
-    text = (
+    fact = (
         f"The elastic energy is known to {gap:.1e} of itself only (duality gap, at most {LARGEST_DUALITY_GAP:g} wanted): pressures "
-        "may be wrong. Use a smaller tolerance or another solver."
+        "may be wrong."
     )
-    return (Advice("warning", DOUBT, text),)
+    remedy = "Use a smaller tolerance ({tolerance}) or another solver ({solver})."
+    return (Advice("warning", DOUBT, fact, remedy, {"duality_gap": gap, "largest": LARGEST_DUALITY_GAP}),)
 
 
 def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
@@ -218,7 +247,10 @@ def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
             "warning",
             "contact pixels",
             f"The contact has {pixels} pixel{'s' if pixels > 1 else ''} (at least {FEWEST_CONTACT_PIXELS} wanted): area "
-            "and peak pressure are set by the pixel size. Raise the load or refine the grid.",
+            "and peak pressure are set by the pixel size.",
+            "Raise the load ({load}) or refine the grid ({resample}).",
+            {"pixels": float(pixels), "least": float(FEWEST_CONTACT_PIXELS)},
+            (*AREAS, *PRESSURES, *STRESSES),
         )
     elif (
         pixels and (correction := 1.0 - result.area_fraction_corrected / result.area_fraction) > LARGEST_AREA_CORRECTION
@@ -227,7 +259,10 @@ def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
             "warning",
             "contact pixels",
             f"The real contact area is {100 * correction:.0f} % less than that of the pixels in contact (more than "
-            f"{100 * LARGEST_AREA_CORRECTION:.0f} %): contact spots are only a few pixels wide. Refine the grid.",
+            f"{100 * LARGEST_AREA_CORRECTION:.0f} %): contact spots are only a few pixels wide.",
+            "Refine the grid ({resample}).",
+            {"correction": correction, "largest": LARGEST_AREA_CORRECTION},
+            (*AREAS, *PRESSURES, *STRESSES),
         )
     if result.area_fraction > NEARLY_FULL:
         yield Advice(
@@ -235,6 +270,8 @@ def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
             "near-full contact",
             f"The contact is {100 * result.area_fraction:.1f} % of the nominal area; what remains open is set by the "
             "shortest waves and the numerical tolerance.",
+            numbers={"area_fraction": result.area_fraction, "largest": NEARLY_FULL},
+            concerns=("mean_gap",),
         )
 
 
@@ -249,7 +286,9 @@ def _room(result: ContactResult) -> Iterator[Advice]:
                 "note",
                 "contact at the border",
                 "Contact reaches the border of the grid, beyond which the free boundary has nothing to touch: the map acts "
-                "as a punch of its own outline. For a nominally flat surface the periodic boundary is the usual choice.",
+                "as a punch of its own outline.",
+                "For a nominally flat surface the periodic boundary ({periodic}) is the usual choice.",
+                concerns=PRESSURES,
             )
     elif not problem.surface.periodic and result.n_spots == 1:
         widths = [np.ptp(np.flatnonzero(contact.any(axis=1 - axis))) / contact.shape[axis] for axis in (0, 1)]
@@ -258,7 +297,10 @@ def _room(result: ContactResult) -> Iterator[Advice]:
                 "warning",
                 "patch against period",
                 f"The single contact spot is {max(widths):.2f} of the period wide (at most {LARGEST_PATCH:g} wanted): it "
-                "interacts with its periodic images. Use the free boundary or a larger grid.",
+                "interacts with its periodic images.",
+                "Use the free boundary ({free}) or a larger grid.",
+                {"width": float(max(widths)), "largest": LARGEST_PATCH},
+                ("approach", "mean_gap", "elastic_energy", *AREAS, *PRESSURES),
             )
 
 
@@ -279,7 +321,10 @@ def _seam(result: ContactResult) -> Iterator[Advice]:
             "pressure at the seam",
             f"The maximum pressure, {show(highest, 'Pa')}, lies at the seam where opposite borders of the map meet, which does "
             f"not repeat; elsewhere it is at most {show(inside, 'Pa')}. These border pixels are {percent(float(seam.mean()), 2)} "
-            f"of the area and carry {percent(share, 2)} of the load. Periodise the map (--periodise, periodised()).",
+            f"of the area and carry {percent(share, 2)} of the load.",
+            "Periodise the map ({periodise}).",
+            {"seam": highest, "elsewhere": inside, "load_share": share},
+            (*PRESSURES, *STRESSES),
         )
 
 
@@ -289,8 +334,14 @@ def _plastic(result: ContactResult) -> Iterator[Advice]:
             "warning",
             "yield everywhere",
             f"The pressure is at the hardness on {100 * result.plastic_area_fraction:.0f} % of a contact that covers "
-            f"{100 * result.area_fraction:.0f} % of the nominal area: the pressure distribution hardly depends on position or load. "
-            "Check load, position and hardness.",
+            f"{100 * result.area_fraction:.0f} % of the nominal area: the pressure distribution hardly depends on position or load.",
+            "Check load or position ({load}) and hardness.",
+            {
+                "plastic_area_fraction": result.plastic_area_fraction,
+                "area_fraction": result.area_fraction,
+                "largest": NEARLY_FULL,
+            },
+            PRESSURES,
         )
 
 
@@ -310,8 +361,10 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
             yield Advice(
                 "warning",
                 "hardness",
-                f"The maximum pressure {above} the hardness of {name}: it would yield. Use the law Hardness(...) with that hardness "
-                "(--hardness body).",
+                f"The maximum pressure {above} the hardness of {name}: it would yield.",
+                "Limit the pressure by that hardness ({hardness}).",
+                {"max_pressure": result.max_pressure, "hardness": hardness},
+                (*AREAS, *PRESSURES, *STRESSES),
             )
 
 
@@ -340,7 +393,10 @@ def _layers(problem: ContactProblem) -> Iterator[Advice]:
                 "layer against pixel",
                 f"{count} thinner than a pixel (the thinnest {min(thin) / pixel:.2g} pixels, at least {PIXELS_PER_LAYER:g} wanted): "
                 "deflections of resolved waves are right, but peak pressures and stresses on the scale of the layer are not "
-                "resolved. Refine the grid to the scale of the layer.",
+                "resolved.",
+                "Refine the grid to the scale of the layer ({resample}).",
+                {"thickness": min(thin), "pixel": pixel, "least_pixels": PIXELS_PER_LAYER},
+                (*PRESSURES, *STRESSES),
             )
         # the longest wave along an axis that wraps; a base as soft as the lowest layer makes no difference
         share = body.thickness / max(periods) if periods and body.layers else 0.0
@@ -350,8 +406,10 @@ def _layers(problem: ContactProblem) -> Iterator[Advice]:
                 "note",
                 "layer against period",
                 f"The layers are {share:.2g} of the period thick (more than {LARGEST_THICKNESS:g}): even the longest wave hardly "
-                "reaches the base, whose material then makes little difference. Use a larger map, or the free boundary for a "
-                "single contact.",
+                "reaches the base, whose material then makes little difference.",
+                "Use a larger map, or the free boundary ({free}) for a single contact.",
+                {"share": share, "largest": LARGEST_THICKNESS},
+                ("approach", "elastic_energy"),
             )
         # a pressure limit does not concern what lies below the surface, where a softer material may yield first
         limit = math.inf if isinstance(problem.law, LimitByDepth) else float(np.max(problem.law.pressure_cap()))
@@ -362,6 +420,9 @@ def _layers(problem: ContactProblem) -> Iterator[Advice]:
                 "softer layers below",
                 f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
                 f"{show(min(h for h in below if h == h), 'Pa')}: under contacts wide against the layers it yields first, at a "
-                "lower pressure. Limit the pressure by the effective hardness, LayeredHardness(body) (--hardness effective), or compute "
-                "the stresses, which tell the load factor of each layer.",
+                "lower pressure.",
+                "Limit the pressure by the effective hardness ({effective_hardness}), or compute the stresses ({stresses}), which tell "
+                "the load factor of each layer.",
+                {"limit": limit, "hardness": min(h for h in below if h == h)},
+                (*AREAS, *PRESSURES, "plastic_"),
             )

@@ -1,12 +1,13 @@
 """Names of what a person can do, in the words of the door at which they stand: Python, the command line or the form of the application.
 
-Findings say ``{periodise}``; a reader in Python is told ``surface.periodised()``, one of the command line ``--periodise``, one of the form the field.
+Findings and errors say ``{periodise}``; a reader in Python is told ``periodised(surface)``, one of the command line ``--periodise``, one of the form
+the page and the field. ``{friction.law=full stick}`` is the value of a key of documents, which is called by its key, its option or its field.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from types import MappingProxyType
@@ -26,20 +27,64 @@ class Action(NamedTuple):
 
 ACTIONS = MappingProxyType(
     {
-        "periodise": Action("surface.periodised()", "--periodise", "Surface, Preparation: periodise"),
+        # what a file with heights does not state
+        "size": Action("size=(20e-6, 20e-6) in m", '--size "20 um x 20 um"', "Surface: Size"),
+        "height_unit": Action('height_unit="nm"', "--height-unit nm", "Surface: Height unit"),
+        "z_scale": Action("z_scale=100e-9 in m", '--z-scale "100 nm"', "Surface: Z scale"),
+        "lateral_unit": Action('lateral_unit="um"', "--lateral-unit um", "Surface: Lateral unit"),
+        "no_size": Action("size", "--size", "Surface: Size"),
+        "no_height_unit": Action("height_unit", "--height-unit", "Surface: Height unit"),
+        "no_z_scale": Action("z_scale", "--z-scale", "Surface: Z scale"),
+        "no_lateral_unit": Action("lateral_unit", "--lateral-unit", "Surface: Lateral unit"),
+        "channel": Action("channel=...", "--channel", "Surface: Channel"),
+        # preparation
+        "fill": Action("filled(surface)", "--fill harmonic", "Prepare: fill"),
+        "periodise": Action("periodised(surface)", "--periodise", "Prepare: periodise"),
+        "taper": Action("surfaces.tapered(surface, ...)", "--taper", "Prepare: taper"),
+        "crop": Action("surfaces.cropped(surface, ...)", "--crop", "Prepare: crop"),
+        "resample": Action("surfaces.resampled(surface, ...)", "--resample", "Prepare: resample"),
+        "smooth": Action("surfaces.filtered(surface, short=...)", "--short-cutoff", "Prepare: filter"),
+        "slice": Action('surfaces.sliced(surface, y="middle")', "--line y=middle", "Prepare: slice"),
+        # the problem
+        "load": Action("MeanPressure(...) or Force(...)", "--pressure or --load", "Control: Mean pressure"),
+        "free": Action("boundary=Free()", "--boundary free", "Boundary: free"),
+        "periodic": Action("boundary=Periodic()", "--boundary periodic", "Boundary: periodic"),
+        "hardness": Action("law=Hardness(...)", "--hardness body", "Law: hardness"),
+        "effective_hardness": Action(
+            "law=plasticity.LayeredHardness(body)", "--hardness effective", "Law: hardness = effective"
+        ),
+        "yield_stress": Action("Strength(yield_stress=...)", '"steel{Y=400MPa}" in --body', "Bodies: Yield stress"),
+        "solver": Action("solver=...", "--solver", "Solver: Method"),
+        "tolerance": Action("tolerance=...", "--tolerance", "Solver: Tolerance"),
+        "shift": Action("Shift(...)", "--shift", "Shear: Shift"),
+        "time_tolerance": Action("TimeSteps(tolerance=...)", "--time-tolerance", "Viscoelastic: Tolerance"),
+        "time_steps": Action("TimeSteps(number=...)", "--time-steps", "Viscoelastic: Steps"),
+        "plastic_depth": Action("PlasticFlow(depth=...)", "--plastic-depth", "Plastic flow: Depth"),
+        "stresses": Action("stress(result, depths)", "--depths", "Stress: Depths"),
     }
 )
-"""What findings advise, by name."""
+"""What findings and errors advise, by name."""
 
-_DOOR: ContextVar[Door] = ContextVar("door", default="python")
+Options: TypeAlias = Callable[[], Mapping[str, str]]
+"""Gives the options of the command line by the dotted keys of documents."""
 
-_NAMED = re.compile(r"\{(\w+)\}")
+
+class _Speaking(NamedTuple):
+    """The door that speaks, and its options."""
+
+    door: Door
+    options: Options
+
+
+_DOOR: ContextVar[_Speaking] = ContextVar("door", default=_Speaking("python", dict))  # noqa: B039  (nothing changes it)
+
+_NAMED = re.compile(r"\{(\w+(?:\.\w+)*)(?:=([^{}]*))?\}")
 
 
 @contextmanager
-def speaking(door: Door) -> Iterator[None]:
-    """Context in which findings name what can be done at this ``door``."""
-    before = _DOOR.set(door)
+def speaking(door: Door, options: Options = dict) -> Iterator[None]:
+    """Context in which findings and errors name what can be done at this ``door``; a command line has ``options`` by the keys of documents."""
+    before = _DOOR.set(_Speaking(door, options))
     try:
         yield
     finally:
@@ -47,6 +92,35 @@ def speaking(door: Door) -> Iterator[None]:
 
 
 def in_words(text: str, door: Door | None = None) -> str:
-    """``text`` with every ``{action}`` in the words of ``door``, by default the one that is speaking."""
-    chosen = door or _DOOR.get()
-    return _NAMED.sub(lambda found: getattr(ACTIONS[found[1]], chosen), text)
+    """``text`` with every ``{action}`` in the words of ``door``, by default the one that is speaking; other braces stay."""
+    here = _DOOR.get()
+    return _NAMED.sub(lambda found: _said(found, door or here.door, here.options), text)
+
+
+def _said(found: re.Match[str], door: Door, options: Options) -> str:
+    name, value = found.groups()
+    if name in ACTIONS and value is None:
+        words: str = getattr(ACTIONS[name], door)
+        return words
+    if "." not in name:
+        return found[0]
+    if door == "form":
+        field = field_of(name)
+        return field if value is None else f"{field} = {value}"
+    option = options().get(name) if door == "command" else None
+    if option is not None:
+        return option if value is None else f'{option} "{value}"' if " " in value else f"{option} {value}"
+    plain = value is None or value in ("true", "false") or re.fullmatch(r"-?[\d.]+(e-?\d+)?", value)
+    return name if value is None else f"{name} = {value}" if plain else f'{name} = "{value}"'
+
+
+def field_of(key: str) -> str:
+    """What a form calls the field of a dotted ``key`` of documents: its tables and its label."""
+    *tables, last = map(label_of, key.split("."))
+    return f"{', '.join(tables)}: {last}" if tables else last
+
+
+def label_of(name: str) -> str:
+    """What the key ``name`` of a table is called in a form."""
+    text = name.replace("_", " ").replace("youngs ", "Young's ").replace("poisson ", "Poisson's ")
+    return text[:1].upper() + text[1:]

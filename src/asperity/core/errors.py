@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from .doors import in_words
+
 
 class AsperityError(Exception):
-    """Base of every exception that asperity raises on purpose; ``subject`` where it does not stand before "must"."""
+    """Base of every exception that asperity raises on purpose; ``subject`` where it does not stand before "must".
+
+    What can be done, as ``{fill}`` in the message, is said in the words of the door that speaks: see ``doors.ACTIONS``.
+    """
 
     def __init__(self, message: str, *, subject: str = "") -> None:
-        super().__init__(message)
+        super().__init__(in_words(message))
         self._subject = subject
 
     @property

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Union, get_args, get_origin
 
 from ..core import units
+from ..core.doors import label_of
 from ..core.errors import AsperityError
 from ..core.parameters import Parameter, taken_apart
 from ..core.settings import Settings, declared
@@ -122,12 +123,6 @@ def _asked(item: Parameter, base: Any) -> Asked:
     if isinstance(values, Choice):
         return Asked(shape="choice", choices=tuple(values.words), **given)
     return Asked(shape="number" if isinstance(values, Number | Whole) else "text", **given)
-
-
-def label_of(name: str) -> str:
-    """What the key ``name`` is called on a page."""
-    text = name.replace("_", " ").replace("youngs ", "Young's ").replace("poisson ", "Poisson's ")
-    return text[:1].upper() + text[1:]
 
 
 def tables_in(annotation: Any) -> tuple[type[Settings], ...]:

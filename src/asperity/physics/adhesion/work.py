@@ -155,16 +155,22 @@ class AdhesionWork(Work):
         return Words(sentence, headline, rows, tables, (REMARK,))
 
 
+ZONE = ("attractive_force", "adhesive_area_fraction", "pull_off_", "hysteresis", "jumps")
+"""What a zone that the grid does not resolve puts in doubt."""
+
+
 def _findings(solved: Solved) -> tuple[Advice, ...]:
     """A zone that the grid does not resolve, an unstable end, steps that failed."""
     found, made = solved.result.require_adhesion(), []
     if not found.resolved and found.short_range:
-        text = (
+        fact = (
             f"The contact spots are not resolved for adhesion of infinitely short range: their mean radius is {show(found.spot_radius, 'm', 3)}, "
             f"{found.pixels_per_length:.2g} pixels, and should be at least {RESOLVED_RADIUS:g}; pull-off is too large, by an error in "
-            f"proportion to the pixel. Take a pixel of at most {show(found.needed_pixel, 'm', 3)}."
+            "proportion to the pixel."
         )
-        made.append(Advice("warning", "adhesive zone", text))
+        remedy = f"Take a pixel of at most {show(found.needed_pixel, 'm', 3)} ({{resample}})."
+        numbers = {"pixels": found.pixels_per_length, "least": RESOLVED_RADIUS, "needed_pixel": found.needed_pixel}
+        made.append(Advice("warning", "adhesive zone", fact, remedy, numbers, ZONE))
     elif not found.resolved:
         pinned = found.pixels_per_length < PINNED
         effect = (
@@ -179,14 +185,23 @@ def _findings(solved: Solved) -> tuple[Advice, ...]:
                 f"the mean radius of contact spots with their zone is {show(found.zone_radius, 'm', 3)}, {found.pixels_per_radius:.2g} pixels, "
                 f"and should be at least {found.radius_needed:.3g}"
             )
-        text = (
-            f"The attracting zone is not resolved: {where}; {effect}. Take a pixel of at most "
-            f"{show(found.needed_pixel, 'm', 3)}, or a larger range at the same work of adhesion."
+        remedy = (
+            f"Take a pixel of at most {show(found.needed_pixel, 'm', 3)} ({{resample}}), or a larger range at the same work of adhesion "
+            "({adhesion.range})."
         )
-        made.append(Advice("warning", "adhesive zone", text))
+        numbers = {
+            "pixels": found.pixels_per_length,
+            "least": found.pixels_needed,
+            "pixels_per_radius": found.pixels_per_radius,
+            "least_per_radius": found.radius_needed,
+            "needed_pixel": found.needed_pixel,
+        }
+        fact = f"The attracting zone is not resolved: {where}; {effect}."
+        made.append(Advice("warning", "adhesive zone", fact, remedy, numbers, ZONE))
     if not found.stable:
-        text = f"The contact is not at a minimum of the energy (margin {found.margin:.2g}). Take smaller steps of load or position."
-        made.append(Advice("warning", "stability", text))
+        fact = f"The contact is not at a minimum of the energy (margin {found.margin:.2g})."
+        remedy = "Take smaller steps of load or position ({control.path.steps})."
+        made.append(Advice("warning", "stability", fact, remedy, {"margin": found.margin}, ("stability_margin",)))
     return tuple(made)
 
 

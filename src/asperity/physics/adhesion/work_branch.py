@@ -22,16 +22,17 @@ def branch_values(solved: Solved, farthest: float) -> tuple[dict[str, Any], tupl
     try:
         branch = adhesive_branch(deepest, farthest=farthest)
     except (InputError, NoSolutionError) as error:
-        text = f"The branch between the jumps was not followed: {error}"
-        return {}, (Advice("warning", "branch", text),)
+        return {}, (Advice("warning", "branch", f"The branch between the jumps was not followed: {error}"),)
     findings: tuple[Advice, ...] = ()
     pixel = max(solved.problem.grid.pixels)
     if pixel > branch.needed_pixel:
-        text = (
-            f"The branch between the jumps may have folds of single points of the grid: its pixel is {show(pixel, 'm', 3)}. Take one of at most "
-            f"{show(branch.needed_pixel, 'm', 3)}, or a law that falls more gently, such as exponential."
+        fact = f"The branch between the jumps may have folds of single points of the grid: its pixel is {show(pixel, 'm', 3)}."
+        remedy = (
+            f"Take one of at most {show(branch.needed_pixel, 'm', 3)} ({{resample}}), or a law that falls more gently "
+            "({adhesion.law=exponential})."
         )
-        findings = (Advice("warning", "branch", text),)
+        numbers = {"pixel": pixel, "needed_pixel": branch.needed_pixel}
+        findings = (Advice("warning", "branch", fact, remedy, numbers, ("fold", "branch_")),)
     first = branch.folds[0] if branch.folds else None
     values = {
         "folds": float(len(branch.folds)),

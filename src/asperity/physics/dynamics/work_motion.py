@@ -33,6 +33,12 @@ USUAL_PERIODS = 300
 SLID = 0.9
 """Largest spring force over the friction at rest above which the block has begun to slide."""
 
+VIBRATION = ("penetration_vibration", "tilt_vibration", "vibration_frequency")
+"""What a vibration that has not grown leaves in doubt."""
+
+SLIDING = ("apparent_friction", "friction_reduction")
+"""What a block that does not slide steadily leaves in doubt."""
+
 QUIET = 1e-4
 """Standard deviation of the penetration over that at rest below which a motion does not vibrate."""
 
@@ -318,40 +324,50 @@ class Made:
         """A poor law, vibration beyond its range, instability that the run is too short to show."""
         fit, made = self.fit, []
         if fit.largest_error > POOR_FIT:
-            text = (
+            fact = (
                 f"The power law of the interface differs from the contact by up to {percent(fit.largest_error)}. A rough contact follows a power of the approach "
                 "only over part of the range: the law holds near the load."
             )
-            made.append(Advice("note", "law of the interface", text))
+            numbers = {"error": fit.largest_error, "largest": POOR_FIT}
+            made.append(Advice("note", "law of the interface", fact, numbers=numbers, concerns=("interface_",)))
         low, high = fit.span
         if "normal_force" in self.motion.values:
             largest = float(self.motion["normal_force"].max()) / self.area
             if largest > 1.05 * high:
-                text = (
+                fact = (
                     f"The motion reaches a mean pressure of {show(largest, 'Pa', 3)}, but the law was fitted from {show(low, 'Pa', 3)} to {show(high, 'Pa', 3)} "
-                    "and is extrapolated. Take a smaller disturbance, or more damping."
+                    "and is extrapolated."
                 )
-                made.append(Advice("note", "range of the law", text))
+                remedy = (
+                    "Take a smaller disturbance ({dynamics.disturbance}), or more damping ({dynamics.damping_ratio})."
+                )
+                numbers = {"mean_pressure": largest, "lowest": low, "highest": high}
+                concerns = ("largest_normal_force", "penetration_vibration")
+                made.append(Advice("note", "range of the law", fact, remedy, numbers, concerns))
         if self.ask.settings.model == "block" and not self.slides:
-            text = (
-                f"The block has not begun to slide within {show(self.duration, 's', 3)}: there is no apparent friction. Take a longer duration "
-                "(dynamics.duration, --duration), or start about to slide (dynamics.start, --start sliding)."
+            fact = (
+                f"The block has not begun to slide within {show(self.duration, 's', 3)}: there is no apparent friction."
             )
-            made.append(Advice("warning", "duration of the motion", text))
+            remedy = "Take a longer duration ({dynamics.duration}), or start about to slide ({dynamics.start=sliding})."
+            numbers = {"duration": self.duration}
+            made.append(Advice("warning", "duration of the motion", fact, remedy, numbers, (*SLIDING, "stick_slip_")))
         elif self.ask.settings.model == "block":
             growth = self.block.stability.margin
             if growth > 0.0 and growth * self.duration < 10.0:
-                text = (
-                    f"Steady sliding is unstable, but at {growth:.3g} 1/s the vibration has not grown within {show(self.duration, 's', 3)}. Take a longer duration "
-                    "(dynamics.duration, --duration)."
-                )
-                made.append(Advice("note", "duration of the motion", text))
+                fact = f"Steady sliding is unstable, but at {growth:.3g} 1/s the vibration has not grown within {show(self.duration, 's', 3)}."
+                numbers = {"growth_rate": growth, "duration": self.duration}
+                remedy = "Take a longer duration ({dynamics.duration})."
+                made.append(Advice("note", "duration of the motion", fact, remedy, numbers, VIBRATION))
             elif growth > 0.0 and self._late_numbers["penetration_vibration"] < QUIET:
-                text = (
+                fact = (
                     f"Steady sliding is unstable, with a growth of {growth:.3g} 1/s, but the motion does not vibrate: friction that turns over smoothly, or errors of the "
-                    "integration, damp it. Start about to slide (dynamics.start, --start sliding), or smooth friction less (dynamics.smoothing, --smoothing)."
+                    "integration, damp it."
                 )
-                made.append(Advice("warning", "vibration of the motion", text))
+                remedy = (
+                    "Start about to slide ({dynamics.start=sliding}), or smooth friction less ({dynamics.smoothing})."
+                )
+                numbers = {"growth_rate": growth, "vibration": self._late_numbers["penetration_vibration"]}
+                made.append(Advice("warning", "vibration of the motion", fact, remedy, numbers, VIBRATION))
             # whether the apparent friction is that of a steady state, and the phase of the vibration one of the equations
             late, numbers = self.motion.after(self._window), self._late_numbers
             spring = late["spring_force"]
@@ -359,11 +375,12 @@ class Made:
             change = float(slope * np.ptp(late.time)) / max(abs(float(spring.mean())), 1e-12 * self.load)
             if math.isnan(numbers["stick_slip_period"]) and abs(change) > DRIFTS:
                 how = "runs backwards" if change < 0.0 else "is still dragged along"
-                text = (
+                fact = (
                     f"The block {how} in the time of the apparent friction: the spring force changes by {percent(change)} over the last "
-                    f"{show(float(np.ptp(late.time)), 's', 3)}, so that its mean is not that of a steady state. Take a longer duration (dynamics.duration, --duration)."
+                    f"{show(float(np.ptp(late.time)), 's', 3)}, so that its mean is not that of a steady state."
                 )
-                made.append(Advice("warning", "window of the motion", text))
+                remedy, found = "Take a longer duration ({dynamics.duration}).", {"change": change, "largest": DRIFTS}
+                made.append(Advice("warning", "window of the motion", fact, remedy, found, SLIDING))
             grows = self.block.stability.margin > 0.0 and numbers["penetration_vibration"] >= QUIET
             if grows and (self.ask.settings.disturbance == 0.0 or numbers["smallest_normal_force"] <= 0.0):
                 why = (
@@ -371,6 +388,6 @@ class Made:
                     if self.ask.settings.disturbance == 0.0
                     else "The block loses contact in an unstable vibration"
                 )
-                text = f"{why}: its phase hangs on rounding. Only means and extremes can be relied on, not the time of an event."
-                made.append(Advice("note", "phase of the motion", text))
+                fact = f"{why}: its phase hangs on rounding. Only means and extremes can be relied on, not the time of an event."
+                made.append(Advice("note", "phase of the motion", fact, concerns=("motion_",)))
         return tuple(made)

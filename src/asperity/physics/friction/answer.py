@@ -148,7 +148,10 @@ class StickSlip(Answer):
         yield Advice(
             "warning",
             "shift not determined",
-            f"{why}. Slip and heat stated are those of the least shift that slides every point. Prescribe a shift (Shift(...), --shift), or a smaller force.",
+            f"{why}. Slip and heat stated are those of the least shift that slides every point.",
+            "Prescribe a shift ({shift}), or a smaller force.",
+            {"tangential_force": math.hypot(self.force_x, self.force_y), "friction_limit": self.friction_limit},
+            ("shift_", "dissipated", "total_dissipated", "max_slip"),
         )
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -70,32 +70,34 @@ class StickSlipWork(Work):
         made = []
         sliding = sum(step.contact.any() and step.require_stick_slip().slipping[step.contact].all() for step in steps)
         if sliding:
-            text = (
+            fact = (
                 f"All points slide in {sliding} of {len(steps)} steps: the tangential force is all that friction bears."
             )
-            made.append(Advice("note", "gross sliding", text))
+            made.append(Advice("note", "gross sliding", fact, numbers={"sliding": float(sliding), "steps": len(steps)}))
         if solved.path is not None and len(steps) > 2:
             # share of the tangential work that the length of the steps takes
             balance = solved.path.energies
             work = float(abs(balance.tangential_work).max())
             lost = abs(float(balance.step_work[-1])) / work if work > 0.0 else 0.0
             if lost > COARSE:
-                text = (
-                    f"The length of the steps takes {percent(lost)} of the tangential work, which is neither stored nor heat. Take more steps "
-                    "(shear.steps, --cycle-steps; of time, --time-steps) where slip reverses or turns."
+                fact = f"The length of the steps takes {percent(lost)} of the tangential work, which is neither stored nor heat."
+                remedy = "Take more steps ({shear.steps}; of time, {viscoelastic.steps}) where slip reverses or turns."
+                numbers, concerns = (
+                    {"share": lost, "largest": COARSE},
+                    ("dissipated", "total_dissipated", "cycle_dissipation"),
                 )
-                made.append(Advice("note", "length of the steps", text))
+                made.append(Advice("note", "length of the steps", fact, remedy, numbers, concerns))
         if factor > 0.0:  # where shear changes the pressure the two settle in turn
             certificate = solved.result.certificate
             check = next((item for item in certificate.couplings if item.name == "stick_slip"), None)
             met = "" if check is None else f" After {certificate.rounds} rounds it was {check.residual:.1e}."
             text = f"A round between pressure and shear multiplies their error by {factor:.2g}"
+            remedy, numbers = "", {"factor": factor, "largest": 1.0}
             if factor >= 1.0:
-                more = "the alternation does not contract, and the solution found may be one of several"
-                remedy = "Lower the friction coefficient, or follow the path in smaller steps."
-                made.append(Advice("warning", "contraction of pressure and shear", f"{text}: {more}.{met} {remedy}"))
-            else:
-                made.append(Advice("note", "contraction of pressure and shear", f"{text}.{met}"))
+                text += ": the alternation does not contract, and the solution found may be one of several"
+                remedy = "Lower the friction coefficient ({friction.coefficient}), or follow the path in smaller steps ({shear.steps})."
+            level: Literal["note", "warning"] = "warning" if factor >= 1.0 else "note"
+            made.append(Advice(level, "contraction of pressure and shear", f"{text}.{met}", remedy, numbers))
         return Found(values, None, tuple(made), found.citation_keys)
 
     def citations(self, ask: Sheared, problem: ContactProblem) -> tuple[str, ...]:

@@ -253,11 +253,15 @@ def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Fo
     findings = list(inferred_strengths(body))
     radius = math.sqrt(float(run.shown.curve["area"][run.peak]) / math.pi)
     if not indenter.is_cone and radius > SMALL_STRAIN * indenter.radius:
-        text = f"The contact radius is {radius / indenter.radius:.2g} of that of the indenter. Beyond {SMALL_STRAIN:g} small strains err by more than a few per cent."
-        findings.append(Advice("warning", "small strain", text))
+        fact = f"The contact radius is {radius / indenter.radius:.2g} of that of the indenter. Beyond {SMALL_STRAIN:g} small strains err by more than a few per cent."
+        remedy = "Take a smaller depth ({indentation.depth})."
+        numbers = {"share": radius / indenter.radius, "largest": SMALL_STRAIN}
+        findings.append(Advice("warning", "small strain", fact, remedy, numbers, ("indent_",)))
     if run.touching < FEW:
-        text = f"Only {run.touching} points of the mesh touch. Load and area err by several per cent below {FEW}; take more elements (--indent-elements)."
-        findings.append(Advice("warning", "mesh of the indentation", text))
+        fact = f"Only {run.touching} points of the mesh touch. Load and area err by several per cent below {FEW}."
+        remedy = "Take more elements ({indentation.elements})."
+        numbers, concerns = {"points": float(run.touching), "least": float(FEW)}, ("indent_",)
+        findings.append(Advice("warning", "mesh of the indentation", fact, remedy, numbers, concerns))
     if not run.shown.strain.max() > 0.0:
         findings.append(Advice("note", "indentation", "Nothing flows at this depth: the indentation is elastic."))
     try:

@@ -105,30 +105,50 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
     values |= {f"{PREFIX}_{name}": column for name, column in zip(names, run.profile, strict=True)}
     made, strain = list(inferred_strengths(body)), float(values["pass_plastic_strain"])
     share = run.numbers["contact"] / course.radius
-    if strain > LARGE_STRAIN or share > 0.15:
-        text = f"The plastic strain reaches {percent(strain)}, and the contact {share:.2g} of the radius of the indenter. Small strains err by more than a few per cent from {percent(LARGE_STRAIN)} or 0.15 on."
-        made.append(Advice("warning", "small strain", text))
+    if strain > LARGE_STRAIN or share > LARGE_SHARE:
+        fact = f"The plastic strain reaches {percent(strain)}, and the contact {share:.2g} of the radius of the indenter. Small strains err by more than a few per cent from {percent(LARGE_STRAIN)} or {LARGE_SHARE:g} on."
+        numbers = {
+            "plastic_strain": strain,
+            "largest_strain": LARGE_STRAIN,
+            "share": share,
+            "largest_share": LARGE_SHARE,
+        }
+        made.append(Advice("warning", "small strain", fact, numbers=numbers, concerns=("pass_",)))
     if run.touching < FEW:
-        text = f"Only {run.touching} points of the mesh touch along the track. Plastic strains err by ten per cent and more below {FEW}; take more elements (--pass-elements)."
-        made.append(Advice("warning", "mesh of the passes", text))
+        fact = f"Only {run.touching} points of the mesh touch along the track. Plastic strains err by ten per cent and more below {FEW}."
+        numbers, remedy = (
+            {"points": float(run.touching), "least": float(FEW)},
+            "Take more elements ({passes.elements}).",
+        )
+        made.append(Advice("warning", "mesh of the passes", fact, remedy, numbers, ("pass_",)))
     if course.length / course.steps > 0.5 * run.numbers["contact"]:
-        text = f"A step along the track is {course.length / course.steps / run.numbers['contact']:.2g} of the contact radius. Stresses between the steps are not followed; take steps of a quarter (--pass-steps)."
-        made.append(Advice("warning", "steps of the passes", text))
+        step = course.length / course.steps / run.numbers["contact"]
+        fact = (
+            f"A step along the track is {step:.2g} of the contact radius. Stresses between the steps are not followed."
+        )
+        remedy = "Take steps of a quarter ({passes.steps})."
+        made.append(Advice("warning", "steps of the passes", fact, remedy, {"step": step, "largest": 0.5}, ("pass_",)))
     if run.at_edge:
-        text = "The contact reached the last points of the mesh that may touch, so that it is too small. Take a shorter track, less friction or more hardening."
-        made.append(Advice("warning", "contact of the passes", text))
+        fact = "The contact reached the last points of the mesh that may touch, so that it is too small."
+        remedy = "Take a shorter track ({passes.track}), less friction ({passes.friction}) or more hardening."
+        made.append(Advice("warning", "contact of the passes", fact, remedy, concerns=("pass_",)))
     found = verdict(values)
     if not strain > 0.0:
         made.append(Advice("note", "passes", "Nothing flows under this load: the passes are elastic."))
     elif found in ("flow is not settled", "one pass"):
-        text = f"The flow is not settled after {course.count} pass{'es' * (course.count > 1)}: whether it ceases, or goes on, takes more of them (--passes)."
-        made.append(Advice("note", "passes", text))
+        fact = f"The flow is not settled after {course.count} pass{'es' * (course.count > 1)}: whether it ceases, or goes on, takes more of them."
+        remedy, concerns = "Take more passes ({passes.count}).", ("pass_strain_growth", "pass_growth_ratio")
+        made.append(Advice("note", "passes", fact, remedy, {"passes": float(course.count)}, concerns))
     elif "ceases" not in found and found != "elastic":
         cracks = "once the ductility is used up" if "adds up" in found else "by low-cycle fatigue"
-        text = f"Every pass adds {percent(float(values['pass_strain_growth']))} of plastic strain: {found}. Cracks form {cracks}."
-        made.append(Advice("warning", "passes", text))
+        growth = float(values["pass_strain_growth"])
+        fact = f"Every pass adds {percent(growth)} of plastic strain: {found}. Cracks form {cracks}."
+        made.append(Advice("warning", "passes", fact, numbers={"growth": growth}))
     return Found(values, Detail(facts, run), tuple(made), KEYS)
 
+
+LARGE_SHARE = 0.15
+"""Contact over radius of the indenter beyond which small strains err by more than a few per cent."""
 
 CEASED = 0.01
 """Growth of the plastic strain in the last pass over that in the first below which flow has ceased."""

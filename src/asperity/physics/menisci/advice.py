@@ -34,7 +34,10 @@ def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> I
                 "warning",
                 "meniscus pixels",
                 f"Menisci are counted in pixels, but have a radius of {across:.2g} pixels (less than {FEWEST_MENISCUS_PIXELS:g}): the force "
-                "may be off by several per cent. Refine the grid, or generate the surface with more points.",
+                "may be off by several per cent.",
+                "Refine the grid ({resample}), or generate the surface with more points.",
+                {"pixels": across, "least": FEWEST_MENISCUS_PIXELS},
+                ("meniscus_force", "relative_meniscus_force", "external_force", "meniscus_area_fraction", "n_menisci"),
             )
     radius = film.meniscus_height / wetting_factor(*film.contact_angles)
     remarks = []
@@ -48,7 +51,8 @@ def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> I
             "covers the surface in part only."
         )
     if remarks:
-        yield Advice("note", "molecules", " ".join(remarks))
+        numbers = {"radius": radius, "least_radius": CONTINUUM, "thickness": film.thickness, "molecule": MOLECULE}
+        yield Advice("note", "molecules", " ".join(remarks), numbers=numbers, concerns=("meniscus_", "suction"))
     partly = wetting.partly
     count, whole = int(np.count_nonzero(partly)), float(wetting.filled.sum())
     jump = pull * count / whole if whole else 0.0
@@ -58,5 +62,8 @@ def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> I
             "note",
             "jump of the meniscus force",
             f"The forces balance where the meniscus force jumps: {count} pixel{'' if count == 1 else 's'} that touch or come to the height of the menisci "
-            f"there hold{'s' if count == 1 else ''} liquid in part, which pulls with {show(held, 'N')} of {show(jump, 'N')}. Refine the grid for smaller jumps.",
+            f"there hold{'s' if count == 1 else ''} liquid in part, which pulls with {show(held, 'N')} of {show(jump, 'N')}.",
+            "Refine the grid ({resample}) for smaller jumps.",
+            {"jump": jump, "force": force, "pixels": float(count)},
+            ("meniscus_force", "external_force"),
         )

@@ -149,7 +149,10 @@ class PlasticBody(Answer):
                     "warning",
                     "plastic flow",
                     f"The plastic strain is not settled: the return mapping still changes it by {check.residual:.1e} of itself (at most "
-                    f"{check.tolerance:g} wanted). {REMEDY}",
+                    f"{check.tolerance:g} wanted).",
+                    REMEDY,
+                    {"change": check.residual, "largest": check.tolerance},
+                    ("flow_", "total_plastic_work"),
                 )
         if not self.small_strain:
             zone = max(self.zones, key=lambda item: item.largest_strain)
@@ -158,8 +161,10 @@ class PlasticBody(Answer):
                 "warning",
                 "small strain",
                 f"The plastic strain reaches {percent(zone.largest_strain)}, {show(zone.place[2], 'm')} deep in {where}; above "
-                f"{percent(SMALL_STRAIN)} small strains are no longer a good description. Lower the load or smooth sharp summits, or take "
-                "imprint and pressures as qualitative there.",
+                f"{percent(SMALL_STRAIN)} small strains are no longer a good description.",
+                "Lower the load ({load}) or smooth sharp summits ({smooth}), or take imprint and pressures as qualitative there.",
+                {"plastic_strain": zone.largest_strain, "largest": SMALL_STRAIN},
+                ("flow_", "max_pressure"),
             )
         body = self.problem.body if self.of == "body" else self.problem.counter_body
         end = float(self.flowed.edges[-1]) if self.reaches_end else math.inf
@@ -171,14 +176,19 @@ class PlasticBody(Answer):
                 "warning",
                 "depth of the cells",
                 f"Points in the deepest cell flow, at {show(end, 'm', 3)}, and what lies below is held elastic: plastic "
-                "strain and imprint are too small. Give a larger depth, or none (--plastic-depth).",
+                "strain and imprint are too small.",
+                "Give a larger depth ({plastic_depth}), or none.",
+                {"depth": end},
+                ("flow_",),
             )
         if self.reaches_edge:
             yield Advice(
                 "warning",
                 "edge of the grid",
                 "Points under the edge of the grid flow, and what lies beside the grid is held elastic: loads are too large, and plastic strain "
-                "and imprint too small. Give a grid with a wider margin around the contact: on one of five contact radii loads are within 0.2 %.",
+                "and imprint too small.",
+                "Give a grid with a wider margin around the contact: on one of five contact radii loads are within 0.2 %.",
+                concerns=("flow_", "force", "mean_pressure", "max_pressure"),
             )
 
     @property

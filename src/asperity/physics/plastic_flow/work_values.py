@@ -168,7 +168,10 @@ def inferred_strengths(body: Body) -> tuple[Advice, ...]:
         Advice(
             "note",
             "yield stress",
-            f"The yield stress is the hardness over 2.8 where no other is known ({'; '.join(texts)}). Give Y where it matters.",
+            f"The yield stress is the hardness over 2.8 where no other is known ({'; '.join(texts)}).",
+            "Give it where it matters ({yield_stress}).",
+            {name: stress.value for name, stress in found.items() if stress.inferred},
+            ("flow_", "indent_", "pass_"),
         ),
     )
 

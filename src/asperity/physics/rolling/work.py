@@ -82,16 +82,25 @@ class RollingWork(Work):
         keys = contact.citation_keys if curve is None else curve.citation_keys
         made = []
         if contact.slip_area_fraction == 1.0:
-            text = "All points slip: the creepages are beyond those of partial slip, and the tangential force is all that friction bears."
-            made.append(Advice("note", "gross sliding", text))
+            fact = "All points slip: the creepages are beyond those of partial slip, and the tangential force is all that friction bears."
+            made.append(Advice("note", "gross sliding", fact))
         if max(abs(ask.creepage.x), abs(ask.creepage.y)) > LARGE:
-            text = f"A creepage of more than {percent(LARGE)} is not small, as the theory of rolling assumes."
-            made.append(Advice("warning", "large creepage", text))
+            fact = f"A creepage of more than {percent(LARGE)} is not small, as the theory of rolling assumes."
+            numbers = {"longitudinal": ask.creepage.x, "lateral": ask.creepage.y, "largest": LARGE}
+            made.append(Advice("warning", "large creepage", fact, numbers=numbers, concerns=("rolling_",)))
         touched = np.flatnonzero(DIRECTIONS[contact.direction].oriented(contact.normal.pressure).any(axis=1))
         length = int(touched[-1] - touched[0]) + 1 if touched.size else 0
         if 0 < length < FEW:
-            text = f"The contact is {length} pixels long. Errors of the forces fall with the pixel, and are several per cent below {FEW}. Take a finer grid."
-            made.append(Advice("note", "pixels of the rolling contact", text))
+            fact = f"The contact is {length} pixels long. Errors of the forces fall with the pixel, and are several per cent below {FEW}."
+            numbers, concerns = (
+                {"pixels": float(length), "least": float(FEW)},
+                ("rolling_", "traction_coefficient", "creep_"),
+            )
+            made.append(
+                Advice(
+                    "note", "pixels of the rolling contact", fact, "Take a finer grid ({resample}).", numbers, concerns
+                )
+            )
         return Found(values, facts, tuple(made), keys)
 
     def citations(self, ask: Rolls, problem: ContactProblem) -> tuple[str, ...]:

@@ -126,8 +126,10 @@ class Creeping(Answer):
             "warning",
             "energy balance",
             f"The energies of the viscoelastic contact miss by {percent(self.energy_error, 2)} of the largest work, where its steps of time explain "
-            f"{percent(self.explained_error, 2)}: heat and force may be wrong. Take a smaller tolerance (--time-tolerance) or more steps of time "
-            "(--time-steps).",
+            f"{percent(self.explained_error, 2)}: heat and force may be wrong.",
+            "Take a smaller tolerance ({time_tolerance}) or more steps of time ({time_steps}).",
+            {"error": self.energy_error, "explained": self.explained_error},
+            ("viscoelastic_", "force", "mean_pressure"),
         )
 
     def column(self, name: str) -> RealArray:

@@ -113,15 +113,21 @@ class ViscoelasticityWork(Work):
         detail = {"temperature": table.temperature and float(table.temperature)}
         made = []
         if float(values["viscoelastic_time"]) == 0.0 and not ask.slides:
-            text = "All loads come at once: the viscoelastic solids are as stiff as at the first instant. Give ramp or hold (--ramp, --hold) for what time does to the contact."
-            made.append(Advice("note", "first instant", text))
+            fact = "All loads come at once: the viscoelastic solids are as stiff as at the first instant."
+            remedy = "Give the times of the loads ({viscoelastic.ramp}, {viscoelastic.hold}) for what time does to the contact."
+            made.append(Advice("note", "first instant", fact, remedy))
         if ask.settings.frequency is not None and math.isnan(float(values["storage_stiffness"])):
-            text = "The surfaces do not touch under the last load: there is no contact that would oscillate."
-            made.append(Advice("warning", "oscillation", text))
+            fact = "The surfaces do not touch under the last load: there is no contact that would oscillate."
+            made.append(Advice("warning", "oscillation", fact))
         error = float(values["time_error"])
         if error > MUCH:
-            text = f"The steps of time may add {percent(error)} to the error of the displacement. Take a smaller tolerance (--time-tolerance) or more steps (--time-steps)."
-            made.append(Advice("warning", "steps of time", text))
+            fact = f"The steps of time may add {percent(error)} to the error of the displacement."
+            remedy = "Take a smaller tolerance ({viscoelastic.tolerance}) or more steps ({viscoelastic.steps})."
+            numbers, concerns = (
+                {"error": error, "largest": MUCH},
+                ("approach", "force", "mean_pressure", "viscoelastic_"),
+            )
+            made.append(Advice("warning", "steps of time", fact, remedy, numbers, concerns))
         return Found(values, detail, tuple(made), keys)
 
     def citations(self, ask: InTime, problem: ContactProblem) -> tuple[str, ...]:

@@ -72,11 +72,18 @@ class HysteresisWork(Work):
         made = []
         friction, slope = float(values["hysteresis_friction"]), float(values["hysteresis_slope_friction"])
         if abs(slope - friction) > APART * max(abs(friction), 1e-12) and friction > 1e-6:
-            text = f"Friction by the loss in all waves is {friction:.3g} and by the slope of the surface {slope:.3g}: the grid does not resolve the edges of the contact. Take a finer one."
-            made.append(Advice("warning", "two ways to the friction", text))
+            fact = f"Friction by the loss in all waves is {friction:.3g} and by the slope of the surface {slope:.3g}: the grid does not resolve the edges of the contact."
+            compared = {"by_loss": friction, "by_slope": slope, "largest_difference": APART}
+            concerns = ("hysteresis_", "sliding_", "by_speed_")
+            made.append(
+                Advice(
+                    "warning", "two ways to the friction", fact, "Take a finer one ({resample}).", compared, concerns
+                )
+            )
         if friction > STEEP:
-            text = f"A coefficient of friction of {friction:.3g} by hysteresis alone says that slopes are too steep for a theory of small slopes."
-            made.append(Advice("warning", "steep slopes", text))
+            fact = f"A coefficient of friction of {friction:.3g} by hysteresis alone says that slopes are too steep for a theory of small slopes."
+            compared = {"friction": friction, "largest": STEEP}
+            made.append(Advice("warning", "steep slopes", fact, numbers=compared, concerns=("hysteresis_", "sliding_")))
         return Found(values, facts, tuple(made), keys)
 
     def citations(self, ask: HysteresisSettings, problem: ContactProblem) -> tuple[str, ...]:

@@ -84,21 +84,28 @@ class SlidingStartWork(Work):
         )
         unsteady = abs(slope - by_heat) > UNSTEADY * max(abs(slope), abs(by_heat))
         if unsteady:
-            text = f"Over the last quarter of the distance friction is {slope:.3g} by the slope and {by_heat:.3g} by the heat: the motion is not steady. Take a longer distance (--sliding-distance), or a finer grid if that changes nothing."
-            made.append(Advice("note", "start of sliding", text))
+            fact = f"Over the last quarter of the distance friction is {slope:.3g} by the slope and {by_heat:.3g} by the heat: the motion is not steady."
+            remedy = (
+                "Take a longer distance ({hysteresis.distance}), or a finer grid ({resample}) if that changes nothing."
+            )
+            compared = {"by_slope": slope, "by_heat": by_heat, "largest_difference": UNSTEADY}
+            made.append(Advice("note", "start of sliding", fact, remedy, compared, ("start_last_",)))
         touching, wraps = found.last.contact, found.last.problem.boundary.wraps
         ends = (touching[[0, -1]], touching[:, [0, -1]])
         sizes = touching.shape
         if any(end.any() and not wrap and n > 1 for end, wrap, n in zip(ends, wraps, sizes, strict=True)):
-            text = "After the distance the contact has come to an edge of its grid, beyond which nothing is known. Take a shorter distance (--sliding-distance), or a larger surface."
-            made.append(Advice("warning", "edge of the grid", text))
+            fact = "After the distance the contact has come to an edge of its grid, beyond which nothing is known."
+            remedy = "Take a shorter distance ({hysteresis.distance}), or a larger surface."
+            made.append(Advice("warning", "edge of the grid", fact, remedy, concerns=("start_last_", "start_heat")))
         known = float(facts["sliding_area_fraction"])
         if not (math.isnan(known) or unsteady or abs(last_area - known) <= OTHER_BRANCH * max(last_area, known)):
-            text = (
+            fact = (
                 f"The motion has come to {percent(last_area)} of the nominal area with a friction of {slope:.3g}, the steady state found at once to {percent(known)} with "
                 f"{float(facts['hysteresis_friction']):.3g}: adhesive contacts may have several steady states, and the motion after the first load comes to the former."
             )
-            made.append(Advice("warning", "two steady states", text))
+            compared = {"moved": last_area, "at_once": known, "largest_difference": OTHER_BRANCH}
+            concerns = ("hysteresis_", "sliding_", "start_last_")
+            made.append(Advice("warning", "two steady states", fact, numbers=compared, concerns=concerns))
         return Found(values, facts, tuple(made), found.citation_keys)
 
     def citations(self, ask: HysteresisSettings, problem: ContactProblem) -> tuple[str, ...]:
