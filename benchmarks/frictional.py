@@ -59,7 +59,7 @@ def one_step(n: int, nu: float, repeats: int) -> str:
 
 def history(n: int, name: str, body: asp.Elastic | asp.Layered, repeats: int) -> str:
     """Row of a coupled history of 20 steps."""
-    surface, modulus = self_affine(n), asp.contact_modulus(body, asp.Rigid())
+    surface, modulus = self_affine(n), asp.solids.contact_modulus(body, asp.Rigid())
     bare = asp.ContactProblem(surface, body)
     normal, cold = timed(lambda: asp.solve(bare, asp.MeanPressure(LOAD * modulus), keep=PLAIN), repeats)
     problem = asp.ContactProblem(surface, body, friction=asp.Coulomb(FRICTION))

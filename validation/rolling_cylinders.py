@@ -98,7 +98,7 @@ def rollers(body: asp.Elastic | asp.Layered, points: int) -> tuple[asp.ContactPr
     surface = asp.Surface(-(x[:, None] ** 2) / (2.0 * RADIUS), spacing, 1.0)
     law = asp.Coulomb(FRICTION)
     problem = asp.ContactProblem(surface, body, counter_body=body, boundary=asp.FreeLine(), friction=law)
-    return problem, asp.Force(np.pi / 4.0 * asp.contact_modulus(STEEL, STEEL) * A**2 / RADIUS)
+    return problem, asp.Force(np.pi / 4.0 * asp.solids.contact_modulus(STEEL, STEEL) * A**2 / RADIUS)
 
 
 def curve(body: asp.Elastic | asp.Layered, at: np.ndarray, points: int) -> np.ndarray:
@@ -129,8 +129,8 @@ def stick_at(s: float, points: int) -> float:
 
 def lubkin(c: float) -> tuple[float, float]:
     """Twist in rad, and torque over the largest, that leave the share ``c`` of the radius sticking."""
-    ball = LubkinSphere(asp.contact_modulus(STEEL, STEEL), RADIUS, 0.5 * STEEL.shear_modulus, FRICTION)
-    load = float(4.0 / 3.0 * asp.contact_modulus(STEEL, STEEL) * A**3 / RADIUS)
+    ball = LubkinSphere(asp.solids.contact_modulus(STEEL, STEEL), RADIUS, 0.5 * STEEL.shear_modulus, FRICTION)
+    load = float(4.0 / 3.0 * asp.solids.contact_modulus(STEEL, STEEL) * A**3 / RADIUS)
     answer = ball.at_stick_radius(load, c)
     return float(answer.rotation), float(ball.torque(load, c) / ball.largest_torque(load))
 

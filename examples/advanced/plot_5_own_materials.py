@@ -40,7 +40,7 @@ ratios = np.geomspace(1e-4, 1e-2, 6)  # mean pressure / E*
 figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained", sharey=True)
 areas = {}
 for body, style in ((coating, "o-"), (resin, "x--")):
-    modulus = asp.contact_modulus(body)
+    modulus = asp.solids.contact_modulus(body)
     path = asp.solve(asp.ContactProblem(surface, body), asp.History([asp.MeanPressure(r * modulus) for r in ratios]))
     areas[body.name] = path.area_fraction_corrected
     axes[0].loglog(path.mean_pressure / 1e6, 100 * path.area_fraction_corrected, style, label=body.name)

@@ -14,7 +14,7 @@ import asperity as asp
 # %%
 # A steel ball of radius 1 mm is pressed on glass with 1 N. The boundary is free, since there is one ball and not a lattice.
 steel, glass = asp.material("steel"), asp.material("glass")
-hertz = asp.theories.HertzPoint(E_star=asp.contact_modulus(steel, glass), radius=1e-3)
+hertz = asp.theories.HertzPoint(E_star=asp.solids.contact_modulus(steel, glass), radius=1e-3)
 exact = hertz.at_load(1.0)
 
 

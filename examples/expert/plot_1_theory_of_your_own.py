@@ -44,7 +44,7 @@ spectrum = asp.generate.SelfAffine(
 )
 surface = asp.generate.gaussian(asp.Grid((256, 256), (60e-9, 60e-9)), spectrum, seed=1, variant="fixed")
 body = asp.material("silicon")
-mine = Rule(asp.roughness_of(surface), asp.contact_modulus(body), kappa=2.2)
+mine = Rule(asp.roughness_of(surface), asp.solids.contact_modulus(body), kappa=2.2)
 found = asp.compare(surface, body, np.geomspace(200e6, 10e9, 6), theories=[mine, "persson", "bush-gibson-thomas"])
 
 found.plot("kappa")

@@ -48,7 +48,7 @@ copper, loads = asp.material("copper"), np.geomspace(1e6, 100e6, 6)
 ball = asp.generate.sphere(asp.Grid((96, 96), (0.5e-6, 0.5e-6)), radius=1e-3)
 spectrum = asp.generate.GaussianAutocorrelation(10e-9, 0.6e-6)
 rough = asp.generate.gaussian(asp.Grid((128, 128), (50e-9, 50e-9)), spectrum, seed=1)
-holm = 2 * asp.theories.HertzPoint(asp.contact_modulus(copper, copper), 1e-3).at_load(0.5).radius / 17e-9
+holm = 2 * asp.theories.HertzPoint(asp.solids.contact_modulus(copper, copper), 1e-3).at_load(0.5).radius / 17e-9
 print(f"ball: {conductance(ball, asp.Free(), asp.Force(0.5)):.1f} S, Holm {holm:.1f} S")
 found = np.array([conductance(rough, asp.Periodic(), asp.MeanPressure(float(load))) for load in loads])
 ax = plt.subplots(figsize=(6, 4), layout="constrained")[1]

@@ -16,7 +16,7 @@ import asperity as asp
 # the modulus of the substrate, and with that of the coating.
 substrate, force, radius = asp.Elastic(200e9, 0.3, name="substrate"), 20e-3, 100e-6
 coatings = {"four times stiffer": asp.Elastic(800e9, 0.3), "four times softer": asp.Elastic(50e9, 0.3)}
-hertz = asp.theories.HertzPoint(asp.contact_modulus(substrate), radius).at_load(force)
+hertz = asp.theories.HertzPoint(asp.solids.contact_modulus(substrate), radius).at_load(force)
 thickness = hertz.radius * np.geomspace(0.01, 100, 13)
 
 
@@ -32,7 +32,10 @@ def largest_pressure(body, width):
 figure, ax = plt.subplots(figsize=(7, 4.5), layout="constrained")
 curves, bounds = {}, {}
 for name, coating in coatings.items():
-    ends = [asp.theories.HertzPoint(asp.contact_modulus(body), radius).at_load(force) for body in (substrate, coating)]
+    ends = [
+        asp.theories.HertzPoint(asp.solids.contact_modulus(body), radius).at_load(force)
+        for body in (substrate, coating)
+    ]
     width = 2.6 * max(end.radius for end in ends)
     p = np.array([largest_pressure(asp.Layered([asp.Layer(coating, t)], substrate), width) for t in thickness])
     way = (p - ends[0].max_pressure) / (ends[1].max_pressure - ends[0].max_pressure)

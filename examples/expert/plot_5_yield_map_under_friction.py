@@ -17,7 +17,7 @@ import asperity as asp
 # A cylinder slides on steel with a coating that is twice as stiff and twice as strong (plane strain, per metre).
 steel = asp.Elastic(210e9, 0.3, asp.Strength(yield_stress=1e9), name="steel")
 coating = asp.Elastic(420e9, 0.3, asp.Strength(yield_stress=2e9), name="coating")
-hertz = asp.theories.HertzLine(asp.contact_modulus(steel), 1e-3).at_peak(1e9)
+hertz = asp.theories.HertzLine(asp.solids.contact_modulus(steel), 1e-3).at_peak(1e9)
 a = float(hertz.radius)
 cylinder = asp.generate.cylinder(asp.Grid((121, 1), (0.02 * a, 1.0)), radius=1e-3)
 friction, thickness = np.linspace(0.0, 0.6, 13), np.array([0.0, 0.1, 0.25, 0.5, 0.8, 1.2])  # in half-widths a

@@ -19,7 +19,7 @@ spectrum = asp.generate.SelfAffine(
     amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=1.6e-6, shortest_wavelength=0.4e-6
 )
 body, grid, count = asp.material("silicon"), asp.Grid((256, 256), (25e-9, 25e-9)), 16
-loads = 0.1 * asp.contact_modulus(body) * np.geomspace(0.003, 0.3, 5)  # mean pressures in units of E* h'
+loads = 0.1 * asp.solids.contact_modulus(body) * np.geomspace(0.003, 0.3, 5)  # mean pressures in units of E* h'
 history = asp.History([asp.MeanPressure(float(load)) for load in loads])
 
 
@@ -36,7 +36,7 @@ def areas(variant):
 # The mean of n samples with standard deviation s lies within t s/√n of the true mean with 95 % confidence (Student's t).
 # Surfaces with random amplitudes scatter in slope as samples of a material do; with fixed amplitudes only the phases differ.
 figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
-slope = 0.1 * asp.contact_modulus(body) / loads  # κ = (A/A₀) E* h'/p
+slope = 0.1 * asp.solids.contact_modulus(body) / loads  # κ = (A/A₀) E* h'/p
 kappa, half_width = {}, {}
 for variant in ("random", "fixed"):
     each = areas(variant) * slope

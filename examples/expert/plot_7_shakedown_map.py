@@ -16,7 +16,7 @@ from asperity.plots import plot_shakedown_curve, plot_shakedown_map
 # A hard sphere slides on steel with a coating that is twice as stiff and twice as strong.
 steel = asp.Elastic(210e9, 0.3, asp.Strength(yield_stress=1e9), name="steel")
 coating = asp.Elastic(420e9, 0.3, asp.Strength(yield_stress=2e9), name="coating")
-hertz = asp.theories.HertzPoint(asp.contact_modulus(steel), 1e-3).at_peak(1e9)
+hertz = asp.theories.HertzPoint(asp.solids.contact_modulus(steel), 1e-3).at_peak(1e9)
 a, k = float(hertz.radius), 1e9 / np.sqrt(3.0)
 sphere = asp.generate.sphere(asp.Grid((40, 40), (0.07 * a, 0.07 * a)), radius=1e-3)
 friction, thickness = np.linspace(0.0, 0.6, 7), np.array([0.0, 0.2, 0.5, 1.0])  # in contact radii of the bare steel

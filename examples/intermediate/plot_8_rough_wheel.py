@@ -15,7 +15,7 @@ import asperity as asp
 # Steel rollers of a relative radius of 20 mm under 100 N per mm of length, in plane strain.
 R, mu, points = 20e-3, 0.2, 96
 steel = asp.material("steel")
-E_star = asp.contact_modulus(steel, steel)
+E_star = asp.solids.contact_modulus(steel, steel)
 a = np.sqrt(4.0 * 1e5 * R / (np.pi * E_star))
 dx = 3.0 * a / points
 x = (np.arange(points) - 0.5 * (points - 1)) * dx

@@ -20,6 +20,7 @@ from . import studies as studies
 from . import surfaces as surfaces
 from . import theories as theories
 from . import viscoelasticity as viscoelasticity
+from .cli.press import press as press
 from .contact.boundary import Free as Free
 from .contact.boundary import FreeLine as FreeLine
 from .contact.boundary import Periodic as Periodic
@@ -66,7 +67,6 @@ from .solids.layers import Frictionless as Frictionless
 from .solids.layers import Layer as Layer
 from .solids.layers import Layered as Layered
 from .solids.layers import RigidBase as RigidBase
-from .solids.layers import contact_modulus as contact_modulus
 from .solids.library import liquid as liquid
 from .solids.library import material as material
 from .solids.viscoelastic import Viscoelastic as Viscoelastic

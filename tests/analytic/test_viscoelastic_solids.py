@@ -147,7 +147,7 @@ def test_temperature_shifts_all_times() -> None:
 def test_it_is_the_elastic_solid_of_the_first_instant() -> None:
     solid = asp.Viscoelastic.standard_linear(1e6, 1e9, 1.0, 0.4, name="rubber")
     assert solid.instantaneous == asp.Elastic(1e9, 0.4, name="rubber")
-    assert asp.contact_modulus(solid) == pytest.approx(1e9 / (1 - 0.16))
+    assert asp.solids.contact_modulus(solid) == pytest.approx(1e9 / (1 - 0.16))
     assert "relaxes to 0.1 %" in repr(solid)
     strong = replace(solid, strength=asp.Strength(1e8, 3e7), shift=asp.viscoelasticity.Arrhenius(300.0, 5e4))
     assert rebuild(describe(strong)) == strong

@@ -166,7 +166,7 @@ def test_what_has_no_load_is_asked_in_its_own_way(run: Runner, arguments: tuple[
 def test_a_surface_and_bodies_by_name(run: Runner, rough: tuple[Path, asp.Surface]) -> None:
     path, surface = rough
     ask = ("--surface", path, "--body", "E=91GPa,nu=0.3,H=8GPa", "--pressure", "10MPa", "--json")
-    modulus = asp.contact_modulus(asp.Elastic(91e9, 0.3), asp.Rigid())
+    modulus = asp.solids.contact_modulus(asp.Elastic(91e9, 0.3), asp.Rigid())
     roughness = asp.roughness_of(asp.levelled(surface, "mean"))
     record = json.loads(run("theory", "bush-gibson-thomas", *ask).stdout)
     expected = theory("bush-gibson-thomas").from_roughness(roughness, modulus).at_pressure(1e7)

@@ -32,20 +32,25 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
     "strength of the counter body unknown": PLAIN | {"counter_body": "E=70GPa,nu=0.2,name=glass"},
     "rubber does not yield": RUBBER | {"body": "E=3MPa,nu=0.5"},
     "both bodies of known strength": PLAIN | {"counter_body": "E=70GPa,nu=0.2,H=5GPa,name=glass"},
-    "limited, elastic": PLAIN | {"law": {"kind": "hardness", "hardness": "from body"}, "control": {"mean_pressure": "0.1 MPa"}},
-    "limited, plastic": PLAIN | {"law": {"kind": "hardness", "hardness": "from body"}, "control": {"mean_pressure": "200 MPa"}},
+    "limited, elastic": PLAIN
+    | {"law": {"kind": "hardness", "hardness": "from body"}, "control": {"mean_pressure": "0.1 MPa"}},
+    "limited, plastic": PLAIN
+    | {"law": {"kind": "hardness", "hardness": "from body"}, "control": {"mean_pressure": "200 MPa"}},
     "limited, path that ends unloaded": PLAIN | {"law": {"kind": "hardness", "hardness": "from body"}, "control": DOWN},
     "elastic path that ends unloaded": PLAIN | {"control": DOWN},
-    "path that is loaded again": PLAIN | {"control": {"path": {"mean_pressure": ["10 MPa", "1 MPa", "5 MPa"], "steps": 2}}},
+    "path that is loaded again": PLAIN
+    | {"control": {"path": {"mean_pressure": ["10 MPa", "1 MPa", "5 MPa"], "steps": 2}}},
     "path to a position and back": BALL | {"control": {"path": {"approach": ["20 nm", "5 nm"], "steps": 2}}},
-    "position that does not touch": BALL | {"control": {"mean_gap": "2 um"}},
     "nearly full contact": PLAIN | {"body": "E=1MPa,nu=0.3,name=gel"},
     "load beyond linear elasticity": PLAIN | {"body": "E=10MPa,nu=0.3,name=gel"},
-    "steep surface": PLAIN | {"surface": ROUGH | {"spectrum": {"kind": "gaussian", "rms_height": "1 um", "correlation_length": "2 um"}}},
-    "unresolved asperities": PLAIN | {"surface": ROUGH | {"spectrum": {"kind": "gaussian", "rms_height": "10 nm", "correlation_length": "0.4 um"}}},
+    "steep surface": PLAIN
+    | {"surface": ROUGH | {"spectrum": {"kind": "gaussian", "rms_height": "1 um", "correlation_length": "2 um"}}},
+    "unresolved asperities": PLAIN
+    | {"surface": ROUGH | {"spectrum": {"kind": "gaussian", "rms_height": "10 nm", "correlation_length": "0.4 um"}}},
     "few contact pixels": PLAIN | {"control": {"mean_pressure": "20 kPa"}},
     "contact wide against the period": BALL | {"boundary": {"kind": "periodic"}, "control": {"force": "200 mN"}},
-    "unresolved layer": COATED | {"body": "E=400GPa,nu=0.2,H=20GPa,name=carbide:5nm/E=200GPa,nu=0.3,Y=700MPa,name=base steel"},
+    "unresolved layer": COATED
+    | {"body": "E=400GPa,nu=0.2,H=20GPa,name=carbide:5nm/E=200GPa,nu=0.3,Y=700MPa,name=base steel"},
     "unresolved layer with stresses": COATED
     | {"body": "E=400GPa,nu=0.2,H=20GPa,name=carbide:5nm/E=200GPa,nu=0.3,Y=700MPa,name=base steel", "stress": {}},
     "coated, elastic": COATED,
@@ -56,7 +61,8 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
     "stresses under friction, tension against a strength": COATED
     | {"stress": {"tensile_strength": "500 MPa"}, "friction": {"coefficient": 0.3}},
     "stresses of a path at its peak": COATED | {"stress": {}, "control": DOWN},
-    "stresses of a path at its end": COATED | {"stress": {"step": "last"}, "control": {"path": {"mean_pressure": ["20 MPa", "5 MPa"], "steps": 2}}},
+    "stresses of a path at its end": COATED
+    | {"stress": {"step": "last"}, "control": {"path": {"mean_pressure": ["20 MPa", "5 MPa"], "steps": 2}}},
     "stress at a step by its number": COATED | {"stress": {"step": 2}, "control": DOWN},
     "adhesion": STICKY,
     "adhesion, separation": STICKY | {"adhesion": STICKY["adhesion"] | {"retract": "60 nm", "steps": 12}},
@@ -65,8 +71,10 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
     "stick and slip": SLIDE,
     "gross sliding": SLIDE | {"shear": {"shift": "4 nm"}},
     "creep in a hold": RUBBER | {"viscoelastic": {"hold": "60 ms", "steps": 4}},
-    "relaxation at a held position": RUBBER | {"control": {"approach": "0.3 um"}, "viscoelastic": {"hold": "60 ms", "steps": 4}},
-    "sliding over rubber": RUBBER | {"body": "rigid", "counter_body": "E=3MPa+3MPa@0.1s,nu=0.5", "hysteresis": {"speed": "20 um/s"}},
+    "relaxation at a held position": RUBBER
+    | {"control": {"approach": "0.3 um"}, "viscoelastic": {"hold": "60 ms", "steps": 4}},
+    "sliding over rubber": RUBBER
+    | {"body": "rigid", "counter_body": "E=3MPa+3MPa@0.1s,nu=0.5", "hysteresis": {"speed": "20 um/s"}},
     "rolling": BALL
     | {
         "surface": SPHERE | {"size": "1.6 mm", "radius": "50 mm"},
@@ -76,8 +84,10 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
         "rolling": {"longitudinal": "0.1 %", "spin": "0.3 rad/m"},
     },
     "plastic flow in the volume": SOFT | {"plastic_flow": {"steps": 2, "cells": 4}, "control": {"force": "20 mN"}},
-    "a load at which it becomes plastic": PLAIN | {"law": {"kind": "hardness", "hardness": "from body"}, "plastic_load": {}},
-    "indentation beside the contact": SOFT | {"indentation": {"depth": "200 nm", "radius": "10 um", "steps": 4, "unloading_steps": 3, "elements": 6}},
+    "a load at which it becomes plastic": PLAIN
+    | {"law": {"kind": "hardness", "hardness": "from body"}, "plastic_load": {}},
+    "indentation beside the contact": SOFT
+    | {"indentation": {"depth": "200 nm", "radius": "10 um", "steps": 4, "unloading_steps": 6, "elements": 6}},
     "vibration": PLAIN
     | {
         "body": "E=1GPa,nu=0.3",
@@ -87,6 +97,11 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
     },
     "not converged": PLAIN | {"solver": {"max_iterations": 1}},
     "path not converged": PLAIN | {"control": DOWN, "solver": {"max_iterations": 1}},
-    "line contact": BALL | {"surface": {"kind": "cylinder", "points": [64, 1], "size": "10 um x 1 m", "radius": "20 um"}, "boundary": {"kind": "line"}, "control": {"force": "10 kN"}},
+    "line contact": BALL
+    | {
+        "surface": {"kind": "cylinder", "points": [64, 1], "size": "10 um x 1 m", "radius": "20 um"},
+        "boundary": {"kind": "line"},
+        "control": {"force": "10 kN"},
+    },
 }
 """By what they are."""

@@ -52,7 +52,8 @@ PLASTIC_LOAD = own_option(
 YES = own_option("--yes", ("yes",), "do not ask before work that takes much memory or time", OUTPUT, values=Flag())
 
 
-def _options() -> list[Option]:
+def contact_options() -> list[Option]:
+    """Options of the command ``contact``."""
     own = (PLASTIC_LOAD, YES, *file_options(*FILES))
     return [*sorted_out(document_options(), BASIC), *part_options(basic=BASIC), *own]
 
@@ -86,7 +87,7 @@ def files_in(given: Given, *, force: bool) -> dict[str, Path]:
     return files
 
 
-@offers(_options)
+@offers(contact_options)
 def contact(
     given: Given,
     file: Annotated[

@@ -17,7 +17,7 @@ from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
 from ..core.late import Judged, Stored
 from ..core.quantity import Quantity
-from ..core.status import Advice
+from ..core.status import Advice, Verdict
 from ..core.text import printable
 from ..core.units import percent, show
 from ..solids.elastic import Elastic, Strength
@@ -479,7 +479,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
         state, given = "converged" if thing.converged else "NOT CONVERGED", thing.verdict
         rows = [
             *given.rows,
-            *finding_rows(thing.advice),
+            *finding_rows(thing.advice, given),
             *problem_rows(thing.problem),
             (f"prescribed {thing.control.name}", _control_text(thing)),
         ]
@@ -490,7 +490,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
         given = thing.verdict
         rows = [
             *given.rows,
-            *finding_rows(thing.advice),
+            *finding_rows(thing.advice, given),
             *problem_rows(thing.last.problem),
             ("steps", f"{len(thing.steps)}, {ended}"),
         ]
@@ -504,9 +504,9 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
     raise InputError(f"thing to put in words must be a surface, problem, result or stress field, but is {type(thing)}.")
 
 
-def finding_rows(told: Iterable[Advice]) -> Rows:
-    """Warnings and notes, the warnings first."""
-    made = sorted(told, key=lambda item: item.level != "warning")
+def finding_rows(told: Iterable[Advice], given: Verdict) -> Rows:
+    """Warnings and notes that the verdict ``given`` does not tell itself, the warnings first."""
+    made = sorted((item for item in told if item.message not in given.trust), key=lambda item: item.level != "warning")
     return [("WARNING" if item.level == "warning" else "note", item.message) for item in made]
 
 

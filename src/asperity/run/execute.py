@@ -69,7 +69,12 @@ class Outcome(Judged, Drawn):
         """Heading, verdict, findings, and the numbers that people look for first."""
         given = self.verdict
         title = self.stored.get("report_title") or "Outcome"
-        return str(title), [*given.rows, *finding_rows(self.findings), *given.headline, ("status", self.status.message)]
+        return str(title), [
+            *given.rows,
+            *finding_rows(self.findings, given),
+            *given.headline,
+            ("status", self.status.message),
+        ]
 
     @property
     def drawn(self) -> ContactResult | HistoryResult:

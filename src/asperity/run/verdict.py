@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
+
+import numpy as np
 
 from ..contact.advice import DOUBT, findings
 from ..contact.history import HistoryResult
@@ -56,7 +58,7 @@ def verdict(thing: ContactResult | HistoryResult | Outcome | str | Path) -> Verd
         outcome = answered(thing.last, thing) if isinstance(thing, HistoryResult) else answered(thing, None)
     reached, said, told = outcome.solved.at(), list(outcome.sections), told_of(outcome)
     grade, trust = _trust(outcome, reached.result, told)
-    holds, fails = _holds(reached, said, told)
+    holds, fails = _holds(outcome, reached, said, told)
     what = " ".join(
         [
             _contact(reached, outcome),
@@ -105,12 +107,16 @@ def _contact(reached: Reached, outcome: Outcome) -> str:
     return f"{text} At the end they {touch}{dents}."
 
 
-def _holds(reached: Reached, said: Sequence[tuple[Part, Words]], told: Sequence[Advice]) -> tuple[str, bool]:
+def _holds(
+    outcome: Outcome, reached: Reached, said: Sequence[tuple[Part, Words]], told: Sequence[Advice]
+) -> tuple[str, bool]:
     """What does not hold, by all that was computed, and whether there is any of it."""
     result, texts, fails, names = reached.result, list[str](), False, doubted(told)
     for part, words in said:
         if words.holds:
-            doubtful = names and any(q.name.startswith(names) for q in part.quantities)
+            doubtful = names and any(
+                _known(outcome.found[part.name].values, q.name) for q in part.quantities if q.name.startswith(names)
+            )
             texts.append(f"{words.holds[:-1]} (doubtful)." if doubtful else words.holds)
             fails |= words.alarming
     limit = limit_text(result.problem)
@@ -128,6 +134,12 @@ def _holds(reached: Reached, said: Sequence[tuple[Part, Words]], told: Sequence[
         text, fails = _strength(result)
         texts.append(text)
     return " ".join(texts) or "Nothing touches, so nothing yields.", fails
+
+
+def _known(values: Mapping[str, Any], name: str) -> bool:
+    """Whether the ``values`` hold a number ``name``."""
+    value = values.get(name)
+    return isinstance(value, float | int | np.number) and math.isfinite(value)
 
 
 def _strength(result: ContactResult) -> tuple[str, bool]:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -50,6 +51,17 @@ def placed_records(plan: Plan, path: Path) -> Iterator[tuple[int, Record]]:
             yield int(place), record
 
 
+VERDICT = MappingProxyType(
+    {
+        "trust": "whether the case can be trusted: good, doubtful or not",
+        "verdict_result": "what was found",
+        "verdict_strength": "whether the bodies hold",
+        "verdict_trust": "whether it can be trusted, and why",
+    }
+)
+"""Texts of the verdict on each case."""
+
+
 def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
     """Results of ``plan`` from the store at ``path``: quantities on the axes, units and labels, NaN where there are none.
 
@@ -62,6 +74,7 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
     values = {name: np.full(plan.n_cases, np.nan) for name in (*wanted, *KEPT_CHECKS)}
     outcome = np.full(plan.n_cases, MISSING, np.int8)
     errors, cited = dict[int, str](), dict[str, None]()
+    given = {name: np.full(plan.n_cases, "", object) for name in VERDICT}
     for place, record in placed_records(plan, path):
         error = record["error"]
         outcome[place] = DONE if error is None else FAILED
@@ -72,6 +85,8 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
         errors.pop(place, None)
         if error is not None:
             errors[place] = f"{error['type']}: {error['message']}"
+        for name, text in zip(VERDICT, record.get("verdict", ()), strict=False):
+            given[name][place] = text
         cited |= dict.fromkeys(record["citations"])
     dims = tuple(item.name for item in plan.axes)
 
@@ -82,6 +97,7 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
     variables = {name: on_axes(array, known[name].attributes) for name, array in values.items()}
     codes = {"flag_values": np.array([DONE, FAILED, MISSING], np.int8), "flag_meanings": "done failed missing"}
     variables["outcome"] = on_axes(outcome, {"long_name": "what became of the case", **codes})
+    variables |= {name: on_axes(texts, {"long_name": VERDICT[name]}) for name, texts in given.items()}
     if errors:
         texts = np.full(plan.n_cases, "", object)
         texts[list(errors)] = list(errors.values())

@@ -14,6 +14,7 @@ from ..io.description import software
 from ..run.build import Case, build
 from ..run.document import checked
 from ..run.execute import Warm, execute
+from ..run.verdict import verdict
 from .places import edited, from_plain
 from .store import Record
 
@@ -57,13 +58,14 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
                 now = built.under(document)
                 threads = now.threads or 1
                 outcome = execute(now, warm=warm, wanted=quantities, lines=False, threads=threads, on_failure="raise")
-                values, certificate = outcome.values, outcome.result.certificate
+                values, certificate, given = outcome.values, outcome.result.certificate, verdict(outcome)
                 record: Record = {
                     "key": case["key"],
                     "values": {name: float(values.get(name, np.nan)) for name in quantities},
                     "work": {name: getattr(certificate, name) for name in CHECKS},
                     "citations": list(outcome.citation_keys),
                     "findings": [[item.level, item.criterion, item.message] for item in outcome.findings],
+                    "verdict": [given.grade, *(text for _, text in given.rows)],
                     "error": None,
                 }
         except Exception as error:

@@ -170,6 +170,7 @@ def _record(payload: bytes) -> Record | None:
             and (error is None or texts([error["type"], error["message"]]))
             and isinstance(findings, list)
             and all(texts(finding) and len(finding) == 3 for finding in findings)
+            and texts(record.get("verdict", []))
         )
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return None

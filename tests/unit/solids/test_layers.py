@@ -73,19 +73,23 @@ def test_what_takes_part():
 
 def test_contact_modulus_is_that_of_the_surface_materials():
     body = asp.Layered([asp.Layer(HARD, 5e-9)], BASE)
-    assert asp.contact_modulus(body) == asp.contact_modulus(body, asp.Rigid()) == asp.contact_modulus(HARD, asp.Rigid())
-    assert asp.contact_modulus(SOFT, body) == asp.contact_modulus(SOFT, HARD)
+    assert (
+        asp.solids.contact_modulus(body)
+        == asp.solids.contact_modulus(body, asp.Rigid())
+        == asp.solids.contact_modulus(HARD, asp.Rigid())
+    )
+    assert asp.solids.contact_modulus(SOFT, body) == asp.solids.contact_modulus(SOFT, HARD)
     stiff_as_stone = asp.Layered([], asp.RigidBase())
-    assert asp.contact_modulus(stiff_as_stone, SOFT) == asp.contact_modulus(asp.Rigid(), SOFT)
+    assert asp.solids.contact_modulus(stiff_as_stone, SOFT) == asp.solids.contact_modulus(asp.Rigid(), SOFT)
     with refused(asp.InputError, "body and counter_body"):
-        asp.contact_modulus(stiff_as_stone, asp.Rigid())
+        asp.solids.contact_modulus(stiff_as_stone, asp.Rigid())
 
 
 def test_bodies_without_layers_are_half_spaces():
     """Exactly, so that old results do not change by rounding."""
     endless = asp.Layered([asp.Layer(HARD, math.inf)], BASE)
     for body in (asp.Layered([], HARD), endless, asp.Layered([asp.Layer(SOFT, 0.0)], HARD)):
-        assert contact_compliance(body, SOFT) == HalfSpace(asp.contact_modulus(HARD, SOFT))
+        assert contact_compliance(body, SOFT) == HalfSpace(asp.solids.contact_modulus(HARD, SOFT))
 
 
 def test_sum_of_compliances():
