@@ -404,22 +404,6 @@ def certificate_rows(result: ContactResult) -> list[tuple[str, str, str]]:
     return [(q.label, value_text(q, getattr(result.certificate, q.name)), q.description) for q in CERTIFICATE]
 
 
-def summary(result: ContactResult) -> str:
-    """One sentence on the state of the contact."""
-    share = f"{percent(result.area_fraction_corrected)} of the nominal area"
-    dents = f" {percent(float(result.indented.mean()))} of the nominal area is indented for good."
-    dents = dents if result.indented.any() else ""
-    if not result.contact.any():
-        return "The bodies do not touch." + dents
-    if result.is_plastic:
-        plastic = f"{percent(result.plastic_area_fraction)} of the real contact area is at the hardness"
-        return f"The bodies touch on {share}. The contact is plastic: {plastic}."
-    limited = not np.isinf(result.problem.law.pressure_cap()).all()
-    verdict = "At most 2 % of it is at the hardness" if result.plastic.any() else "No point is at the hardness"
-    verdict = verdict if limited else "No hardness limits the pressure"
-    return f"The bodies touch on {share}. {verdict}.{dents}"
-
-
 def problem_rows(problem: ContactProblem) -> Rows:
     """What ``problem`` is, in short: surfaces, bodies, modulus, boundary and law."""
     rows = [("surface", f"{problem.surface.origin.source or 'unnamed'}: {surface_text(problem.surface)}")]

@@ -10,7 +10,6 @@ import pytest
 
 import asperity as asp
 from asperity.core.status import Outcome, Status
-from asperity.io.words import summary
 from asperity.parts.contact_work import energy_table, path_sentence, plastic_rows, turn_table
 from asperity.parts.part import Found
 from asperity.physics.hardness.work import plastic_load_row
@@ -71,12 +70,13 @@ def test_rows_and_summary(path: asp.HistoryResult) -> None:
     assert "plastic: more than 2 %" in rows["plastic area under this load / real area"]
     assert "µm²" in rows["area ever plastic"] or "nm²" in rows["area ever plastic"]
     assert rows["volume of the permanent indentation"].endswith(("µm³", "nm³"))
-    assert "The contact is plastic" in summary(top)
-    assert summary(last).startswith("The bodies do not touch. ")
-    assert summary(last).endswith("of the nominal area is indented for good.")
+    assert top.verdict.fails
+    assert top.verdict.holds.startswith("Plastic: ")
+    assert last.verdict.what.startswith("The bodies do not touch; ")
+    assert "stays" in path.verdict.what
     lighter = asp.solve(top.problem, asp.MeanPressure(1e8), state=top.state)
-    assert "at the hardness." in summary(lighter)
-    assert "indented for good" in summary(lighter)
+    assert not lighter.verdict.fails
+    assert "is at the pressure limit" in lighter.verdict.holds
 
 
 def test_steps_that_failed_are_named(path: asp.HistoryResult) -> None:
