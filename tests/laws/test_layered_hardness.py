@@ -193,3 +193,25 @@ def test_every_material_needs_a_hardness():
         asp.plasticity.LayeredHardness(asp.Layered([asp.Layer(hard, 1.0)], asp.RigidBase()))
     with refused(asp.InputError, "body of an effective hardness"):
         asp.plasticity.LayeredHardness(hard)  # type: ignore[arg-type]
+
+
+def test_the_stated_range_holds_the_pressures_found():
+    """Gold, softer than nickel and copper: in between the limit is higher than at either end."""
+    gold, nickel, copper = (asp.material(name) for name in ("gold", "nickel", "copper"))
+    body = asp.Layered([asp.Layer(gold, 50e-9), asp.Layer(nickel, 1e-6)], copper)
+    law = asp.plasticity.LayeredHardness(body)
+    highest = float(np.max(law.cap_at(np.geomspace(1e-10, 1e-3, 5000)[None])))
+    assert highest > 1.5 * law.base_hardness
+    assert f"{highest / 1e6:.4g} MPa" in law.limit_text
+    hard_on_soft = asp.Layered([asp.Layer(nickel, 1e-6)], copper)
+    assert "between" not in asp.plasticity.LayeredHardness(hard_on_soft).limit_text
+
+
+def test_yield_stresses_serve_where_hardnesses_are_not_known():
+    film, base = (asp.Elastic(1.0, 0.3, asp.Strength(yield_stress=y)) for y in (1.0, 3.0))
+    like = (asp.Elastic(1.0, 0.3, asp.Strength(hardness=2.8 * y)) for y in (1.0, 3.0))
+    laws = [
+        asp.plasticity.LayeredHardness(asp.Layered([asp.Layer(one, 1.0)], other)) for one, other in ((film, base), like)
+    ]
+    depths = np.linspace(0.0, 3.0, 20)[None]
+    assert np.allclose(laws[0].cap_at(depths), laws[1].cap_at(depths), rtol=1e-14)

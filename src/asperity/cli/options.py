@@ -19,6 +19,7 @@ from ..io.schemas.problem import (
     EFFECTIVE,
     FROM_BODY,
     NONE,
+    SURFACE,
     BoundaryTable,
     ControlTable,
     HardnessTable,
@@ -205,7 +206,7 @@ def option_words() -> dict[str, str]:
 CORE = ("surface", "counter_surface", "prepare")
 """Tables that say which surfaces there are; a document that is given has its own."""
 
-WORDS_OF_HARDNESS = MappingProxyType({"body": FROM_BODY, FROM_BODY: FROM_BODY, EFFECTIVE: EFFECTIVE})
+WORDS_OF_HARDNESS = MappingProxyType({"body": FROM_BODY, FROM_BODY: FROM_BODY, SURFACE: SURFACE, EFFECTIVE: EFFECTIVE})
 """Words for a hardness on the command line, and in the document."""
 
 

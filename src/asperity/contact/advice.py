@@ -10,16 +10,18 @@ import numpy as np
 
 from ..core.status import Advice, free_memory, room_text
 from ..core.units import percent, show
-from ..solids.elastic import Elastic
-from ..solids.layers import Layered, materials_of, surface_material
+from ..solids.elastic import TABOR, Elastic
+from ..solids.layers import Layered, RigidBase, materials_of
+from ..solids.strength import unknown_strengths, yield_pressure
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
 from .certificate import LARGEST_DUALITY_GAP
 from .controls import Control, Force, MeanPressure, mean_pressure
 from .history import HistoryResult
-from .law import LimitByDepth
+from .law import InterfaceLaw, LimitByDepth
 from .problem import ContactProblem
 from .result import ContactResult
+from .strength import strength_of
 
 LARGEST_SLOPE = 0.3
 """Half-space theory neglects slopes squared: 9 % at 0.3."""
@@ -346,26 +348,50 @@ def _plastic(result: ContactResult) -> Iterator[Advice]:
 
 
 def _hardness(result: ContactResult) -> Iterator[Advice]:
-    law = result.problem.law
-    for name_of in ("body", "counter_body"):
-        body = getattr(result.problem, name_of)
-        if any(answer.imprint(name_of) is not None for answer in result.answers):
+    problem, unknown = result.problem, []
+    surfaces = strength_of(problem)
+    for surface in surfaces:
+        if any(answer.imprint(surface.body) is not None for answer in result.answers):
             continue  # its flow is solved
-        if getattr(law, "body", None) == body:
+        body = getattr(problem, surface.body)
+        if getattr(problem.law, "body", None) == body:
             continue  # pressed through its top layer it bears more or less than that layer's hardness
-        solid = surface_material(body)
-        hardness = math.nan if solid is None else solid.strength.hardness
-        if result.max_pressure > hardness * (1.0 + 1e-9):  # reaching a cap equal to the hardness is as it should be
-            times, name = result.max_pressure / hardness, (solid and solid.name) or body.name or "the body"
+        if surface.pressure is None:
+            unknown.append(surface.material)
+        elif result.max_pressure > surface.pressure * (
+            1.0 + 1e-9
+        ):  # reaching a cap equal to the hardness is as it should be
+            times = result.max_pressure / surface.pressure
             above = f"is {times:.2g} times" if times >= 1.05 else f"is {percent(times - 1.0, 2)} above"
+            limit = (
+                "the hardness"
+                if surface.by_hardness
+                else f"{show(surface.pressure, 'Pa')}, {TABOR:g} times the yield stress"
+            )
+            by_depth = isinstance(body, Layered) and body.reduced.layers and not unknown_strengths(body)
+            law = "hardness by depth ({effective_hardness})" if by_depth else "hardness ({hardness})"
             yield Advice(
                 "warning",
                 "hardness",
-                f"The maximum pressure {above} the hardness of {name}: it would yield.",
-                "Limit the pressure by that hardness ({hardness}).",
-                {"max_pressure": result.max_pressure, "hardness": hardness},
+                f"The maximum pressure {above} {limit} of {surface.material}: it would yield.",
+                f"Limit the pressure by that {law}.",
+                {"max_pressure": result.max_pressure, "hardness": surface.pressure},
                 (*AREAS, *PRESSURES, *STRESSES),
             )
+    cap = np.max(problem.law.pressure_cap())
+    taken = any(surface.pressure is not None and math.isclose(surface.pressure, cap) for surface in surfaces)
+    if (
+        unknown
+        and result.max_pressure > 0.0
+        and (taken or not np.isfinite(cap) or isinstance(problem.law, LimitByDepth))
+    ):
+        yield Advice(
+            "note",
+            "yielding",
+            f"Yielding of {' and '.join(unknown)} is not checked: neither hardness nor yield stress is known.",
+            f"Give H or Y ({{strength}}), with which the maximum pressure, {show(result.max_pressure, 'Pa')}, is compared.",
+            {"max_pressure": result.max_pressure},
+        )
 
 
 def _mean_square(profile: Surface, axis: str, order: int) -> float:
@@ -374,7 +400,7 @@ def _mean_square(profile: Surface, axis: str, order: int) -> float:
 
 
 def _layers(problem: ContactProblem) -> Iterator[Advice]:
-    """Layers thinner than a pixel, or so thick that what lies below hardly matters in a periodic cell; softer ones below."""
+    """Layers thinner than a pixel, or so thick that what lies below hardly matters in a periodic cell; softer, harder and unknown ones below."""
     pixel = max(problem.grid.pixels)
     periods = [
         L
@@ -411,18 +437,56 @@ def _layers(problem: ContactProblem) -> Iterator[Advice]:
                 {"share": share, "largest": LARGEST_THICKNESS},
                 ("approach", "elastic_energy"),
             )
-        # a pressure limit does not concern what lies below the surface, where a softer material may yield first
-        limit = math.inf if isinstance(problem.law, LimitByDepth) else float(np.max(problem.law.pressure_cap()))
-        surface, *below = (part.strength.hardness for part in materials_of(body))
-        if math.isfinite(limit) and any(hardness < min(limit, surface) for hardness in below):
-            yield Advice(
-                "note",
-                "softer layers below",
-                f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
-                f"{show(min(h for h in below if h == h), 'Pa')}: under contacts wide against the layers it yields first, at a "
-                "lower pressure.",
-                "Limit the pressure by the effective hardness ({effective_hardness}), or compute the stresses ({stresses}), which tell "
-                "the load factor of each layer.",
-                {"limit": limit, "hardness": min(h for h in below if h == h)},
-                (*AREAS, *PRESSURES, "plastic_"),
-            )
+        yield from _below(problem.law, body)
+
+
+def _below(law: InterfaceLaw, body: Layered) -> Iterator[Advice]:
+    """Materials under the surface of the layered ``body`` that bear less or more than the limit of the pressure, or of which it is not known."""
+    # a limit does not concern what lies below the surface, where a softer material may yield first and a harder one supports the layer
+    limit = math.inf if isinstance(law, LimitByDepth) else float(np.max(law.pressure_cap()))
+    surface, *below = (yield_pressure(part.strength).value for part in materials_of(body))
+    known = [strength for strength in below if strength is not None]
+    if not body.layers or not math.isfinite(limit):
+        return
+    softer = [strength for strength in known if strength < min(limit, limit if surface is None else surface)]
+    if softer:
+        yield Advice(
+            "note",
+            "softer layers below",
+            f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
+            f"{show(min(softer), 'Pa')}: under contacts wide against the layers it yields first, at a "
+            "lower pressure.",
+            "Limit the pressure by the effective hardness ({effective_hardness}), or compute the stresses ({stresses}), which tell "
+            "the load factor of each layer.",
+            {"limit": limit, "hardness": min(softer)},
+            (*AREAS, *PRESSURES, "plastic_"),
+        )
+    if surface is None or not math.isclose(limit, surface):
+        return  # another limit than the strength of the top layer
+    missing = unknown_strengths(body)
+    given = f", once H or Y is given instead of {' and '.join(missing)}" if missing else ""
+    if any(strength > limit * (1.0 + 1e-9) for strength in known) or isinstance(body.base, RigidBase):
+        most = (
+            "the base is rigid"
+            if isinstance(body.base, RigidBase)
+            else f"a material below it bears {show(max(known), 'Pa')}"
+        )
+        yield Advice(
+            "note",
+            "harder layers below",
+            f"The pressure is limited to {show(limit, 'Pa')}, the hardness of the top layer, but {most}: where the indentation is not small "
+            "against the layer, the contact bears more, and the layers below make no difference to this limit.",
+            f"Limit the pressure by the effective hardness ({{effective_hardness}}){given}.",
+            {"limit": limit, "hardness": max(known, default=math.inf)},
+            (*AREAS, *PRESSURES, "plastic_"),
+        )
+    elif missing and not softer:
+        yield Advice(
+            "note",
+            "layers below",
+            f"The pressure is limited to {show(limit, 'Pa')}, the hardness of the top layer; the strength of {' and '.join(missing)} below it is not "
+            "known, and with it not whether contacts that press through the layer yield at more or at less.",
+            "Give H or Y of it ({strength}).",
+            {"limit": limit},
+            (*AREAS, *PRESSURES, "plastic_"),
+        )

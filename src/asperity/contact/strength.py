@@ -31,6 +31,11 @@ class SurfaceStrength:
     pressure: float | None
     known_as: str
 
+    @property
+    def by_hardness(self) -> bool:
+        """Whether it is a stated hardness."""
+        return self.known_as.startswith("H ")
+
 
 def strength_of(problem: ContactProblem) -> tuple[SurfaceStrength, ...]:
     """Strength of the surfaces of the two bodies of ``problem``, those left out that never yield: rigid ones and elastomers without a known strength."""

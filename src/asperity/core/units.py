@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any
 
 from .errors import UnitError
+from .hardness_numbers import hardness_of
 
 DIMENSIONS = {
     "length": "m",
@@ -15,6 +16,7 @@ DIMENSIONS = {
     "density": "1/m**2",
     "power spectrum": "m**4",
     "pressure": "Pa",
+    "hardness": "Pa",
     "force": "N",
     "energy": "J",
     "surface tension": "N/m",
@@ -33,6 +35,7 @@ DIMENSIONS = {
 EXAMPLES = {
     "length": "5 nm",
     "pressure": "50 kPa",
+    "hardness": "5 GPa",
     "force": "1 mN",
     "area": "1 um**2",
     "angle": "10 deg",
@@ -83,7 +86,7 @@ def parse(text: str | float, kind: str, what: str, instead: str = "") -> float:
     Parameters
     ----------
     text
-        Number followed by a unit. A unit is never guessed. What has been read already stays as it is.
+        Number followed by a unit, or a hardness number. A unit is never guessed. What has been read already stays as it is.
     kind
         One of ``DIMENSIONS``, or an SI unit such as ``"N/m"`` for a quantity that is none of them.
     what
@@ -100,6 +103,8 @@ def parse(text: str | float, kind: str, what: str, instead: str = "") -> float:
         return float(text)
     if kind not in DIMENSIONS:
         return parse_in(str(text), kind, what, instead)
+    if kind == "hardness" and (hardness := hardness_of(str(text), what)) is not None:
+        return hardness
     unit = DIMENSIONS[kind]
     number, name = _split(str(text), EXAMPLES.get(kind, f"1 {unit}"), what, instead, plain=kind == "number")
     return number * unit_factor(name, kind, what)
@@ -113,7 +118,7 @@ def parse_in(text: str, unit: str, what: str, instead: str = "") -> float:
     UnitError
         If number or unit is missing, unknown, or of another dimension.
     """
-    known = {DIMENSIONS[kind]: example for kind, example in EXAMPLES.items()}
+    known = {DIMENSIONS[kind]: example for kind, example in EXAMPLES.items() if kind != "hardness"}
     number, name = _split(text, known.get(unit.replace("^", "**"), f"1 {unit}"), what, instead, plain=not unit)
     try:
         return number * _factor(name or "dimensionless", unit or "dimensionless")
@@ -148,7 +153,12 @@ def unit_factor(name: str, kind: str, what: str) -> float:
     try:
         return _factor(name or "dimensionless", unit)
     except _OtherDimensionError:
-        raise UnitError(f"{what} must be a {kind} (unit such as {unit}), but its unit is {name!r}.") from None
+        meant = (
+            f"a {kind} (unit such as {unit})"
+            if kind != "hardness"
+            else "a pressure (unit such as Pa) or a number in HV, HB or HRC"
+        )
+        raise UnitError(f"{what} must be {meant}, but its unit is {name!r}.") from None
     except Exception:  # pint raises many types on malformed unit text
         raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.", subject=what) from None
 

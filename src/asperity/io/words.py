@@ -22,6 +22,7 @@ from ..core.text import printable
 from ..core.units import percent, show
 from ..solids.elastic import Elastic, Strength
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
+from ..solids.strength import yield_pressure
 from ..solids.viscoelastic import Viscoelastic
 from ..surfaces.characterise.heights import peak_to_valley, rms_height
 from ..surfaces.surface import Surface
@@ -312,12 +313,14 @@ def modulus_label(problem: ContactProblem) -> str:
 
 def _owner(body: object, limit: float) -> list[str]:
     """The material at the surface of ``body`` if the ``limit`` is its hardness."""
-    if isinstance(body, Elastic):
-        return [f"of {body.name}"] if body.name and body.strength.hardness == limit else []
-    material = body.surface_material if isinstance(body, Layered) else None
-    if not isinstance(material, Elastic) or material.strength.hardness != limit:
+    material = body.surface_material if isinstance(body, Layered) else body
+    found = yield_pressure(material.strength) if isinstance(material, Elastic) else None
+    if not isinstance(material, Elastic) or found is None or found.value != limit:
         return []
-    return [f"of {material_name(material)}, the top layer"]
+    of = "of" if found.symbol == "H" else f"{found.symbol} of"
+    if isinstance(body, Layered):
+        return [f"{of} {material_name(material)}, the top layer"]
+    return [f"{of} {material.name}"] if material.name else []
 
 
 HEADLINE = {

@@ -29,7 +29,7 @@ from ..core.registry import role
 from ..core.settings import Settings, json_schema, problems
 from ..core.status import is_large, require_memory, room_text
 from ..io.schemas.bodies import (
-    FLOW,
+    BESIDE,
     BodyTable,
     GradedTable,
     LayerTable,
@@ -42,6 +42,7 @@ from ..io.schemas.problem import (
     EFFECTIVE,
     FROM_BODY,
     NONE,
+    SURFACE,
     ControlTable,
     HardnessTable,
     LawTable,
@@ -80,7 +81,7 @@ from ..solids.layers import (
 from ..solids.library import material
 from ..solids.moduli_file import read_moduli
 from ..solids.plasticity import LinearHardening, Swift, Voce
-from ..solids.strength import flow_stress
+from ..solids.strength import flow_stress, unknown_strengths, yield_pressure
 from ..solids.viscoelastic import Arrhenius, TemperatureShift, Viscoelastic, WilliamsLandelFerry, fitted_solid
 from ..surfaces.formats import checked_size
 from ..surfaces.pair import on_common_grid, turned_over
@@ -191,24 +192,28 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
 
 
 def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
-    """Law that ``table`` names; a hardness from the body is the lower known one, of its top layer where it is coated.
+    """Law that ``table`` names; a hardness from the body is that of the softer one at its surface, or 2.8 Y where only a yield stress is known.
 
-    An effective hardness is that of the body with the lower hardness at its surface, which takes the indentation.
+    Where that body is coated it is the effective hardness, which follows the indentation, or by the word ``SURFACE``, and where the strength of a
+    deeper part is not known, that of its top layer.
     """
     if not isinstance(table, HardnessTable):
         return HardWall()
-    if table.hardness not in (FROM_BODY, EFFECTIVE):
+    if table.hardness not in (FROM_BODY, SURFACE, EFFECTIVE):
         return Hardness(_known(table.hardness))
-    tops = [(solid.strength.hardness, body) for body in bodies if (solid := surface_material(body)) is not None]
-    known = [(hardness, body) for hardness, body in tops if not math.isnan(hardness)]
+    tops = [
+        (yield_pressure(solid.strength).value, body) for body in bodies if (solid := surface_material(body)) is not None
+    ]
+    known = [(hardness, body) for hardness, body in tops if hardness is not None]
     if not known:
         coated = " (of a coated body the top layer counts)" if any(isinstance(b, Layered) for b in bodies) else ""
         raise InputError(
-            f"hardness must be known for at least one body to be taken from it, but neither states one{coated}. "
+            f"hardness must be known for at least one body to be taken from it, but neither states one, nor a yield stress{coated}. "
             'Give law.hardness (--hardness) as a pressure, such as "5 GPa".'
         )
     hardness, softer = min(known, key=lambda item: item[0])
-    coated_softer = table.hardness == EFFECTIVE and isinstance(softer, Layered) and softer.reduced.layers
+    by_depth = table.hardness == EFFECTIVE or (table.hardness == FROM_BODY and not unknown_strengths(softer))
+    coated_softer = by_depth and isinstance(softer, Layered) and softer.reduced.layers
     made: InterfaceLaw = role("layered_hardness")(softer) if coated_softer else Hardness(hardness)
     return made
 
@@ -412,19 +417,19 @@ def build_material(table: MaterialTable, library: Path | None, folder: Path) -> 
     """Material of ``table``; names are looked up in the file ``library`` too, and paths of files start at ``folder``."""
     if table.material is not None:
         found = material(table.material, library=library)
-        given = [key for key in FLOW if getattr(table, key) is not None]
+        given = [key for key in BESIDE if getattr(table, key) is not None]
         kept = tuple(source for source in found.sources if source.partition(":")[0] not in given)
         sources = (*kept, *(f"{key}: user" for key in given))
-        return replace(found, strength=strength_of(table, found), sources=sources) if given else found
+        return replace(found, strength=build_strength(table, found), sources=sources) if given else found
     assert table.poisson_ratio is not None
-    strength = strength_of(table, None)
+    strength = build_strength(table, None)
     more: dict[str, Any] = {"strength": strength, "name": table.name or "", "sources": ("user",)}
     if table.relaxation is not None:
         return viscoelastic(table.relaxation, float(table.poisson_ratio), folder, **more)
     return Elastic(_known(table.youngs_modulus), table.poisson_ratio, **more)
 
 
-def strength_of(table: MaterialTable, known: Elastic | None) -> Strength:
+def build_strength(table: MaterialTable, known: Elastic | None) -> Strength:
     """Strength that ``table`` gives, in place of what is ``known`` of its material; a hardening begins at the yield stress, or at that of the hardness."""
     before = Strength() if known is None else known.strength
     given = table.yield_stress is not None

@@ -200,7 +200,7 @@ class MaterialRecord(Record):
 
     youngs_modulus: Annotated[Sourced, "pressure"]
     poisson_ratio: Annotated[Sourced, "ratio"]
-    hardness: Annotated[Sourced | None, "pressure"] = None
+    hardness: Annotated[Sourced | None, "hardness"] = None
     yield_stress: Annotated[Sourced | None, "pressure"] = None
     relaxation: Relaxation | None = None
     elastic_bulk: bool = False

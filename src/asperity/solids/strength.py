@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from ..core.errors import InputError
 from .elastic import TABOR, Elastic, Strength
-from .layers import Body, materials_of
+from .layers import Body, Layered, RigidBase, materials_of
 from .plasticity import J2, LinearHardening
 from .viscoelastic import Viscoelastic
 
@@ -78,6 +78,14 @@ polymers have at most 0.46."""
 def never_yields(material: Elastic) -> bool:
     """Whether ``material`` is an elastomer without a stated strength."""
     return yield_pressure(material.strength).value is None and material.poisson_ratio >= LEAST_OF_ELASTOMERS
+
+
+def unknown_strengths(body: Body) -> tuple[str, ...]:
+    """What keeps the hardness of the layered ``body`` with its base from being known by depth: names of materials of unknown strength, a rigid base."""
+    parts = materials_of(body)
+    unknown = [part.name or "a material" for part in parts if yield_pressure(part.strength).value is None]
+    rigid = isinstance(body, Layered) and isinstance(body.reduced.base, RigidBase)
+    return (*dict.fromkeys(unknown), *(["the rigid base"] if rigid else []))
 
 
 def plastic_solid(material: Elastic) -> J2:

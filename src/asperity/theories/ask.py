@@ -50,7 +50,9 @@ class Way:
 
 
 _KINDS = {
-    unit.replace("**", "^"): kind for kind, unit in DIMENSIONS.items() if kind not in ("number", "surface tension")
+    unit.replace("**", "^"): kind
+    for kind, unit in DIMENSIONS.items()
+    if kind not in ("number", "surface tension", "hardness")
 }
 
 

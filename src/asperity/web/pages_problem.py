@@ -12,7 +12,7 @@ from nicegui import events, ui
 
 from ..core.errors import AsperityError, InputError
 from ..core.units import parse, show
-from ..io.schemas.bodies import FLOW, body_from_text
+from ..io.schemas.bodies import BESIDE, body_from_text
 from ..run.document import document_model
 from ..solids.library import materials
 from ..solids.moduli_file import read_moduli
@@ -63,7 +63,7 @@ def _body(context: Context, item: Asked, name: str) -> None:
     assert item.tables is not None
     table = item.tables[""]
     entries = {entry.name: entry for entry in asked_of(table)}
-    own = frozenset(entries) - {"youngs_modulus", "relaxation", "poisson_ratio", "hardness", *FLOW, "name"}
+    own = frozenset(entries) - {"youngs_modulus", "relaxation", "poisson_ratio", *BESIDE, "name"}
 
     def kind() -> str:
         value = context.get((name,))
@@ -92,7 +92,7 @@ def _body(context: Context, item: Asked, name: str) -> None:
     def inside() -> None:
         word = kind()
         if word == "material":
-            form(context, table, (name,), frozenset(entries) - {"material", *FLOW})
+            form(context, table, (name,), frozenset(entries) - {"material", *BESIDE})
         elif word == "constants":
             form(context, table, (name,), own)
         elif word == "layers":

@@ -26,13 +26,13 @@ def before(surface, control=None, **more):
 
 
 def after(surface, pressure, **more):
-    body = more.pop("body", elastic(1.0))
+    body = more.pop("body", replace(elastic(1.0), strength=asp.Strength(hardness=1e3)))
     return asp.contact.review(asp.solve(asp.ContactProblem(surface, body, **more), asp.MeanPressure(pressure)))
 
 
 def test_a_sound_case_gets_no_warning():
     assert before(SMOOTH) == ()
-    problem = asp.ContactProblem(SMOOTH, elastic(1e9))
+    problem = asp.ContactProblem(SMOOTH, replace(elastic(1e9), strength=asp.Strength(hardness=1e9)))
     assert asp.contact.review(asp.solve(problem, asp.MeanPressure(1e7))) == ()
 
 
@@ -139,6 +139,39 @@ def test_pressure_above_the_known_hardness():
     assert "0.3 % above" in slightly.message
     assert "hardness" not in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.01)))
     assert "hardness" in criteria(after(rough((32, 32)), 0.005, body=soft, law=asp.Hardness(0.02)))
+
+
+def yielding(result: asp.ContactResult) -> dict[str, str]:
+    return {a.criterion: a.message for a in asp.contact.review(result) if a.criterion in ("hardness", "yielding")}
+
+
+def test_pressure_above_the_yield_stress_where_no_hardness_is_known():
+    """2.8 Y stands for the hardness (Tabor)."""
+    soft = asp.Elastic(1.0, 0.3, asp.Strength(yield_stress=0.01 / 2.8), name="butter")
+    found = yielding(asp.solve(asp.ContactProblem(rough((32, 32)), soft), asp.MeanPressure(0.05)))
+    assert set(found) == {"hardness"}
+    assert "2.8 times the yield stress of butter" in found["hardness"]
+    at_limit = asp.solve(asp.ContactProblem(rough((32, 32)), soft, law=asp.Hardness(0.01)), asp.MeanPressure(0.005))
+    assert yielding(at_limit) == {}
+
+
+def test_an_unknown_strength_is_said():
+    def told(body, counter=None, law=None):
+        problem = asp.ContactProblem(
+            rough((32, 32)), body, counter_body=counter or asp.Rigid(), law=law or asp.plasticity.HardWall()
+        )
+        return yielding(asp.solve(problem, asp.MeanPressure(0.005)))
+
+    unknown = asp.Elastic(1.0, 0.3, name="alloy")
+    hard = asp.Elastic(1.0, 0.3, asp.Strength(hardness=100.0), name="glass")
+    assert set(told(unknown)) == {"yielding"}
+    assert "alloy" in told(hard, unknown)["yielding"]
+    assert told(hard) == {}
+    assert told(asp.Elastic(1.0, 0.499)) == {}, "elastomers do not yield"
+    assert told(unknown, law=asp.Hardness(10.0)) == {}, "a limit that is given is the strength"
+    assert set(told(hard, unknown, asp.Hardness(100.0))) == {"yielding"}, (
+        "a limit that is the strength of the other body is not"
+    )
 
 
 def test_a_soft_coating_pressed_through_is_not_above_its_hardness():

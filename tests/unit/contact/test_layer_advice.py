@@ -64,6 +64,31 @@ def test_hardness_is_that_of_the_surface_material():
             assert "varnish" in advice["hardness"].message
 
 
+def test_harder_material_under_a_pressure_limit():
+    """A limit that is the hardness of the top layer hides what lies below it."""
+
+    def told(hardnesses, limit, base=None):
+        solids = [asp.Elastic(1.0, 0.3, asp.Strength(hardness=h)) for h in hardnesses]
+        *layers, bottom = [*solids, base] if base else solids
+        body = asp.Layered([asp.Layer(solid, 2.0) for solid in layers], bottom)
+        law = asp.plasticity.LayeredHardness(body) if limit is None else asp.Hardness(limit)
+        found = asp.contact.advise(
+            asp.ContactProblem(rough((16, 16), power=3.0), body, law=law), asp.MeanPressure(1e-6)
+        )
+        return {a.criterion: a.message for a in found if a.criterion.endswith("layers below")}
+
+    found = told((216e6, 638e6, 369e6), 216e6)
+    assert set(found) == {"harder layers below"}
+    assert "638 MPa" in found["harder layers below"]
+    assert set(told((216e6,), 216e6, asp.RigidBase())) == {"harder layers below"}
+    assert set(told((216e6, float("nan")), 216e6)) == {"layers below"}
+    assert told((216e6, 638e6), None) == {}
+    assert told((216e6, 638e6), 100e6) == {}, (
+        "a lower limit, of the other body or a number, has nothing to do with the layer"
+    )
+    assert set(told((216e6, 638e6, 100e6), 216e6)) == {"softer layers below", "harder layers below"}
+
+
 def test_softer_material_under_a_pressure_limit():
     """The limit is that of the surface; there is a finding on what lies below it."""
 

@@ -344,13 +344,45 @@ def test_own_materials_in_every_part_of_a_body(tmp_path: Path) -> None:
     assert built.base.youngs_modulus == pytest.approx(9e9)  # type: ignore[union-attr]
 
 
-def test_hardness_of_a_coated_body_is_that_of_its_top_layer() -> None:
-    law = {"kind": "hardness", "hardness": "from body"}
+def test_hardness_of_the_surface_is_that_of_the_top_layer() -> None:
+    law = {"kind": "hardness", "hardness": "surface"}
     coated = "E=100GPa,nu=0.3,H=9GPa:5nm/E=100GPa,nu=0.3,H=2GPa"
     assert build(checked(table(law=law, body=coated))).problem.law.pressure_cap() == pytest.approx(9e9)
     unknown = "E=100GPa,nu=0.3:5nm/E=100GPa,nu=0.3,H=2GPa"
     with refused(InputError, "hardness"):
         build(checked(table(law=law, body=unknown)))
+
+
+def test_hardness_from_a_coated_body_follows_its_layers_where_their_strengths_are_known() -> None:
+    law = {"kind": "hardness", "hardness": "from body"}
+    gold = "gold:50nm/nickel:1um/copper"
+    found = build(checked(table(law=law, body=gold))).problem
+    assert isinstance(found.law, LayeredHardness)
+    assert found.law.body == found.body
+    for partly in ("E=100GPa,nu=0.3,H=9GPa:5nm/E=100GPa,nu=0.3", "DLC:5nm/rigid"):
+        assert isinstance(build(checked(table(law=law, body=partly))).problem.law, Hardness)
+
+
+def test_a_yield_stress_serves_where_no_hardness_is_known() -> None:
+    law = {"kind": "hardness", "hardness": "from body"}
+    soft = {"youngs_modulus": "100 GPa", "poisson_ratio": 0.3, "yield_stress": "1 GPa"}
+    assert build(checked(table(law=law, body=soft))).problem.law.pressure_cap() == pytest.approx(2.8e9)
+    assert build(checked(table(law=law, counter_body=soft))).problem.law.pressure_cap() == pytest.approx(2.8e9)
+    coated = build(checked(table(law=law, body="E=100GPa,nu=0.3,Y=1GPa:5nm/E=100GPa,nu=0.3,H=9GPa"))).problem.law
+    assert isinstance(coated, LayeredHardness)
+    assert coated.pressure_cap() == pytest.approx(2.8e9)
+
+
+def test_hardness_numbers_stand_for_pressures() -> None:
+    hard = {"material": "steel", "hardness": "60 HRC"}
+    for body in (hard, "steel{H=60HRC}", "E=210GPa,nu=0.3,H=697HV"):
+        found = build(checked(table(body=body))).problem.body
+        assert isinstance(found, Elastic)
+        assert found.strength.hardness == pytest.approx(697 * 9.80665e6 / 0.9271839, rel=1e-6)
+    law = {"kind": "hardness", "hardness": "697 HV"}
+    assert build(checked(table(law=law))).problem.law.pressure_cap() == pytest.approx(7.372e9, rel=1e-3)
+    with refused(InputError, "problem document: body.hardness", "80 HRC"):
+        checked(table(body={"material": "steel", "hardness": "80 HRC"}))
 
 
 def test_effective_hardness_is_that_of_the_softer_body_with_its_layers() -> None:

@@ -1,8 +1,9 @@
 """Bodies of a problem document: rigid, one material, or layers on a base; as tables or in one line of text.
 
 DLC                               a material of the library
-E=140GPa,nu=0.25,H=15GPa          elastic constants: E, nu, and if known hardness H, yield stress Y, hardening, name
-steel{Y=400MPa,hardening=linear(2GPa)}   a material of the library with what plastic flow needs; also swift(0.2) and voce(100MPa,20)
+E=140GPa,nu=0.25,H=15GPa          elastic constants: E, nu, and if known hardness H (also 700HV, 200HB, 60HRC), yield stress Y, hardening, name
+steel{H=60HRC}                    a material of the library with another strength
+steel{Y=400MPa,hardening=linear(2GPa)}   and with what plastic flow needs; also swift(0.2) and voce(100MPa,20)
 DLC:5nm/Cr:2nm/steel              5 nm of DLC on 2 nm of Cr on steel
 DLC:5nm~/rigid                    ~ : the layer slips without friction on what lies below it
 E=3MPa+10MPa@10ms,nu=0.5          10 MPa of Young's modulus relax in 10 ms; further ways in ``relaxation``
@@ -20,6 +21,7 @@ from ...core.errors import InputError
 from ...core.settings import Settings, setting
 from ...core.values import (
     Count,
+    HardnessValue,
     Length,
     NonEmpty,
     NonNegative,
@@ -40,10 +42,10 @@ CONSTANTS = ("youngs_modulus", "poisson_ratio")
 """Keys of the elastic constants, which go together."""
 
 FLOW = ("yield_stress", "hardening", "kinematic", "recall")
-"""Keys of plastic flow, which a named material may bring along too: they replace those of the library."""
+"""Keys of plastic flow."""
 
 BESIDE = ("hardness", *FLOW)
-"""Keys that elastic constants may bring along."""
+"""Keys of the strength, which elastic constants may bring along, and a named material, too: they replace those of the library."""
 
 
 def _text_too(schema: dict[str, Any]) -> None:
@@ -114,7 +116,7 @@ class MaterialTable(Settings):
     youngs_modulus: Pressure | None = None
     poisson_ratio: PoissonRatio | None = None
     relaxation: RelaxationTable | None = setting(None, help="how a viscoelastic material relaxes")
-    hardness: Pressure | None = None
+    hardness: HardnessValue | None = None
     yield_stress: Pressure | None = None
     hardening: Annotated[AnyHardening | None, BeforeValidator(_hardening_from_text)] = None
     kinematic: NonNegativePressure | None = None
@@ -143,7 +145,7 @@ class MaterialTable(Settings):
             raise InputError(f" must give {choices}, but gives {' and '.join(ways) or 'none of these'}.")
         if len(constants) == 1:
             raise InputError(f" must give {pair[0]} and poisson_ratio together, but gives only {constants[0]}.")
-        allowed = (*BESIDE, "name") if constants else ("name",) if "layers" in ways else FLOW if self.material else ()
+        allowed = (*BESIDE, "name") if constants else ("name",) if "layers" in ways else BESIDE if self.material else ()
         beside = [key for key in (*BESIDE, "name") if getattr(self, key) is not None and key not in allowed]
         if beside:
             raise InputError(f" may give {beside[0]} only together with youngs_modulus, but gives it with {ways[0]}.")

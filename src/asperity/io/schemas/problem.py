@@ -16,7 +16,10 @@ from .bodies import BodyTable
 from .surfaces import FileSurface, SurfaceTable
 
 FROM_BODY = "from body"
-"""Hardness that stands for the lowest known hardness of the two bodies."""
+"""Hardness that stands for that of the softer body: the effective one where it is layered and all of its strengths are known."""
+
+SURFACE = "surface"
+"""Hardness that stands for the lower known one of the materials at the two surfaces, whatever lies below them."""
 
 EFFECTIVE = "effective"
 """Hardness that stands for that of the softer body with all its layers, by the depth of the indentation."""
@@ -49,7 +52,7 @@ class Load(Number):
 
 
 Method: TypeAlias = Annotated[str, Choice({name: name for name in SOLVERS})]
-PressureOrBody: TypeAlias = Annotated[float | str, Number("pressure", above=0.0, words=(FROM_BODY, EFFECTIVE))]
+PressureOrBody: TypeAlias = Annotated[float | str, Number("hardness", above=0.0, words=(FROM_BODY, SURFACE, EFFECTIVE))]
 PathPressure: TypeAlias = Annotated[float | str, Number("pressure", least=0.0, words=(NONE,))]
 PathForce: TypeAlias = Annotated[float | str, Load("force", least=0.0, words=(NONE,))]
 PathLength: TypeAlias = Annotated[float | str, Number("length", least=0.0, words=(NONE,))]
@@ -95,8 +98,8 @@ class HardnessTable(Settings):
 
     kind: Literal["hardness"]
     hardness: PressureOrBody = setting(
-        help='limit of the pressure, "body" for the lower known hardness of the materials at the surfaces, or "effective" '
-        "for that of the softer body with its layers, by depth"
+        help='limit of the pressure, "body" for the hardness of the softer body, with its layers by depth where their strengths are known '
+        '("effective": refused where not), or "surface" for that of the material at its surface alone'
     )
 
 

@@ -15,6 +15,7 @@ from ...core.errors import InputError
 from ...core.units import show
 from ...solids.elastic import Elastic
 from ...solids.layers import Layered
+from ...solids.strength import yield_pressure
 from ...theories.hardness.effective_hardness import EffectiveHardness, StackHardness
 
 
@@ -25,8 +26,8 @@ class LayeredHardness:
     Parameters
     ----------
     body
-        ``Layered`` body, every material of which has a known hardness. Where both sides of a face state their yield
-        stresses, these enter the law; else Y = H/2.8 on both.
+        ``Layered`` body, every material of which has a known hardness, or a yield stress Y: then 2.8 Y serves. Where both sides of a face
+        state their yield stresses, these enter the law; else Y = H/2.8 on both.
 
     Notes
     -----
@@ -36,11 +37,12 @@ class LayeredHardness:
     Raises
     ------
     InputError
-        If the body is not ``Layered``, lies on a rigid base, or the hardness of one of its materials is not known.
+        If the body is not ``Layered``, lies on a rigid base, or neither hardness nor yield stress of one of its materials is known.
     """
 
     body: Layered
     _stack: StackHardness | None = field(init=False, repr=False, compare=False)
+    _ends: tuple[float, float] = field(init=False, repr=False, compare=False)
     name: ClassVar[str] = "effective hardness"
     citation_keys: ClassVar[tuple[str, ...]] = (
         *Hardness.citation_keys,
@@ -57,41 +59,49 @@ class LayeredHardness:
                 "base of a body with an effective hardness must be a material of known hardness, but is rigid."
             )
         materials.append((reduced.base, "the base"))
+        hardnesses = []
         for solid, place in materials:
-            if math.isnan(solid.strength.hardness):
+            known = yield_pressure(solid.strength).value
+            if known is None:
                 raise InputError(
                     f"hardness of {solid.name or 'the material'} in {place} must be known for an effective hardness, but is "
-                    "not. Give it as Strength(hardness=...) (hardness, H=...), or limit the pressure by a number."
+                    "not, nor is a yield stress. Give it as Strength(hardness=...) (hardness, H=...), or limit the pressure by a number."
                 )
+            hardnesses.append(known)
         depths = np.cumsum([layer.thickness for layer in reduced.layers])
         faces, places = [], []
-        for (upper, _), (lower, _), depth in zip(materials, materials[1:], depths, strict=False):
-            if upper.strength.hardness != lower.strength.hardness:  # a face between equal hardnesses changes nothing
-                hardnesses = upper.strength.hardness, lower.strength.hardness
+        for number, depth in enumerate(depths):
+            (upper, _), (lower, _) = materials[number : number + 2]
+            if hardnesses[number] != hardnesses[number + 1]:  # a face between equal hardnesses changes nothing
                 moduli = upper.youngs_modulus / lower.youngs_modulus
                 yields = upper.strength.yield_stress / lower.strength.yield_stress
-                faces.append(EffectiveHardness(*hardnesses, moduli, None if math.isnan(yields) else yields))
+                face = hardnesses[number], hardnesses[number + 1], moduli, None if math.isnan(yields) else yields
+                faces.append(EffectiveHardness(*face))
                 places.append(float(depth))
         object.__setattr__(self, "_stack", StackHardness(tuple(faces), tuple(places)) if faces else None)
+        object.__setattr__(self, "_ends", (hardnesses[0], hardnesses[-1]))
 
     def pressure_cap(self) -> float:
         """Hardness in Pa of the virgin surface, that of the top layer."""
-        top = self.body.surface_material
-        assert isinstance(top, Elastic)
-        return top.strength.hardness
+        return self._ends[0]
 
     @property
     def base_hardness(self) -> float:
         """Hardness in Pa of the base, met far below the coatings."""
-        base = self.body.reduced.base
-        assert isinstance(base, Elastic)
-        return base.strength.hardness
+        return self._ends[1]
 
     @property
     def limit_text(self) -> str:
-        """The limit in words."""
-        top, base = show(self.pressure_cap(), "Pa"), show(self.base_hardness, "Pa")
-        return f"{top} at the surface to {base} deep in the base, by local indentation"
+        """The limit in words, with its extremes between surface and base where there are any beyond both."""
+        top, base = self._ends
+        low, high = (top, base) if self._stack is None else self._stack.extremes
+        extremes = [
+            (f"up to {show(high, 'Pa')}", high > max(top, base)),
+            (f"down to {show(low, 'Pa')}", low < min(top, base)),
+        ]
+        between = " and ".join(text for text, beyond in extremes if beyond)
+        between = f", {between} in between" if between else ""
+        return f"{show(top, 'Pa')} at the surface to {show(base, 'Pa')} deep in the base{between}, by local indentation"
 
     def cap_at(self, indentation: RealArray) -> float | RealArray:
         """Largest pressure (nx, ny) in Pa where the surface is indented by ``indentation`` (nx, ny) in m."""

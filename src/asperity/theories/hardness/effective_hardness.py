@@ -16,7 +16,7 @@ from ...core.errors import InputError
 from ...core.parameters import Help
 from ...core.quadrature import gauss
 from ...core.quantity import Quantity
-from ...core.values import Force, Length, Number, Positive, Pressure
+from ...core.values import Force, HardnessValue, Length, Number, Positive
 from ..ask import Way, asked
 from ..protocol import Theory, checked
 
@@ -47,8 +47,8 @@ class EffectiveHardness(Theory):
     ['15.00', '13.23', '10.87', '9.00']
     """
 
-    film: Annotated[Pressure, Help("hardness of the film", of="bodies")]
-    substrate: Annotated[Pressure, Help("hardness of the substrate", of="bodies")]
+    film: Annotated[HardnessValue, Help("hardness of the film", of="bodies")]
+    substrate: Annotated[HardnessValue, Help("hardness of the substrate", of="bodies")]
     modulus_ratio: Annotated[Positive, Help("Young's modulus of the film over that of the substrate", of="bodies")]
     yield_ratio: Annotated[
         Positive | None, Help("yield stress of film over substrate; that of the hardnesses by default", of="bodies")
@@ -149,6 +149,13 @@ class StackHardness:
             share = np.maximum(share, face.film_share(d / thickness))
             value += (face.film - face.substrate) * share
         return value
+
+    @property
+    def extremes(self) -> tuple[float, float]:
+        """Lowest and highest hardness in Pa at any depth, surface and base included."""
+        values = self.at(self._knots)
+        ends = (self.faces[0].film, self.faces[-1].substrate)
+        return min(*ends, float(values.min())), max(*ends, float(values.max()))
 
     def work(self, depth: ArrayLike) -> RealArray:
         """∫ H dd from the surface to ``depth`` in m (any shape, >= 0): work per area in J/m².

@@ -13,7 +13,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.parameters import Help
 from ...core.quantity import Quantity
-from ...core.values import Length, Positive, Pressure
+from ...core.values import HardnessValue, Length, Positive
 from ..ask import PRESSURE, Way, asked
 from ..protocol import (
     HeightDeviation,
@@ -116,7 +116,7 @@ class PlasticityIndex(Theory):
     E_star: Modulus
     radius: SummitRadius
     height_deviation: HeightDeviation
-    hardness: Annotated[Pressure, Help("hardness H of the softer body", of="bodies")]
+    hardness: Annotated[HardnessValue, Help("hardness H of the softer body", of="bodies")]
     nu: Annotated[
         PoissonOfSolid,
         Help("Poisson's ratio of the body that yields, 0 to 0.5; for the index of Chang, Etsion & Bogy", of="bodies"),
@@ -188,7 +188,7 @@ class ProfilePlasticityIndex(Theory):
     E_star: Modulus
     rms_height: Annotated[Length, "standard deviation σ of the heights"]
     correlation_length: Annotated[Length, "lag at which the autocorrelation has fallen to 1/e"]
-    hardness: Annotated[Pressure, Help("hardness H of the softer body", of="bodies")]
+    hardness: Annotated[HardnessValue, Help("hardness H of the softer body", of="bodies")]
     name: ClassVar[str] = "profile-plasticity-index"
     title: ClassVar[str] = "Plasticity index of a profile"
     citation_keys: ClassVar[tuple[str, ...]] = ("Onions1973", "Whitehouse1970")
@@ -247,7 +247,7 @@ class LeastArea(Theory):
     overcoat is thick. Hardness and modulus are those at the strain rate of a passing asperity.
     """
 
-    hardness: Annotated[Pressure, Help("hardness H of the softer solid", of="bodies")]
+    hardness: Annotated[HardnessValue, Help("hardness H of the softer solid", of="bodies")]
     plasticity_index: Annotated[Positive, Help("plasticity index that is still elastic", of="choice")] = ELASTIC_INDEX
     name: ClassVar[str] = "least-area"
     title: ClassVar[str] = "Design for the least area without plasticity"

@@ -13,7 +13,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
 from ...core.parameters import Help
-from ...core.values import Length, Number, Pressure
+from ...core.values import HardnessValue, Length, Number
 from ..protocol import FEW_CONTACTS, ISOTROPY, MEASURED_SLOPES, Bound, Modulus, Prediction, Theory, curve, prediction
 from ..statistics.roughness import Roughness
 
@@ -112,7 +112,7 @@ class MajumdarBhushan(Theory):
     ]
     roughness: Annotated[Length, "fractal roughness G"]
     E_star: Modulus
-    hardness: Annotated[Pressure, Help("hardness H of the softer solid", of="bodies")]
+    hardness: Annotated[HardnessValue, Help("hardness H of the softer solid", of="bodies")]
     nominal_area: Annotated[float, Number("area", above=0.0), "nominal area of contact"]
     name: ClassVar[str] = "majumdar-bhushan"
     title: ClassVar[str] = "Majumdar-Bhushan (fractal)"
