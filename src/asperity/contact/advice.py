@@ -171,7 +171,7 @@ def _resolution(profile: Surface) -> Iterator[Advice]:
             "asperity radius",
             f"The mean asperity radius 3/8 √(π/m4) is {radius / pixel:.2g} pixels (at least {PIXELS_PER_RADIUS:g} "
             "wanted): asperities are spikes of single pixels.",
-            "Check the height unit ({no_height_unit}), refine the grid ({resample}), or smooth the surface ({smooth}).",
+            "Check the height unit ({height_unit}), refine the grid ({resample}), or smooth the surface ({smooth}).",
             {"pixels": radius / pixel, "radius": radius, "least": PIXELS_PER_RADIUS},
             (*AREAS, *PRESSURES, *STRESSES),
         )

@@ -81,7 +81,7 @@ class FreeLine:
         if grid.shape[1] != 1:
             raise InputError(
                 f"grid of a line contact must have one point along y, but has {grid.shape[0]} x {grid.shape[1]} points. "
-                'Take one line of the map, sliced(surface, y="middle") (--line y=middle), or the boundary Free() or Periodic().'
+                "Take one line of the map ({slice}), or the free or the periodic boundary ({free}, {periodic})."
             )
         if self.datum is not None and self.datum < grid.size[0] * (1.0 - 1e-9):
             raise InputError(

@@ -280,7 +280,7 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
             if isinstance(surface, Surface) and surface.n_missing:
                 raise InputError(
                     f"{what} must have no missing points, but {surface.n_missing} are missing. "
-                    "Fill them first: filled(surface), or --fill harmonic."
+                    "Fill them first ({fill})."
                 )
             if isinstance(surface, Surface) and (extent := float(np.ptp(surface.heights))) > LEAST:
                 require.magnitude(extent, "range of the heights (m)")  # a smaller one is rounding of a flat surface

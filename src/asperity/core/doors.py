@@ -10,6 +10,8 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
+from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 from typing import Literal, NamedTuple, TypeAlias
 
@@ -28,15 +30,19 @@ class Action(NamedTuple):
 ACTIONS = MappingProxyType(
     {
         # what a file with heights does not state
-        "size": Action("size=(20e-6, 20e-6) in m", '--size "20 um x 20 um"', "Surface: Size"),
-        "height_unit": Action('height_unit="nm"', "--height-unit nm", "Surface: Height unit"),
-        "z_scale": Action("z_scale=100e-9 in m", '--z-scale "100 nm"', "Surface: Z scale"),
-        "lateral_unit": Action('lateral_unit="um"', "--lateral-unit um", "Surface: Lateral unit"),
-        "no_size": Action("size", "--size", "Surface: Size"),
-        "no_height_unit": Action("height_unit", "--height-unit", "Surface: Height unit"),
-        "no_z_scale": Action("z_scale", "--z-scale", "Surface: Z scale"),
-        "no_lateral_unit": Action("lateral_unit", "--lateral-unit", "Surface: Lateral unit"),
+        "give_size": Action("size=(20e-6, 20e-6) in m", '--size "20 um x 20 um"', "Surface: Size"),
+        "give_height_unit": Action('height_unit="nm"', "--height-unit nm", "Surface: Height unit"),
+        "give_z_scale": Action("z_scale=100e-9 in m", '--z-scale "100 nm"', "Surface: Z scale"),
+        "give_lateral_unit": Action('lateral_unit="um"', "--lateral-unit um", "Surface: Lateral unit"),
+        "size": Action("size", "--size", "Surface: Size"),
+        "height_unit": Action("height_unit", "--height-unit", "Surface: Height unit"),
+        "z_scale": Action("z_scale", "--z-scale", "Surface: Z scale"),
+        "lateral_unit": Action("lateral_unit", "--lateral-unit", "Surface: Lateral unit"),
         "channel": Action("channel=...", "--channel", "Surface: Channel"),
+        # files and folders
+        "overwrite": Action("overwrite it with overwrite=True", "overwrite it with --force", "remove it"),
+        "folder": Action("another folder", "another folder (--out)", "another folder"),
+        "run": Action("run(document)", "asperity contact --from DOCUMENT", "the page Run"),
         # preparation
         "fill": Action("filled(surface)", "--fill harmonic", "Prepare: fill"),
         "periodise": Action("periodised(surface)", "--periodise", "Prepare: periodise"),
@@ -49,6 +55,11 @@ ACTIONS = MappingProxyType(
         "load": Action("MeanPressure(...) or Force(...)", "--pressure or --load", "Control: Mean pressure"),
         "free": Action("boundary=Free()", "--boundary free", "Boundary: free"),
         "periodic": Action("boundary=Periodic()", "--boundary periodic", "Boundary: periodic"),
+        "soft_counter": Action(
+            "ContactProblem(rough, Rigid(), counter_body=rubber)",
+            '--body rigid --counter "E=3MPa+10MPa@10ms,nu=0.5"',
+            "Bodies: Counter body",
+        ),
         "hardness": Action("law=Hardness(...)", "--hardness body", "Law: hardness"),
         "effective_hardness": Action(
             "law=plasticity.LayeredHardness(body)", "--hardness effective", "Law: hardness = effective"
@@ -60,6 +71,7 @@ ACTIONS = MappingProxyType(
         "time_tolerance": Action("TimeSteps(tolerance=...)", "--time-tolerance", "Viscoelastic: Tolerance"),
         "time_steps": Action("TimeSteps(number=...)", "--time-steps", "Viscoelastic: Steps"),
         "plastic_depth": Action("PlasticFlow(depth=...)", "--plastic-depth", "Plastic flow: Depth"),
+        "range": Action("load=numpy.geomspace(1.0, 100.0)", "--load 1N..100N", "a range"),
         "stresses": Action("stress(result, depths)", "--depths", "Stress: Depths"),
     }
 )
@@ -69,11 +81,17 @@ Options: TypeAlias = Callable[[], Mapping[str, str]]
 """Gives the options of the command line by the dotted keys of documents."""
 
 
-class _Speaking(NamedTuple):
-    """The door that speaks, and its options."""
+@dataclass(frozen=True)
+class _Speaking:
+    """The door that speaks, and what gives its options."""
 
     door: Door
-    options: Options
+    given: Options
+
+    @cached_property
+    def options(self) -> Mapping[str, str]:
+        """Options by the keys of documents, which take a while to collect."""
+        return self.given()
 
 
 _DOOR: ContextVar[_Speaking] = ContextVar("door", default=_Speaking("python", dict))  # noqa: B039  (nothing changes it)
@@ -94,10 +112,10 @@ def speaking(door: Door, options: Options = dict) -> Iterator[None]:
 def in_words(text: str, door: Door | None = None) -> str:
     """``text`` with every ``{action}`` in the words of ``door``, by default the one that is speaking; other braces stay."""
     here = _DOOR.get()
-    return _NAMED.sub(lambda found: _said(found, door or here.door, here.options), text)
+    return _NAMED.sub(lambda found: _said(found, door or here.door, here), text)
 
 
-def _said(found: re.Match[str], door: Door, options: Options) -> str:
+def _said(found: re.Match[str], door: Door, here: _Speaking) -> str:
     name, value = found.groups()
     if name in ACTIONS and value is None:
         words: str = getattr(ACTIONS[name], door)
@@ -107,16 +125,21 @@ def _said(found: re.Match[str], door: Door, options: Options) -> str:
     if door == "form":
         field = field_of(name)
         return field if value is None else f"{field} = {value}"
-    option = options().get(name) if door == "command" else None
+    option = here.options.get(name) if door == "command" else None
     if option is not None:
         return option if value is None else f'{option} "{value}"' if " " in value else f"{option} {value}"
     plain = value is None or value in ("true", "false") or re.fullmatch(r"-?[\d.]+(e-?\d+)?", value)
     return name if value is None else f"{name} = {value}" if plain else f'{name} = "{value}"'
 
 
+def key_in_words(key: str) -> str:
+    """What the dotted ``key`` of a document is called: a form shows fields, the other doors take documents as they are written."""
+    return field_of(key) if _DOOR.get().door == "form" else key
+
+
 def field_of(key: str) -> str:
     """What a form calls the field of a dotted ``key`` of documents: its tables and its label."""
-    *tables, last = map(label_of, key.split("."))
+    *tables, last = map(label_of, re.sub(r"\[(\d+)\]", r" \1", key.removesuffix(".kind")).split("."))
     return f"{', '.join(tables)}: {last}" if tables else last
 
 

@@ -17,6 +17,7 @@ from typing import Annotated, Any, ClassVar, Literal, Optional, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model, model_validator
 from pydantic.fields import FieldInfo
 
+from .doors import key_in_words
 from .errors import InputError
 from .parameters import REQUIRED, Parameter, parameter, parameters, taken_apart, values_of
 from .text import alike
@@ -221,8 +222,10 @@ def problems(error: ValidationError, schema: Mapping[str, Any], names: Mapping[s
                 key, node = f"{key}.{part}".lstrip("."), _resolved(properties.get(part, {}), schema)
         mapping = node.get("discriminator", {}).get("mapping")
         allowed = list(mapping) if mapping else allowed
-        shown = _called(key, names)
-        found[_sentence(dict(detail), shown, allowed)] = None
+        if detail["type"] == "value_error" and (own := re.match(r"[.\[][\w.\[\]]*", str(detail["ctx"]["error"]))):
+            found[f"{_called((key + own[0]).lstrip('.'), names)}{str(detail['ctx']['error'])[own.end() :]}"] = None
+        else:
+            found[_sentence(dict(detail), _called(key, names), allowed)] = None
     return list(found)
 
 
@@ -239,7 +242,7 @@ def _called(key: str, names: Mapping[str, str]) -> str:
     while whole not in names:
         match = re.fullmatch(r"(.+)(?:\[(\d+)\]|\.(\w+))", whole)
         if match is None:
-            return key
+            return key_in_words(key)
         parts.append(f"part {match[2]} of" if match[2] else f"{match[3]} of")
         whole = match[1]
     return " ".join([*parts, names[whole]])
@@ -249,7 +252,7 @@ def _sentence(detail: Mapping[str, Any], key: str, allowed: Sequence[str]) -> st
     kind, context, received = detail["type"], detail.get("ctx", {}), detail["input"]
     if kind == "value_error":
         text = str(context["error"])
-        return (key or "document") + text if text.startswith((" ", ".", "[")) else text
+        return (key or "document") + text if text.startswith(" ") else text
     if kind == "missing":
         return f"{key} must be given, but is missing."
     if kind == "extra_forbidden":

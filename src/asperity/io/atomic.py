@@ -16,8 +16,8 @@ from typing import Any
 
 from ..core.errors import AsperityError, OutputError
 
-OVERWRITE = "overwrite it with overwrite=True (--force)"
-"""The fix where something exists already, in Python and on the command line."""
+OVERWRITE = "{overwrite}"
+"""The fix where something exists already."""
 
 
 @contextmanager

@@ -275,7 +275,7 @@ def save_answer_plot(found: Evaluation, path: Path, *, overwrite: bool = False) 
         If the file exists and ``overwrite`` is false, or cannot be written.
     """
     if not found.columns or found.columns[0][1].size < 2:
-        raise InputError("--plot must be given together with a range, such as --load 1N..100N, but there is one point.")
+        raise InputError("plot of an answer must have a range of values, such as {range}, but there is one point.")
     (axis, x), *columns = found.columns
     across = scale(x, axis.unit)
     logarithmic = "log" if x.min() > 0.0 and x.max() > 20.0 * x.min() else "linear"

@@ -53,7 +53,7 @@ def plastic_cuts(outcome: Outcome) -> tuple[Cut, ...]:
             frames = zip(run.strains, run.labels, strict=True)
             return tuple(replace(shown, strain=strain, label=label) for strain, label in frames)
     raise InputError(
-        "outcome of an animation must have a history with plastic flow, but has none. Run a document with a table [plastic_flow] (--plastic) and steps, "
-        "[passes] (--passes) or [indentation] (--indent); a file keeps no steps of these two.",
+        "outcome of an animation must have a history with plastic flow, but has none. Run a problem with {plastic_flow.active=true} and steps, "
+        "{passes.count} or {indentation.depth}; a file keeps no steps of these two.",
         subject="outcome of an animation",
     )

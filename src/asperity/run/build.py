@@ -209,7 +209,7 @@ def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
         coated = " (of a coated body the top layer counts)" if any(isinstance(b, Layered) for b in bodies) else ""
         raise InputError(
             f"hardness must be known for at least one body to be taken from it, but neither states one, nor a yield stress{coated}. "
-            'Give law.hardness (--hardness) as a pressure, such as "5 GPa".'
+            "Give it as a pressure, such as {law.hardness=5 GPa}."
         )
     hardness, softer = min(known, key=lambda item: item[0])
     by_depth = table.hardness == EFFECTIVE or (table.hardness == FROM_BODY and not unknown_strengths(softer))
@@ -393,7 +393,7 @@ def large_grid(points: int) -> str:
         If it does not fit.
     """
     needed = BYTES_OF_A_POINT * points
-    require_memory(needed, "points of the surface", f"{points:.3g}", "give fewer points (--resample)")
+    require_memory(needed, "points of the surface", f"{points:.3g}", "give fewer points ({resample})")
     return f"The grid of {points:.3g} points needs about {room_text(needed)}." if is_large(needed) else ""
 
 

@@ -174,7 +174,7 @@ def prepare_study(
     if target.is_dir() and any(target.iterdir()) and not (target / STUDY).is_file():
         raise OutputError(
             f"folder of a study must be new, empty, or hold its results, but {target} holds something else; "
-            "choose another (--out)."
+            "choose {folder}."
         )
     there = next(place for place in (target.absolute(), *target.absolute().parents) if place.exists())
     free = shutil.disk_usage(there).free
@@ -189,7 +189,7 @@ def prepare_study(
     if (needed := BYTES_OF_A_RECORD * campaign.plan.n_cases) > free:
         raise OutputError(
             f"results of {campaign.plan.n_cases} cases need about {needed / 2**30:.3g} GiB, but {free / 2**30:.3g} GiB are "
-            f"free at {target}; give fewer points or samples, or another folder (--out).",
+            f"free at {target}; give fewer points or samples, or {{folder}}.",
             subject=f"results of {campaign.plan.n_cases} cases",
         )
     with atomic_file(target / STUDY, overwrite=True) as partial:

@@ -41,7 +41,7 @@ def study_from_table(table: Mapping[str, Any], folder: Path, where: str = "study
     """Study of the nested ``table``, whose relative paths start at ``folder``; errors as of ``load_study``."""
     if "problem" not in table and "surface" in table:
         raise InputError(
-            f"{where} must be a study, but is a problem document. Run it as `asperity contact --from`, or give its path "
+            f"{where} must be a study, but is a problem document. Run it by itself ({{run}}) or give its path "
             "as problem in a study."
         )
     document = validated(StudyDocument, table, where)

@@ -64,7 +64,7 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
                     "values": {name: float(values.get(name, np.nan)) for name in quantities},
                     "work": {name: getattr(certificate, name) for name in CHECKS},
                     "citations": list(outcome.citation_keys),
-                    "findings": [[item.level, item.criterion, item.message] for item in outcome.findings],
+                    "findings": [[one.level, one.criterion, f"{one.fact} {one.remedy}".rstrip()] for one in outcome.findings],
                     "verdict": [given.grade, *(text for _, text in given.rows)],
                     "error": None,
                 }

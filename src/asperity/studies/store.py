@@ -191,6 +191,6 @@ def _lock(file: IO[bytes], path: Path) -> None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
         raise OutputError(
-            f"results {path} are being written by another process; wait for it, or give another folder by --out.",
+            f"results {path} are being written by another process; wait for it, or give {{folder}}.",
             subject=f"results {path}",
         ) from None

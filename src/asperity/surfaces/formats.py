@@ -131,8 +131,7 @@ def _require_whole(
         lengths = f"{show(length_x, 'm', 6)} x {show(length_y, 'm', 6)}"
         raise FileFormatError(
             f"file {file} holds {nx} x {ny} points on {lengths}, pixels of {show(length_x / nx, 'm')} x "
-            f"{show(length_y / ny, 'm')}{'' if ended else ' without a last line break'}, and may be cut short. If it is complete, confirm its size with size=... "
-            f'(--size "{lengths}").',
+            f"{show(length_y / ny, 'm')}{'' if ended else ' without a last line break'}, and may be cut short. If it is complete, confirm its size, {lengths} ({{give_size}}).",
             subject=f"size of file {file}",
         )
     return size
@@ -243,22 +242,22 @@ def _scales(
     """Size in m and metres per unit of height, from the file or, where it states none, from the caller."""
     lacking = []
     if info.size is None and size is None:
-        lacking.append('size=(Lx, Ly) in m (--size "20 um x 20 um")')
+        lacking.append("{give_size}")
     if not info.unit and height_unit is None:
-        lacking.append('height_unit="nm" (--height-unit nm)')
+        lacking.append("{give_height_unit}")
     if lacking:
         raise FileFormatError(
-            f"channel {info.name!r} of file {file} does not state its size or unit: pass {' and '.join(lacking)}.",
+            f"channel {info.name!r} of file {file} does not state its size or unit: give {' and '.join(lacking)}.",
             subject=f"size and unit of channel {info.name!r} of file {file}",
         )
     if info.size is not None and size is not None:
         raise FileFormatError(
-            f"file {file} states its own size {info.size[0]:g} x {info.size[1]:g} m, so size (--size) must be left out.",
+            f"file {file} states its own size {info.size[0]:g} x {info.size[1]:g} m, so {{size}} must be left out.",
             subject=f"size of file {file}",
         )
     if info.unit and height_unit is not None:
         raise FileFormatError(
-            f"file {file} states its own unit {info.unit}, so height_unit (--height-unit) must be left out.",
+            f"file {file} states its own unit {info.unit}, so {{height_unit}} must be left out.",
             subject=f"height unit of file {file}",
         )
     try:
@@ -268,7 +267,7 @@ def _scales(
             raise
         raise FileFormatError(
             f"channel {info.name!r} of file {file} must hold heights, but its unit is {info.unit}. "
-            "Choose another channel with channel=... (--channel)."
+            "Choose another channel ({channel})."
         ) from exc
     return checked_size(size if info.size is None else info.size, f"file {file}", info.shape), factor
 
@@ -285,8 +284,7 @@ def checked_size(size: tuple[float, float] | None, what: str, shape: tuple[int, 
         length_x = length_y = 0.0
     if not (0.0 < length_x < np.inf and 0.0 < length_y < np.inf):
         raise FileFormatError(
-            f"size of {what} must be two positive lengths (Lx, Ly) in m, but is {size!r}. "
-            'Pass for example size=(20e-6, 20e-6) (--size "20 um x 20 um").'
+            f"size of {what} must be two positive lengths (Lx, Ly) in m, but is {size!r}. Give for example {{give_size}}."
         )
     text = getattr(size, "text", "x")  # of a size that was written, as in a document or an option
     if shape[0] != shape[1] and "x" not in text and "×" not in text:
@@ -466,20 +464,20 @@ def read_plain(
     if found.full_scale is None:
         if height_unit is None:
             raise FileFormatError(
-                f'file {file} does not state the unit of its heights: pass height_unit="nm" (--height-unit nm).',
+                f"file {file} does not state the unit of its heights: give {{give_height_unit}}.",
                 subject=f"height unit of file {file}",
             )
         if z_scale is not None:
             raise FileFormatError(
-                f"file {file} holds heights, not grey levels: leave out z_scale (--z-scale).",
+                f"file {file} holds heights, not grey levels: leave out {{z_scale}}.",
                 subject=f"z_scale of file {file}",
             )
         factor, words = unit_factor(height_unit, "length", "height_unit"), f"heights in {height_unit}"
     else:
         if z_scale is None or height_unit is not None:
             raise FileFormatError(
-                f"file {file} is a picture with grey levels: pass z_scale=... in m for its full scale "
-                '(--z-scale "100 nm") instead of a height_unit.',
+                f"file {file} is a picture with grey levels: give {{give_z_scale}} for its full scale "
+                "instead of {height_unit}.",
                 subject=f"z_scale of file {file}",
             )
         full = require.positive(z_scale, "z_scale (m)")
@@ -546,8 +544,8 @@ def _given_size(
         if size is not None or lateral_unit is None:
             raise FileFormatError(
                 f"file {file} is a list of points x y z on {found.values.shape[0]} x {found.values.shape[1]} nodes "
-                f"with steps of {found.spacing[0]:.6g} x {found.spacing[1]:.6g} in a unit that it does not state: pass "
-                'lateral_unit="um" (--lateral-unit um) instead of a size.',
+                f"with steps of {found.spacing[0]:.6g} x {found.spacing[1]:.6g} in a unit that it does not state: give "
+                "{give_lateral_unit} instead of {size}.",
                 subject=f"lateral unit of file {file}",
             )
         metre = unit_factor(lateral_unit, "length", "lateral_unit")
@@ -555,13 +553,12 @@ def _given_size(
         return (found.spacing[0] * metre * nx, found.spacing[1] * metre * ny), f"points x y in {lateral_unit}, "
     if lateral_unit is not None:
         raise FileFormatError(
-            f"file {file} is no list of points x y z, so lateral_unit (--lateral-unit) must be left out.",
+            f"file {file} is no list of points x y z, so {{lateral_unit}} must be left out.",
             subject=f"lateral unit of file {file}",
         )
     if size is None:
         raise FileFormatError(
-            f'file {file} does not state its size: pass size=(Lx, Ly) in m (--size "20 um x 20 um") '
-            f"and {'z_scale=... (--z-scale)' if file.suffix.lower() in _PICTURES else 'height_unit=... (--height-unit)'}.",
+            f"file {file} does not state its size: give {{give_size}} and {'{give_z_scale}' if file.suffix.lower() in _PICTURES else '{give_height_unit}'}.",
             subject=f"size of file {file}",
         )
     return checked_size(size, f"file {file}", found.values.shape), ""

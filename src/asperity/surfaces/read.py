@@ -74,8 +74,7 @@ def read(
         chosen((netcdf_channel(file),), channel, file)
         if any(scale is not None for scale in (size, height_unit, z_scale, lateral_unit)):
             raise FileFormatError(
-                f"file {file} states its size and unit itself: leave out size, height_unit and z_scale "
-                "(--size, --height-unit, --z-scale).",
+                f"file {file} states its size and unit itself: leave out {{size}}, {{height_unit}} and {{z_scale}}.",
                 subject=f"size and unit of file {file}",
             )
         surface = read_netcdf(file)
@@ -86,12 +85,12 @@ def read(
     else:
         if z_scale is not None:
             raise FileFormatError(
-                f"file {file} is not a picture, so z_scale (--z-scale) must be left out.",
+                f"file {file} is not a picture, so {{z_scale}} must be left out.",
                 subject=f"z_scale of file {file}",
             )
         if lateral_unit is not None:
             raise FileFormatError(
-                f"file {file} is no list of points x y z, so lateral_unit (--lateral-unit) must be left out.",
+                f"file {file} is no list of points x y z, so {{lateral_unit}} must be left out.",
                 subject=f"lateral unit of file {file}",
             )
         surface = read_instrument(file, channel=channel, size=size, height_unit=height_unit)

@@ -76,7 +76,7 @@ class BoundaryTable(Settings):
     kind: Literal["periodic", "free", "line"] = setting(
         "periodic",
         option="--boundary",
-        help="what lies outside the map, a line being in plane strain with loads per metre (see --line)",
+        help="what lies outside the map, a line being in plane strain with loads per metre",
     )
     datum: Length | None = setting(None, help="distance at which displacements of a line contact are called zero")
 
@@ -208,7 +208,7 @@ class ProblemDocument(Settings):
         forces = (self.control.force, *((self.control.path and self.control.path.force) or ()))
         if self.boundary.kind != "line" and any(isinstance(force, PerLength) for force in forces):
             raise InputError(
-                "force per length must be given together with the boundary line only (--boundary line), but is given for "
+                "force per length must be given together with {boundary.kind=line} only, but is given for "
                 f"the boundary {self.boundary.kind}; write a force, such as 1 N."
             )
         if self.body.rigid and self.counter_body.rigid:

@@ -49,7 +49,7 @@ class AdhesionSettings(Settings):
     pair: str | None = setting(
         None,
         option="--adhesion-pair",
-        help="Two solids whose work of adhesion it is, instead of --adhesion: polystyrene/paraffin wax",
+        help="Two solids whose work of adhesion it is, instead of its value: polystyrene/paraffin wax",
     )
     law: Law = setting("exponential", option="--adhesion-law", help="Attraction as a function of the gap")
     range: Length | None = setting(None, option="--adhesion-range", help="Work over strength: 1nm")
@@ -75,39 +75,37 @@ class AdhesionSettings(Settings):
         if (self.work is None) == (self.pair is None):
             gives = "neither" if self.work is None else "both"
             raise InputError(
-                ' must give either the work of adhesion, such as work = "50 mJ/m**2" (--adhesion), or a pair of solids, such as pair = '
-                f'"polystyrene/paraffin wax" (--adhesion-pair), but gives {gives}.'
+                " must give either the work of adhesion, such as {adhesion.work=50 mJ/m**2}, or a pair of solids, such as "
+                f"{{adhesion.pair=polystyrene/paraffin wax}}, but gives {gives}."
             )
         if self.pair is not None and self.pair.count("/") != 1:
-            raise InputError(
-                f'.pair (--adhesion-pair) must be two solids, such as "polystyrene/paraffin wax", but is {self.pair!r}.'
-            )
+            raise InputError(f'.pair must be two solids, such as "polystyrene/paraffin wax", but is {self.pair!r}.')
         if self.pair is not None:
             try:
                 self.of_pair()
             except InputError as error:
                 raise InputError(
-                    f".pair (--adhesion-pair) must be two solids that were measured together or whose energies are known, but is {self.pair!r}: {error}"
+                    f".pair must be two solids that were measured together or whose energies are known, but is {self.pair!r}: {error}"
                 ) from None
         given = (self.range is not None) + (self.strength is not None)
         if given and self.law == WITHOUT_RANGE:
             raise InputError(
-                f" must give neither a range (--adhesion-range) nor a strength (--adhesion-strength) for the law {WITHOUT_RANGE}, "
-                "whose range is infinitely short, but does. Leave it out, or choose the law exponential."
+                f" must give neither a range ({{adhesion.range}}) nor a strength ({{adhesion.strength}}) for the law {WITHOUT_RANGE}, "
+                "whose range is infinitely short, but does. Leave it out, or choose {adhesion.law=exponential}."
             )
         if given > 1 or (given == 0 and self.law not in (WITHOUT_RANGE, OWN_RANGE)):
             raise InputError(
-                f" must give either a range (--adhesion-range) or a strength (--adhesion-strength) for the law {self.law}, but gives "
-                f'{"both" if given else "neither"}. Write for example range = "1 nm".'
+                f" must give either a range ({{adhesion.range}}) or a strength ({{adhesion.strength}}) for the law {self.law}, but gives "
+                f"{'both' if given else 'neither'}. Give for example {{adhesion.range=1 nm}}."
             )
         further = self.stiffness is not None or self.branch or self.jump_tolerance is not None
         if self.retract is None and (further or self.cycles != 1 or self.steps != USUAL_STEPS):
             raise InputError(
-                " must give the distance to which the bodies part, retract (--retract), with its steps, cycles, branch, jumps and the stiffness of "
+                " must give the distance to which the bodies part, {adhesion.retract}, with its steps, cycles, branch, jumps and the stiffness of "
                 "the machine, but does not."
             )
         if self.retract is not None and self.steps < 2:
-            raise InputError(f".steps (--retract-steps) must be at least 2, but is {self.steps}.")
+            raise InputError(f".steps must be at least 2, but is {self.steps}.")
         return self
 
     def of_pair(self) -> PairAdhesion:
@@ -209,8 +207,8 @@ class Adhesion(Part):
         table: AdhesionSettings = document.adhesion
         if table.retract is not None and document.control.approach is None:
             raise InputError(
-                "approach must be given as the deepest position of approach and parting (adhesion.retract, --retract), but is not. Give "
-                'control.approach (--approach), such as "5 nm".',
+                "approach must be given as the deepest position of approach and parting ({adhesion.retract}), but is not. Give "
+                "for example {control.approach=5 nm}.",
                 subject="approach",
             )
         return Asked(table, table.adhesion())

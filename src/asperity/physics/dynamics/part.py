@@ -111,13 +111,12 @@ class DynamicsSettings(Settings):
     @model_validator(mode="after")
     def _whole(self) -> DynamicsSettings:
         needed = ["mass", "base", *{"block": ("height", "stiffness"), "belt": ("stiffness",), "mass": ()}[self.model]]
-        options = {"mass": "--mass", "base": "--base", "height": "--block-height", "stiffness": "--spring"}
-        missing = [f"{key} ({options[key]})" for key in needed if getattr(self, key) is None]
+        missing = [f"{{dynamics.{key}}}" for key in needed if getattr(self, key) is None]
         if missing:
             raise InputError(f" must give {', '.join(missing)} for the motion of a {self.model}, but does not.")
         if self.speeds is not None and self.model != "block":
             raise InputError(
-                f" must give no speeds (--speeds) for the motion of a {self.model}, but does: the curve is that of a block."
+                f" must give no speeds ({{dynamics.speeds}}) for the motion of a {self.model}, but does: the curve is that of a block."
             )
         return self
 
@@ -200,12 +199,12 @@ class Dynamics(Part):
         speed, coefficient = (friction.speed or 0.0, friction.coefficient) if friction is not None else (0.0, 0.0)
         if settings.model != "mass" and not speed:
             raise InputError(
-                "speed must be given for the motion along the surface, but is missing. Give friction.speed (--speed 1mm/s).",
+                "speed must be given for the motion along the surface, but is missing. Give {friction.speed=1 mm/s}.",
                 subject="friction.speed",
             )
         if settings.model != "mass" and not coefficient and getattr(document, "film", None) is None:
             raise InputError(
-                "friction must be given for the motion along the surface, but its coefficient is 0. Give friction.coefficient (--friction 0.3).",
+                "friction must be given for the motion along the surface, but its coefficient is 0. Give {friction.coefficient=0.3}.",
                 subject="friction.coefficient",
             )
         return Moving(settings, float(speed), float(coefficient))

@@ -70,7 +70,7 @@ def fitted_law(ask: Moving, solved: Solved) -> ComplianceFit:
     if pixels < FEWEST_PIXELS:
         raise InputError(
             f"contact must have at least {FEWEST_PIXELS} touching pixels under the load for a law of its interface, but has {pixels}. "
-            "Raise the load (control, --pressure), or refine the grid.",
+            "Raise the load ({load}), or refine the grid ({resample}).",
             subject="control",
         )
     path: list[Any] = []

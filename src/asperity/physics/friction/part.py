@@ -56,8 +56,8 @@ class FrictionSettings(Settings):
     def _fitting(self) -> FrictionSettings:
         if (self.strength is None) != (self.law != "tresca"):
             raise InputError(
-                f" must give the strength (--friction-strength) for the law tresca and for no other, but the law is {self.law} "
-                f'{"with" if self.strength else "without"} one. Give both, such as law = "tresca" and strength = "20 MPa".'
+                f" must give the strength ({{friction.strength}}) for the law tresca and for no other, but the law is {self.law} "
+                f"{'with' if self.strength else 'without'} one. Give both, such as {{friction.law=tresca}} and {{friction.strength=20 MPa}}."
             )
         if self.law != "coulomb" and (self.coefficient or self.limit):
             raise InputError(

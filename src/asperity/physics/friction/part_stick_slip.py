@@ -141,8 +141,8 @@ class ShearSettings(Settings):
             raise InputError(".history must be given alone, without shift, force, twist, cycles and steps.")
         if not given and (self.cycles or self.steps):
             raise InputError(
-                " must give a shift, force or twist (--shift, --tangential-force, --twist) with its cycles and steps (--cycles, "
-                "--cycle-steps), but gives none."
+                " must give a shift, force or twist ({shear.shift}, {shear.force}, {shear.twist}) with its cycles and steps ({shear.cycles}, "
+                "{shear.steps}), but gives none."
             )
         return self
 
@@ -219,7 +219,7 @@ class StickSlip(Part):
         if friction.law == "coulomb" and not friction.coefficient:
             raise InputError(
                 "friction must be given together with a shift, tangential force or twist, but its coefficient is 0. Give "
-                'friction.coefficient (--friction 0.3), or friction.law = "full stick" (--friction-law "full stick").',
+                "{friction.coefficient=0.3} or {friction.law=full stick}.",
                 subject="friction",
             )
         return Sheared(settings, friction.direction)

@@ -36,7 +36,7 @@ class StickSlipWork(Work):
         if any(problem.boundary.wraps) and (settings.twist or any(step.twist for step in settings.history)):
             raise InputError(
                 f"twist must be left out for the boundary {problem.boundary.name}, where the contact repeats, but is given. "
-                'Choose boundary.kind = "free" (--boundary free).'
+                "Choose {boundary.kind=free}."
             )
 
     def course(self, ask: Sheared, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:

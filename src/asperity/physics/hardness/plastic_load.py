@@ -131,6 +131,6 @@ def mean_cap(problem: ContactProblem) -> float:
     mean = float(np.mean(problem.law.pressure_cap()))
     if not math.isfinite(mean):
         raise InputError(
-            f"law of a contact with a plastic load must limit the pressure, but is {problem.law.name}. Use Hardness(H) (--hardness)."
+            f"law of a contact with a plastic load must limit the pressure, but is {problem.law.name}. Use {{hardness}}."
         )
     return mean

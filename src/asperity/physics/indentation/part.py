@@ -61,7 +61,7 @@ class IndentationSettings(Settings):
     def _whole(self) -> IndentationSettings:
         if self.depth is None:
             raise InputError(
-                ' must give the depth of the indentation, such as depth = "100 nm" (--indent), but does not.'
+                " must give the depth of the indentation, such as {indentation.depth=100 nm}, but does not."
             )
         other = {"sphere": "half_angle", "cone": "radius"}[self.indenter]
         if getattr(self, other) is not None:

@@ -73,7 +73,7 @@ class PassesSettings(Settings):
     @model_validator(mode="after")
     def _whole(self) -> PassesSettings:
         if self.count is None:
-            raise InputError(" must give the number of passes, such as count = 3 (--passes 3), but does not.")
+            raise InputError(" must give the number of passes, such as {passes.count=3}, but does not.")
         loads = [name for name in ("force", "line_load", "peak_pressure") if getattr(self, name) is not None]
         own = {"sphere": "force", "cylinder": "line_load"}[self.indenter]
         if len(loads) != 1 or loads[0] not in (own, "peak_pressure"):

@@ -303,14 +303,14 @@ class IndentationWork(Work):
 
     def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, before the contact is solved."""
-        body = meshed_body(problem, ask.inside, "indentation", "--indent-in")
+        body = meshed_body(problem, ask.inside, "indentation")
         require_flow(body, unknown_is_elastic=ask.unknown_is_elastic)
         _indenter(ask, problem)
         _of_indenter(ask, problem)
 
     def compute(self, ask: IndentationSettings, solved: Solved) -> Found:
         """Way in and out, hardness and zones."""
-        body = meshed_body(solved.problem, ask.inside, "indentation", "--indent-in")
+        body = meshed_body(solved.problem, ask.inside, "indentation")
         indenter = _indenter(ask, solved.problem)
         pair = (_of_indenter(ask, solved.problem), float(ask.friction))
         course = Course(float(ask.depth or 0.0), ask.steps, ask.unloading_steps, ask.elements, *pair)
@@ -379,7 +379,7 @@ def _of_indenter(ask: IndentationSettings, problem: ContactProblem) -> Any:
     found = getattr(problem, other)
     if not materials_of(found):
         raise InputError(
-            f"{other} must be elastic for an elastic indenter, but is rigid. Give its material, or leave indentation.elastic_indenter (--elastic-indenter) out.",
+            f"{other} must be elastic for an elastic indenter, but is rigid. Give its material, or leave {{indentation.elastic_indenter}} out.",
             subject=other,
         )
     return found
@@ -398,7 +398,7 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
     if ask.radius is not None:
         found = Indenter(float(ask.radius))
     else:
-        found = Indenter(summit_radius(problem, "Give indentation.radius (--indenter-radius 10um)."))
+        found = Indenter(summit_radius(problem, "Give {indentation.radius=10 um}."))
     depth = float(ask.depth or 0.0)
     if found.reach(depth) > 0.4 * found.radius:
         raise InputError(

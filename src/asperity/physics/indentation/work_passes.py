@@ -167,13 +167,13 @@ class PassesWork(Work):
 
     def check(self, ask: Passing, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
-        body = meshed_body(problem, ask.settings.inside, "passes", "--pass-in")
+        body = meshed_body(problem, ask.settings.inside, "passes")
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
         require_course(course_of(ask.settings, body, problem, ask.coefficient), body)
 
     def compute(self, ask: Passing, solved: Solved) -> Found:
         """All passes, and what they leave."""
-        body = meshed_body(solved.problem, ask.settings.inside, "passes", "--pass-in")
+        body = meshed_body(solved.problem, ask.settings.inside, "passes")
         course = course_of(ask.settings, body, solved.problem, ask.coefficient)
         with solved.stage("passes") as progress:
             run = passed(body, course, unknown_is_elastic=ask.settings.unknown_is_elastic, progress=progress)

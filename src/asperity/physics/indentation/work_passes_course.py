@@ -133,7 +133,7 @@ def course_of(table: PassesSettings, body: Elastic | Layered, problem: ContactPr
     sphere = table.indenter == "sphere"
     radius = table.radius
     if radius is None:
-        radius = summit_radius(problem, "Give passes.radius (--pass-radius 10um).")
+        radius = summit_radius(problem, "Give {passes.radius=10 um}.")
     radius = float(radius)
     base = body if isinstance(body, Elastic) else body.reduced.base
     if not isinstance(base, Elastic):  # the outermost layer on a rigid base
@@ -177,7 +177,7 @@ def require_course(course: Course, body: Elastic | Layered) -> Course:
         )
     if course.length > LONGEST * course.half_width:
         raise InputError(
-            f"track of the passes must be at most {LONGEST:g} contact radii long, but is {course.length / course.half_width:.3g}. Take a shorter one (--pass-track).",
+            f"track of the passes must be at most {LONGEST:g} contact radii long, but is {course.length / course.half_width:.3g}. Take a shorter one ({{passes.track}}).",
             subject="track of the passes",
         )
     _require_size(course, body, course.half_width, course.ends())
@@ -191,7 +191,7 @@ def _require_size(course: Course, body: Elastic | Layered, width: float, ends: t
     most = MOST_ELEMENTS[course.sphere]
     if count > most:
         raise InputError(
-            f"mesh of the passes must have at most {most} elements, but has {count}. Take fewer elements (--pass-elements), a shorter track (--pass-track) or no films far thinner than the contact.",
+            f"mesh of the passes must have at most {most} elements, but has {count}. Take fewer elements ({{passes.elements}}), a shorter track ({{passes.track}}) or no films far thinner than the contact.",
             subject="mesh of the passes",
         )
 

@@ -60,15 +60,15 @@ class FilmSettings(Settings):
             )
         if self.liquid is None and self.surface_tension is None:
             raise InputError(
-                ' must give a liquid, such as "water" (--liquid), or its surface_tension (--surface-tension), but gives neither.'
+                " must give a liquid, such as {film.liquid=water}, or its surface tension ({film.surface_tension}), but gives neither."
             )
         if self.liquid is None and self.humidity is not None:
             raise InputError(
-                " must name its liquid (--liquid) beside a humidity, which needs the molar volume, but does not."
+                " must name its liquid ({film.liquid}) beside a humidity, which needs the molar volume, but does not."
             )
         if self.humidity is None and self.thickness is None:
             raise InputError(
-                ' must give the thickness of the film, such as "2 nm" (--film), or a humidity (--humidity), but gives neither.'
+                " must give the thickness of the film, such as {film.thickness=2 nm}, or a humidity ({film.humidity}), but gives neither."
             )
         if self.humidity is not None and self.meniscus_height is not None:
             raise InputError(" must not give both a humidity and a meniscus_height: the second follows from the first.")

@@ -264,6 +264,6 @@ class PlasticFlowWork(Work):
 
 REMARK = (
     "Plastic strain is found in the volume with small strains, on the flat surface of the undeformed body. The residual stress is that of the plastic strain without load; flow in reverse during the "
-    "unloading is in it only where the unloading was computed (--plastic-unload). Stresses of the table [stress] hold the plastic strain. Tensions are means over depth cells."
+    "unloading is in it only where the unloading was computed. Stresses of the table [stress] hold the plastic strain. Tensions are means over depth cells."
 )
 """What the model is."""

@@ -153,7 +153,7 @@ def require_flow(body: Body, *, unknown_is_elastic: bool) -> None:
     """
     if not any(isinstance(part, J2) for part in plastic_parts(body, unknown_is_elastic=unknown_is_elastic)):
         raise InputError(
-            'body must have a yield stress somewhere for plastic flow, but has none. Give one, such as "steel{Y=400MPa}" or yield_stress = "400 MPa".',
+            "body must have a yield stress somewhere for plastic flow, but has none. Give one, {yield_stress}.",
             subject="body",
         )
 
@@ -179,8 +179,8 @@ def inferred_strengths(body: Body) -> tuple[Advice, ...]:
 # What is meshed, and by what it is pressed.
 
 
-def meshed_body(problem: ContactProblem, inside: str, table: str, option: str) -> Elastic | Layered:
-    """The body of ``problem`` that a ``table`` of a document names with its key ``inside``, or a command with an ``option``.
+def meshed_body(problem: ContactProblem, inside: str, table: str) -> Elastic | Layered:
+    """The body of ``problem`` that a ``table`` of a document names with its key ``inside``.
 
     Raises
     ------
@@ -191,7 +191,7 @@ def meshed_body(problem: ContactProblem, inside: str, table: str, option: str) -
     if not materials_of(body) or not isinstance(body, Elastic | Layered):
         other = "counter_body" if inside == "body" else "body"
         raise InputError(
-            f'{inside} must be elastic for {table}, but is rigid. Give a material, or {table}.inside = "{other}" ({option} {other}).',
+            f"{inside} must be elastic for {table}, but is rigid. Give a material, or {{{table}.inside={other}}}.",
             subject=inside,
         )
     return body

@@ -55,11 +55,11 @@ class RollingSettings(Settings):
     def _whole(self) -> RollingSettings:
         if not (self.longitudinal or self.lateral or self.spin):
             raise InputError(
-                " must give a creepage or spin other than zero, such as longitudinal = 0.001 (--creepage 0.1%), but gives none."
+                " must give a creepage or spin other than zero, such as {rolling.longitudinal=0.1%}, but gives none."
             )
         if self.distance is not None and self.roughness_file is None:
             raise InputError(
-                ".distance must be given together with roughness_file (--rolling-roughness), but is given alone: a smooth wheel rolls steadily."
+                ".distance must be given together with the roughness ({rolling.roughness_file}), but is given alone: a smooth wheel rolls steadily."
             )
         return self
 
@@ -139,13 +139,13 @@ class Rolling(Part):
         friction = document.friction
         if friction.law == "coulomb" and not friction.coefficient:
             raise InputError(
-                "friction must be given together with rolling, but its coefficient is 0. Give friction.coefficient (--friction 0.3), or "
-                'friction.law = "full stick" (--friction-law "full stick").',
+                "friction must be given together with rolling, but its coefficient is 0. Give {friction.coefficient=0.3} or "
+                "{friction.law=full stick}.",
                 subject="friction",
             )
         if document.shear is not None:
             raise InputError(
-                "rolling must be given without shear, but both are given: shift, force or twist (--shift, --tangential-force, --twist) are those of a contact that does not roll."
+                "rolling must be given without shear, but both are given: shift, force or twist ({shear.shift}, {shear.force}, {shear.twist}) are those of a contact that does not roll."
             )
         rough = None if table.roughness_file is None else folder / table.roughness_file
         return Rolls(table, friction_law(friction, sheared=True), rough)

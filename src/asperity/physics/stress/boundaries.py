@@ -56,7 +56,7 @@ def require_held(tractions: Tractions, body: object) -> None:
         if mean > _BALANCED * largest:
             raise InputError(
                 "mean shear traction must be zero on a periodic body with a Frictionless() interface, where nothing holds the "
-                "layers above it, but is not. Use Bonded() interfaces, the boundary Free() (--boundary free), whose unloaded parts "
+                "layers above it, but is not. Use Bonded() interfaces, the free boundary ({free}), whose unloaded parts "
                 "hold the layers, a ShearTraction without its mean, or friction=0."
             )
 

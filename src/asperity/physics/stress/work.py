@@ -35,7 +35,7 @@ class StressWork(Work):
             asked, other = ("counter body", "body") if ask.of == "counter_body" else ("body", "counter_body")
             raise InputError(
                 f"body in which stresses are asked must deform, but the {asked} is rigid; ask for them in the other body "
-                f'(inside = "{other}" in a document, or --stress-in {other}).'
+                f"({{stress.inside={other}}})."
             )
         ask.check(problem)
 

@@ -61,11 +61,11 @@ class ViscoelasticSettings(Settings):
     def _whole(self) -> ViscoelasticSettings:
         if self.amplitude is not None and self.frequency is None:
             raise InputError(
-                ".amplitude must be given together with the frequency (--frequency) of an oscillation, but is given alone."
+                ".amplitude must be given together with the frequency ({viscoelastic.frequency}) of an oscillation, but is given alone."
             )
         if self.repeat > 1 and not self.in_time:
             raise InputError(
-                ".repeat must be given together with ramp (--ramp) or hold (--hold), but is given without: loads that come at once leave "
+                ".repeat must be given together with {viscoelastic.ramp} or {viscoelastic.hold}, but is given without: loads that come at once leave "
                 "the same contact again."
             )
         return self

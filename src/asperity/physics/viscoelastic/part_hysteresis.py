@@ -52,20 +52,20 @@ class HysteresisSettings(Settings):
     @model_validator(mode="after")
     def _whole(self) -> HysteresisSettings:
         if self.speed is None:
-            raise InputError(' must give the speed (--sliding-speed), such as speed = "1 cm/s", but does not.')
+            raise InputError(" must give the speed, such as {hysteresis.speed=1 cm/s}, but does not.")
         if (self.slowest is None) != (self.fastest is None):
-            raise InputError(" must give both slowest (--slowest) and fastest (--fastest) or neither, but gives one.")
+            raise InputError(" must give both {hysteresis.slowest} and {hysteresis.fastest} or neither, but gives one.")
         if self.slowest is not None and self.fastest is not None and not float(self.slowest) < float(self.fastest):
             raise InputError(
-                f".fastest (--fastest) must be greater than the slowest speed {float(self.slowest):g} m/s, but is {float(self.fastest):g} m/s."
+                f".fastest must be greater than the slowest speed {float(self.slowest):g} m/s, but is {float(self.fastest):g} m/s."
             )
         if self.slowest is None and self.points != USUAL_POINTS:
             raise InputError(
-                ".points (--speed-points) must be given together with slowest and fastest, but is given without."
+                ".points must be given together with {hysteresis.slowest} and {hysteresis.fastest}, but is given without."
             )
         if self.distance is None and self.steps_per_pixel is not None:
             raise InputError(
-                ".steps_per_pixel (--steps-per-pixel) must be given together with the distance (--sliding-distance), but is given without."
+                ".steps_per_pixel must be given together with the distance ({hysteresis.distance}), but is given without."
             )
         return self
 
@@ -120,7 +120,7 @@ class Hysteresis(Part):
         for name in ("shear", "rolling"):
             if getattr(document, name) is not None:
                 raise InputError(
-                    f"{name} must be left out where hysteresis (--sliding-speed) is given, but both are: sliding over a viscoelastic body "
+                    f"{name} must be left out where hysteresis ({{hysteresis.speed}}) is given, but both are: sliding over a viscoelastic body "
                     "is solved without another motion of the surfaces."
                 )
         return table

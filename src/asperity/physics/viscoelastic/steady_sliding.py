@@ -424,5 +424,5 @@ def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
         if isinstance(surface, Surface) and float(np.ptp(surface.heights)) > 0.0:
             raise InputError(
                 f"{name} of a viscoelastic body in steady sliding must be flat, since roughness that stays on it is at rest, but is rough. "
-                'Write ContactProblem(rough, Rigid(), counter_body=rubber); on the command line --body rigid --counter "E=3MPa+10MPa@10ms,nu=0.5".'
+                "Make it the counter body of a rigid rough one ({soft_counter})."
             )

@@ -34,7 +34,7 @@ class ViscoelasticityWork(Work):
         """Refuse times where nothing relaxes, and a temperature without a shift."""
         if not relaxing_solids(problem):
             raise InputError(
-                "body or counter_body must relax where viscoelastic (--ramp, --hold, --temperature, ...) is given, but neither does. Give one "
+                "body or counter_body must relax where viscoelastic ({viscoelastic.ramp}, {viscoelastic.hold}, {viscoelastic.temperature}, ...) is given, but neither does. Give one "
                 'such as "E=3MPa+10MPa@10ms,nu=0.5".'
             )
 
@@ -67,7 +67,7 @@ class ViscoelasticityWork(Work):
             given = [float(time) for time in getattr(table, name) or (0.0,)]
             if len(given) not in (1, count):
                 raise InputError(
-                    f"viscoelastic.{name} (--{name}) must give one time for all {count} loads or one for each, but gives {len(given)}."
+                    f"{{viscoelastic.{name}}} must give one time for all {count} loads or one for each, but gives {len(given)}."
                 )
             times.append(given * count if len(given) == 1 else given)
         made: list[Step | Control] = []

@@ -44,7 +44,7 @@ class SlidingStartWork(Work):
         length, distance = step_length(problem.grid, ask.steps_per_pixel or STEPS_PER_PIXEL), float(ask.distance or 0.0)
         if not LEAST * length <= distance <= MOST * length:
             raise InputError(
-                f"hysteresis.distance (--sliding-distance) must be between {LEAST} and {MOST} steps of {show(length, 'm', 3)}, that is "
+                f"{{hysteresis.distance}} must be between {LEAST} and {MOST} steps of {show(length, 'm', 3)}, that is "
                 f"{show(LEAST * length, 'm', 3)} and {show(MOST * length, 'm', 3)}, but is {show(distance, 'm', 3)}."
             )
 

@@ -135,7 +135,7 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
     if (nx, ny) == surface.shape:
         return surface
     needed = 3.0 * 8.0 * nx * ny  # heights and two arrays to make them
-    require_memory(needed, "points of the resampled surface", f"{nx} x {ny}", "resample to fewer points (--resample)")
+    require_memory(needed, "points of the resampled surface", f"{nx} x {ny}", "resample to fewer points ({resample})")
     heights: RealArray = surface.heights.astype(np.float64, copy=False)
     if surface.periodic:
         how = "in Fourier space"
