@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import base64
 import io
+import os
 import re
+import subprocess
+import sys
 from html.parser import HTMLParser
 
 import matplotlib
@@ -145,6 +148,46 @@ def test_without_axes_a_figure_of_pyplot_is_made(result):
         assert result.problem.surface.plot("view").name == "3d"
     finally:
         pyplot.close("all")
+
+
+BACKEND = """
+import matplotlib
+from matplotlib.backends.backend_agg import FigureCanvas, new_figure_manager
+from matplotlib.backends.backend_agg import show
+
+matplotlib.interactive(True)
+"""
+"""A backend that does to pyplot what that of notebooks does when it is loaded, at the first figure."""
+
+SURFACE = "import numpy as np, asperity as asp\nsurface = asp.Surface(np.eye(8) * 1e-9, 1e-7)\n"
+
+
+def test_the_first_figure_leaves_pyplot_as_its_backend_has_switched_it(tmp_path):
+    """Else notebooks show the first figure alone: what is not interactive when it is made is not shown."""
+    (tmp_path / "switching.py").write_text(BACKEND)
+    code = SURFACE + "surface.plot()\nimport matplotlib\nassert matplotlib.is_interactive()\n"
+    paths = os.pathsep.join([str(tmp_path), *filter(None, sys.path)])
+    environment = {**os.environ, "MPLBACKEND": "module://switching", "PYTHONPATH": paths}
+    subprocess.run([sys.executable, "-c", code], env=environment, check=True, timeout=120)
+
+
+def test_a_kernel_shows_every_figure():
+    """In a fresh kernel, with figures of pyplot between those of the package."""
+    nbclient = pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    nbformat = pytest.importorskip("nbformat")
+    cells = [
+        SURFACE,
+        "surface.plot()",
+        "surface.plot()",
+        "from matplotlib import pyplot\npyplot.plot([1, 2])",
+        "surface",
+    ]
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(text) for text in cells])
+    nbclient.NotebookClient(notebook, timeout=120).execute()
+    pictures = [["image/png" in output.get("data", ()) for output in cell.outputs] for cell in notebook.cells]
+    assert [sum(shown) for shown in pictures] == [0, 1, 1, 1, 0]
+    assert "<img" in notebook.cells[-1].outputs[0]["data"]["text/html"]
 
 
 def test_labels_of_a_new_figure_lie_inside_it(result):
