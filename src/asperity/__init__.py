@@ -42,6 +42,7 @@ __version__ = "0.1.0"
 _VIEWS = MappingProxyType(
     {
         "contact.advice": ("findings",),
+        "io.listing": ("lines", "table"),
         "io.results": ("to_xarray",),
         "io.words": ("text",),
         "plots.notebook": ("card", "plot"),

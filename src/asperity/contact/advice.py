@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..core.status import Advice, free_memory, room_text
-from ..core.units import percent, show
+from ..core.units import percent, show, times
 from ..solids.elastic import Elastic
 from ..solids.layers import Layered, materials_of, surface_material
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
@@ -191,7 +191,7 @@ def _load(problem: ContactProblem, control: Control) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "load",
-            f"The mean pressure is {ratio:.2g} of the contact modulus E* of the softest materials; linear elasticity holds up to about "
+            f"The mean pressure is {times(ratio)} of the contact modulus E* of the softest materials; linear elasticity holds up to about "
             f"{LARGEST_LOAD_RATIO:g}. Check unit and value of the load.",
         )
 
@@ -310,8 +310,8 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
         solid = surface_material(body)
         hardness = math.nan if solid is None else solid.strength.hardness
         if result.max_pressure > hardness * (1.0 + 1e-9):  # reaching a cap equal to the hardness is as it should be
-            times, name = result.max_pressure / hardness, (solid and solid.name) or body.name or "the body"
-            above = f"is {times:.2g} times" if times >= 1.05 else f"is {percent(times - 1.0, 2)} above"
+            ratio, name = result.max_pressure / hardness, (solid and solid.name) or body.name or "the body"
+            above = f"is {times(ratio)} times" if ratio >= 1.05 else f"is {percent(ratio - 1.0, 2)} above"
             yield Advice(
                 "warning",
                 "hardness",

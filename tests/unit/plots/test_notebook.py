@@ -18,6 +18,11 @@ from PIL import Image
 from refusals import refused
 
 import asperity as asp
+from asperity.core.late import Tabled
+from asperity.core.units import show
+from asperity.solids.library import liquids
+from asperity.theories.ask import ways_of
+from asperity.theories.catalogue import FAMILIES
 
 
 @pytest.fixture(scope="module")
@@ -148,6 +153,39 @@ def test_without_axes_a_figure_of_pyplot_is_made(result):
         assert result.problem.surface.plot("view").name == "3d"
     finally:
         pyplot.close("all")
+
+
+def tables() -> list[object]:
+    rough = asp.roughness_of(asp.Surface(np.random.default_rng(1).normal(size=(32, 32)) * 1e-9, 1e-8))
+    theory = asp.theories.GreenwoodWilliamson.from_roughness(rough, E_star=1e11)
+    sphere = asp.theories.HertzPoint(1e11, 1e-3)
+    answers = [theory.at_pressure(np.geomspace(1e6, 1e8, 20)), sphere.at_load(1.0), sphere.at_load([1.0, 2.0])]
+    return [asp.solids.materials(), liquids(), rough, *answers]
+
+
+def test_lists_and_answers_of_theories_are_tables():
+    """One row a point or a substance, quantities with their units; long curves are shortened."""
+    materials, _, rough, curve, one, two = tables()
+    assert len(materials._repr_html_().split("<tr>")) == 2 + len(materials)
+    assert re.search(r"steel\s+210 GPa\s+0.3", repr(materials))
+    assert materials == tuple(materials)
+    assert re.search(rf"rms height\s+{show(rough.rms_height, 'm')}", repr(rough))
+    assert 10 <= len(repr(curve).splitlines()) <= 14
+    assert "1 MPa" in curve._repr_html_()
+    assert len(repr(two).splitlines()) == 4
+    assert re.search(r"approach\s+383.2 nm", repr(one))
+    for thing in tables():
+        html = thing._repr_html_()
+        assert html.count("<td") == html.count("</td>") > 0
+        assert max(map(len, repr(thing).splitlines())) <= 160
+
+
+def test_every_answer_of_a_theory_shows_itself_as_a_table():
+    for theory in (theory for family in FAMILIES.values() for theory in family):
+        for way in ways_of(theory):
+            method = getattr(theory, way.method)
+            answer = vars(sys.modules[method.__module__])[method.__annotations__["return"]]
+            assert issubclass(answer, Tabled), answer
 
 
 BACKEND = """

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...contact.problem import ContactProblem
 from ...core.errors import InputError
-from ...core.units import percent, show
+from ...core.units import percent, show, times
 from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
 from ...plots.picture import Figure
 from ...solids.elastic import TABOR, Rigid
@@ -250,11 +250,11 @@ def yield_sentence(survey: StressSurvey) -> str:
     where = _where(first.peak)
     if report.yields:
         return (
-            f"The body yields: {where}, the {report.criterion.name} stress is {1.0 / report.load_factor:.3g} times the "
+            f"The body yields: {where}, the {report.criterion.name} stress is {times(1.0 / report.load_factor, 3)} times the "
             f"yield stress (load factor {report.load_factor:.3g}).{beside}"
         )
     return (
-        f"No part of known strength yields. First would be {where}, at {report.load_factor:.3g} times these stresses "
+        f"No part of known strength yields. First would be {where}, at {times(report.load_factor, 3)} times these stresses "
         f"({report.criterion.name}).{beside}"
     )
 
