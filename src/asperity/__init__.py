@@ -43,6 +43,7 @@ _VIEWS = MappingProxyType(
     {
         "contact.advice": ("findings",),
         "run.verdict": ("verdict",),
+        "io.listing": ("lines", "table"),
         "io.results": ("to_xarray",),
         "io.words": ("text",),
         "plots.notebook": ("card", "plot"),

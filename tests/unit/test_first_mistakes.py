@@ -24,6 +24,13 @@ def test_bodies_are_copied_as_before() -> None:
     assert repr(copy.deepcopy(body)) == repr(body)
 
 
+def test_a_call_with_too_many_arguments_is_answered_with_those_it_has() -> None:
+    grid = asp.Grid((8, 8), (1e-6, 1e-6))
+    with pytest.raises(TypeError) as caught:
+        asp.generate.sphere(grid, 1e-3)  # type: ignore[call-arg]
+    assert "sphere(grid, *, radius" in str(caught.value)
+
+
 def test_a_layer_has_a_thickness() -> None:
     with refused(asp.InputError, "layers of a Layered body", "DLC", "thickness"):
         asp.Layered(asp.material("DLC"), asp.material("silicon"))  # type: ignore[arg-type]

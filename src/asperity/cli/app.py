@@ -18,7 +18,8 @@ from .show import say
 
 def app(
     file: Annotated[
-        list[Path] | None, typer.Argument(help="Files with heights, or a problem document, to begin with.")
+        list[Path] | None,
+        typer.Argument(help="Files with heights, or a problem document, to begin with.", metavar="FILE"),
     ] = None,
     demo: Annotated[bool, typer.Option("--demo", help="Begin with the problem of `asperity demo`.")] = False,
     folder: Annotated[

@@ -72,7 +72,9 @@ def _options() -> list[Option]:
 @offers(_options)
 def compare(
     given: Given,
-    file: Annotated[Path | None, typer.Argument(help="File with the heights of the rough surface.")] = None,
+    file: Annotated[
+        Path | None, typer.Argument(help="File with the heights of the rough surface.", metavar="FILE")
+    ] = None,
     from_: Annotated[
         Path | None,
         typer.Option("--from", "--document", help="Problem document; its load is left aside.", metavar="DOCUMENT"),

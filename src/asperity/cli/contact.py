@@ -93,7 +93,8 @@ def contact(
     file: Annotated[
         list[Path] | None,
         typer.Argument(
-            help="File with the heights of the rough surface; of many, one table and report with a row for each."
+            help="File with the heights of the rough surface; of many, one table and report with a row for each.",
+            metavar="FILE",
         ),
     ] = None,
     from_: Document = None,
@@ -150,7 +151,9 @@ def _dynamics_options() -> list[Option]:
 @offers(_dynamics_options)
 def dynamics(
     given: Given,
-    file: Annotated[Path | None, typer.Argument(help="File with the heights of the rough surface.")] = None,
+    file: Annotated[
+        Path | None, typer.Argument(help="File with the heights of the rough surface.", metavar="FILE")
+    ] = None,
     from_: Document = None,
     out: Out = None,
     force: Force = False,

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 from typer.core import TyperCommand
 
 from ..core import units
@@ -209,21 +208,44 @@ ADVANCED = "Advanced: "
 
 
 class Command(TyperCommand):
-    """A command whose page leaves the advanced options to ``--help-all``."""
+    """A command whose page leaves the advanced options to ``--help-all``, and which names all missing options at once."""
 
-    def format_help(self, ctx: Any, formatter: Any) -> None:
-        """Write the page, square brackets as they stand; the advanced options only if they are asked for."""
-        whole = ctx.meta.get(WHOLE, False)
-        params, epilog, text = self.params, self.epilog, self.help
-        self.help = escape(text or "")
-        basic = [p for p in params if not str(getattr(p, "rich_help_panel", "")).startswith(ADVANCED)]
-        if len(basic) < len(params) and not whole:
-            self.params = basic
-            self.epilog = f"{len(params) - len(basic)} further options: {ctx.command_path} --help-all"
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Take ``args`` apart."""
+        given = list(args)
         try:
-            super().format_help(ctx, formatter)
-        finally:
-            self.params, self.epilog, self.help = params, epilog, text
+            rest: list[str] = super().parse_args(ctx, args)
+        except typer.BadParameter:
+            found = self.make_parser(ctx).parse_args(given)[0]
+            missing = [param for param in self.params if param.required and param.name not in found]
+            if len(missing) < 2:
+                raise
+            names = [
+                f"'{param.opts[0]}'" if param.param_type_name == "option" else str(param.human_readable_name)
+                for param in missing
+            ]
+            ctx.fail(f"Missing {', '.join(names[:-1])} and {names[-1]}")
+        return rest
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write arguments and options by panel, names in full; the advanced ones only if they are asked for."""
+        panels: dict[str, list[tuple[str, str]]] = {"Arguments": [], "Options": []}
+        left = 0
+        for param in self.get_params(ctx):
+            title = "Arguments" if param.param_type_name == "argument" else "Options"
+            panel = getattr(param, "rich_help_panel", None) or title
+            if panel.startswith(ADVANCED) and not ctx.meta.get(WHOLE, False):
+                left += 1
+            elif record := param.get_help_record(ctx):
+                name = record[0].partition(" <")[0] if title == "Arguments" else record[0]  # it says itself what it is
+                panels.setdefault(panel, []).append((name, record[1]))
+        for panel, records in panels.items():
+            if records:
+                with formatter.section(panel):
+                    formatter.write_dl(records)
+        if left:
+            formatter.write_paragraph()
+            formatter.write_text(f"{left} further options: {ctx.command_path} --help-all")
 
 
 WHOLE = "asperity.whole page"
@@ -279,7 +301,7 @@ def built(command: Callable[..., None], name: str, options: Sequence[Option] | N
     run.__dict__["__signature__"] = inspect.Signature(shown)
     run.__annotations__ = {item.name: item.annotation for item in shown}
     run.__doc__ = inspect.cleandoc(command.__doc__ or "")
-    app = typer.Typer(add_completion=False)
+    app = typer.Typer(add_completion=False, rich_markup_mode=None)
     app.command(name, cls=Command)(run)
     app.callback()(lambda: None)
     return typer.main.get_group(app).commands[name]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -21,10 +22,13 @@ from ..io.words import surface_text
 from ..plots.contact import save_surface_plot
 from ..run.build import build_generated, build_part, large_grid, stated_points, table_grid
 from ..surfaces.characterise.heights import height_parameters
+from ..surfaces.characterise.moments import spectral_moments
 from ..surfaces.characterise.slopes import rms_slope
+from ..surfaces.characterise.spectrum import power_spectrum
 from ..surfaces.generate.digital_filter import endless
 from ..surfaces.generate.gaussian import Spectrum
 from ..surfaces.generate.non_gaussian import Marginal
+from ..surfaces.surface import Surface
 from .declared import Given, Option, built, options_of
 from .main import Listing
 from .options import steps
@@ -32,6 +36,10 @@ from .show import confirmed, console, interruptible, print_files, say, shown, st
 
 STREAMED = ("digital_filter", "rough")
 """Kinds that can be written piece by piece."""
+
+
+SAME = 5e-3
+"""Relative difference of two definitions of the rms slope up to which one number is stated."""
 
 
 class Kinds(Listing):
@@ -104,7 +112,7 @@ def _command(kind: str) -> Any:
             ("pixel", f"{show(surface.dx, 'm')} × {show(surface.dy, 'm')}"),
             ("boundary", "periodic" if surface.periodic else "not periodic"),
             ("rms height Sq", show(found.Sq, "m")),
-            ("rms slope Sdq", show(rms_slope(surface), "1") if min(surface.shape) > 1 else "of a profile: none"),
+            ("rms slope Sdq", _slope(surface)),
             ("skewness Ssk, kurtosis Sku", f"{found.Ssk:.4g}, {found.Sku:.4g}"),
             ("peak to valley Sz", show(found.Sz, "m")),
         ]
@@ -115,6 +123,20 @@ def _command(kind: str) -> Any:
 
     run.__doc__ = (SURFACE_TABLES[kind].__doc__ or "").replace("``", "")
     return built(run, kind, options(kind))
+
+
+def _slope(surface: Surface) -> str:
+    """Rms slope between neighbouring points, and of a periodic surface that of the waves themselves, where a spectrum prescribes it."""
+    if min(surface.shape) < 2:
+        return "of a profile: none"
+    between = rms_slope(surface)
+    waves = math.sqrt(2.0 * spectral_moments(power_spectrum(surface)).m2) if surface.periodic else between
+    same = abs(waves - between) <= SAME * waves
+    return (
+        show(between, "1")
+        if same
+        else f"{show(between, '1')} between neighbouring points, {show(waves, '1')} of the waves themselves"
+    )
 
 
 def options(kind: str) -> list[Option]:

@@ -107,7 +107,7 @@ def export(
 
 
 def cite(
-    file: Annotated[Path, typer.Argument(help="Result file (.nc) or problem document (.toml, .json).")],
+    file: Annotated[Path, typer.Argument(help="Result file (.nc) or problem document (.toml, .json).", metavar="FILE")],
 ) -> None:
     """Print the papers behind the numbers of a result or a problem."""
     if file.suffix.lower() in (".toml", ".json"):

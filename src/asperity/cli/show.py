@@ -10,11 +10,12 @@ import threading
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import typer
 from rich import box
-from rich.console import Console
+from rich.console import Console, ConsoleOptions
 from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 from rich.table import Table
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
 
 WIDTH = 120
 """Width of tables that are not printed on a terminal."""
+
+SHORT, ROOM, NATURAL = 20, 12, 10_000
+"""Letters up to which a cell is not broken, least width of a column of longer ones, and a width that holds any table."""
 
 
 class Answers(Console):
@@ -76,9 +80,48 @@ def say(text: str, style: str = "", *, warning: bool = False) -> None:
     out.print(printable(text, keep="\n\t"), style=style, markup=False, highlight=False, soft_wrap=True)
 
 
+FIRM = "\N{NO-BREAK SPACE}"
+
+
+class Unbroken(Table):
+    """Table with headings whose numbers are not broken where the terminal is narrow: what all rows share is said below, and if that is not enough each row stands by itself."""
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> Iterator[Any]:
+        """Lay the table out as the ``console`` has room."""
+        limit = options.max_width
+        if not self.show_header or self.__rich_measure__(console, options.update(width=NATURAL)).maximum <= limit:
+            yield from super().__rich_console__(console, options)
+            return
+        cells = [[str(cell) for cell in column.cells] for column in self.columns]
+        headings, rows = [str(column.header) for column in self.columns], list(zip(*cells, strict=True))
+        shared = [number for number, column in enumerate(cells) if len(rows) > 1 and len({*column}) == 1]
+        kept = [number for number in range(len(cells)) if number not in shared]
+        wide = [max(map(len, [*cells[number], *headings[number].split()])) for number in kept]
+        fixed = [width if width <= SHORT else None for width in wide]
+        spare = limit - sum(ROOM if width is None else width for width in fixed) - 2 * len(kept) - 2
+        made = Table(title=self.title, title_justify="left", title_style="bold", box=self.box, padding=(0, 1, 0, 0))
+        if spare >= 0:
+            for number, width in zip(kept, fixed, strict=True):
+                room = 0 if width is None else min(max(len(headings[number]) - width, 0), spare // len(kept))
+                made.add_column(headings[number], width=None if width is None else width + room, overflow="fold")
+            for row, styled in zip(rows, self.rows, strict=True):
+                made.add_row(*(Text(row[number]) for number in kept), style=styled.style)
+        else:
+            made.show_header = False
+            made.add_column(overflow="fold")
+            made.add_column(overflow="fold", width=max(SHORT, min(max(wide), limit - max(map(len, headings)) - 6)))
+            for row, styled in zip(rows, self.rows, strict=True):
+                for number in kept:
+                    last = number == kept[-1]
+                    made.add_row(Text(headings[number]), Text(row[number]), style=styled.style, end_section=last)
+        yield made
+        same = ", ".join(f"{headings[number]} {cells[number][0]}".strip().replace(" ", FIRM) for number in shared)
+        yield from (Text(line.replace(FIRM, " ")) for line in wrap(f"  of all: {same}", limit) if shared)
+
+
 def table(title: str, rows: Iterable[tuple[str, ...]], headings: tuple[str, ...] = ()) -> Table:
     """Table of text; without ``headings`` the first column names what the others say."""
-    made = Table(
+    made = Unbroken(
         title=Text(printable(title)),
         title_justify="left",
         title_style="bold",

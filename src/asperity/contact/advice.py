@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..core.status import Advice, free_memory, room_text
-from ..core.units import percent, show
+from ..core.units import percent, show, times
 from ..solids.elastic import TABOR, Elastic
 from ..solids.layers import Layered, RigidBase, materials_of
 from ..solids.strength import unknown_strengths, yield_pressure
@@ -209,7 +209,7 @@ def _load(problem: ContactProblem, control: Control) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "load",
-            f"The mean pressure is {ratio:.2g} of the contact modulus E* of the softest materials; linear elasticity holds up to about "
+            f"The mean pressure is {times(ratio)} of the contact modulus E* of the softest materials; linear elasticity holds up to about "
             f"{LARGEST_LOAD_RATIO:g}.",
             "Check unit and value of the load ({load}).",
             {"ratio": ratio, "largest": LARGEST_LOAD_RATIO},
@@ -361,8 +361,8 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
         elif result.max_pressure > surface.pressure * (
             1.0 + 1e-9
         ):  # reaching a cap equal to the hardness is as it should be
-            times = result.max_pressure / surface.pressure
-            above = f"is {times:.2g} times" if times >= 1.05 else f"is {percent(times - 1.0, 2)} above"
+            ratio = result.max_pressure / surface.pressure
+            above = f"is {times(ratio)} times" if ratio >= 1.05 else f"is {percent(ratio - 1.0, 2)} above"
             limit = (
                 "the hardness"
                 if surface.by_hardness

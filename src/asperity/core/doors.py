@@ -15,8 +15,8 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import Literal, NamedTuple, TypeAlias
 
-Door: TypeAlias = Literal["python", "command", "form"]
-"""Where a person stands."""
+Door: TypeAlias = Literal["python", "command", "form", "kept"]
+"""Where a person stands; ``"kept"`` for text that is kept, to be said at a door later."""
 
 
 class Action(NamedTuple):
@@ -117,6 +117,8 @@ def in_words(text: str, door: Door | None = None) -> str:
 
 def _said(found: re.Match[str], door: Door, here: _Speaking) -> str:
     name, value = found.groups()
+    if door == "kept":
+        return found[0]
     if name in ACTIONS and value is None:
         words: str = getattr(ACTIONS[name], door)
         return words

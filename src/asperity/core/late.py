@@ -136,6 +136,16 @@ class Judged(Shown):
         return given
 
 
+class Tabled(Shown):
+    """Base of answers of theories, measured roughness and libraries of substances: rows of numbers, which notebooks show as a table."""
+
+    def __repr__(self) -> str:
+        return str(self._find("lines")(self))
+
+    def _repr_html_(self) -> str:
+        return str(self._find("table")(self))
+
+
 class Advised(Judged):
     """Base of results and histories: they say what should be known before their numbers are used."""
 

@@ -177,13 +177,24 @@ class Declared:
                 object.__setattr__(self, item.name, found)
 
 
+def _called(signature: inspect.Signature) -> str:
+    """Names of the arguments of a function, those that must be named behind a star."""
+    names = [(item.name, item.kind is inspect.Parameter.KEYWORD_ONLY) for item in signature.parameters.values()]
+    place = [named for _, named in names].index(True) if any(named for _, named in names) else len(names)
+    star = ["*"] if place < len(names) else []
+    return ", ".join([*(name for name, _ in names[:place]), *star, *(name for name, _ in names[place:])])
+
+
 def checked(function: Callable[P, R]) -> Callable[P, R]:
     """``function`` whose arguments are checked against their declarations, and passed on in their canonical type."""
     signature, owner = inspect.signature(function), f"{function.__name__}()"
 
     @functools.wraps(function)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
-        bound = signature.bind(*args, **kwargs)
+        try:
+            bound = signature.bind(*args, **kwargs)
+        except TypeError as error:  # which says neither of what nor how it is called
+            raise TypeError(f"{error} of {function.__name__}({_called(signature)})") from None
         for name, kind in _objects(function):
             if name in bound.arguments and not isinstance(bound.arguments[name], kind):
                 shown = reprlib.repr(bound.arguments[name])

@@ -129,9 +129,19 @@ def parse_in(text: str, unit: str, what: str, instead: str = "") -> float:
         raise UnitError(f"{what} has the unknown unit {name!r}; {_meant(name, unit)}.", subject=what) from None
 
 
+_COMMA = re.compile(r"\s*[+-]?\d*,\d")
+"""Beginning of a number with a comma for the decimals."""
+
+
 def _split(text: str, example: str, what: str, instead: str, *, plain: bool) -> tuple[float, str]:
     """Number and name of the unit in ``text``; a ``plain`` number needs none."""
     match = _NUMBER.fullmatch(str(text))
+    if _COMMA.match(str(text)):
+        instead = str(text).strip().replace(",", ".", 1)
+        raise UnitError(
+            f"{what} must have a point before its decimals, such as {instead!r}, but has a comma: {text!r}.",
+            subject=what,
+        )
     if match is None:
         wanted = "a number" if plain else f'a number with a unit, such as "{example}"'
         raise UnitError(f"{what} must be {wanted}{instead}, but is {text!r}.")
@@ -248,22 +258,30 @@ def _inverse(power: int, times: int = 1) -> float:
     return float(math.pow(float(f"1e{power}"), -times))
 
 
-_PLAIN = re.compile(r"""(?<![\w.'"+-])(\d+(?:\.\d+)?(?:e[+-]\d+)?) (Pa|N|m|J|N/m)\b(?![/*^²³])""")
+_DIGITS = r"\d+(?:\.\d+)?(?:e[+-]\d+)?"
+_PLAIN = re.compile(rf"""(?<![\w.'"+-])(?:({_DIGITS}) x )?({_DIGITS}) (Pa|N|m|J|N/m)\b(?![/*^²³])""")
 
 
 def prefixed(text: str) -> str:
-    """``text`` with its long SI numbers as ``show`` writes them: "1.5e+10 Pa" is "15 GPa"; what is quoted stays."""
+    """``text`` with its long SI numbers as ``show`` writes them: "1.5e+10 Pa" is "15 GPa", of two sides both; what is quoted stays."""
 
     def shown(match: re.Match[str]) -> str:
-        long = "e" in match[1] or not 1e-2 <= float(match[1]) < 1e4
-        return show(float(match[1]), match[2], 6) if long and float(match[1]) else match[0]
+        numbers = [float(number) for number in match.groups()[:2] if number]
+        long = any("e" in number or not 1e-2 <= float(number) < 1e4 for number in match.groups()[:2] if number)
+        return " x ".join(show(number, match[3], 6) for number in numbers) if long and all(numbers) else match[0]
 
     return _PLAIN.sub(shown, text)
 
 
+def times(ratio: float, digits: int = 2) -> str:
+    """Text of a ``ratio`` in a sentence, without a power of ten up to a million: ``times(412.3)`` → ``"410"``."""
+    text = f"{ratio:.{digits}g}"
+    return f"{float(text):.0f}" if "e" in text and 1.0 <= ratio < 1e6 else text
+
+
 def percent(share: float, digits: int = 3) -> str:
     """Text of a ``share`` of one in percent, for example ``percent(0.0123)`` → ``"1.23 %"``."""
-    return f"{100.0 * share:.{digits}g} %"
+    return f"{times(100.0 * share, digits)} %"
 
 
 _POWERS = {"m**2": (2, "²", 0.01), "m**3": (3, "³", 1e-3), "m**4": (4, "⁴", 0.01)}

@@ -14,7 +14,7 @@ from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
 from ..contact.strength import strength_of
 from ..core.status import GRADES, Advice, Verdict
-from ..core.units import percent, show
+from ..core.units import percent, show, times
 from ..io.words import area_text, headline_rows, limit_text
 from ..parts.part import Part, Reached, Words
 from ..solids.elastic import TABOR
@@ -149,10 +149,10 @@ def _strength(result: ContactResult) -> tuple[str, bool]:
     unknown = dict.fromkeys(item.material for item in found if not item.pressure)
     texts, worst = list[str](), max(known.values(), default=0.0)
     if known:
-        times = " and ".join(f"{ratio:.3g} times {name}" for name, ratio in known.items())
+        said = " and ".join(f"{times(ratio, 3)} times {name}" for name, ratio in known.items())
         state = "Would yield" if worst > 1.0 else "Near yield" if worst > FIRST_YIELD else "Elastic"
         near = f"; beneath a smooth contact yielding starts at {FIRST_YIELD:.2g}" if state == "Near yield" else ""
-        texts.append(f"{state}: the largest pressure, {show(result.max_pressure, 'Pa')}, is {times}{near}.")
+        texts.append(f"{state}: the largest pressure, {show(result.max_pressure, 'Pa')}, is {said}{near}.")
     if unknown:
         texts.append(f"Yielding not checked: strength of {' and '.join(unknown)} unknown, give Y or H.")
     return " ".join(texts) or "The surfaces are of materials that do not yield.", worst > 1.0

@@ -11,10 +11,11 @@ from dataclasses import MISSING, dataclass, fields, replace
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any, ClassVar, Self, get_type_hints
+from typing import Annotated, Any, ClassVar, Self, TypeVar, get_type_hints
 
 from ..core import require, units
 from ..core.errors import FileFormatError, InputError
+from ..core.late import Tabled
 from ..core.text import read_text
 from .elastic import INCOMPRESSIBLE, Elastic, Hardening, Strength
 from .plasticity import LinearHardening, Swift, Voce
@@ -79,7 +80,7 @@ class Record:
         return tuple(_normal(name) for name in (self.name, *self.aliases))
 
     @classmethod
-    def all(cls, path: str | Path | None = None) -> tuple[Self, ...]:
+    def all(cls, path: str | Path | None = None) -> Records[Self]:
         """The built-in records, and those of the TOML file at ``path``, whose names and aliases win.
 
         The file has tables ``[noun."name"]`` with the keys of the values, ``aliases`` and ``note``; a value is text with a
@@ -92,7 +93,7 @@ class Record:
         text = resources.files(__package__).joinpath("data", file).read_text(encoding="utf-8")
         built_in = cls._parsed(text, file)
         if path is None:
-            return built_in
+            return Records(built_in)
         own = cls._parsed(read_text(path, f"{cls.noun} file"), str(path))
         taken = {key for record in own for key in record.keys}
         kept = (
@@ -100,7 +101,7 @@ class Record:
             for record in built_in
             if record.keys[0] not in taken
         )
-        return (*kept, *own)
+        return Records((*kept, *own))
 
     @classmethod
     def find(cls, name: str, path: str | Path | None = None) -> Self:
@@ -182,6 +183,13 @@ class Record:
                 number = require.positive(units.parse(value, kind, what), f"{what} ({units.DIMENSIONS[kind]})")
             values[key] = Sourced(number, source)
         return cls(name=name, aliases=tuple(aliases), note=note, **values)
+
+
+R = TypeVar("R", bound=Record)
+
+
+class Records(Tabled, tuple[R, ...]):
+    """Records of substances, which show themselves as a table."""
 
 
 def _normal(name: str) -> str:
@@ -298,7 +306,7 @@ class MaterialRecord(Record):
         return replace(super()._of(plain, name, where), elastic_bulk=bulk, **more)
 
 
-def materials(path: str | Path | None = None) -> tuple[MaterialRecord, ...]:
+def materials(path: str | Path | None = None) -> Records[MaterialRecord]:
     """All materials: the built-in ones, and those of the TOML file at ``path`` if given, whose names and aliases win.
 
     Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``, ``yield_stress``, those of hardening
@@ -388,7 +396,7 @@ class LiquidRecord(Record):
         return Liquid(**numbers, name=self.name, sources=self.sources)
 
 
-def liquids(path: str | Path | None = None) -> tuple[LiquidRecord, ...]:
+def liquids(path: str | Path | None = None) -> Records[LiquidRecord]:
     """All liquids: the built-in ones, and those of the TOML file at ``path`` if given, whose names and aliases win.
 
     The file has tables ``[liquid."name"]`` with ``surface_tension`` and ``temperature`` (required), ``molar_volume``,

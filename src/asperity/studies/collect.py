@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..core.doors import in_words
 from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
@@ -86,7 +87,7 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
         if error is not None:
             errors[place] = f"{error['type']}: {error['message']}"
         for name, text in zip(VERDICT, record.get("verdict", ()), strict=False):
-            given[name][place] = text
+            given[name][place] = in_words(text)
         cited |= dict.fromkeys(record["citations"])
     dims = tuple(item.name for item in plan.axes)
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..core.doors import speaking
 from ..core.errors import InputError
 from ..io.description import software
 from ..run.build import Case, build
@@ -58,13 +59,17 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
                 now = built.under(document)
                 threads = now.threads or 1
                 outcome = execute(now, warm=warm, wanted=quantities, lines=False, threads=threads, on_failure="raise")
-                values, certificate, given = outcome.values, outcome.result.certificate, verdict(outcome)
+                values, certificate = outcome.values, outcome.result.certificate
+                with speaking("kept"):
+                    given = verdict(outcome)
                 record: Record = {
                     "key": case["key"],
                     "values": {name: float(values.get(name, np.nan)) for name in quantities},
                     "work": {name: getattr(certificate, name) for name in CHECKS},
                     "citations": list(outcome.citation_keys),
-                    "findings": [[one.level, one.criterion, f"{one.fact} {one.remedy}".rstrip()] for one in outcome.findings],
+                    "findings": [
+                        [one.level, one.criterion, f"{one.fact} {one.remedy}".rstrip()] for one in outcome.findings
+                    ],
                     "verdict": [given.grade, *(text for _, text in given.rows)],
                     "error": None,
                 }

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
+from ..core.late import Tabled
 from ..core.parameters import REQUIRED, Parameter
 from ..core.quantity import Quantity
 from ..core.tensor import Displacement, StressTensor, second_invariant
@@ -217,8 +218,8 @@ def places(depth: ArrayLike, *beside: float) -> tuple[RealArray, ...]:
     return (*(0.0 * z + require.finite(value, "place (m)") for value in beside), z)
 
 
-@dataclass(frozen=True, eq=False)
-class StressAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class StressAnswer(Tabled):
     """``stress`` at points."""
 
     stress: StressTensor
@@ -229,7 +230,7 @@ class StressAnswer:
         return np.asarray(np.sqrt(3.0 * second_invariant(self.stress)))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FieldAnswer(StressAnswer):
     """``stress`` and ``displacement`` at points."""
 

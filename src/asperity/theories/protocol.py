@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
+from ..core.late import Tabled
 from ..core.parameters import Declared, Help
 from ..core.quantity import Quantity
 from ..core.values import Choice, Length, Number, Positive, Real, SignedLength
@@ -59,8 +60,8 @@ QUANTITIES = (
 """The fields of ``Prediction``."""
 
 
-@dataclass(frozen=True, eq=False)
-class Prediction:
+@dataclass(frozen=True, eq=False, repr=False)
+class Prediction(Tabled):
     """What a theory predicts along a curve: the ``QUANTITIES``, each (n,) in SI, NaN where the theory does not define it.
 
     ``stiffness`` is -dp/d(separation), for theories with a gap only -dp/d(mean gap).
@@ -90,8 +91,8 @@ def prediction(pressure: RealArray, **known: RealArray) -> Prediction:
     return Prediction(**fields)
 
 
-@dataclass(frozen=True, eq=False)
-class ContactAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactAnswer(Tabled):
     """One contact at given loads: arrays of one shape; NaN where the theory gives no value.
 
     Parameters

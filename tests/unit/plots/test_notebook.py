@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import base64
 import io
+import os
 import re
+import subprocess
+import sys
 from html.parser import HTMLParser
 
 import matplotlib
@@ -15,6 +18,11 @@ from PIL import Image
 from refusals import refused
 
 import asperity as asp
+from asperity.core.late import Tabled
+from asperity.core.units import show
+from asperity.solids.library import liquids
+from asperity.theories.ask import ways_of
+from asperity.theories.catalogue import FAMILIES
 
 
 @pytest.fixture(scope="module")
@@ -145,6 +153,79 @@ def test_without_axes_a_figure_of_pyplot_is_made(result):
         assert result.problem.surface.plot("view").name == "3d"
     finally:
         pyplot.close("all")
+
+
+def tables() -> list[object]:
+    rough = asp.roughness_of(asp.Surface(np.random.default_rng(1).normal(size=(32, 32)) * 1e-9, 1e-8))
+    theory = asp.theories.GreenwoodWilliamson.from_roughness(rough, E_star=1e11)
+    sphere = asp.theories.HertzPoint(1e11, 1e-3)
+    answers = [theory.at_pressure(np.geomspace(1e6, 1e8, 20)), sphere.at_load(1.0), sphere.at_load([1.0, 2.0])]
+    return [asp.solids.materials(), liquids(), rough, *answers]
+
+
+def test_lists_and_answers_of_theories_are_tables():
+    """One row a point or a substance, quantities with their units; long curves are shortened."""
+    materials, _, rough, curve, one, two = tables()
+    assert len(materials._repr_html_().split("<tr>")) == 2 + len(materials)
+    assert re.search(r"steel\s+210 GPa\s+0.3", repr(materials))
+    assert materials == tuple(materials)
+    assert re.search(rf"rms height\s+{show(rough.rms_height, 'm')}", repr(rough))
+    assert 10 <= len(repr(curve).splitlines()) <= 14
+    assert "1 MPa" in curve._repr_html_()
+    assert len(repr(two).splitlines()) == 4
+    assert re.search(r"approach\s+383.2 nm", repr(one))
+    for thing in tables():
+        html = thing._repr_html_()
+        assert html.count("<td") == html.count("</td>") > 0
+        assert max(map(len, repr(thing).splitlines())) <= 160
+
+
+def test_every_answer_of_a_theory_shows_itself_as_a_table():
+    for theory in (theory for family in FAMILIES.values() for theory in family):
+        for way in ways_of(theory):
+            method = getattr(theory, way.method)
+            answer = vars(sys.modules[method.__module__])[method.__annotations__["return"]]
+            assert issubclass(answer, Tabled), answer
+
+
+BACKEND = """
+import matplotlib
+from matplotlib.backends.backend_agg import FigureCanvas, new_figure_manager
+from matplotlib.backends.backend_agg import show
+
+matplotlib.interactive(True)
+"""
+"""A backend that does to pyplot what that of notebooks does when it is loaded, at the first figure."""
+
+SURFACE = "import numpy as np, asperity as asp\nsurface = asp.Surface(np.eye(8) * 1e-9, 1e-7)\n"
+
+
+def test_the_first_figure_leaves_pyplot_as_its_backend_has_switched_it(tmp_path):
+    """Else notebooks show the first figure alone: what is not interactive when it is made is not shown."""
+    (tmp_path / "switching.py").write_text(BACKEND)
+    code = SURFACE + "surface.plot()\nimport matplotlib\nassert matplotlib.is_interactive()\n"
+    paths = os.pathsep.join([str(tmp_path), *filter(None, sys.path)])
+    environment = {**os.environ, "MPLBACKEND": "module://switching", "PYTHONPATH": paths}
+    subprocess.run([sys.executable, "-c", code], env=environment, check=True, timeout=120)
+
+
+def test_a_kernel_shows_every_figure():
+    """In a fresh kernel, with figures of pyplot between those of the package."""
+    nbclient = pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    nbformat = pytest.importorskip("nbformat")
+    cells = [
+        SURFACE,
+        "surface.plot()",
+        "surface.plot()",
+        "from matplotlib import pyplot\npyplot.plot([1, 2])",
+        "surface",
+    ]
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(text) for text in cells])
+    nbclient.NotebookClient(notebook, timeout=120).execute()
+    pictures = [["image/png" in output.get("data", ()) for output in cell.outputs] for cell in notebook.cells]
+    assert [sum(shown) for shown in pictures] == [0, 1, 1, 1, 0]
+    assert "<img" in notebook.cells[-1].outputs[0]["data"]["text/html"]
 
 
 def test_labels_of_a_new_figure_lie_inside_it(result):

@@ -28,7 +28,7 @@ from ...core.grid import Grid
 from ...core.late import Shown
 from ...core.quantity import Quantity, given, measured, measured_as
 from ...core.status import Advice
-from ...core.units import show
+from ...core.units import show, times
 from ..friction.law import Coulomb
 from .advice import findings
 from .bracket import SMALL, Bracket, End, astray
@@ -367,10 +367,10 @@ class MeniscusCoupling(Coupling):
 
     def _runaway(self, external: float, note: _Note) -> str:
         """Beginning of the message on a force that runs away under the ``external`` one (N)."""
-        times = f", {note.force / external:.3g} times the external force" if external > 0.0 else ""
+        share = f", {times(note.force / external, 3)} times the external force" if external > 0.0 else ""
         return (
             f"meniscus force runs away: under the external force of {external:.4g} N the menisci pull with {note.first:.4g} N, "
-            f"which closes the surfaces, and so on to {note.force:.4g} N{times}, after {note.rounds} solves."
+            f"which closes the surfaces, and so on to {note.force:.4g} N{share}, after {note.rounds} solves."
         )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from ...contact.result import ContactResult
 from ...core.errors import InputError
-from ...core.units import percent, show
+from ...core.units import percent, show, times
 from ...io.words import value_text
 from ...parts.part import Found, Rows, Solved, Table, Words, Work
 from ...plots.picture import Figure, figures_by
@@ -55,7 +55,7 @@ class MenisciWork(Work):
             if quantity.name not in silent:
                 cells.append((quantity.label, value_text(quantity, getattr(result, quantity.name))))
         share, pull = percent(result.meniscus_area_fraction), show(result.meniscus_force, "N")
-        more = f"{result.relative_meniscus_force:.3g} times the external force"
+        more = f"{times(result.relative_meniscus_force, 3)} times the external force"
         if math.isnan(result.relative_meniscus_force):
             more = "more than the contact force"
         sentence = f"Menisci on {share} of the nominal area pull with {pull}, {more}."

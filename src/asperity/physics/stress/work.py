@@ -13,7 +13,7 @@ import numpy as np
 from ...contact.controls import Control, Step
 from ...contact.problem import ContactProblem
 from ...core.errors import InputError
-from ...core.units import percent, show
+from ...core.units import percent, show, times
 from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
 from ...plots.picture import Figure
 from ...solids.elastic import TABOR, Rigid
@@ -277,11 +277,11 @@ def yield_sentence(survey: StressSurvey) -> str:
     at = f"At {survey.where}: " if survey.where else ""
     if report.yields:
         return (
-            f"{at}{'t' if at else 'T'}he body yields: {where}, the {report.criterion.name} stress is {1.0 / report.load_factor:.3g} times the "
+            f"{at}{'t' if at else 'T'}he body yields: {where}, the {report.criterion.name} stress is {times(1.0 / report.load_factor, 3)} times the "
             f"yield stress (load factor {report.load_factor:.3g}).{beside}"
         )
     return (
-        f"{at}{'n' if at else 'N'}o part of known strength yields. First would be {where}, at {report.load_factor:.3g} times these stresses "
+        f"{at}{'n' if at else 'N'}o part of known strength yields. First would be {where}, at {times(report.load_factor, 3)} times these stresses "
         f"({report.criterion.name}).{beside}"
     )
 

@@ -10,7 +10,7 @@ import numpy as np
 from ...contact.answer import Answer
 from ...core.arrays import RealArray
 from ...core.status import Outcome, Status
-from ...core.units import percent
+from ...core.units import percent, times
 from .coupling import Past
 from .moments import Creeping, Moment
 
@@ -150,6 +150,6 @@ def balanced(status: Status, found: Creeping) -> Status:
     if not status.converged or not found.energy_error > LARGEST_MISS:
         return status
     error = found.energy_error
-    much = f"{percent(error, 2)} of" if error < 1.0 else f"{error:.2g} times"
+    much = f"{percent(error, 2)} of" if error < 1.0 else f"{times(error)} times"
     message = f"The energies miss by {much} the largest work: the steps of time are too long."
     return Status(Outcome.STAGNATED, message, "Take a smaller tolerance of the steps of time, or more of them.")

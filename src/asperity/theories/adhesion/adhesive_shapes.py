@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
 from ...core.quantity import Quantity
 from ...core.values import Number
 from ..ask import BY_RADIUS, Way, asked
@@ -215,8 +216,8 @@ class AdhesiveWave(Theory):
         return WaveAnswer(self.full_contact_pressure * pressure, self.amplitude * approach)
 
 
-@dataclass(frozen=True, eq=False)
-class WaveAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class WaveAnswer(Tabled):
     """``mean_pressure`` in Pa and ``approach`` in m of contacts of a wave."""
 
     mean_pressure: RealArray

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
 from ...core.values import Positive, Pressure
@@ -51,8 +52,8 @@ SLIP = (
 """What a contact under a tangential force answers; the first two in plane strain."""
 
 
-@dataclass(frozen=True, eq=False)
-class SlipAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class SlipAnswer(Tabled):
     """A contact under a tangential force: arrays of one shape.
 
     Parameters
@@ -266,8 +267,8 @@ def _loop(load: RealArray, amplitude: RealArray, friction: float) -> RealArray:
 # A wave in partial slip, in its plane or across it (Ciavarella 1998; Jäger 1998).
 
 
-@dataclass(frozen=True, eq=False)
-class WaveSlipAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class WaveSlipAnswer(Tabled):
     """A wave under mean pressure and mean shear: arrays of one shape.
 
     Parameters

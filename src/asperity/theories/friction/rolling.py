@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.late import Tabled
 from ...core.quantity import Quantity
 from ...core.values import LARGEST, Length, Number, Pressure
 from ..ask import Way, asked
@@ -27,8 +28,8 @@ from .partial_slip import Friction, sticking_share
 # Rolling cylinders (Carter 1926; Johnson 1985, sec. 8.3).
 
 
-@dataclass(frozen=True, eq=False)
-class CarterAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class CarterAnswer(Tabled):
     """Rolling cylinders under a tractive force: arrays of one shape.
 
     Parameters
@@ -124,8 +125,8 @@ class CarterRolling(Theory):
 # Rolling ellipses.
 
 
-@dataclass(frozen=True, eq=False)
-class CreepForces:
+@dataclass(frozen=True, eq=False, repr=False)
+class CreepForces(Tabled):
     """Forces on the body: arrays of one shape.
 
     Parameters

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quadrature import geometric
 from ...core.quantity import Quantity
@@ -32,8 +33,8 @@ TORQUE = asked("torque", "N*m", "torque")
 _SERIES = 0.1  # k² below which K - E would lose more than a digit
 
 
-@dataclass(frozen=True, eq=False)
-class TwistAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class TwistAnswer(Tabled):
     """A contact under a torque: arrays of one shape.
 
     Parameters

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
 from ...core.values import Length, Pressure
@@ -26,8 +27,8 @@ Bounded: TypeAlias = Annotated[Pressure, "largest shear traction τ"]
 Disc: TypeAlias = Annotated[Length, "radius a of the contact"]
 
 
-@dataclass(frozen=True, eq=False)
-class BoundedSlip:
+@dataclass(frozen=True, eq=False, repr=False)
+class BoundedSlip(Tabled):
     """A contact with bounded traction under a force or torque: arrays of one shape.
 
     Parameters

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quadrature import gauss
 from ...core.quantity import Quantity
@@ -21,8 +22,8 @@ from ..ask import Way, asked
 from ..protocol import Theory, checked
 
 
-@dataclass(frozen=True, eq=False)
-class HardnessAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class HardnessAnswer(Tabled):
     """``hardness`` in Pa and ``film_share`` of it, (n,)."""
 
     hardness: RealArray

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
 from ...core.values import HardnessValue, Length, Positive
@@ -96,8 +97,8 @@ def profile_plasticity_index(E_star: float, hardness: float, deviation: float, c
     return require.positive(E_star, "contact modulus E_star (Pa)") / require.positive(hardness, "hardness (Pa)") * slope
 
 
-@dataclass(frozen=True, eq=False)
-class PlasticShares:
+@dataclass(frozen=True, eq=False, repr=False)
+class PlasticShares(Tabled):
     """Shares of the area and of the contacts that flow at standardised separations (n,)."""
 
     area: RealArray
@@ -218,16 +219,16 @@ AREA_FACTOR = 3.2
 """A_r/A_a = 3.2 p_a/(E* sqrt(σ_s/R)), within 10 % for 1e-4 <= p_a/(η R σ_s E* sqrt(σ_s/R)) <= 1e-2."""
 
 
-@dataclass(frozen=True, eq=False)
-class RoughnessFor:
+@dataclass(frozen=True, eq=False, repr=False)
+class RoughnessFor(Tabled):
     """Largest ratios for contact moduli (n,): ``summit_ratio`` σ_s/R and ``profile_ratio`` σ/β*."""
 
     summit_ratio: RealArray
     profile_ratio: RealArray
 
 
-@dataclass(frozen=True, eq=False)
-class LeastAreas:
+@dataclass(frozen=True, eq=False, repr=False)
+class LeastAreas(Tabled):
     """Real over nominal area at pressures (n,): ``elastic`` of the designed surface, ``plastic`` if everything flowed."""
 
     elastic: RealArray

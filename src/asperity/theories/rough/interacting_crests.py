@@ -263,7 +263,7 @@ State: TypeAlias = tuple[CrestSystem, RealArray]
 """The crests that may touch, the highest first, and the squares of their contact radii in m²."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class _Touching(Prediction):
     """A prediction with the largest contact radius over wavelength, and over the distance to the next contact, (n,)."""
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quadrature import gauss
 from ...core.quantity import Quantity
@@ -287,8 +288,8 @@ LOW_LOAD_SLOPE = math.sqrt(8.0 / math.pi)
 """κ = (A/A_n) E* h'_rms/p at vanishing load."""
 
 
-@dataclass(frozen=True, eq=False)
-class LocalPressures:
+@dataclass(frozen=True, eq=False, repr=False)
+class LocalPressures(Tabled):
     """Distribution at local pressures (n,): probability ``density`` in 1/Pa, ``area_above`` the share with more."""
 
     density: RealArray

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quadrature import gauss, running
 from ...core.quantity import Quantity
@@ -130,8 +131,8 @@ def _gathered(parts: RealArray) -> RealArray:
     return np.asarray(parts + np.concatenate([[0.0], np.cumsum(parts[:-1, -1])])[:, None])
 
 
-@dataclass(frozen=True, eq=False)
-class FrictionAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class FrictionAnswer(Tabled):
     """Friction and contact area at pressures (Pa) and speeds (m/s), each (n,)."""
 
     pressure: RealArray

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
 from ...core.quadrature import gauss
 from ...core.quantity import Quantity
 from ..ask import Way, asked
@@ -29,8 +30,8 @@ ROUNDING = 1e-9
 _NODES, _SIGMAS = 96, 9.5  # Gauss points, and the standard deviations that matter of curvatures at one height
 
 
-@dataclass(frozen=True, eq=False)
-class SummitsAt:
+@dataclass(frozen=True, eq=False, repr=False)
+class SummitsAt(Tabled):
     """Summits at heights (n,): ``probability`` density in 1/m, ``curvature`` the mean of κ in 1/m."""
 
     probability: RealArray

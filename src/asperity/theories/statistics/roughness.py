@@ -14,6 +14,7 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
 
 T = TypeVar("T")
 
@@ -146,8 +147,8 @@ class Fractal:
     longest: float = math.nan
 
 
-@dataclass(frozen=True, eq=False)
-class Roughness:
+@dataclass(frozen=True, eq=False, repr=False)
+class Roughness(Tabled):
     """The numbers of a surface that theories of rough contact are built from. None stands for what is not known.
 
     InputError if a moment or the area is not positive.

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
 from ...core.tensor import StressTensor, second_invariant
@@ -62,8 +63,8 @@ class YieldOnset:
         return self.z == 0.0
 
 
-@dataclass(frozen=True, eq=False)
-class OnsetCurve:
+@dataclass(frozen=True, eq=False, repr=False)
+class OnsetCurve(Tabled):
     """First yield at friction coefficients (n,): see ``YieldOnset``."""
 
     peak_over_Y: RealArray

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
 from ...core.values import Length, Number
@@ -30,8 +31,8 @@ PULL: tuple[Way, ...] = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class PullAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class PullAnswer(Tabled):
     """Attraction in N of sphere and flat; an array of any shape."""
 
     force: RealArray
@@ -103,8 +104,8 @@ class FilmMeniscus(Theory):
         return PullAnswer(np.asarray(touching * np.maximum(0.0, 1.0 - apart / self.height)))
 
 
-@dataclass(frozen=True, eq=False)
-class VapourAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class VapourAnswer(Tabled):
     """Kelvin radius in m, pressure deficit in Pa and film on carbon in m; arrays of one shape."""
 
     kelvin_radius: RealArray

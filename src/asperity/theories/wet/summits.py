@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import NoSolutionError
+from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
 from ...core.values import Length, Number, Positive, Viscosity
@@ -54,8 +55,8 @@ _NEAR = 12.0  # beyond, on the dense side every summit is in the film, and on th
 _FAR_STEP = 1.0
 
 
-@dataclass(frozen=True, eq=False)
-class WetPrediction:
+@dataclass(frozen=True, eq=False, repr=False)
+class WetPrediction(Tabled):
     """Balance of load, menisci and summits along a curve; arrays (n,).
 
     ``pressure`` external load per nominal area in Pa, ``meniscus_pressure`` meniscus force per nominal area in Pa,
@@ -332,8 +333,8 @@ class WetSummits(Theory):
         return self.theory.contact.validity(answer.contact)
 
 
-@dataclass(frozen=True, eq=False)
-class GrownMenisci:
+@dataclass(frozen=True, eq=False, repr=False)
+class GrownMenisci(Tabled):
     """Wet summits at times (n,): ``height`` of the menisci in m, ``meniscus_pressure`` and ``area_fraction``."""
 
     height: RealArray
