@@ -217,7 +217,7 @@ class Command(TyperCommand):
             rest: list[str] = super().parse_args(ctx, args)
         except typer.BadParameter:
             found = self.make_parser(ctx).parse_args(given)[0]
-            missing = [param for param in self.params if param.required and param.name not in found]
+            missing: list[Any] = [param for param in self.params if param.required and param.name not in found]
             if len(missing) < 2:
                 raise
             names = [

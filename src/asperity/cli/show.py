@@ -173,7 +173,7 @@ def print_result(outcome: Outcome) -> None:
 
     reached, told = outcome.solved.at(), told_of(outcome)
     heading = f"Result at {reached.where}" if reached.where else "Result"
-    console().print(table(heading, scalar_rows(reached.result, doubted(told))))
+    console().print(table(heading, scalar_rows(reached.result, doubted(told, reached.result))))
     print_words(outcome)
     say(outcome.status.message, "green" if outcome.converged else "bold red", warning=not outcome.converged)
     if outcome.status.remedy:

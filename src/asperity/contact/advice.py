@@ -374,7 +374,7 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
                 "warning",
                 "hardness",
                 f"The maximum pressure {above} {limit} of {surface.material}: it would yield.",
-                f"Limit the pressure by that {law}.",
+                f"Limit the pressure by the {law}.",
                 {"max_pressure": result.max_pressure, "hardness": surface.pressure},
                 (*AREAS, *PRESSURES, *STRESSES),
             )

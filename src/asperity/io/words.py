@@ -365,7 +365,23 @@ def result_rows(result: ContactResult, doubted: tuple[str, ...] = ()) -> Rows:
     skipped = {name for answer in result.answers for name in answer.contradicted()}
     if not result.indented.any() and np.isinf(result.problem.law.pressure_cap()).all():
         skipped.update(PLASTIC)
-    return [(q.label, marked(q.name, scalar_text(q, result), doubted)) for q in SCALARS if q.name not in skipped]
+    rows = []
+    for quantity in SCALARS:
+        if quantity.name not in skipped:
+            rows.append((quantity.label, marked(quantity.name, scalar_text(quantity, result), doubted)))
+        if quantity.name == "max_pressure" and result.contact.any():
+            rows.append(("maximum pressure between the pixels", marked(quantity.name, peak_text(result), doubted)))
+    return rows
+
+
+def peak_text(result: ContactResult) -> str:
+    """Largest pressure between the pixels with its error and place; a lower bound where it is in doubt."""
+    peak, (dx, dy) = result.peak_pressure, result.problem.grid.spacing
+    at = f"at x = {show(peak.x + 0.5 * dx, 'm')}, y = {show(peak.y + 0.5 * dy, 'm')}"
+    if peak.doubt:
+        return f"> {show(peak.value, 'Pa')} {at}: {peak.doubt}"
+    error = f" ± {show(peak.error, 'Pa', 2)}" if peak.error else ""
+    return f"{show(peak.value, 'Pa')}{error} {at}"
 
 
 def marked(name: str, text: str, doubted: tuple[str, ...]) -> str:

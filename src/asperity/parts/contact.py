@@ -20,11 +20,15 @@ class Contact(Part):
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
-        """Scalars of a result, and three that follow from its fields and problem."""
+        """Scalars of a result, and what follows from its fields and problem."""
         from ..contact.result import SCALARS
 
         return (
             *SCALARS,
+            Quantity("peak_pressure", "Pa", "largest pressure between the pixels"),
+            Quantity("peak_pressure_error", "Pa", "error of the largest pressure between the pixels"),
+            Quantity("peak_pressure_x", "m", "x of the largest pressure"),
+            Quantity("peak_pressure_y", "m", "y of the largest pressure"),
             Quantity("max_displacement", "m", "largest displacement"),
             Quantity("rms_height", "m", "rms height of the profile"),
             Quantity("contact_modulus", "Pa", "contact modulus E*"),

@@ -23,8 +23,13 @@ class ContactWork(Work):
     def compute(self, ask: Any, solved: Solved) -> Found:
         """Scalars of the result."""
         result, problem = solved.result, solved.problem
+        peak, (dx, dy) = result.peak_pressure, problem.grid.spacing
         values = {
             **{q.name: getattr(result, q.name) for q in SCALARS},
+            "peak_pressure": peak.value,
+            "peak_pressure_error": peak.error,
+            "peak_pressure_x": peak.x + 0.5 * dx,  # in the middle of a pixel, as in figures
+            "peak_pressure_y": peak.y + 0.5 * dy,
             "max_displacement": float(result.displacement.max()),
             "rms_height": float(problem.profile().std()),
             "contact_modulus": problem.contact_modulus,

@@ -65,7 +65,7 @@ def write_report(
     outcome = answer if isinstance(answer, Outcome) else analysed(answer, {"plasticity": True})
     reached, given = outcome.solved.at(), verdict(outcome)
     result, told = reached.result, tuple(dict.fromkeys((*told_of(outcome), *advice)))
-    names = doubted(told)
+    names = doubted(told, result)
     source = result.problem.surface.origin.source
     stored = json.loads(outcome.stored["provenance"]) if outcome.stored else provenance(result, versions())
     surfaces = [key for key in ("surface", "counter_surface") if key in stored]

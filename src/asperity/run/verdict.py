@@ -66,7 +66,7 @@ def verdict(thing: ContactResult | HistoryResult | Outcome | str | Path) -> Verd
         ]
     )
     own = [row for part, words in said for row in words.headline]
-    headline = [*headline_rows(reached.result, doubted(told)), *own]
+    headline = [*headline_rows(reached.result, doubted(told, reached.result)), *own]
     return Verdict(what, holds, f"{GRADES[grade]}: {trust}", grade, fails, reached.number, reached.many, headline)
 
 
@@ -81,9 +81,15 @@ def others(told: Iterable[Advice], given: Verdict) -> tuple[Advice, ...]:
     return tuple(item for item in told if item.message not in given.trust)
 
 
-def doubted(told: Iterable[Advice]) -> tuple[str, ...]:
-    """Beginnings of the names of all quantities that findings put in doubt."""
-    return tuple(dict.fromkeys(name for item in told for name in item.concerns))
+def doubted(told: Iterable[Advice], result: ContactResult) -> tuple[str, ...]:
+    """Beginnings of the names of all quantities of ``result`` that findings put in doubt."""
+    return tuple(dict.fromkeys(name for item in told if not _unreached(item, result) for name in item.concerns))
+
+
+def _unreached(item: Advice, result: ContactResult) -> bool:
+    """Whether the finding is about a limit of the pressure that no point of ``result`` reaches."""
+    limits = [item.numbers[name] for name in ("limit", "hardness") if name in item.numbers]
+    return "limit" in item.numbers and result.max_pressure < min(limits) * (1.0 - 1e-9)
 
 
 def _contact(reached: Reached, outcome: Outcome) -> str:
@@ -111,7 +117,7 @@ def _holds(
     outcome: Outcome, reached: Reached, said: Sequence[tuple[Part, Words]], told: Sequence[Advice]
 ) -> tuple[str, bool]:
     """What does not hold, by all that was computed, and whether there is any of it."""
-    result, texts, fails, names = reached.result, list[str](), False, doubted(told)
+    result, texts, fails, names = reached.result, list[str](), False, doubted(told, reached.result)
     for part, words in said:
         if words.holds:
             doubtful = names and any(
@@ -174,7 +180,7 @@ def _trust(
         )
     if told and told[0].criterion == DOUBT:
         return "not", told[0].message
-    reasons = [item for item in told if item.level == "warning" or item.concerns]
+    reasons = [item for item in told if (item.level == "warning" or item.concerns) and not _unreached(item, result)]
     if reasons:
         place = {name: number for number, name in enumerate(WEIGHT)}
         worst = min(reasons, key=lambda item: (item.level != "warning", place.get(item.criterion, place[""])))

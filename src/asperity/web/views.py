@@ -111,7 +111,7 @@ def _words(outcome: Outcome) -> dict[str, Any]:
         "status": [outcome.status.message, outcome.status.remedy, outcome.converged],
         "findings": [[item.level, item.criterion, item.message] for item in others(told, given)],
         "headline": [list(row) for row in given.headline],
-        "results": [list(row) for row in result_rows(result, doubted(told))],
+        "results": [list(row) for row in result_rows(result, doubted(told, result))],
         "certificate": [list(row) for row in certificate_rows(result)],
         "parts": [
             {
