@@ -252,7 +252,7 @@ CONTROLS = st.one_of(
     ),
 )
 LAWS = st.just({"kind": "hard_wall"}) | st.fixed_dictionaries(
-    {"kind": st.just("hardness"), "hardness": PRESSURES | st.sampled_from(["from body", "effective"])}
+    {"kind": st.just("hardness"), "hardness": PRESSURES | st.sampled_from(["from body", "surface", "effective"])}
 )
 SOLVERS = st.fixed_dictionaries(
     {},

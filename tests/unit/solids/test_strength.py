@@ -246,14 +246,18 @@ def test_own_files_with_half_a_law_are_refused(tmp_path: Path, values: str, show
 
 
 def test_built_in_yield_stresses_are_below_the_hardness() -> None:
-    """A third of the hardness within a factor of two: values of one condition of the metal."""
+    """A third of the hardness within a factor of two: values of one condition of the metal.
+
+    Annealed austenitic steel hardens far more than the others while it is indented.
+    """
     known = [record for record in materials() if record.yield_stress and record.hardness]
     assert len(known) > 5
     for record in known:
         assert isinstance(record, MaterialRecord)
         assert record.hardness
         assert record.yield_stress
-        assert 1.5 < record.hardness.value / record.yield_stress.value < 6.0, record.name
+        most = 7.0 if record.name == "stainless steel" else 6.0
+        assert 1.5 < record.hardness.value / record.yield_stress.value < most, record.name
     # no hardening is claimed where no source states it
     assert [record.name for record in materials() if record.hardening is not None] == []
 
