@@ -53,6 +53,21 @@ ACTIONS = MappingProxyType(
         "slice": Action('surfaces.sliced(surface, y="middle")', "--line y=middle", "Prepare: slice"),
         # the problem
         "load": Action("MeanPressure(...) or Force(...)", "--pressure or --load", "Control: Mean pressure"),
+        "force": Action("Force(...)", "--load", "Control: Force"),
+        "mean_pressure": Action("MeanPressure(...)", "--pressure", "Control: Mean pressure"),
+        "approach": Action("Approach(...)", "--approach", "Control: Approach"),
+        "mean_gap": Action("MeanGap(...)", "--mean-gap", "Control: Mean gap"),
+        "grips": Action("FixedGrips(...)", "--approach and --retract", "Adhesion: Retract"),
+        "gentle_law": Action("ExponentialAdhesion(...)", "--adhesion-law exponential", "Adhesion: Law = exponential"),
+        "shift_of_time": Action(
+            "shift=viscoelasticity.WilliamsLandelFerry(reference, c1, c2)",
+            "WLF=298K;8.86;101.6K or Arrhenius=298K;80000J/mol in the text of --body",
+            "Relaxation: Shift",
+        ),
+        "relaxation": Action("Viscoelastic(...)", '"E=3MPa+10MPa@10ms,nu=0.5" for --body', "Bodies: Relaxation"),
+        "iterations": Action(
+            "solver=solvers.ConjugateGradient(max_iterations=...)", "--max-iterations", "Solver: Max iterations"
+        ),
         "free": Action("boundary=Free()", "--boundary free", "Boundary: free"),
         "periodic": Action("boundary=Periodic()", "--boundary periodic", "Boundary: periodic"),
         "soft_counter": Action(
@@ -66,10 +81,10 @@ ACTIONS = MappingProxyType(
         ),
         "yield_stress": Action("Strength(yield_stress=...)", '"steel{Y=400MPa}" in --body', "Bodies: Yield stress"),
         "solver": Action("solver=...", "--solver", "Solver: Method"),
-        "tolerance": Action("tolerance=...", "--tolerance", "Solver: Tolerance"),
+        "tolerance": Action("solver=solvers.ConjugateGradient(tolerance=...)", "--tolerance", "Solver: Tolerance"),
         "shift": Action("Shift(...)", "--shift", "Shear: Shift"),
-        "time_tolerance": Action("TimeSteps(tolerance=...)", "--time-tolerance", "Viscoelastic: Tolerance"),
-        "time_steps": Action("TimeSteps(number=...)", "--time-steps", "Viscoelastic: Steps"),
+        "time_tolerance": Action("time_steps=TimeSteps(tolerance=...)", "--time-tolerance", "Viscoelastic: Tolerance"),
+        "time_steps": Action("time_steps=TimeSteps(number=...)", "--time-steps", "Viscoelastic: Steps"),
         "plastic_depth": Action("PlasticFlow(depth=...)", "--plastic-depth", "Plastic flow: Depth"),
         "range": Action("load=numpy.geomspace(1.0, 100.0)", "--load 1N..100N", "a range"),
         "stresses": Action("stress(result, depths)", "--depths", "Stress: Depths"),

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..core.doors import in_words
 from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions
@@ -173,7 +174,7 @@ def state(plan: Plan, path: Path) -> CampaignState:
 
     failed = [Failure(at(place), error["type"], error["message"]) for place, error in errors.items()]
     found = [
-        Failure(at(place), f"{level} ({criterion})", text)
+        Failure(at(place), f"{level} ({criterion})", in_words(text))
         for place, findings in told.items()
         for level, criterion, text in findings
     ]

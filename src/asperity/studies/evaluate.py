@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..core.doors import speaking
 from ..core.errors import InputError
 from ..io.description import software
 from ..run.build import Case, build
@@ -49,7 +50,7 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
     made: list[Record] = []
     for case in task["cases"]:
         try:
-            with warnings.catch_warnings(), np.errstate(all="ignore"):
+            with warnings.catch_warnings(), np.errstate(all="ignore"), speaking("python"):
                 warnings.simplefilter("ignore")  # the findings of a case are in its record
                 document = checked(edited(task["table"], map(from_plain, case["edits"])), "problem of this case")
                 if built is None:
@@ -63,7 +64,9 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
                     "values": {name: float(values.get(name, np.nan)) for name in quantities},
                     "work": {name: getattr(certificate, name) for name in CHECKS},
                     "citations": list(outcome.citation_keys),
-                    "findings": [[one.level, one.criterion, f"{one.fact} {one.remedy}".rstrip()] for one in outcome.findings],
+                    "findings": [
+                        [one.level, one.criterion, f"{one.fact} {one.remedy}".rstrip()] for one in outcome.findings
+                    ],
                     "error": None,
                 }
         except Exception as error:
