@@ -64,7 +64,9 @@ class AdhesionSettings(Settings):
     )
 
     branch: bool = setting(
-        False, option="--adhesion-branch", help="Follow the branch that jumps leave through its folds, of bodies that part"
+        False,
+        option="--adhesion-branch",
+        help="Follow the branch that jumps leave through its folds, of bodies that part",
     )
     jump_tolerance: Length | None = setting(
         None, option="--jump-tolerance", help="Close in on every jump to this approach, of bodies that part: 0.01nm"
