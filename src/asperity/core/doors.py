@@ -65,9 +65,7 @@ ACTIONS = MappingProxyType(
             "Relaxation: Shift",
         ),
         "relaxation": Action("Viscoelastic(...)", '"E=3MPa+10MPa@10ms,nu=0.5" for --body', "Bodies: Relaxation"),
-        "iterations": Action(
-            "solver=solvers.ConjugateGradient(max_iterations=...)", "--max-iterations", "Solver: Max iterations"
-        ),
+        "iterations": Action("max_iterations=... of the solver", "--max-iterations", "Solver: Max iterations"),
         "free": Action("boundary=Free()", "--boundary free", "Boundary: free"),
         "periodic": Action("boundary=Periodic()", "--boundary periodic", "Boundary: periodic"),
         "soft_counter": Action(
@@ -81,7 +79,7 @@ ACTIONS = MappingProxyType(
         ),
         "yield_stress": Action("Strength(yield_stress=...)", '"steel{Y=400MPa}" in --body', "Bodies: Yield stress"),
         "solver": Action("solver=...", "--solver", "Solver: Method"),
-        "tolerance": Action("solver=solvers.ConjugateGradient(tolerance=...)", "--tolerance", "Solver: Tolerance"),
+        "tolerance": Action("tolerance=... of the solver", "--tolerance", "Solver: Tolerance"),
         "shift": Action("Shift(...)", "--shift", "Shear: Shift"),
         "time_tolerance": Action("time_steps=TimeSteps(tolerance=...)", "--time-tolerance", "Viscoelastic: Tolerance"),
         "time_steps": Action("time_steps=TimeSteps(number=...)", "--time-steps", "Viscoelastic: Steps"),
