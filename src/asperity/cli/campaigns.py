@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.progress import BarColumn, Progress, TextColumn
 
+from ..core.doors import speaking
 from ..io.schemas.study import DEFAULT_QUANTITIES
 from ..report.study import (
     axis_rows,
@@ -64,7 +65,8 @@ def run(
     Exit code 0: all cases done; 1: some failed (the others are there, and the causes are listed); 2: bad input;
     130: interrupted by Ctrl-C (all finished cases are kept: run it again to resume).
     """
-    campaign = prepare_study(study, out, confirm=partial(confirmed, yes=yes))
+    with speaking("command"):  # of a document, whose keys have no options here
+        campaign = prepare_study(study, out, confirm=partial(confirmed, yes=yes))
     monte_carlo = campaign.study.document.monte_carlo
     most = "at most " if monte_carlo is not None and monte_carlo.stop is not None else ""
     say(f"{campaign.title}: {most}{campaign.plan.n_cases} cases, results in {campaign.folder}")

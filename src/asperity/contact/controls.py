@@ -21,7 +21,7 @@ class MeanPressure:
     unit: ClassVar[str] = "Pa"
 
     def __post_init__(self) -> None:
-        require.positive(self.value, "mean pressure (Pa)", "Use Approach(...) to prescribe the position instead.")
+        require.positive(self.value, "mean pressure (Pa)", "Use {approach} to prescribe the position instead.")
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Force:
     unit: ClassVar[str] = "N"
 
     def __post_init__(self) -> None:
-        require.positive(self.value, "force (N)", "Use Approach(...) to prescribe the position instead.")
+        require.positive(self.value, "force (N)", "Use {approach} to prescribe the position instead.")
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class MeanGap:
     unit: ClassVar[str] = "m"
 
     def __post_init__(self) -> None:
-        require.positive(self.value, "mean gap (m)", "A gap of zero is full contact; use MeanPressure(...) there.")
+        require.positive(self.value, "mean gap (m)", "A gap of zero is full contact; use {mean_pressure} there.")
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Pull:
     unit: ClassVar[str] = "N"
 
     def __post_init__(self) -> None:
-        require.positive(self.value, "pull (N)", "Use Force(...) to press the bodies together.")
+        require.positive(self.value, "pull (N)", "Use {force} to press the bodies together.")
 
 
 @dataclass(frozen=True)

@@ -353,5 +353,5 @@ def require_borne(problem: ContactProblem, control: Control) -> None:
     if isinstance(control, Pull | FixedGrips) and not problem.bears_pull:
         raise InputError(
             f"control of a problem without adhesion must be one that presses, but is {control!r}. Give "
-            "ContactProblem(..., adhesion=ExponentialAdhesion(work, range)), or prescribe Force(...) or Approach(...)."
+            "an adhesion, such as {gentle_law}, or prescribe {force} or {approach}."
         )

@@ -486,7 +486,7 @@ def doubted(status: Status, certificate: Certificate) -> Status:
     """``status``, or why a contact that the solver holds for converged is not."""
     if status.converged and certificate.load_imbalance > LARGEST_IMBALANCE:
         message = f"Not converged: the forces miss their balance by {certificate.load_imbalance:.1e} of their sum."
-        return Status(Outcome.STAGNATED, message, "Prescribe the position, with Approach(...) or MeanGap(...).")
+        return Status(Outcome.STAGNATED, message, "Prescribe the position, with {approach} or {mean_gap}.")
     if not status.converged or certificate.duality_gap <= max(LARGEST_DUALITY_GAP, _GAPS * certificate.tolerance):
         return status
     message = f"Not converged: the energy is off by up to {certificate.duality_gap:.1e} of itself (duality gap)."

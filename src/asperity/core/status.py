@@ -27,11 +27,15 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True)
 class Status:
-    """Outcome with a sentence for the user and the usual remedy (empty when converged)."""
+    """Outcome with a sentence for the user and the usual remedy (empty when converged), in the words of the door that speaks."""
 
     outcome: Outcome
     message: str
     remedy: str = ""
+
+    def __post_init__(self) -> None:
+        """Say what can be done in words."""
+        object.__setattr__(self, "remedy", in_words(self.remedy))
 
     @property
     def converged(self) -> bool:

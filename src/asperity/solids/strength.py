@@ -109,7 +109,7 @@ def plastic_solid(material: Elastic) -> J2:
     if math.isnan(stress.value):
         raise InputError(
             f"yield stress of {material.name or 'the material'} must be known for plastic flow, but neither it nor a hardness is. "
-            'Give Strength(yield_stress=…), yield_stress = "400 MPa" in a document, or Y in the text of a body, such as "steel{Y=400MPa}".',
+            "Give it, as {yield_stress}.",
             subject=f"yield stress of {material.name or 'the material'}",
         )
     hardening = strength.hardening or LinearHardening(stress.value)

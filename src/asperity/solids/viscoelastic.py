@@ -317,8 +317,7 @@ class Viscoelastic(Elastic):
         if self.shift is None:
             raise InputError(
                 f"viscoelastic solid {self.name or 'without a name'} must have a shift to be taken to another temperature, but has none. "
-                "Give shift=WilliamsLandelFerry(reference, c1, c2) or Arrhenius(reference, activation_energy), in the text of a body "
-                "WLF=298K;8.86;101.6K or Arrhenius=298K;80000J/mol."
+                "Give {shift_of_time}."
             )
         moved = self.with_times(self.shift.factor(temperature))
         return replace(moved, shift=self.shift.seen_from(temperature))

@@ -190,7 +190,7 @@ def state(plan: Plan, path: Path) -> CampaignState:
 
     failed = [Failure(at(place), error["type"], error["message"]) for place, error in errors.items()]
     found = [
-        Failure(at(place), f"{level} ({criterion})", text)
+        Failure(at(place), f"{level} ({criterion})", in_words(text))
         for place, findings in told.items()
         for level, criterion, text in findings
     ]

@@ -51,7 +51,7 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
     made: list[Record] = []
     for case in task["cases"]:
         try:
-            with warnings.catch_warnings(), np.errstate(all="ignore"):
+            with warnings.catch_warnings(), np.errstate(all="ignore"), speaking("python"):
                 warnings.simplefilter("ignore")  # the findings of a case are in its record
                 document = checked(edited(task["table"], map(from_plain, case["edits"])), "problem of this case")
                 if built is None:

@@ -239,13 +239,13 @@ def closeness_wanted(posed: Posed, *, elastic: bool) -> tuple[float, float]:
     if flat and (elastic or isinstance(control, MeanGap)):
         raise NoSolutionError(
             f"{control.name} of flat bodies must be zero in contact, which is full as soon as they touch, whatever the load, but is "
-            f"{control.value:.6g} m. Prescribe MeanPressure(...) instead."
+            f"{control.value:.6g} m. Prescribe {{mean_pressure}} instead."
         )
     if isinstance(control, Approach):
         if elastic and control.value >= posed.top - float(h.mean()):
             raise NoSolutionError(
                 f"approach must be less than {posed.top - float(h.mean()):.6g} m, where a periodic elastic contact is full and "
-                f"its mean gap zero, but is {control.value:.6g} m. Prescribe MeanPressure(...) to go beyond full contact."
+                f"its mean gap zero, but is {control.value:.6g} m. Prescribe {{mean_pressure}} to go beyond full contact."
             )
         wanted = control.value - (posed.top - highest)
         if wanted <= 0.0:

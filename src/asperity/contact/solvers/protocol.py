@@ -240,11 +240,11 @@ def run(
         status = Status(Outcome.CONVERGED, text)
     elif ended.stagnated:
         text = f"Stagnated above the tolerance {solver.tolerance:.0e}: {reached}."
-        remedy = "Try another solver (conjugate_gradient is the most robust) or a tolerance the arithmetic can reach."
+        remedy = "Try another solver ({solver}; conjugate_gradient is the most robust) or a tolerance the arithmetic can reach ({tolerance})."
         status = Status(Outcome.STAGNATED, text, remedy)
     else:
         text = f"Iteration limit before the tolerance {solver.tolerance:.0e}: {reached}."
-        remedy = f"Raise max_iterations above {solver.max_iterations} or loosen the tolerance."
+        remedy = f"Raise the number of iterations above {solver.max_iterations} ({{iterations}}) or loosen the tolerance ({{tolerance}})."
         status = Status(Outcome.ITERATION_LIMIT, text, remedy)
     return Solution(finished, status, ended.errors)
 

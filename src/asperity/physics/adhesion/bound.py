@@ -82,7 +82,7 @@ def energy_bound(result: ContactResult, *, rounds: int = 8, operator: Operator |
     if law.spacing > 0.0:
         raise InputError(
             f"adhesion of a bound of the energy must be a law beside a hard wall, but {law.name} has a core that repels. Use "
-            "ExponentialAdhesion(...) of the same work and strength.",
+            "another law ({gentle_law}) of the same work and strength.",
             subject="adhesion",
         )
     require.integer(rounds, 1, "number of rounds of a bound")

@@ -146,12 +146,12 @@ def adhesive_branch(
     if not isinstance(problem.law, HardWall) or len(problem.physics) > 1:
         raise InputError(
             "problem of a branch must have adhesion alone, but has a hardness, a film of liquid or friction beside it. Leave them out, or "
-            "follow a history of FixedGrips(...)."
+            "follow a history of {grips}."
         )
     if math.isinf(law.steepest):
         raise InputError(
-            f"adhesion of a branch must change smoothly with the gap, but {law.name} has a step. Use DugdaleAdhesion(..., smoothing=1.0), or "
-            "ExponentialAdhesion(...).",
+            f"adhesion of a branch must change smoothly with the gap, but {law.name} has a step. Use a smooth one, such as "
+            "{gentle_law}.",
             subject="adhesion",
         )
     require.one_of(towards, ("parting", "approaching"), "direction of a branch")

@@ -191,7 +191,7 @@ class AdhesionCoupling(Coupling):
                 places.append((offset, miss))
                 offset -= miss / max(slope, 0.1)
             raise NoSolutionError(
-                f"mean gap must be one that the contact reaches without a jump, but {control.value:.6g} m is not. Prescribe FixedGrips(...).",
+                f"mean gap must be one that the contact reaches without a jump, but {control.value:.6g} m is not. Prescribe {{grips}}.",
                 subject="mean gap",
             )
         stiffness = control.stiffness if isinstance(control, FixedGrips) else math.inf
@@ -201,7 +201,7 @@ class AdhesionCoupling(Coupling):
             most = float(profile.max() - profile.mean())
             raise NoSolutionError(
                 f"approach must be less than {most:.6g} m, where a periodic elastic contact is full and its mean gap zero, but is "
-                f"{float(profile.max()) - offset:.6g} m. Prescribe MeanPressure(...) to go beyond full contact.",
+                f"{float(profile.max()) - offset:.6g} m. Prescribe {{mean_pressure}} to go beyond full contact.",
                 subject="approach",
             )
         solution = self.solver.solve(

@@ -55,7 +55,7 @@ class AdhesionSettings(Settings):
     range: Length | None = setting(None, option="--adhesion-range", help="Work over strength: 1nm")
     strength: Pressure | None = setting(None, option="--adhesion-strength", help="Largest attraction: 50MPa")
     retract: Length | None = setting(
-        None, option="--retract", help="Approach from this distance apart, and part to it again, with --approach: 20nm"
+        None, option="--retract", help="Approach from this distance apart, and part to it again, of an approach: 20nm"
     )
     steps: Count = setting(USUAL_STEPS, option="--retract-steps", help="Steps of each way")
     cycles: Count = setting(1, option="--retract-cycles", help="Number of approaches")
@@ -64,10 +64,12 @@ class AdhesionSettings(Settings):
     )
 
     branch: bool = setting(
-        False, option="--adhesion-branch", help="Follow the branch that jumps leave through its folds, with --retract"
+        False,
+        option="--adhesion-branch",
+        help="Follow the branch that jumps leave through its folds, of bodies that part",
     )
     jump_tolerance: Length | None = setting(
-        None, option="--jump-tolerance", help="Close in on every jump to this approach, with --retract: 0.01nm"
+        None, option="--jump-tolerance", help="Close in on every jump to this approach, of bodies that part: 0.01nm"
     )
 
     @model_validator(mode="after")

@@ -64,7 +64,7 @@ class Adhesive(Physics):
         if self.law.spacing > 0.0 and not isinstance(problem.law, HardWall):
             raise InputError(
                 f"law of a contact with the adhesion {self.law.name} must be HardWall(), but is {problem.law!r}: its core has no wall whose "
-                "pressure a hardness could limit. Use ExponentialAdhesion(...) of the same work and strength."
+                "pressure a hardness could limit. Use another law ({gentle_law}) of the same work and strength."
             )
 
     def check_relaxing(self, problem: ContactProblem) -> None:

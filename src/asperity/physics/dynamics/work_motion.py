@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -322,28 +323,7 @@ class Made:
 
     def findings(self) -> tuple[Advice, ...]:
         """A poor law, vibration beyond its range, instability that the run is too short to show."""
-        fit, made = self.fit, []
-        if fit.largest_error > POOR_FIT:
-            fact = (
-                f"The power law of the interface differs from the contact by up to {percent(fit.largest_error)}. A rough contact follows a power of the approach "
-                "only over part of the range: the law holds near the load."
-            )
-            numbers = {"error": fit.largest_error, "largest": POOR_FIT}
-            made.append(Advice("note", "law of the interface", fact, numbers=numbers, concerns=("interface_",)))
-        low, high = fit.span
-        if "normal_force" in self.motion.values:
-            largest = float(self.motion["normal_force"].max()) / self.area
-            if largest > 1.05 * high:
-                fact = (
-                    f"The motion reaches a mean pressure of {show(largest, 'Pa', 3)}, but the law was fitted from {show(low, 'Pa', 3)} to {show(high, 'Pa', 3)} "
-                    "and is extrapolated."
-                )
-                remedy = (
-                    "Take a smaller disturbance ({dynamics.disturbance}), or more damping ({dynamics.damping_ratio})."
-                )
-                numbers = {"mean_pressure": largest, "lowest": low, "highest": high}
-                concerns = ("largest_normal_force", "penetration_vibration")
-                made.append(Advice("note", "range of the law", fact, remedy, numbers, concerns))
+        made = [*self._of_the_law()]
         if self.ask.settings.model == "block" and not self.slides:
             fact = (
                 f"The block has not begun to slide within {show(self.duration, 's', 3)}: there is no apparent friction."
@@ -391,3 +371,28 @@ class Made:
                 fact = f"{why}: its phase hangs on rounding. Only means and extremes can be relied on, not the time of an event."
                 made.append(Advice("note", "phase of the motion", fact, concerns=("motion_",)))
         return tuple(made)
+
+    def _of_the_law(self) -> Iterator[Advice]:
+        """A law that fits poorly, or is used beyond the loads to which it was fitted."""
+        fit = self.fit
+        if fit.largest_error > POOR_FIT:
+            fact = (
+                f"The power law of the interface differs from the contact by up to {percent(fit.largest_error)}. A rough contact follows a power of the approach "
+                "only over part of the range: the law holds near the load."
+            )
+            numbers = {"error": fit.largest_error, "largest": POOR_FIT}
+            yield Advice("note", "law of the interface", fact, numbers=numbers, concerns=("interface_",))
+        low, high = fit.span
+        if "normal_force" in self.motion.values:
+            largest = float(self.motion["normal_force"].max()) / self.area
+            if largest > 1.05 * high:
+                fact = (
+                    f"The motion reaches a mean pressure of {show(largest, 'Pa', 3)}, but the law was fitted from {show(low, 'Pa', 3)} to {show(high, 'Pa', 3)} "
+                    "and is extrapolated."
+                )
+                remedy = (
+                    "Take a smaller disturbance ({dynamics.disturbance}), or more damping ({dynamics.damping_ratio})."
+                )
+                numbers = {"mean_pressure": largest, "lowest": low, "highest": high}
+                concerns = ("largest_normal_force", "penetration_vibration")
+                yield Advice("note", "range of the law", fact, remedy, numbers, concerns)

@@ -122,7 +122,7 @@ class ShearSettings(Settings):
         None, option="--tangential-force", help="On the body along the friction, instead of a shift: 1mN"
     )
     twist: tuple[Angle, ...] | None = setting(
-        None, option="--twist", help="Of the counter body about the normal, instead of a shift, for --boundary free"
+        None, option="--twist", help="Of the counter body about the normal, instead of a shift, for the free boundary"
     )
     cycles: Annotated[int, Whole(0)] = setting(0, option="--cycles", help="Closed cycles to the opposite and back")
     steps: Count | None = setting(

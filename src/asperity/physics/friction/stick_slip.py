@@ -193,7 +193,7 @@ class StickSlipCoupling(Coupling):
         if isinstance(control, Shift) and np.isnan(shift).any():
             raise NoSolutionError(
                 "shift must follow a step whose shift is known, but the tangential force of the step before was all that friction bears: how far "
-                "the body slid is not determined. Prescribe a Shift(...) in that step, or a smaller TangentialForce(...).",
+                "the body slid is not determined. Prescribe a shift ({shift}) in that step, or a smaller tangential force.",
                 subject="shift",
             )
         if isinstance(control, Shift) and control.twist and any(posed.operator.boundary.wraps):
@@ -353,12 +353,12 @@ class StickSlipCoupling(Coupling):
             if limit == 0.0:
                 why = "friction is zero" if contact.pressure.any() else "the surfaces do not touch"
                 raise NoSolutionError(
-                    f"tangential force must be zero where {why}, but is {control.magnitude:.6g} N: nothing bears it. Prescribe a Shift(...) instead.",
+                    f"tangential force must be zero where {why}, but is {control.magnitude:.6g} N: nothing bears it. Prescribe a shift ({{shift}}) instead.",
                     subject="tangential force",
                 )
             raise NoSolutionError(
                 f"tangential force must be at most {limit:.6g} N, which friction bears under this load, but is "
-                f"{control.magnitude:.6g} N: the body slides without end. Prescribe a Shift(...) instead.",
+                f"{control.magnitude:.6g} N: the body slides without end. Prescribe a shift ({{shift}}) instead.",
                 subject="tangential force",
             )
         known = note.solution is not None and note.solved_for is contact.pressure

@@ -64,7 +64,7 @@ between them."""
 _ACCURACY = 1e-4
 _FULL = (
     "Liquid and contact fill nearly all of the interface. Take a thinner film, a rougher surface, stiffer bodies or a liquid of less "
-    "surface tension; or prescribe the position, Approach(...) or MeanGap(...)."
+    "surface tension; or prescribe the position, {approach} or {mean_gap}."
 )
 
 

@@ -42,7 +42,7 @@ class FilmSettings(Settings):
     )
     thickness: Length | None = setting(None, option="--film", help="Thickness; from the humidity by default, for water")
     meniscus_height: Length | None = setting(
-        None, option="--meniscus-height", help="Gap at the rim of a meniscus; --film by default"
+        None, option="--meniscus-height", help="Gap at the rim of a meniscus; the thickness of the film by default"
     )
     contact_angle: tuple[Angle, ...] = setting(
         ("0 deg",), option="--contact-angle", help="Opposite the film, or on both surfaces: 10deg; 60deg,60deg"

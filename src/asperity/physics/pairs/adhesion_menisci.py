@@ -161,7 +161,7 @@ class _Search:
         where = f"at the approach {best.approach:.6g} m, found by {self.count} contacts"
         if status.converged and missed > allowed:
             message = f"{forces} miss their balance by {missed:.3g} N in a jump of the contact {where}."
-            remedy = "Take smaller steps of the load, or prescribe the position, with FixedGrips(...)."
+            remedy = "Take smaller steps of the load, or prescribe the position, with {grips}."
             status = Status(Outcome.STAGNATED, message, remedy)
         elif status.converged:
             jump = f" in a jump of the menisci by {abs(far.liquid - near.liquid):.3g} N, of which part is there,"
@@ -240,6 +240,6 @@ class _Search:
             near, step = further, _GROWTH * step
         raise NoSolutionError(
             f"force must be one that the adhesion and the menisci bear, but {self._wanted(near.approach):.6g} N is not: the surfaces part. "
-            "Prescribe the position, with FixedGrips(...), to follow them.",
+            "Prescribe the position, with {grips}, to follow them.",
             subject="force",
         )

@@ -153,7 +153,7 @@ def require_flow(body: Body, *, unknown_is_elastic: bool) -> None:
     """
     if not any(isinstance(part, J2) for part in plastic_parts(body, unknown_is_elastic=unknown_is_elastic)):
         raise InputError(
-            "body must have a yield stress somewhere for plastic flow, but has none. Give one, {yield_stress}.",
+            "body must have a yield stress somewhere for plastic flow, but has none. Give one, as {yield_stress}.",
             subject="body",
         )
 
@@ -169,7 +169,7 @@ def inferred_strengths(body: Body) -> tuple[Advice, ...]:
             "note",
             "yield stress",
             f"The yield stress is the hardness over 2.8 where no other is known ({'; '.join(texts)}).",
-            "Give it where it matters ({yield_stress}).",
+            "Give it where it matters, as {yield_stress}.",
             {name: stress.value for name, stress in found.items() if stress.inferred},
             ("flow_", "indent_", "pass_"),
         ),

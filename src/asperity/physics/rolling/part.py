@@ -36,7 +36,7 @@ class RollingSettings(Settings):
     )
     lateral: CreepageShare = setting(0.0, option="--lateral-creepage", help="The same across it: 0.05%")
     spin: Spin = setting(
-        "0 rad/m", option="--spin", help="Relative rotation over rolling speed, for --boundary free: 0.5rad/m"
+        "0 rad/m", option="--spin", help="Relative rotation over rolling speed, for the free boundary: 0.5rad/m"
     )
     direction: Way = setting("x", option="--rolling-direction", help="Where the contact rolls to: x, -x, y or -y")
     points: Annotated[int, Whole(0)] = setting(

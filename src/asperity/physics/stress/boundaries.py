@@ -55,9 +55,9 @@ def require_held(tractions: Tractions, body: object) -> None:
         largest = max(float(abs(tractions.shear_x).max()), float(abs(tractions.shear_y).max()))
         if mean > _BALANCED * largest:
             raise InputError(
-                "mean shear traction must be zero on a periodic body with a Frictionless() interface, where nothing holds the "
-                "layers above it, but is not. Use Bonded() interfaces, the free boundary ({free}), whose unloaded parts "
-                "hold the layers, a ShearTraction without its mean, or friction=0."
+                "mean shear traction must be zero on a periodic body with a frictionless interface, where nothing holds the "
+                "layers above it, but is not. Use bonded interfaces, the free boundary ({free}), whose unloaded parts "
+                "hold the layers, a shear traction without its mean, or no friction."
             )
 
 

@@ -418,7 +418,7 @@ def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
     relaxing = [(surface, name) for body, surface, name in pairs if relaxes(body)]
     if not relaxing:
         raise InputError(
-            "body or counter_body of steady sliding must be viscoelastic, but neither is. Give a Viscoelastic(...)."
+            "body or counter_body of steady sliding must be viscoelastic, but neither is. Give one its relaxation, as {relaxation}."
         )
     for surface, name in relaxing:
         if isinstance(surface, Surface) and float(np.ptp(surface.heights)) > 0.0:

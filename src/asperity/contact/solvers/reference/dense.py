@@ -412,7 +412,7 @@ def solve_lcp(matrix: RealArray, vector: RealArray, limit: int) -> tuple[BoolArr
         if not rows.size:
             raise NoSolutionError(
                 "contact conditions must have a solution, but Lemke's pivots end on a ray: no pressure within the bounds "
-                "balances the prescribed load or position. Lower the load, raise the hardness or prescribe MeanPressure(...)."
+                "balances the prescribed load or position. Lower the load, raise the hardness or prescribe {mean_pressure}."
             )
         # row of the lexicographic minimum ratio; the artificial variable goes first where it ties
         ratios = tableau[rows, -1] / column[rows]

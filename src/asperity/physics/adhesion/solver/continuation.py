@@ -168,7 +168,7 @@ class Continuation:
         raise NoSolutionError(
             text
             + f"Single points snap there: the pixel is {pixel:.3g} m. Take one of at most {self.needed_pixel:.3g} m, or an attraction "
-            "that falls more gently, such as ExponentialAdhesion(...) or DugdaleAdhesion(..., smoothing=1.0)."
+            "that falls more gently, such as {gentle_law}."
         )
 
     @property

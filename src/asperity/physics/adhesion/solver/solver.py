@@ -200,7 +200,7 @@ def minimised(
             force = constraint.mean_pressure * problem.operator.grid.area
             raise NoSolutionError(
                 f"force must be one that the adhesion bears, but {force:.6g} N is not: the surfaces part. "
-                "Prescribe the position, with FixedGrips(...), to follow them.",
+                "Prescribe the position, with {grips}, to follow them.",
                 subject="force",
             )
         wanted: FixedMean | FixedOffset = FixedMean(mean)
