@@ -12,6 +12,7 @@ from ..core.status import Advice, free_memory, room_text
 from ..core.units import percent, show, times
 from ..solids.elastic import Elastic
 from ..solids.layers import Layered, materials_of, surface_material
+from ..surfaces.characterise.heights import rms_height
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
 from .certificate import LARGEST_DUALITY_GAP
@@ -45,6 +46,9 @@ LARGEST_AREA_CORRECTION = 0.15
 FEWEST_CONTACT_PIXELS = 10
 """Number of contact pixels below which their count is inaccurate."""
 
+LEAST_HEIGHT, LARGEST_HEIGHT = 1e-12, 1e-2
+"""Rms heights in m between a hundredth of an atom and what stands on a bench."""
+
 LARGEST_PATCH = 1.0 / 8.0
 """Contact diameter over period at which images bend the surface by 0.9 % of P/(pi E* L) (see the analytic tests)."""
 
@@ -72,6 +76,8 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
         *_load(problem, control),
         *_layers(problem),
         *_memory(problem),
+        *_units(problem),
+        *(found for physics in problem.physics for found in physics.advice()),
     )
 
 
@@ -370,3 +376,27 @@ def _layers(problem: ContactProblem) -> Iterator[Advice]:
                 "lower pressure. Limit the pressure by the effective hardness, LayeredHardness(body) (--hardness effective), or compute "
                 "the stresses, which tell the load factor of each layer.",
             )
+
+
+def _units(problem: ContactProblem) -> Iterator[Advice]:
+    """Values that no surface or material has, as where a unit was mistaken."""
+    for name, surface in (("surface", problem.surface), ("counter surface", problem.counter_surface)):
+        height = rms_height(surface) if isinstance(surface, Surface) else 0.0
+        if height and not LEAST_HEIGHT <= height <= LARGEST_HEIGHT:
+            yield Advice(
+                "note",
+                f"height of the {name}",
+                f"The rms height of the {name} is {show(height, 'm', 3)}, outside of {show(LEAST_HEIGHT, 'm')} to {show(LARGEST_HEIGHT, 'm')}. Check the unit of the heights.",
+            )
+    for body in (problem.body, problem.counter_body):
+        for solid in materials_of(body):
+            modulus = solid.youngs_modulus
+            strengths = {"yield stress": solid.strength.yield_stress, "hardness": solid.strength.hardness}
+            for name, value in strengths.items():
+                if value > modulus:
+                    yield Advice(
+                        "warning",
+                        name,
+                        f"The {name} of {solid.name or 'a material'}, {show(value, 'Pa')}, is above its Young's modulus, {show(modulus, 'Pa')}; "
+                        "solids yield at a tenth of it or less. Check the units of both.",
+                    )
