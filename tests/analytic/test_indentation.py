@@ -369,6 +369,20 @@ def test_what_is_refused() -> None:
         _ = fem.indentation(STEEL, fem.Paraboloid(R), [1e-7], resolution=ROUGH).unloading_stiffness
 
 
+@pytest.mark.parametrize("ball", [fem.Paraboloid, fem.Sphere])
+def test_balls_are_pressed_as_far_as_strains_are_small(ball: type[fem.Paraboloid | fem.Sphere]) -> None:
+    """As on the command line: refused beyond 0.08 of the radius, a finding where the contact is wider than 0.15 of it; cones have one slope at any depth."""
+    for steps in ([0.081 * R], [1e-7, fem.Depth(0.081 * R)]):
+        with refused(InputError, "depth of indentation (m)", "0.08"):
+            fem.indentation(STEEL, ball(R), steps, plasticity=None, resolution=ROUGH)
+    deep, shallow = (
+        fem.indentation(STEEL, ball(R), [depth * R], plasticity=None, resolution=ROUGH) for depth in (0.04, 0.02)
+    )
+    assert [item.criterion for item in deep.advice] == ["small strain"]
+    assert shallow.advice == ()
+    assert fem.indentation(STEEL, fem.Cone(0.3579), [0.1 * R], plasticity=None, resolution=ROUGH).advice == ()
+
+
 def test_a_punch_beyond_collapse() -> None:
     """More force than perfect plasticity bears is refused, with the last balance."""
     with pytest.raises(ConvergenceError):

@@ -48,6 +48,18 @@ def test_bricks_hold_uniform_strain() -> None:
     assert np.abs(forces[middle]).max() < 1e-12 * np.abs(forces).max()
 
 
+def test_indenters_over_a_track_are_gentle_where_they_touch() -> None:
+    """A cylinder whose contact is wider than 0.4 of its radius is refused, as on the command line; large plastic strains are a finding."""
+    load = math.pi * E_STAR / 400.0
+    track = passes.cylinder_track(STEEL, 1.0, (-0.5, 0.5), plasticity=None, resolution=COARSE)
+    with refused(InputError, "slope of the indenter", "0.4"):
+        track.press(track.virgin(), parabola(2.0), place=0.0, force=math.pi * E_STAR / 8.0)  # a = 1
+    state = track.press(track.virgin(), parabola(100.0), place=0.0, force=load)
+    history = track.history([state])
+    assert history.advice == ()
+    assert [item.criterion for item in replace(history, flow=history.flow + 0.11).advice] == ["small strain"]
+
+
 def test_elastic_cylinder() -> None:
     """Hertz, pressed and dragged: pressure within 0.5 %; stresses on the axis within 1 % of the peak, which the far boundary lifts by about a/distance."""
     radius, load = 100.0, math.pi * E_STAR / 400.0  # a = 1

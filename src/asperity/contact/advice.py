@@ -13,6 +13,7 @@ from ..core.units import percent, show, times
 from ..solids.elastic import TABOR, Elastic
 from ..solids.layers import Layered, RigidBase, materials_of
 from ..solids.strength import unknown_strengths, yield_pressure
+from ..surfaces.characterise.heights import rms_height
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
 from .certificate import LARGEST_DUALITY_GAP
@@ -46,6 +47,9 @@ LARGEST_AREA_CORRECTION = 0.15
 
 FEWEST_CONTACT_PIXELS = 10
 """Number of contact pixels below which their count is inaccurate."""
+
+LEAST_HEIGHT, LARGEST_HEIGHT = 1e-12, 1e-2
+"""Rms heights in m between a hundredth of an atom and what stands on a bench."""
 
 LARGEST_PATCH = 1.0 / 8.0
 """Contact diameter over period at which images bend the surface by 0.9 % of P/(pi E* L) (see the analytic tests)."""
@@ -86,6 +90,8 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
         *_load(problem, control),
         *_layers(problem),
         *_memory(problem),
+        *_units(problem),
+        *(found for physics in problem.physics for found in physics.advice()),
     )
 
 
@@ -490,3 +496,31 @@ def _below(law: InterfaceLaw, body: Layered) -> Iterator[Advice]:
             {"limit": limit},
             (*AREAS, *PRESSURES, "plastic_"),
         )
+
+
+def _units(problem: ContactProblem) -> Iterator[Advice]:
+    """Values that no surface or material has, as where a unit was mistaken."""
+    for name, surface in (("surface", problem.surface), ("counter surface", problem.counter_surface)):
+        height = rms_height(surface) if isinstance(surface, Surface) else 0.0
+        if height and not LEAST_HEIGHT <= height <= LARGEST_HEIGHT:
+            yield Advice(
+                "note",
+                f"height of the {name}",
+                f"The rms height of the {name} is {show(height, 'm', 3)}, outside of {show(LEAST_HEIGHT, 'm')} to {show(LARGEST_HEIGHT, 'm')}.",
+                "Check the unit of the heights ({height_unit}).",
+                {"rms_height": height, "least": LEAST_HEIGHT, "largest": LARGEST_HEIGHT},
+            )
+    for body in (problem.body, problem.counter_body):
+        for solid in materials_of(body):
+            modulus = solid.youngs_modulus
+            strengths = {"yield stress": solid.strength.yield_stress, "hardness": solid.strength.hardness}
+            for name, value in strengths.items():
+                if value > modulus:
+                    yield Advice(
+                        "warning",
+                        name,
+                        f"The {name} of {solid.name or 'a material'}, {show(value, 'Pa')}, is above its Young's modulus, {show(modulus, 'Pa')}; "
+                        "solids yield at a tenth of it or less.",
+                        "Check the units of both.",
+                        {"strength": value, "youngs_modulus": modulus},
+                    )

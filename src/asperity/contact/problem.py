@@ -16,6 +16,7 @@ from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Shown
 from ..core.registry import PHYSICS, REFUSED, home
+from ..core.status import Advice
 from ..core.values import LEAST
 from ..solids.compliance.halfspace import Compliance, contact_compliance
 from ..solids.elastic import Elastic, Rigid
@@ -82,6 +83,10 @@ class Physics:
 
     def check(self, problem: ContactProblem) -> None:
         """Refuse with an InputError what does not go with it in ``problem``."""
+
+    def advice(self) -> Iterator[Advice]:
+        """What should be known of its settings before the solve."""
+        yield from ()
 
     def check_relaxing(self, problem: ContactProblem) -> None:
         """The same where a body of ``problem`` is viscoelastic."""

@@ -11,11 +11,12 @@ from scipy.optimize import minimize_scalar
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.quantity import measured
+from ..core.status import Advice
 from ..solids.plasticity import von_mises
 from ..theories.hardness.effective_hardness import PARABOLOID, OliverPharr
 from .contact import Equilibrium
 from .elements import GAUSS, Elements
-from .indenters import Indenter, radius_at
+from .indenters import Indenter, beyond_small_strain, radius_at
 from .mesh import IntArray, Mesh
 
 NOWHERE = (math.nan, math.nan)
@@ -296,12 +297,20 @@ class IndentationHistory:
         From where the next history may start.
     fields
         Of the steps that were to be kept, by their number.
+    ball
+        Radius of the indenter in m where it is a ball or paraboloid, else infinite.
     """
 
     steps: tuple[IndentationStep, ...]
     r: RealArray
     state: IndentationState
     fields: dict[int, SolidFields]
+    ball: float = math.inf
+
+    @property
+    def advice(self) -> tuple[Advice, ...]:
+        """What should be known before its numbers are used: contacts of a ball that are too large for small strains."""
+        return tuple(beyond_small_strain(float(self.contact_radius.max()), self.ball))
 
     def _of(self, name: str) -> RealArray:
         return np.array([getattr(step, name) for step in self.steps])

@@ -29,7 +29,7 @@ from .history import (
     SolidFields,
     ring_areas,
 )
-from .indenters import Indenter, radius_at
+from .indenters import LARGEST_SLOPE, Indenter, ball_radius, radius_at
 from .linear import factorised, without
 from .mesh import IntArray, Mesh, Resolution, layered_mesh
 from .solid import Solid
@@ -97,7 +97,7 @@ def indentation(
     Raises
     ------
     InputError
-        If an input cannot be used.
+        If an input cannot be used, or a ball is pressed in by more than 0.08 of its radius: strains are not small then.
     ConvergenceError
         If a step is not found even in small parts.
 
@@ -137,12 +137,15 @@ class Indentation:
         Points of the mesh that may touch.
     heights
         (nodes,) of the indenter in m.
+    ball
+        Radius of the indenter in m where it is a ball or paraboloid, else infinite.
     """
 
     mesh: Mesh
     pressed: Pressed
     nodes: IntArray
     heights: RealArray
+    ball: float = math.inf
 
     @classmethod
     def of(
@@ -196,7 +199,7 @@ class Indentation:
         heights = indenter(mesh.points[nodes, 0])
         along = 2 * nodes[:, None] if friction else np.zeros((len(nodes), 0), dtype=np.intp)
         surface = ContactSurface(2 * nodes + 1, np.concatenate(fixed), along[:, :1], friction, relative)
-        return cls(mesh, Pressed(solid, surface), nodes, heights)
+        return cls(mesh, Pressed(solid, surface), nodes, heights, ball_radius(indenter))
 
     @property
     def r(self) -> RealArray:
@@ -238,7 +241,7 @@ class Indentation:
             taken.append(step)
             if number in kept:
                 fields[number] = self.fields(state.equilibrium)
-        return IndentationHistory(tuple(taken), self.r, state, fields)
+        return IndentationHistory(tuple(taken), self.r, state, fields, self.ball)
 
     def fields(self, now: Equilibrium) -> SolidFields:
         """Stresses and strains of the body."""
@@ -384,6 +387,13 @@ def _largest_radius(indenter: Indenter, steps: Sequence[IndentationTarget], laws
     """
     depths = [aim.approach if isinstance(aim, Depth) else aim for aim in steps if not isinstance(aim, Load)]
     deepest = max((require.finite(depth, "approach of a step (m)") for depth in depths), default=0.0)
+    ball = ball_radius(indenter)
+    if deepest > 0.5 * LARGEST_SLOPE**2 * ball:
+        raise InputError(
+            f"depth of indentation (m) must be at most {0.5 * LARGEST_SLOPE**2 * ball:.3g}, 0.08 of the radius of the indenter, but is {deepest:.3g}. "
+            "Beyond that strains are not small.",
+            subject="depth of indentation (m)",
+        )
     force = max((aim.force for aim in steps if isinstance(aim, Load)), default=0.0)
     if force > 0.0:
         modulus = min((law.elastic if isinstance(law, J2) else law).plane_strain_modulus for law in laws)

@@ -6,7 +6,7 @@ Any function of an array of r (m) that gives heights (m), zero at r = 0 and grow
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -15,6 +15,13 @@ import numpy as np
 from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
+from ..core.status import Advice
+
+LARGEST_SLOPE, SMALL_SLOPE = 0.4, 0.15
+"""Slope of an indenter at the edge of the contact, of a ball contact over indenter radius, beyond which strains are not small, and up to which small strains err by a few per cent."""
+
+LARGE_STRAIN = 0.1
+"""Accumulated plastic strain from which on small strains err by more than a few per cent."""
 
 Indenter: TypeAlias = Callable[[RealArray], RealArray]
 """Height in m at the distances r (m) from the axis."""
@@ -78,6 +85,46 @@ class FlatPunch:
     def __call__(self, r: RealArray) -> RealArray:
         """Height in m at ``r`` in m; the edge belongs to the punch."""
         return np.where(r <= self.radius * (1.0 + 1e-9), 0.0, math.inf)
+
+
+def ball_radius(indenter: Indenter) -> float:
+    """Radius in m of a ball or paraboloid; infinite for other shapes, whose slope does not tell how far they are pressed."""
+    return indenter.radius if isinstance(indenter, Paraboloid | Sphere) else math.inf
+
+
+def beyond_small_strain(contact_radius: float, ball: float) -> Iterator[Advice]:
+    """Warning where the contact of a ``ball`` (its radius in m) is so large that small strains err."""
+    if contact_radius > SMALL_SLOPE * ball:
+        fact = f"The contact radius is {contact_radius / ball:.2g} of that of the indenter. Beyond {SMALL_SLOPE:g} small strains err by more than a few per cent."
+        numbers = {"share": contact_radius / ball, "largest": SMALL_SLOPE}
+        yield Advice(
+            "warning", "small strain", fact, "Take a smaller depth ({indentation.depth}).", numbers, ("indent_",)
+        )
+
+
+def require_gentle(indenter: Indenter, places: RealArray) -> None:
+    """Refuse an ``indenter`` over a track that is steeper than 0.4 where it touches: at the ``places`` (points, 1 or 2) in m from its lowest point.
+
+    Raises
+    ------
+    InputError
+        If it is.
+    """
+    if len(places) == 0:
+        return
+    half = 1e-4 * max(float(np.abs(places).max()), 1e-300)
+    slopes = []
+    for axis in range(places.shape[1]):
+        move = np.zeros(places.shape[1])
+        move[axis] = half
+        slopes.append((indenter(places + move) - indenter(places - move)) / (2.0 * half))
+    steepest = np.sqrt(np.sum(np.square(slopes), axis=0))
+    largest = float(np.max(steepest, where=np.isfinite(steepest), initial=0.0))
+    if largest > LARGEST_SLOPE:
+        raise InputError(
+            f"slope of the indenter must be at most {LARGEST_SLOPE:g} where it touches, but is {largest:.2g}. Beyond that strains are not small: take a smaller load, or a larger radius.",
+            subject="slope of the indenter",
+        )
 
 
 def radius_at(indenter: Indenter, height: float) -> float:

@@ -15,12 +15,15 @@ import numpy as np
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import ConvergenceError, InputError
 from ..core.quantity import measured
+from ..core.status import Advice
+from ..core.units import percent
 from ..solids.elastic import Elastic
 from ..solids.flow import OF_STRENGTH, Plasticity, flow_of
 from ..solids.layers import Layered
 from ..solids.plasticity import WEIGHTS, PlasticState
 from .bricks import brick_mesh, bricks, track_lines, tributary
 from .elements import plane_strain
+from .indenters import LARGE_STRAIN, require_gentle
 from .mesh import IntArray, Mesh, Resolution, tensor_mesh
 from .prepared import Prepared
 from .solid import Response, Solid
@@ -91,6 +94,15 @@ class PassHistory:
     work: RealArray
     dissipated: RealArray
     state: PassState
+
+    @property
+    def advice(self) -> tuple[Advice, ...]:
+        """What should be known before its numbers are used: plastic strains that are not small."""
+        strain = float(self.flow.max())
+        if not strain > LARGE_STRAIN:
+            return ()
+        text = f"The plastic strain reaches {percent(strain)}. Small strains err by more than a few per cent from {percent(LARGE_STRAIN)} on."
+        return (Advice("warning", "small strain", text),)
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,7 +195,7 @@ class Track:
         Raises
         ------
         InputError
-            If not exactly one of force and approach is given.
+            If not exactly one of force and approach is given, or the indenter is steeper than 0.4 where it touches: strains are not small then.
         ConvergenceError
             If 1/64 of the step does not converge.
         """
@@ -207,7 +219,10 @@ class Track:
                 found = step.against(indenter(moved), mu, approach=last + share * (approach - last))
             return replace(found, place=x)
 
-        return _in_parts(start, part)
+        found = _in_parts(start, part)
+        touched = self.places[found.normal > 0.0]
+        require_gentle(indenter, touched - np.array([place, 0.0])[: touched.shape[1]])
+        return found
 
     # What is found.
 

@@ -22,7 +22,7 @@ from .comparison import SIZE as COMPARISON_SIZE
 from .comparison import comparison_plots
 from .contact import PATH_PLOTS, PLASTIC_PLOTS, PLOTS, physics_plots
 from .maps import plot_heights
-from .picture import CURVE_SIZE, VIEW_SIZE, Plot, map_size, png, style
+from .picture import CURVE_SIZE, VIEW_SIZE, Plot, map_size, png, style, uncrowd
 from .surface import SURFACE_PLOTS, plot_surface_view
 
 if TYPE_CHECKING:
@@ -45,7 +45,9 @@ def plot(thing: object, kind: str, ax: Axes | None, **options: Any) -> Axes:
     pyplot.draw_if_interactive()  # type: ignore[no-untyped-call]  # loads the backend, that of notebooks switches pyplot to interactive: inside the style that would be undone
     with style():
         figure = pyplot.figure(figsize=chosen.size, layout="constrained")  # labels stay inside however it is saved
-        return chosen.draw(figure.add_subplot(projection=chosen.projection), **options)
+        drawn = chosen.draw(figure.add_subplot(projection=chosen.projection), **options)
+        uncrowd(figure)
+        return drawn
 
 
 def card(thing: object) -> str:

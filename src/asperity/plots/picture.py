@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import io
+import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -184,6 +185,43 @@ def style() -> Iterator[None]:
 
     with rc_context(SETTINGS):
         yield
+
+
+LABEL_WIDTH, LABEL_HEIGHT = 0.62, 0.17
+"""Inches along an axis that a label such as 3×10⁻⁴ takes, and across it."""
+
+
+def uncrowd(figure: Any) -> None:
+    """Label logarithmic axes of ``figure`` within a decade only where labels do not overlap: those of matplotlib do on axes of about one."""
+    from matplotlib.ticker import FuncFormatter
+
+    for ax in figure.axes:
+        for axis, room in ((ax.xaxis, LABEL_WIDTH), (ax.yaxis, LABEL_HEIGHT)):
+            if axis.get_scale() == "log":
+                axis.set_minor_formatter(FuncFormatter(partial(_within_decade, axis, room)))
+
+
+def _within_decade(axis: Any, room: float, value: float, place: int | None) -> str:
+    """Label of the minor tick at ``value``: none where two decades are labelled, or others are nearer than ``room`` in inches."""
+    low, high = sorted(axis.get_view_interval())
+    box = axis.axes.bbox
+    length = (box.width if axis.axis_name == "x" else box.height) / axis.get_figure().dpi
+    inch = math.log10(high / low) / length
+    major = [at for at in axis.get_majorticklocs() if low <= at <= high]
+    labelled = [math.log10(at) for at in major]
+    leading = {
+        at: round(at / 10.0 ** math.floor(math.log10(at))) for at in axis.get_minorticklocs() if low <= at <= high
+    }
+    for at in sorted(leading, key=lambda at: (FIRST_LABELS.index(leading[at]), at)) if len(major) < 2 else ():
+        if all(abs(math.log10(at) - other) >= room * inch for other in labelled):
+            labelled.append(math.log10(at))
+            if math.isclose(at, value, rel_tol=1e-9):
+                return rf"$\mathdefault{{{leading[at]}\times10^{{{math.floor(math.log10(at))}}}}}$"
+    return ""
+
+
+FIRST_LABELS = (2, 5, 3, 7, 4, 6, 8, 9, 1)
+"""Multiples of a power of ten in the order in which they are labelled."""
 
 
 # A drawn figure with its texts.
@@ -390,6 +428,7 @@ def _pixels(
     figure = Figure(figsize=size, dpi=dpi)
     FigureCanvasAgg(figure)
     draw(figure.add_subplot(projection=projection))
+    uncrowd(figure)
     pixels, content = content_of(figure)
     if curves is None:
         return pixels

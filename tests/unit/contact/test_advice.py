@@ -186,3 +186,36 @@ def test_a_soft_coating_pressed_through_is_not_above_its_hardness():
     assert result.max_pressure > 0.021
     assert "hardness" not in criteria(asp.contact.review(result))
     assert "softer layers below" not in criteria(asp.contact.advise(result.problem, result.control))
+
+
+def test_strengths_above_the_modulus():
+    """As where MPa were written for kPa; a strength below it is none."""
+    for name, criterion in (("yield_stress", "yield stress"), ("hardness", "hardness")):
+        weak, strong = (asp.Elastic(2e9, 0.3, asp.Strength(**{name: value}), "film") for value in (1e9, 4e9))
+        for body, found in ((weak, set()), (strong, {criterion})):
+            for solid in (body, asp.Layered([asp.Layer(body, thickness=5e-6)], base=elastic(1e9))):
+                made = asp.contact.advise(asp.ContactProblem(SMOOTH, solid), asp.MeanPressure(1e6))
+                assert {item.criterion for item in made if item.level == "warning"} == found
+                assert all(
+                    "4 GPa" in item.message and "2 GPa" in item.message for item in made if item.criterion == criterion
+                )
+
+
+def test_friction_in_per_cent():
+    uneven = np.full(SMOOTH.shape, 0.3)
+    uneven[0, 0] = 2.5
+    assert before(SMOOTH, friction=asp.Coulomb(1.9)) == ()
+    for law in (asp.Coulomb(30.0), asp.Coulomb(uneven)):
+        (found,) = before(SMOOTH, friction=law)
+        assert (found.level, found.criterion) == ("warning", "friction coefficient")
+        assert f"{law.largest:g}" in found.message
+
+
+def test_heights_that_no_surface_has():
+    """A unit too large or too small; at any lateral scale."""
+    for factor, counter in ((1e-6, False), (1e6, False), (1e6, True)):
+        odd = asp.Surface(factor * SMOOTH.heights, factor * 1e-6, periodic=True)
+        flat = replace(odd, heights=0.0 * odd.heights)
+        found = before(flat, counter_surface=odd) if counter else before(odd)
+        assert criteria(found) == {"height of the counter surface" if counter else "height of the surface"}
+    assert before(SMOOTH) == ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from asperity.plots.picture import AxesCurves, content_of, encoded, png
+from asperity.plots.picture import AxesCurves, content_of, encoded, png, style, uncrowd
 
 DPI = 100
 
@@ -59,3 +60,29 @@ def test_curves_lie_where_the_picture_shows_them() -> None:
     height, width = red.shape
     assert (left * width, right * width) == pytest.approx((columns[0], columns[-1] + 1), abs=1.0)
     assert (top * height, bottom * height) == pytest.approx((rows[0], rows[-1] + 1), abs=1.0)
+
+
+@pytest.mark.parametrize(
+    ("lowest", "decades", "width"),
+    [(2e-5, 1.2, 4.5), (3e3, 1.0, 3.5), (1.1, 0.4, 3.5), (0.0103, 0.2, 3.5), (1.0, 3.0, 4.5)],
+)
+def test_labels_of_logarithmic_axes_do_not_overlap(lowest: float, decades: float, width: float) -> None:
+    """Axes of about a decade, where matplotlib labels the ticks between; two labels at least tell the scale."""
+    with style():
+        figure = Figure(figsize=(width, 3.0), dpi=100, layout="constrained")
+        FigureCanvasAgg(figure)
+        ax = figure.add_subplot()
+        ax.plot([lowest, lowest * 10.0**decades], [1.0, 2.0])
+        ax.set(xscale="log", xlabel="p")
+        uncrowd(figure)
+        figure.canvas.draw()
+    low, high = ax.get_xlim()
+    seen = [
+        label.get_window_extent()
+        for minor in (False, True)
+        for at, label in zip(ax.get_xticks(minor=minor), ax.get_xticklabels(minor=minor), strict=True)
+        if low <= at <= high and label.get_text()
+    ]
+    boxes = sorted((box.x0, box.x1) for box in seen)
+    assert len(boxes) >= 2
+    assert all(left[1] < right[0] for left, right in pairwise(boxes))

@@ -12,6 +12,7 @@ import numpy as np
 from ...contact.problem import ContactProblem, Physics, Preparing
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.status import Advice
 from .law import Coulomb, FrictionLaw, FullStick, TrescaFriction
 
 if TYPE_CHECKING:
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
     from ...contact.operators import Operator
     from ...contact.result import ContactResult
     from ...contact.state import InterfaceState
+
+
+UNUSUAL = 2.0
+"""Coefficient above which friction is a finding: clean metals in vacuum and soft rubber reach it."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +58,16 @@ class Rubbing(Physics):
                 raise InputError(
                     f"{what} must have the shape {problem.surface.shape} of the surface, but has {found.shape}."
                 )
+
+    def advice(self) -> Iterator[Advice]:
+        """Whether a coefficient may have been meant in per cent."""
+        if isinstance(self.law, Coulomb) and self.law.largest > UNUSUAL:
+            yield Advice(
+                "warning",
+                "friction coefficient",
+                f"The friction coefficient is {self.law.largest:.4g} (more than {UNUSUAL:g}), the shear traction over the pressure: 0.3 for 30 %. "
+                "Check whether it was meant in per cent; for full stick it is as it should be.",
+            )
 
     def conserves(self) -> bool:
         """Where shear leaves the pressure as it is: then it is not solved."""

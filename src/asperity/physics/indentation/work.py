@@ -15,7 +15,7 @@ from ...core.status import Advice, NoProgress, Progress
 from ...core.units import percent, show
 from ...fem.history import IndentationStep, SolidFields
 from ...fem.indent import Indentation, Load
-from ...fem.indenters import Cone, Paraboloid
+from ...fem.indenters import Cone, Paraboloid, beyond_small_strain
 from ...fem.mesh import Resolution
 from ...parts.part import Found, Rows, Solved, Stored, Words, Work
 from ...plots.picture import Figure, figures_by
@@ -252,11 +252,7 @@ def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Fo
     facts["zones"] = [list(zones.headings), [list(row) for row in zones.cells]]
     findings = list(inferred_strengths(body))
     radius = math.sqrt(float(run.shown.curve["area"][run.peak]) / math.pi)
-    if not indenter.is_cone and radius > SMALL_STRAIN * indenter.radius:
-        fact = f"The contact radius is {radius / indenter.radius:.2g} of that of the indenter. Beyond {SMALL_STRAIN:g} small strains err by more than a few per cent."
-        remedy = "Take a smaller depth ({indentation.depth})."
-        numbers = {"share": radius / indenter.radius, "largest": SMALL_STRAIN}
-        findings.append(Advice("warning", "small strain", fact, remedy, numbers, ("indent_",)))
+    findings += beyond_small_strain(radius, math.inf if indenter.is_cone else indenter.radius)
     if run.touching < FEW:
         fact = f"Only {run.touching} points of the mesh touch. Load and area err by several per cent below {FEW}."
         remedy = "Take more elements ({indentation.elements})."
@@ -284,10 +280,6 @@ def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Fo
         drawn = np.linspace(max(fit.final_depth, 0.0), fit.peak_depth, 25)
         facts |= {"oliver_pharr": read.hardness, "unloading": [drawn.tolist(), fit.force(drawn).tolist()]}
     return Found({**values, **shown.values(PREFIX)}, Detail(facts, run), tuple(findings), KEYS)
-
-
-SMALL_STRAIN = 0.15
-"""Contact over indenter radius up to which small strains hold within a few per cent."""
 
 
 FEW = 8

@@ -11,6 +11,7 @@ import numpy as np
 from ...contact.problem import ContactProblem
 from ...core.status import Advice
 from ...core.units import percent, show
+from ...fem.indenters import LARGE_STRAIN, SMALL_SLOPE
 from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
     from ...contact.problem import ContactProblem
 from .work_passes_course import Course, Passed, course_of, passed, require_course
 
-LARGE_STRAIN = 0.1
 FEW = 6
 """Elements across the contact below which plastic strains err by some ten per cent."""
 
@@ -105,13 +105,13 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
     values |= {f"{PREFIX}_{name}": column for name, column in zip(names, run.profile, strict=True)}
     made, strain = list(inferred_strengths(body)), float(values["pass_plastic_strain"])
     share = run.numbers["contact"] / course.radius
-    if strain > LARGE_STRAIN or share > LARGE_SHARE:
-        fact = f"The plastic strain reaches {percent(strain)}, and the contact {share:.2g} of the radius of the indenter. Small strains err by more than a few per cent from {percent(LARGE_STRAIN)} or {LARGE_SHARE:g} on."
+    if strain > LARGE_STRAIN or share > SMALL_SLOPE:
+        fact = f"The plastic strain reaches {percent(strain)}, and the contact {share:.2g} of the radius of the indenter. Small strains err by more than a few per cent from {percent(LARGE_STRAIN)} or {SMALL_SLOPE:g} on."
         numbers = {
             "plastic_strain": strain,
             "largest_strain": LARGE_STRAIN,
             "share": share,
-            "largest_share": LARGE_SHARE,
+            "largest_share": SMALL_SLOPE,
         }
         made.append(Advice("warning", "small strain", fact, numbers=numbers, concerns=("pass_",)))
     if run.touching < FEW:
