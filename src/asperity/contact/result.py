@@ -220,11 +220,12 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
     @cached_property
     def edges(self) -> Edges:
         """Where the edges of the contact run between the pixels."""
-        return edges_in(self.problem, self.pressure, self.gap, self.plastic)
+        return edges_in(self.problem, self.pressure, _passing_gap(self), self.plastic)
 
     @cached_property
     def _real_area(self) -> RealArea:
-        return real_area(self.pressure, self.plastic, self.edges, self.problem.boundary.wraps)
+        edges = vars(self).get("edges") or edges_in(self.problem, self.pressure, _passing_gap(self), self.plastic)
+        return real_area(self.pressure, self.plastic, edges, self.problem.boundary.wraps)
 
     @property
     def contact_area(self) -> float:
@@ -393,7 +394,9 @@ def assemble(
         couplings=outcomes,
         memory={name: memory for name, memory in memories.items() if memory and name != "hardness"},
         earlier=before.pressure if before is not None and before.pressure.any() else None,
-        deflections=Deflections(operator, tuple(pairs)) if found.qp.elastic and attraction is None else None,
+        deflections=Deflections(operator.compliance, operator.boundary, operator.grid, tuple(pairs))
+        if found.qp.elastic and attraction is None
+        else None,
         **_indentation(problem, before, memories["hardness"], added(answer.imprint() for answer in answers)),
     )
 
@@ -410,9 +413,15 @@ def unindented(result: ContactResult) -> RealArray:
     return np.zeros(result.problem.grid.shape)
 
 
+def _passing_gap(result: ContactResult) -> RealArray:
+    """Gap (nx, ny) in m; one that is not at hand is not kept, nor are the edges that follow: a path may hold many."""
+    gap = vars(result)["gap"]
+    found: RealArray = gap.compute(result) if isinstance(gap, Later) else gap
+    return found
+
+
 def _mean_gap(result: ContactResult) -> float:
-    gap = vars(result)["gap"]  # one that is not at hand is not kept: a path may hold many
-    return float((gap.compute(result) if isinstance(gap, Later) else gap).mean())
+    return float(_passing_gap(result).mean())
 
 
 def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operator: Operator | None = None) -> float:
