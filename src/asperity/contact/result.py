@@ -384,7 +384,7 @@ def assemble(
         area_fraction=pixels / grid.n_points,
         max_pressure=float(computed.max()),
         approach=found.posed.top + found.level,
-        mean_gap=Later(_mean_gap),
+        mean_gap=Later(lambda result: float(_passing_gap(result).mean())),
         elastic_energy=springs[0] if springs else 0.5 * work * grid.pixel_area,
         plastic_area_fraction=yielding / pixels if pixels else 0.0,
         normal_stiffness=later,
@@ -418,10 +418,6 @@ def _passing_gap(result: ContactResult) -> RealArray:
     gap = vars(result)["gap"]
     found: RealArray = gap.compute(result) if isinstance(gap, Later) else gap
     return found
-
-
-def _mean_gap(result: ContactResult) -> float:
-    return float(_passing_gap(result).mean())
 
 
 def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operator: Operator | None = None) -> float:
