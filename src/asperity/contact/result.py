@@ -220,11 +220,12 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
     @cached_property
     def edges(self) -> Edges:
         """Where the edges of the contact run between the pixels."""
-        return edges_in(self.problem, self.pressure, self.gap, self.plastic)
+        return edges_in(self.problem, self.pressure, _passing_gap(self), self.plastic)
 
     @cached_property
     def _real_area(self) -> RealArea:
-        return real_area(self.pressure, self.plastic, self.edges, self.problem.boundary.wraps)
+        edges = vars(self).get("edges") or edges_in(self.problem, self.pressure, _passing_gap(self), self.plastic)
+        return real_area(self.pressure, self.plastic, edges, self.problem.boundary.wraps)
 
     @property
     def contact_area(self) -> float:
@@ -383,7 +384,7 @@ def assemble(
         area_fraction=pixels / grid.n_points,
         max_pressure=float(computed.max()),
         approach=found.posed.top + found.level,
-        mean_gap=Later(_mean_gap),
+        mean_gap=Later(lambda result: float(_passing_gap(result).mean())),
         elastic_energy=springs[0] if springs else 0.5 * work * grid.pixel_area,
         plastic_area_fraction=yielding / pixels if pixels else 0.0,
         normal_stiffness=later,
@@ -393,7 +394,9 @@ def assemble(
         couplings=outcomes,
         memory={name: memory for name, memory in memories.items() if memory and name != "hardness"},
         earlier=before.pressure if before is not None and before.pressure.any() else None,
-        deflections=Deflections(operator, tuple(pairs)) if found.qp.elastic and attraction is None else None,
+        deflections=Deflections(operator.compliance, operator.boundary, operator.grid, tuple(pairs))
+        if found.qp.elastic and attraction is None
+        else None,
         **_indentation(problem, before, memories["hardness"], added(answer.imprint() for answer in answers)),
     )
 
@@ -410,9 +413,11 @@ def unindented(result: ContactResult) -> RealArray:
     return np.zeros(result.problem.grid.shape)
 
 
-def _mean_gap(result: ContactResult) -> float:
-    gap = vars(result)["gap"]  # one that is not at hand is not kept: a path may hold many
-    return float((gap.compute(result) if isinstance(gap, Later) else gap).mean())
+def _passing_gap(result: ContactResult) -> RealArray:
+    """Gap (nx, ny) in m; one that is not at hand is not kept, nor are the edges that follow: a path may hold many."""
+    gap = vars(result)["gap"]
+    found: RealArray = gap.compute(result) if isinstance(gap, Later) else gap
+    return found
 
 
 def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operator: Operator | None = None) -> float:

@@ -39,6 +39,11 @@ class Grid:
         return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
 
     @property
+    def exchanged(self) -> Grid:
+        """The grid with x and y exchanged."""
+        return Grid(self.shape[::-1], self.spacing[::-1])
+
+    @property
     def pixels(self) -> tuple[float, ...]:
         """Spacings in m along the axes with more than one point; along x of a single point."""
         return tuple(d for d, n in zip(self.spacing, self.shape, strict=True) if n > 1) or self.spacing[:1]

@@ -267,15 +267,10 @@ def _sentence(detail: Mapping[str, Any], key: str, allowed: Sequence[str]) -> st
     if kind == "union_tag_not_found":
         tag, choices = context["discriminator"].strip("'"), ", ".join(repr(choice) for choice in allowed)
         return f"{key}.{tag} must be given, one of {choices}, but is missing."
-    if kind in _TYPES:
-        return f"{key} must be {_TYPES[kind]}, but is {_shown(received)}."
-    rule = str(detail["msg"]).replace("Input should", "must", 1)
-    return f"{key} {rule}, but is {_shown(received)}."
-
-
-def _shown(value: object) -> str:
-    text = str(value).lower() if isinstance(value, bool) else repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+    shown = str(received).lower() if isinstance(received, bool) else repr(received)
+    shown = shown if len(shown) <= 60 else shown[:57] + "..."
+    rule = f"must be {_TYPES[kind]}" if kind in _TYPES else str(detail["msg"]).replace("Input should", "must", 1)
+    return f"{key} {rule}, but is {shown}."
 
 
 def _resolved(node: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -83,7 +83,17 @@ def _partial(target: Path, *, folder: bool = False) -> Iterator[Path]:
     try:
         if folder:
             absolute.parent.mkdir(parents=True, exist_ok=True)
-        _clear(absolute, re.compile(re.escape(start) + "[0-9a-f]{8}" + re.escape(end)))
+        name = re.compile(re.escape(start) + "[0-9a-f]{8}" + re.escape(end))
+        with suppress(
+            OSError
+        ):  # what killed processes have left is removed, and a folder that one had moved away put back
+            for entry in [entry.name for entry in os.scandir(absolute.parent) if entry.name.startswith(".")]:
+                path = absolute.with_name(entry)
+                if entry.endswith(_AWAY) and name.fullmatch(entry.removesuffix(_AWAY)):
+                    path.rename(absolute) if not absolute.exists() else _remove(path)
+                elif name.fullmatch(entry) and (left := _lock(path)) >= 0:
+                    _remove(path)
+                    os.close(left)
         while held == -1:
             partial = absolute.with_name(f"{start}{secrets.token_hex(4)}{end}")
             partial.mkdir() if folder else partial.touch()
@@ -127,18 +137,6 @@ def _lock(path: Path) -> int:
         os.close(held)
         return -2
     return held
-
-
-def _clear(target: Path, name: re.Pattern[str]) -> None:
-    """Remove what killed processes have left beside ``target``, and put back a folder that one had moved away."""
-    with suppress(OSError):
-        for entry in [entry.name for entry in os.scandir(target.parent) if entry.name.startswith(".")]:
-            path = target.with_name(entry)
-            if entry.endswith(_AWAY) and name.fullmatch(entry.removesuffix(_AWAY)):
-                path.rename(target) if not target.exists() else _remove(path)
-            elif name.fullmatch(entry) and (held := _lock(path)) >= 0:
-                _remove(path)
-                os.close(held)
 
 
 _AWAY = ".old"

@@ -89,8 +89,9 @@ def memories_group(steps: Sequence[Any]) -> Node:
     for name in dict.fromkeys(name for step in steps for name in step.memory):
         rows: list[dict[str, Labelled] | None] = []
         for step in steps:
-            memory = step.memory.get(name)
-            rows.append(None if memory is None else _remembered(memory, _following(step, name)))
+            memory, answer = step.memory.get(name), getattr(step, "couplings", {}).get(name)
+            following = answer.remembered(step.approach) if isinstance(answer, Answer) else {}
+            rows.append(None if memory is None else _remembered(memory, following))
         here = np.array([int(row is not None) for row in rows])
         values = Labelled(Quantity(HERE, "1", "1 where the step has this", ("step",)), here)
         groups[name] = Node((values, *stacked(rows)), packs=True)
@@ -113,12 +114,6 @@ def memories_in(node: Node) -> Callable[[int, Mapping[str, Any], float], dict[st
         return found
 
     return at
-
-
-def _following(step: Any, name: str) -> Memory:
-    """What of the memory of the coupling of this ``name`` follows from what it found in ``step``."""
-    answer = getattr(step, "couplings", {}).get(name)
-    return answer.remembered(step.approach) if isinstance(answer, Answer) else {}
 
 
 def _remembered(memory: Memory, known: Memory) -> dict[str, Labelled]:

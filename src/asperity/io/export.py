@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import IO, Any, Protocol
+from typing import Any, Protocol
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
@@ -113,22 +113,17 @@ def export_vtk(result: ContactResult, path: str | Path, *, overwrite: bool = Fal
     fields["contact"] = (result.contact.astype(np.uint8) + result.plastic).astype(np.uint8)
     grid = result.problem.grid
     with atomic_file(path, overwrite=overwrite) as partial, partial.open("w", encoding="ascii") as file:
-        _write_image(file, grid.spacing, fields)
-
-
-def _write_image(file: IO[str], spacing: tuple[float, float], fields: dict[str, np.ndarray[Any, Any]]) -> None:
-    """VTK image data of ``fields``, arrays [x, y]; in VTK x runs fastest, hence the transposition."""
-    nx, ny = fields["heights"].shape
-    extent = f'"0 {nx - 1} 0 {ny - 1} 0 0"'
-    file.write('<?xml version="1.0"?>\n')
-    file.write('<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n')
-    file.write(f'<ImageData WholeExtent={extent} Origin="0 0 0" Spacing="{spacing[0]!r} {spacing[1]!r} 1">\n')
-    file.write(f'<Piece Extent={extent}>\n<PointData Scalars="pressure">\n')
-    for name, values in fields.items():
-        little = np.ascontiguousarray(values.T).astype(values.dtype.newbyteorder("<"), copy=False)
-        kind = VTK_TYPES[values.dtype.name]
-        file.write(f'<DataArray type="{kind}" Name={quoteattr(name)} format="binary">\n')
-        data = little.tobytes()
-        file.write(base64.b64encode(np.uint64(len(data)).astype("<u8").tobytes() + data).decode("ascii"))
-        file.write("\n</DataArray>\n")
-    file.write("</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n")
+        (nx, ny), (dx, dy) = grid.shape, grid.spacing
+        extent = f'"0 {nx - 1} 0 {ny - 1} 0 0"'
+        file.write('<?xml version="1.0"?>\n')
+        file.write('<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n')
+        file.write(f'<ImageData WholeExtent={extent} Origin="0 0 0" Spacing="{dx!r} {dy!r} 1">\n')
+        file.write(f'<Piece Extent={extent}>\n<PointData Scalars="pressure">\n')
+        for name, values in fields.items():
+            little = np.ascontiguousarray(values.T).astype(values.dtype.newbyteorder("<"), copy=False)  # x runs fastest
+            kind = VTK_TYPES[values.dtype.name]
+            file.write(f'<DataArray type="{kind}" Name={quoteattr(name)} format="binary">\n')
+            data = little.tobytes()
+            file.write(base64.b64encode(np.uint64(len(data)).astype("<u8").tobytes() + data).decode("ascii"))
+            file.write("\n</DataArray>\n")
+        file.write("</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n")

@@ -54,7 +54,10 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
         elif ending == ".npy":
             np.save(partial, surface.heights)
         else:
-            _write_text(surface, partial)
+            (length_x, length_y), (nx, ny) = surface.size, surface.shape
+            header = f"Channel: heights\nWidth: {length_x!r} m\nHeight: {length_y!r} m\nValue units: m\nx-pixels: {nx}\ny-pixels: {ny}"
+            with partial.open("w", encoding="utf-8", newline="\n") as file:
+                np.savetxt(file, np.flipud(surface.heights.T), fmt="%.10g", delimiter="\t", header=header)
 
 
 def require_ending(path: Path, endings: tuple[str, ...] = ENDINGS) -> None:
@@ -67,14 +70,6 @@ def require_ending(path: Path, endings: tuple[str, ...] = ENDINGS) -> None:
     """
     if path.suffix.lower() not in endings:
         raise OutputError(f"file of a surface must end in {', '.join(endings)}, but is {path}.")
-
-
-def _write_text(surface: Surface, path: Path) -> None:
-    length_x, length_y = surface.size
-    nx, ny = surface.shape
-    header = f"Channel: heights\nWidth: {length_x!r} m\nHeight: {length_y!r} m\nValue units: m\nx-pixels: {nx}\ny-pixels: {ny}"
-    with path.open("w", encoding="utf-8", newline="\n") as file:
-        np.savetxt(file, np.flipud(surface.heights.T), fmt="%.10g", delimiter="\t", header=header)
 
 
 # Generated surfaces larger than the memory: an endless surface written tile by tile.
@@ -217,7 +212,12 @@ def save_gaussian(
     seed = require.integer(seed, 0, "seed of a random surface")
     kind = PRECISIONS[require.one_of(precision, PRECISIONS, "precision of the heights")]
     require_ending(Path(path), (".npy",))
-    rows, width = _blocks(grid, require.positive(memory, "memory of the blocks (bytes)"))
+    memory, (nx, ny) = require.positive(memory, "memory of the blocks (bytes)"), grid.shape
+    rows, width = int(memory / (BYTES_PER_MODE * (ny // 2 + 1))), int(memory / (BYTES_PER_MODE * nx))  # at a time
+    if min(rows, width) < 1:
+        least = BYTES_PER_MODE * max(nx, ny // 2 + 1)
+        raise InputError(f"memory of the blocks must be at least {least:.3g} bytes for this grid, but is {memory:.3g}.")
+    rows, width = min(rows, nx), min(width, ny // 2 + 1)
     columns = spectrum_columns(spectrum, grid, width)
     with atomic_file(path, overwrite=overwrite) as partial, TemporaryFile(dir=partial.parent) as scratch:
         waves: ComplexArray = np.memmap(
@@ -259,13 +259,3 @@ def _heights_into(heights: RealArray, waves: ComplexArray, rows: int) -> Iterato
         block = np.array(waves[start : start + rows])
         heights[start : start + rows] = real_lines(block, heights.shape[1], thread_count())
         yield
-
-
-def _blocks(grid: Grid, memory: float) -> tuple[int, int]:
-    """Rows and columns at a time."""
-    nx, ny = grid.shape
-    rows, width = int(memory / (BYTES_PER_MODE * (ny // 2 + 1))), int(memory / (BYTES_PER_MODE * nx))
-    if min(rows, width) < 1:
-        least = BYTES_PER_MODE * max(nx, ny // 2 + 1)
-        raise InputError(f"memory of the blocks must be at least {least:.3g} bytes for this grid, but is {memory:.3g}.")
-    return min(rows, nx), min(width, ny // 2 + 1)

@@ -141,7 +141,12 @@ TERMS = {
 def body_text(body: object) -> str:
     """What ``body`` is in one line: its layers from the surface down, or its name and constants."""
     if isinstance(body, Layered):
-        parts = [_short(group) for group in _alike(body.layers)]
+        parts = list[str]()
+        for group in _alike(body.layers):
+            thickness = show(sum(layer.thickness for layer in group), "m")
+            count = f" in {len(group)} layers" if len(group) > 1 else ""
+            slips = " (slips)" if isinstance(group[-1].interface, Frictionless) else ""
+            parts.append(f"{material_name(group[0].material)} {thickness}{count}{slips}")
         return " / ".join([*parts, material_name(body.base) if isinstance(body.base, Elastic) else body.base.name])
     return _material_text(body) if isinstance(body, Elastic) else "rigid"
 
@@ -155,11 +160,19 @@ def _layered_rows(body: Layered) -> Rows:
     rows: Rows = [("name", body.name)] if body.name else []
     first = 1
     for group in _alike(body.layers):
-        last = first + len(group) - 1
-        label = f"layer {first}" if len(group) == 1 else f"layers {first} to {last}"
-        joined = "slips without friction on what is below" if _slips(group) else "bonded to what is below"
-        rows.append((label, f"{_group_text(group)}; {joined}"))
-        first = last + 1
+        thickness, (top, bottom) = (
+            show(sum(layer.thickness for layer in group), "m"),
+            (group[0].material, group[-1].material),
+        )
+        slips = isinstance(group[-1].interface, Frictionless)
+        joined = "slips without friction on what is below" if slips else "bonded to what is below"
+        if len(group) == 1:
+            rows.append((f"layer {first}", f"{thickness} of {_material_text(top)}; {joined}"))
+        else:
+            moduli = f"E = {show(top.youngs_modulus, 'Pa')} … {show(bottom.youngs_modulus, 'Pa')}"
+            what = f"{thickness} of {top.name} in {len(group)} layers: {moduli}; {joined}"
+            rows.append((f"layers {first} to {first + len(group) - 1}", what))
+        first += len(group)
     rows.append(("base", _material_text(body.base) if isinstance(body.base, Elastic) else body.base.name))
     seen = dict.fromkeys((material.name, source) for material in materials_of(body) for source in material.sources)
     return rows + [
@@ -175,25 +188,6 @@ def _alike(layers: Sequence[Layer]) -> list[list[Layer]]:
     numbered = enumerate(layers)
     runs = groupby(numbered, key=lambda item: item[1].material.name or item[0])
     return [[layer for _, layer in run] for _, run in runs]
-
-
-def _slips(group: list[Layer]) -> bool:
-    return isinstance(group[-1].interface, Frictionless)
-
-
-def _short(group: list[Layer]) -> str:
-    thickness = sum(layer.thickness for layer in group)
-    count = f" in {len(group)} layers" if len(group) > 1 else ""
-    return f"{material_name(group[0].material)} {show(thickness, 'm')}{count}{' (slips)' if _slips(group) else ''}"
-
-
-def _group_text(group: list[Layer]) -> str:
-    first, last = group[0], group[-1]
-    if len(group) == 1:
-        return f"{show(first.thickness, 'm')} of {_material_text(first.material)}"
-    thickness = sum(layer.thickness for layer in group)
-    moduli = f"E = {show(first.material.youngs_modulus, 'Pa')} … {show(last.material.youngs_modulus, 'Pa')}"
-    return f"{show(thickness, 'm')} of {first.material.name} in {len(group)} layers: {moduli}"
 
 
 def material_name(material: Elastic) -> str:
@@ -287,7 +281,7 @@ def setting_rows(result: ContactResult) -> Rows:
     if limit:
         rows.append(("pressure limit", limit))
     rows.append((modulus_label(problem), show(problem.contact_modulus, "Pa")))
-    rows.append((f"prescribed {result.control.name}", _control_text(result)))
+    rows.append((f"prescribed {result.control.name}", show(result.control.value, result.control.unit)))
     return rows
 
 
@@ -484,7 +478,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
             *given.rows,
             *finding_rows(thing.advice, given),
             *problem_rows(thing.problem),
-            (f"prescribed {thing.control.name}", _control_text(thing)),
+            (f"prescribed {thing.control.name}", show(thing.control.value, thing.control.unit)),
         ]
         return f"Contact, {state}", [*rows, *given.headline, ("status", thing.status.message)]
     if isinstance(thing, HistoryResult):
@@ -549,7 +543,3 @@ def _cut(text: str) -> str:
     """Text of one line of a screen."""
     line = printable(" ".join(text.split()))
     return line if len(line) <= LINE else f"{line[: LINE - 1]}…"
-
-
-def _control_text(result: ContactResult) -> str:
-    return show(result.control.value, result.control.unit)

@@ -239,6 +239,18 @@ class Work:
         return ()
 
 
+class WithFacts(Work):
+    """What is done for a part whose detail is numbers and text by name, which files keep as they are."""
+
+    def stored(self, found: Found) -> Stored:
+        """The detail."""
+        return Stored(facts=found.detail or {})
+
+    def restored(self, stored: Stored, solved: Solved) -> Any:
+        """The same again."""
+        return dict(stored.facts)
+
+
 class Part(Work):
     """Base of all parts, which hold no state.
 

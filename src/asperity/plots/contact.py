@@ -27,12 +27,9 @@ from .maps import (
     gap_field,
     heights_field,
     indentation_field,
-    plot_contact,
-    plot_gap,
+    map_of,
     plot_heights,
-    plot_indentation,
     plot_pressure,
-    plot_residual,
     pressure_field,
     residual_field,
 )
@@ -177,18 +174,12 @@ def _surface_field(result: ContactResult) -> Field:
     return heights_field(result.problem.surface)
 
 
-def _plot_surface(result: ContactResult, ax: Axes) -> Axes:
-    return plot_heights(result.problem.surface, ax)
-
-
 PLOTS = (
-    Plot(
+    map_of(
         "heights",
         "Heights",
         "Heights of the rough surface, relative to their mean.",
-        _plot_surface,
-        "map",
-        shows=_surface_field,
+        _surface_field,
         by_step=False,
     ),
     Plot(
@@ -209,23 +200,19 @@ PLOTS = (
         enlarge_contact,
         shows=pressure_field,
     ),
-    Plot(
+    map_of(
         "contact",
         "Contact",
         "Where the bodies touch, elastically or at the hardness.",
-        plot_contact,
-        "map",
-        beside=enlarge_contact,
-        shows=contact_kinds,
+        contact_kinds,
+        enlarge_contact,
     ),
-    Plot(
+    map_of(
         "gap",
         "Gap",
         "Gap between the deformed surfaces; grey in contact.",
-        plot_gap,
-        "map",
-        beside=enlarge_contact,
-        shows=gap_field,
+        gap_field,
+        enlarge_contact,
     ),
     Plot(
         "section",
@@ -250,22 +237,18 @@ PLOTS = (
 """The standard figures of a result in the order of a report."""
 
 PLASTIC_PLOTS = (
-    Plot(
+    map_of(
         "indentation",
         "Plastic zone",
         "Permanent indentation of the composite surface wherever the pressure has ever reached its limit; grey elsewhere.",
-        plot_indentation,
-        "map",
+        indentation_field,
         enlarge_indentation,
-        shows=indentation_field,
     ),
-    Plot(
+    map_of(
         "residual",
         "Residual surface",
         "Heights of the composite surface that is left when the load is taken away, relative to their mean.",
-        plot_residual,
-        "map",
-        shows=residual_field,
+        residual_field,
     ),
 )
 """The figures of a result that is permanently indented."""

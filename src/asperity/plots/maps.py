@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import groupby
 from textwrap import wrap
@@ -26,6 +27,7 @@ from .picture import (
     PRESSURE_MAP,
     SLENDER,
     VERMILLION,
+    Plot,
     Scale,
     make_room,
     scale,
@@ -111,6 +113,19 @@ def plot_map(shown: Field | Kinds, ax: Axes) -> Axes:
     if isinstance(shown, Kinds):
         return plot_classes(shown.kinds, shown.grid, ax, shown.classes)
     return plot_field(shown.values, shown.grid, ax, shown.look)
+
+
+def map_of(
+    name: str,
+    title: str,
+    caption: str,
+    shows: Callable[[Any], Field | Kinds],
+    beside: Callable[[Any, Axes], bool] | None = None,
+    *,
+    by_step: bool = True,
+) -> Plot:
+    """Figure of the map that ``shows`` gives, which is all that is drawn; the others as of ``Plot``."""
+    return Plot(name, title, caption, lambda thing, ax: plot_map(shows(thing), ax), "map", beside, shows, by_step)
 
 
 def heights_field(surface: Surface) -> Field:

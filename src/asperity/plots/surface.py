@@ -16,7 +16,7 @@ from ..surfaces.characterise.correlation import DROP_1E, DROP_TENTH
 from ..surfaces.characterise.heights import core
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
-from .maps import Field, heights_field, plot_heights
+from .maps import Field, heights_field, map_of, plot_heights
 from .picture import (
     BLACK,
     BLUE,
@@ -281,22 +281,16 @@ def _heights_field(found: Characterisation) -> Field:
     return heights_field(found.surface)
 
 
-def _heights(found: Characterisation, ax: Axes) -> Axes:
-    return plot_heights(found.surface, ax)
-
-
 def _view(found: Characterisation, ax: Axes) -> Axes:
     return plot_surface_view(found.surface, ax)
 
 
 SURFACE_PLOTS = (
-    Plot(
+    map_of(
         "heights",
         "Heights",
         "Heights relative to their mean; missing points are grey.",
-        _heights,
-        "map",
-        shows=_heights_field,
+        _heights_field,
         by_step=False,
     ),
     Plot("view", "View", "The surface in space; how much heights are exaggerated stands above.", _view, "view"),

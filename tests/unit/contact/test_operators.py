@@ -1,11 +1,15 @@
 """Operators: symmetric, positive, translation invariant, equal to their dense matrices and to independent sums."""
 
+import time
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from refusals import refused
 
 import asperity as asp
+from asperity.contact.operators.convolution import Octaves
 from asperity.solids.compliance.halfspace import HalfSpace
 from asperity.solids.compliance.influence import patch_displacement
 
@@ -102,3 +106,21 @@ def test_octaves_are_computed_once_for_all_grids_and_boundaries():
             np.testing.assert_allclose(operator.octaves.spectral(q), body.spectral(q), rtol=1e-8)
         assert asked.count(5) == 2  # the two of this test
         assert len(asked) == 2 + computed
+
+
+def test_octaves_that_several_threads_ask_for_are_computed_once():
+    """As by the chains of a history; the one that comes second waits for the values of the first."""
+    asked = []
+
+    class Slow(HalfSpace):
+        def spectral(self, wavenumber):
+            asked.append(len(wavenumber))
+            time.sleep(0.05)
+            return super().spectral(wavenumber)
+
+    octaves, q = Octaves(Slow(2.0)), np.pi / 2.0 ** np.arange(5)
+    with ThreadPoolExecutor(3) as pool:
+        found = list(pool.map(octaves.spectral, [q] * 3))
+    assert len(asked) == 1
+    for values in found:
+        np.testing.assert_allclose(values, HalfSpace(2.0).spectral(q), rtol=1e-8)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import itertools
 import math
 import re
+import tracemalloc
 import weakref
 from collections import Counter
 from dataclasses import dataclass, field, replace
@@ -251,6 +253,27 @@ def test_steps_hold_few_results_and_are_solved_when_asked_for() -> None:
     assert not solver.starts
     next(stream)
     assert len(solver.starts) == 1
+
+
+def test_a_path_holds_no_operator_and_no_gap_that_its_numbers_need() -> None:
+    """Beside pressure and displacement of each step little is held, also after its areas were read: gap and edges are twice as much."""
+    posed = problem(shape=(96, 96))
+    operator = asp.solvers.prepare_operator(posed.compliance, posed.grid, posed.boundary)
+    gone = weakref.ref(operator)
+    path = asp.solve(posed, asp.History(pressures(LOADS)), operator=operator)
+    path.scalars("area_fraction_corrected")  # imports and compiles what areas need
+    tracemalloc.start()
+    path = asp.solve(posed, asp.History(pressures(LOADS)), operator=operator)
+    del operator
+    gc.collect()
+    assert gone() is None
+    before = tracemalloc.get_traced_memory()[0]
+    for name in ("area_fraction_corrected", "mean_gap", "contact_perimeter"):
+        path.scalars(name)
+    gc.collect()
+    grown = tracemalloc.get_traced_memory()[0] - before
+    tracemalloc.stop()
+    assert grown < 0.25 * len(path) * path.last.pressure.nbytes
 
 
 MANY = tuple(np.geomspace(0.02, 0.3, 33))

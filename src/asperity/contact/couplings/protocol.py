@@ -12,7 +12,10 @@ import numpy as np
 from ...core.arrays import BoolArray, RealArray
 from ...core.engine import Totals
 from ...core.errors import NoSolutionError
+from ...core.grid import Grid
 from ...core.status import Progress, Status
+from ...solids.compliance.halfspace import Compliance
+from ..boundary import Boundary
 from ..controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Unloaded, mean_pressure
 from ..operators.convolution import Operator
 from ..solvers.protocol import Constraint, ContactQP, Solution, Solver, level_of
@@ -26,20 +29,19 @@ Memory: TypeAlias = Mapping[str, RealArray]
 class Deflections:
     """Displacements (m) by pressures (Pa), both (nx, ny), as a solver left them: what the next one need not compute again.
 
-    They hold for the very arrays of pressure in ``pairs``, and for an ``operator`` of equal bodies, boundary and grid.
+    They hold for the very arrays of pressure in ``pairs``, and for operators of the same ``compliance``, ``boundary`` and ``grid``; the operator itself, whose
+    buffers take as much memory as some steps, is not held.
     """
 
-    operator: Operator
+    compliance: Compliance
+    boundary: Boundary
+    grid: Grid
     pairs: tuple[tuple[RealArray, RealArray], ...]
 
     def by(self, pressure: RealArray, operator: Operator) -> RealArray | None:
         """Displacement by ``pressure`` under ``operator``; None if it is not known."""
-        own = self.operator
-        if operator is not own and (operator.compliance, operator.boundary, operator.grid) != (
-            own.compliance,
-            own.boundary,
-            own.grid,
-        ):
+        own = self.compliance, self.boundary, self.grid
+        if own != (operator.compliance, operator.boundary, operator.grid):
             return None
         return next((found for known, found in self.pairs if known is pressure), None)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property, lru_cache
+from threading import Lock
 from typing import Any, Protocol
 
 import numpy as np
@@ -39,15 +40,17 @@ class Octaves:
     def __init__(self, compliance: Spectral) -> None:
         self._compliance = compliance
         self._known: dict[int, float] = {}
+        self._adding = Lock()  # chains of a history ask from several threads
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """Displacement per pressure (m/Pa) at each ``wavenumber`` (rad/m, one-dimensional), to 1e-9 of it."""
         keys = [round(1e9 * math.log2(q)) for q in wavenumber.tolist()]  # equal where they differ by rounding
-        if not all(key in self._known for key in keys):
-            ahead = np.multiply.outer(2.0 ** np.arange(_OCTAVES_AHEAD + 1), wavenumber).ravel()
-            missing = {key: q for q in ahead.tolist() if (key := round(1e9 * math.log2(q))) not in self._known}
-            found = np.asarray(self._compliance.spectral(np.array(list(missing.values()))), dtype=float)
-            self._known.update(zip(missing, found.tolist(), strict=True))
+        with self._adding:
+            if not all(key in self._known for key in keys):
+                ahead = np.multiply.outer(2.0 ** np.arange(_OCTAVES_AHEAD + 1), wavenumber).ravel()
+                missing = {key: q for q in ahead.tolist() if (key := round(1e9 * math.log2(q))) not in self._known}
+                found = np.asarray(self._compliance.spectral(np.array(list(missing.values()))), dtype=float)
+                self._known.update(zip(missing, found.tolist(), strict=True))
         return np.array([self._known[key] for key in keys])
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
+from typing import Any, ClassVar, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
@@ -184,10 +184,17 @@ class Solver(Protocol):
         """
 
 
-def require_settings(solver: Any) -> None:
-    """Check tolerance (in (0, 1)) and iteration limit (whole, >= 1) of ``solver``, of any problem; InputError names the wrong one."""
-    require.between(solver.tolerance, 0.0, 1.0, f"tolerance of the solver {solver.name}")
-    require.integer(solver.max_iterations, 1, f"iteration limit of the solver {solver.name}")
+@dataclass(frozen=True)
+class Iterative:
+    """Base of methods, for any problem, with a tolerance in (0, 1) and an iteration limit, whole and >= 1; InputError names the wrong one."""
+
+    tolerance: float
+    max_iterations: int
+    name: ClassVar[str] = ""
+
+    def __post_init__(self) -> None:
+        require.between(self.tolerance, 0.0, 1.0, f"tolerance of the solver {self.name}")
+        require.integer(self.max_iterations, 1, f"iteration limit of the solver {self.name}")
 
 
 @dataclass(frozen=True, eq=False)

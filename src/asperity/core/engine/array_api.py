@@ -193,7 +193,7 @@ class _ArraySurvey:
 
     @cached_property
     def squares(self) -> RealArray:
-        r, movable = self.u - self.h, self._movable
+        r, movable = self.u - self.h, (self.p > 0.0) & ~self._capped
         sums = [
             self._in_squares(self.library.xp.astype(movable, r.dtype)),
             self._in_squares(self.library.select(movable, r)),
@@ -206,17 +206,13 @@ class _ArraySurvey:
         loaded = self.p > 0.0
         return loaded & (self.p >= bound(self.library, self.cap, self.p)) if self.cap is not None else loaded & ~loaded
 
-    @property
-    def _movable(self) -> Any:
-        return (self.p > 0.0) & ~self._capped
-
     def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> _ArrayFreeSet:
         library, xp, (nx, ny) = self.library, self.library.xp, self.p.shape
         on_device = (library.array(levels[..., bound_of], "float64") for bound_of in (0, 1))
         low, high = (
             xp.repeat(xp.repeat(values, SQUARE_SIDE, axis=0), SQUARE_SIDE, axis=1)[:nx, :ny] for values in on_device
         )
-        r, movable = self.u - self.h, self._movable
+        r, movable = self.u - self.h, (self.p > 0.0) & ~self._capped
         entering = ((self.p == 0.0) & (r < low)) | (self._capped & (r > high))
         inside = movable | entering
         start = (float(level) - r) * (1.0 / float(scale))

@@ -33,7 +33,7 @@ from ...core.values import (
 )
 from ...solids.relaxation_text import AT
 from .relaxation import SYMBOLS as RELAXING
-from .relaxation import RelaxationTable, relaxation_from_symbols
+from .relaxation import RelaxationTable, number_or_text, relaxation_from_symbols
 
 NonNegativePressure = Annotated[float, Number("pressure", least=0.0)]
 Share = Annotated[float, Number(least=0.0, most=1.0)]
@@ -276,7 +276,7 @@ def body_from_text(text: str) -> dict[str, Any]:
     bare_text = _BRACES.sub("", text)
     if ":" not in bare_text and ("=" in bare_text or "/" not in bare_text):  # a unit such as N/mm**2 may hold a slash
         return base_from_text(text)
-    *layers, base = (part.strip() for part in _parts(text))
+    *layers, base = (part.strip() for part in re.split(r"/(?![^{}]*\})", text))  # not within braces
     bare = [part for part in layers if part and ":" not in part]
     if ":" in base and bare:
         raise InputError(
@@ -294,11 +294,6 @@ def body_from_text(text: str) -> dict[str, Any]:
 
 
 _BRACES = re.compile(r"\{([^{}]*)\}")
-
-
-def _parts(text: str) -> list[str]:
-    """``text`` at its slashes, but for those within braces."""
-    return re.split(r"/(?![^{}]*\})", text)
 
 
 def _layer(part: str, number: int) -> dict[str, Any]:
@@ -341,7 +336,8 @@ def material_from_text(text: str) -> dict[str, Any]:
     relaxes = bool(given.keys() & set(RELAXING)) or AT in given.get("E", "")
     relaxing = {"relaxation": relaxation_from_symbols(given)} if relaxes else {}
     plain = {
-        SYMBOLS[symbol]: _number(value) if symbol in ("nu", "recall") else value for symbol, value in given.items()
+        SYMBOLS[symbol]: number_or_text(value) if symbol in ("nu", "recall") else value
+        for symbol, value in given.items()
     }
     return {**({} if "=" in bare else {"material": bare.strip()}), **plain, **relaxing}
 
@@ -359,11 +355,3 @@ def _constant(part: str) -> tuple[str, str]:
             f'"E=3MPa+10MPa@10ms,nu=0.5" ({", ".join(RELAXING)}), or layers such as {EXAMPLE}, but holds {part.strip()!r}.'
         )
     return symbol, value
-
-
-def _number(text: str) -> float | str:
-    """The number, or the ``text`` that is none and that the schema refuses under its key."""
-    try:
-        return float(text)
-    except ValueError:
-        return text

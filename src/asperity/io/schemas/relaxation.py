@@ -167,7 +167,7 @@ def _way(way: str, modulus: str, found: dict[str, str]) -> dict[str, Any]:
         return {"kind": "kelvin_voigt", "relaxed": modulus, "time": found.pop("retardation")}
     if way == "power":
         times: dict[str, Any] = {key: found.pop(key) for key in ("shortest", "longest") if key in found}
-        return {"kind": "power_law", "coefficient": modulus, "exponent": _plain(found.pop("power")), **times}
+        return {"kind": "power_law", "coefficient": modulus, "exponent": number_or_text(found.pop("power")), **times}
     try:
         rest, terms = series_parts(modulus)
     except InputError as error:
@@ -189,11 +189,11 @@ def _shift(found: dict[str, str]) -> dict[str, Any]:
             " must give one shift with temperature, WLF=298K;8.86;101.6K or Arrhenius=298K;80000J/mol, but gives "
             f"{' and '.join(f'{name}={text}' for name, text in texts.items())}."
         )
-    values = {key: _plain(piece) if key == "c1" else piece for key, piece in zip(keys, pieces, strict=True)}
+    values = {key: number_or_text(piece) if key == "c1" else piece for key, piece in zip(keys, pieces, strict=True)}
     return {"shift": {"kind": given[0].lower(), **values}}
 
 
-def _plain(text: str) -> float | str:
+def number_or_text(text: str) -> float | str:
     """The number, or the ``text`` that is none and that the schema refuses under its key."""
     try:
         return float(text)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, ClassVar
@@ -83,7 +83,10 @@ def work_of_adhesion(first: str, second: str, *, library: str | Path | None = No
     names = [built_in[key].keys[0] if key in built_in else key for key in keys]
     if all(known.get(key) == built_in.get(key) for key in keys):
         for pair in solid_pairs():
-            if any(sorted(both.split("/")) == sorted(names) for both in _both(pair, built_in)):
+            both = (
+                [built_in[name].keys[0] if name in built_in else name for name in key.split("/")] for key in pair.keys
+            )
+            if any(sorted(each) == sorted(names) for each in both):
                 return PairAdhesion(pair.work_of_adhesion.value, tuple(f"{pair.name}, {text}" for text in pair.sources))
     for key, name in zip(keys, (first, second), strict=True):
         if key not in known:
@@ -95,12 +98,6 @@ def work_of_adhesion(first: str, second: str, *, library: str | Path | None = No
     one, other = (known[key] for key in keys)
     sources = tuple(dict.fromkeys(f"{record.name}, {source}" for record in (one, other) for source in record.sources))
     return PairAdhesion(2.0 * math.sqrt(one.energy * other.energy), sources)
-
-
-def _both(pair: SolidPair, known: Mapping[str, SolidSurface]) -> Iterator[str]:
-    """Names of a measured ``pair``, with the first name of each surface that is ``known``."""
-    for both in pair.keys:
-        yield "/".join(known[name].keys[0] if name in known else name for name in both.split("/"))
 
 
 def _listed(records: Iterable[Record]) -> str:

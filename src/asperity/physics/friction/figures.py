@@ -9,7 +9,7 @@ import numpy as np
 from ...contact.history import HistoryResult
 from ...contact.result import ContactResult
 from ...core.units import show
-from ...plots.maps import Field, Kinds, Look, enlarge_contact, plot_map
+from ...plots.maps import Field, Kinds, Look, enlarge_contact, map_of
 from ...plots.picture import BLACK, BLUE, NO_CONTACT, PRESSURE_MAP, VERMILLION, Plot, legend_above, scale
 from .fretting import kinds, loop_of
 
@@ -25,14 +25,6 @@ def stick_slip_kinds(result: ContactResult) -> Kinds:
     return Kinds(np.asarray(kinds(result), dtype=float), result.problem.grid, CLASSES)
 
 
-def plot_stick_slip(result: ContactResult, ax: Axes) -> Axes:
-    """Draw on ``ax`` where the surfaces of ``result`` are open, stick, and slip in the last step.
-
-    InputError if the result has no stick and slip.
-    """
-    return plot_map(stick_slip_kinds(result), ax)
-
-
 def dissipation_field(thing: ContactResult | HistoryResult) -> Field:
     """Energy per area that slip has dissipated in the step of a result, or in all steps of a history; blank where nothing slips."""
     steps = thing.steps if isinstance(thing, HistoryResult) else (thing,)
@@ -41,11 +33,6 @@ def dissipation_field(thing: ContactResult | HistoryResult) -> Field:
     blank = "no slip"
     look = Look("J/m²", "energy dissipated by slip", PRESSURE_MAP, blank=blank, blank_value=0.0, reduced="max")
     return Field(drawn, steps[-1].problem.grid, look)
-
-
-def plot_dissipation(thing: ContactResult | HistoryResult, ax: Axes) -> Axes:
-    """Draw the energy per area that slip has dissipated on ``ax``: in the step of a result, or in all steps of a history."""
-    return plot_map(dissipation_field(thing), ax)
 
 
 def plot_shear_section(result: ContactResult, ax: Axes) -> Axes:
@@ -93,14 +80,12 @@ def plot_shear_loop(history: HistoryResult, ax: Axes) -> Axes:
 
 
 SHEAR_PLOTS = (
-    Plot(
+    map_of(
         "stick_slip",
         "Stick and slip",
         "Where the surfaces are open, stick, and slip in the last step; shares of the nominal area.",
-        plot_stick_slip,
-        "map",
+        stick_slip_kinds,
         enlarge_contact,
-        shows=stick_slip_kinds,
     ),
     Plot(
         "shear_section",
@@ -109,14 +94,12 @@ SHEAR_PLOTS = (
         "Points on the bound slip.",
         plot_shear_section,
     ),
-    Plot(
+    map_of(
         "dissipation",
         "Heat",
         "Energy per area that slip dissipates in the last step; grey where nothing slips.",
-        plot_dissipation,
-        "map",
+        dissipation_field,
         enlarge_contact,
-        shows=dissipation_field,
         by_step=False,
     ),
 )
@@ -129,13 +112,11 @@ LOOP_PLOTS = (
         "Tangential force against shift, both along the largest shift. The area within a loop is the energy that a cycle takes.",
         plot_shear_loop,
     ),
-    Plot(
+    map_of(
         "dissipation",
         "Heat of the history",
         "Energy per area that slip has dissipated in all steps; grey where nothing has slipped.",
-        plot_dissipation,
-        "map",
-        shows=dissipation_field,
+        dissipation_field,
         by_step=False,
     ),
 )

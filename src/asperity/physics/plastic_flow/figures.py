@@ -14,7 +14,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.units import show
 from ...plots.animation import save_frames
-from ...plots.maps import Field, Look, plot_map
+from ...plots.maps import Field, Look, map_of
 from ...plots.picture import (
     BLACK,
     BLUE,
@@ -332,18 +332,11 @@ def imprint_field(shown: ImprintMap) -> Field:
     )
 
 
-def plot_imprint_map(shown: ImprintMap, ax: Axes) -> Axes:
-    """Draw the residual imprint seen from above on ``ax``."""
-    return plot_map(imprint_field(shown), ax)
-
-
-IMPRINT_MAP = Plot(
+IMPRINT_MAP = map_of(
     "flow_imprint_map",
     "Residual imprint",
     "Height that plastic flow adds to the surface, seen from above, after the load is taken off.",
-    plot_imprint_map,
-    "map",
-    shows=imprint_field,
+    imprint_field,
     by_step=False,
 )
 

@@ -17,7 +17,7 @@ from ...core.arrays import RealArray
 from ...core.errors import AsperityError
 from ...core.status import Advice
 from ...core.units import percent, show
-from ...parts.part import Found, Solved, Stored, Words, Work
+from ...parts.part import Found, Solved, WithFacts, Words
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
 from ...solids.layers import Layered
@@ -126,7 +126,7 @@ def _curve(solved: Solved) -> dict[str, RealArray]:
     return {name: np.array([0.0, *values]) for name, values in columns.items() if values}
 
 
-class PlasticFlowWork(Work):
+class PlasticFlowWork(WithFacts):
     """Plastic flow of the body below the contact: what is done for it."""
 
     def check(self, ask: Flows, problem: ContactProblem) -> None:
@@ -250,14 +250,6 @@ class PlasticFlowWork(Work):
             flowed,
             sentence,
         )
-
-    def stored(self, found: Found) -> Stored:
-        """Names of layers and table of zones."""
-        return Stored(facts=found.detail)
-
-    def restored(self, stored: Stored, solved: Solved) -> Any:
-        """The same again."""
-        return dict(stored.facts)
 
 
 # In words and tables.

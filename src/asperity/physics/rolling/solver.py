@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...contact.operators.convolution import restricted
-from ...contact.solvers.protocol import require_settings
+from ...contact.solvers.protocol import Iterative
 from ...core.arrays import BoolArray, RealArray
 from ..friction.operator import TangentialOperator
 from ..friction.solver.linear_system import Workspace
@@ -127,7 +127,7 @@ class RollingQP:
 
 
 @dataclass(frozen=True)
-class SteadyNewton:
+class SteadyNewton(Iterative):
     """Newton's method on steady rolling.
 
     Parameters
@@ -147,9 +147,6 @@ class SteadyNewton:
     max_iterations: int = 100
     name: ClassVar[str] = "steady newton"
     citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "Kalker1990")
-
-    def __post_init__(self) -> None:
-        require_settings(self)
 
     def solve(self, qp: RollingQP, start: RealArray | None = None) -> TangentialSolution:
         """Traction, and slip during a move by one pixel, from the traction ``start`` (2, nx, ny) in Pa; by default from coarser grids."""

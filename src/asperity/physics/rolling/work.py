@@ -13,7 +13,7 @@ from ...contact.problem import ContactProblem
 from ...core.status import Advice
 from ...core.units import percent, show
 from ...io.words import value_text
-from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
+from ...parts.part import Found, Rows, Solved, Table, WithFacts, Words
 from ...plots.picture import Figure, figures_by
 from ...surfaces.prepare.extent import cropped, periodised
 from ...surfaces.prepare.level import filled, levelled
@@ -35,7 +35,7 @@ FEW = 16
 """Pixels along the contact below which the forces of the grid err by several per cent."""
 
 
-class RollingWork(Work):
+class RollingWork(WithFacts):
     """The steady contact of bodies that roll with creepage, or a rough wheel: what is done for it."""
 
     def check(self, ask: Rolls, problem: ContactProblem) -> None:
@@ -142,14 +142,6 @@ class RollingWork(Work):
             area = "all of the contact sticks" if slips == 0.0 else f"{percent(slips)} of the contact area slips"
             sentence = f"The rolling contact transmits {show(math.hypot(along, across), 'N', 3)} along the surface{limit}; {area}, and rolling turns {heat} into heat."
         return Words(sentence, headline, rows, tables, (REMARK,))
-
-    def stored(self, found: Found) -> Stored:
-        """Direction, law and creepages."""
-        return Stored(facts=found.detail)
-
-    def restored(self, stored: Stored, solved: Solved) -> Any:
-        """The same again."""
-        return dict(stored.facts)
 
 
 def _rolled(problem: ContactProblem, control: Control, ask: Rolls, progress: Any) -> RoughRolling:

@@ -188,8 +188,19 @@ class Criterion(Protocol):
         """Strength of ``material``."""
 
 
+class _OfYieldStress:
+    """Base of criteria of yielding."""
+
+    def limit(self, material: Elastic) -> Limit:
+        """Tensile yield stress of ``material``, or hardness/2.8 where only that is known."""
+        strength = material.strength
+        if not math.isnan(strength.yield_stress):
+            return Limit(strength.yield_stress)
+        return Limit(strength.hardness / TABOR, inferred=not math.isnan(strength.hardness))
+
+
 @dataclass(frozen=True)
-class VonMises:
+class VonMises(_OfYieldStress):
     """√(3 J2) against the tensile yield stress; where that is unknown against hardness/2.8 (Tabor 1951)."""
 
     name: ClassVar[str] = "von Mises"
@@ -200,13 +211,9 @@ class VonMises:
         """√(3 J2) in Pa."""
         return von_mises(stress)
 
-    def limit(self, material: Elastic) -> Limit:
-        """Tensile yield stress of ``material``."""
-        return tensile_yield_stress(material)
-
 
 @dataclass(frozen=True)
-class Tresca:
+class Tresca(_OfYieldStress):
     """σ1 - σ3 against the tensile yield stress; where that is unknown against hardness/2.8 (Tabor 1951)."""
 
     name: ClassVar[str] = "Tresca"
@@ -216,10 +223,6 @@ class Tresca:
     def equivalent(self, stress: StressTensor) -> RealArray:
         """σ1 - σ3 in Pa."""
         return tresca(stress)
-
-    def limit(self, material: Elastic) -> Limit:
-        """Tensile yield stress of ``material``."""
-        return tensile_yield_stress(material)
 
 
 @dataclass(frozen=True)
@@ -244,11 +247,3 @@ class MaxPrincipal:
     def limit(self, material: Elastic) -> Limit:
         """The given strength, the same in every material."""
         return Limit(self.strength)
-
-
-def tensile_yield_stress(material: Elastic) -> Limit:
-    """Yield stress of ``material``, or hardness/2.8 where only that is known."""
-    strength = material.strength
-    if not math.isnan(strength.yield_stress):
-        return Limit(strength.yield_stress)
-    return Limit(strength.hardness / TABOR, inferred=not math.isnan(strength.hardness))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -28,7 +28,7 @@ from ...io.export import VTK_TYPES
 from ...io.tree import Node, coordinate, write_tree
 from .field import OfTensor, StressField
 from .peaks import MAXIMA, Peak, SurfaceMaxima
-from .regions import Plane, Region
+from .regions import Plane
 
 EDGES = "surface_maxima"
 """Group of the largest stresses at the surface with the edges of the contact."""
@@ -92,7 +92,12 @@ def field_from(node: Node) -> StressField:
     assert len(dims) == len(axes)
     dx, dy = (float(step) for step in attributes["spacing"])
     tensor = StressTensor(**{name: node[name] for name in STRESSES})
-    maxima = _maxima_in(node.children[EDGES], {part.index: part for part in parts}) if EDGES in node.children else None
+    at_edges = None
+    if EDGES in node.children:
+        values, by_number = values_in(node.children[EDGES]), {part.index: part for part in parts}
+        kept = {name: {"region": by_number[int(values[f"{name}_region"])]} for name in MAXIMA}
+        maxima = SurfaceMaxima(*(made_of(Peak, values, known, f"{name}_") for name, known in kept.items()))
+        at_edges = OfTensor(applied(_known, maxima), tensor)
     return StressField(
         planes,
         tensor,
@@ -103,29 +108,12 @@ def field_from(node: Node) -> StressField:
         (dx, dy),
         tuple(str(attributes["citation_keys"]).split()),
         bool(attributes.get("single_row", 0)),
-        None if maxima is None else OfTensor(applied(_known, maxima), tensor),
+        at_edges,
     )
 
 
 def _known(maxima: SurfaceMaxima) -> SurfaceMaxima:
     return maxima
-
-
-def _maxima_in(node: Node, regions: Mapping[int, Region]) -> SurfaceMaxima:
-    """Largest stresses at the surface of a group, in these ``regions`` by number."""
-    values = values_in(node)
-    peaks = (made_of(Peak, values, {"region": regions[int(values[f"{name}_region"])]}, f"{name}_") for name in MAXIMA)
-    return SurfaceMaxima(*peaks)
-
-
-def _maxima_node(maxima: SurfaceMaxima) -> Node:
-    """Group of the largest stresses at a surface."""
-    values = list[Labelled]()
-    for name in MAXIMA:
-        peak = getattr(maxima, name)
-        region = Quantity(f"{name}_region", "1", "region, 0 the outermost")
-        values += [*values_of(peak, f"{name}_"), Labelled(region, peak.region.index)]
-    return Node(tuple(values), {KIND: kind_name(SurfaceMaxima)})
 
 
 def _node(field: StressField) -> Node:
@@ -150,7 +138,13 @@ def _node(field: StressField) -> Node:
     attributes: dict[str, Any] = {f"at_{axis}": value for axis, value in fixed.items()}
     attributes |= {"spacing": np.array(field.spacing), "single_row": int(field.single_row)}
     maxima = field.surface_maxima
-    children = {} if maxima is None else {EDGES: _maxima_node(maxima)}
+    children = dict[str, Node]()
+    if maxima is not None:
+        at_edges = list[Labelled]()
+        for name in MAXIMA:
+            peak, region = getattr(maxima, name), Quantity(f"{name}_region", "1", "region, 0 the outermost")
+            at_edges += [*values_of(peak, f"{name}_"), Labelled(region, peak.region.index)]
+        children[EDGES] = Node(tuple(at_edges), {KIND: kind_name(SurfaceMaxima)})
     return Node(tuple(values), attributes | {"citation_keys": " ".join(field.citation_keys)}, children)
 
 
@@ -206,7 +200,8 @@ def export_stress_vtk(fields: Fields, path: str | Path, *, overwrite: bool = Fal
         depths = []
         for field in planes:
             depths.append(field.planes[0].depth)
-            for name, values in _point_data(field):
+            region = np.full(field.tensor.xx.shape[1:], field.planes[0].region.index, np.uint8)
+            for name, values in {**components(field), "von_mises": field.von_mises[0], "region": region}.items():
                 if name not in parts:
                     parts[name] = stack.enter_context(tempfile.TemporaryFile(dir=partial.parent))
                     kinds[name] = values.dtype
@@ -214,13 +209,6 @@ def export_stress_vtk(fields: Fields, path: str | Path, *, overwrite: bool = Fal
                 parts[name].write(np.ascontiguousarray(values.T).astype(values.dtype.newbyteorder("<")).tobytes())
         with partial.open("wb") as file:
             _write(file, first, depths, parts, kinds)
-
-
-def _point_data(field: StressField) -> Iterator[tuple[str, np.ndarray[Any, Any]]]:
-    yield from components(field).items()
-    yield "von_mises", field.von_mises[0]
-    shape = field.tensor.xx.shape[1:]
-    yield "region", np.full(shape, field.planes[0].region.index, np.uint8)
 
 
 def _write(

@@ -77,7 +77,7 @@ class FreeMovingKernel:
                 f"bodies in steady sliding on a free grid must be solid, but one flows at {speed:g} m/s: it would sink without end. "
                 "Take a spectrum whose shares add up to less than one."
             )
-        grid = problem.grid if axis == 0 else Grid(problem.grid.shape[::-1], problem.grid.spacing[::-1])
+        grid = problem.grid if axis == 0 else problem.grid.exchanged
         moved, loss = _influences(creep, problem, grid, speed)
         if axis == 1:
             moved, loss = moved.T, loss.T

@@ -14,7 +14,7 @@ from ...core.errors import InputError
 from ...core.status import Advice
 from ...core.units import percent, show
 from ...io.words import value_text
-from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
+from ...parts.part import Found, Rows, Solved, Table, WithFacts, Words
 from ...plots.picture import Figure, figures_by
 from ...solids.layers import Body, Layered
 from ...solids.viscoelastic import Viscoelastic
@@ -27,7 +27,7 @@ MUCH = 0.05
 """Sum of the errors of the steps of time from which on a finding says so."""
 
 
-class ViscoelasticityWork(Work):
+class ViscoelasticityWork(WithFacts):
     """What time does to a contact of viscoelastic bodies: what is done for it."""
 
     def check(self, ask: InTime, problem: ContactProblem) -> None:
@@ -186,14 +186,6 @@ class ViscoelasticityWork(Work):
                 f"{show(float(approach[touched]), 'm', 3)} to {show(float(approach[-1]), 'm', 3)}; {heat} became heat."
             )
         return Words(sentence, headline, rows, tables, (REMARK,))
-
-    def stored(self, found: Found) -> Stored:
-        """The temperature."""
-        return Stored(facts=found.detail or {})
-
-    def restored(self, stored: Stored, solved: Solved) -> Any:
-        """The same again."""
-        return dict(stored.facts)
 
 
 def picture_of(found: Found, solved: Solved) -> TimePicture:

@@ -12,7 +12,7 @@ from ...core.errors import InputError
 from ...core.status import Advice
 from ...core.units import percent, show
 from ...io.words import value_text
-from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
+from ...parts.part import Found, Rows, Solved, Table, WithFacts, Words
 from ...plots.picture import Figure, figures_by
 from ...theories.rough.rubber_friction import ORIGINAL
 from ..friction.law import Coulomb
@@ -28,7 +28,7 @@ APART = 0.2
 """Relative difference of the two coefficients of friction above which the grid is too coarse."""
 
 
-class HysteresisWork(Work):
+class HysteresisWork(WithFacts):
     """Friction of a rough body that slides steadily over a viscoelastic one: what is done for it."""
 
     def check(self, ask: HysteresisSettings, problem: ContactProblem) -> None:
@@ -131,14 +131,6 @@ class HysteresisWork(Work):
             tables = (("Friction against speed", Table(head, tuple(cells))),)
         remarks = (REMARK, OF_PULLING if solved.problem.attracts else OF_PRESSED)
         return Words(sentence, [shown], rows, tables, remarks)
-
-    def stored(self, found: Found) -> Stored:
-        """Speed, direction and reduction."""
-        return Stored(facts=found.detail)
-
-    def restored(self, stored: Stored, solved: Solved) -> Any:
-        """The same again."""
-        return dict(stored.facts)
 
 
 def bare(problem: ContactProblem) -> ContactProblem:

@@ -26,9 +26,9 @@ from ....core.errors import InputError
 from ..protocol import (
     ROUNDING,
     ContactQP,
+    Iterative,
     SolverState,
     feasible_start,
-    require_settings,
     scaled_error,
 )
 from ..reference.steepest_descent import descend, levelling_step
@@ -200,7 +200,7 @@ def _require_latest(memory: _Memory) -> None:
 
 
 @dataclass(frozen=True)
-class ActiveSet:
+class ActiveSet(Iterative):
     """Newton's method on the contact set, each linear system solved loosely by preconditioned conjugate gradients.
 
     A step chooses the free set, solves K p = h + level on it to a modest accuracy (preconditioner: the inverse of a
@@ -242,7 +242,7 @@ class ActiveSet:
     citation_keys: ClassVar[tuple[str, ...]] = ("Cole1992", "Polonsky1999")
 
     def __post_init__(self) -> None:
-        require_settings(self)
+        super().__post_init__()
         require.one_of(self.precision, ("mixed", "double", "single"), "precision of the solver active_set")
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:

@@ -12,11 +12,11 @@ from ..protocol import (
     ContactQP,
     FixedMean,
     FixedOffset,
+    Iterative,
     SolverState,
     energy,
     feasible_start,
     relative_error,
-    require_settings,
     scaled_to_load,
 )
 from .steepest_descent import descend, levelling_step
@@ -36,7 +36,7 @@ class _Memory:
 
 
 @dataclass(frozen=True)
-class ConjugateGradient:
+class ConjugateGradient(Iterative):
     """Conjugate gradients on the points strictly between the bounds; the field's workhorse.
 
     The method of the sources for elastic contact. Far into plasticity its corrections of points at the bounds
@@ -54,9 +54,6 @@ class ConjugateGradient:
     max_iterations: int = 5000
     name: ClassVar[str] = "conjugate_gradient"
     citation_keys: ClassVar[tuple[str, ...]] = ("Nogi1997", "Polonsky1999")
-
-    def __post_init__(self) -> None:
-        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, steepest descent first."""

@@ -14,12 +14,12 @@ from ....core.errors import InputError, NoSolutionError
 from ..protocol import (
     ContactQP,
     FixedMean,
+    Iterative,
     SolverState,
     feasible_start,
     heights_near_contact,
     lightly_loaded,
     relative_error,
-    require_settings,
     scaled_to_load,
 )
 
@@ -170,7 +170,7 @@ def answered(
 
 
 @dataclass(frozen=True)
-class DenseActiveSet:
+class DenseActiveSet(Iterative):
     """Matrix inversion on the contact set, the set changed until it is right; for small grids.
 
     All points that break a condition change sides at once (primal-dual active set, a handful of linear solves). If
@@ -189,9 +189,6 @@ class DenseActiveSet:
     max_iterations: int = 10000
     name: ClassVar[str] = "dense_active_set"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cole1992", "Tian1996")
-
-    def __post_init__(self) -> None:
-        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``, whose contact set is the first guess."""
@@ -310,7 +307,7 @@ _ZERO = 1e-11
 
 
 @dataclass(frozen=True)
-class Lemke:
+class Lemke(Iterative):
     """Lemke's method on the linear complementarity problem: finitely many pivots, and a proof where none solves it.
 
     The start is not used. The contact set found by pivoting is solved once more by Cholesky, which removes the
@@ -329,9 +326,6 @@ class Lemke:
     max_iterations: int = 20000
     name: ClassVar[str] = "lemke"
     citation_keys: ClassVar[tuple[str, ...]] = ("Cottle1992",)
-
-    def __post_init__(self) -> None:
-        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``.

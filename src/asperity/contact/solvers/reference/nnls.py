@@ -9,7 +9,7 @@ import numpy as np
 
 from ....core.arrays import BoolArray, RealArray
 from ....core.errors import InputError
-from ..protocol import ContactQP, SolverState, require_settings
+from ..protocol import ContactQP, Iterative, SolverState
 from .dense import ROUNDING, DenseQP, OnSet, answered, dense_form, gaps, solve_on, started, violation
 
 LARGEST_CAPPED = 1600
@@ -17,7 +17,7 @@ LARGEST_CAPPED = 1600
 
 
 @dataclass(frozen=True)
-class NonNegativeLeastSquares:
+class NonNegativeLeastSquares(Iterative):
     """Least squares with bounds, min |Rx - c|² with RᵀR the compliance; by library routines, for small grids.
 
     Lawson and Hanson's NNLS serves while the pressure cap is not reached, their extension to two bounds (BVLS) beyond. A prescribed
@@ -38,9 +38,6 @@ class NonNegativeLeastSquares:
     max_iterations: int = 100
     name: ClassVar[str] = "nnls"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bemporad2015", "Lawson1974")
-
-    def __post_init__(self) -> None:
-        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``."""

@@ -13,11 +13,11 @@ from ..protocol import (
     ContactQP,
     FixedMean,
     FixedOffset,
+    Iterative,
     SolverState,
     feasible_start,
     level,
     relative_error,
-    require_settings,
     scaled_to_load,
 )
 from .steepest_descent import levelling_step
@@ -62,7 +62,7 @@ class _Memory:
 
 
 @dataclass(frozen=True)
-class QuasiNewton:
+class QuasiNewton(Iterative):
     """Library L-BFGS-B in variables of order one, measured from the last iterate so that no digits cancel.
 
     One step of this solver is one run of the library. A prescribed load is held by an augmented Lagrangian: the level
@@ -83,7 +83,7 @@ class QuasiNewton:
     citation_keys: ClassVar[tuple[str, ...]] = ("Byrd1995", "PengBhushan2001")
 
     def __post_init__(self) -> None:
-        require_settings(self)
+        super().__post_init__()
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``."""

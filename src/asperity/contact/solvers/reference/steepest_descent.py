@@ -12,10 +12,10 @@ from ..protocol import (
     ContactQP,
     FixedMean,
     FixedOffset,
+    Iterative,
     SolverState,
     feasible_start,
     relative_error,
-    require_settings,
     scaled_to_load,
 )
 
@@ -27,7 +27,7 @@ _HALVINGS = 40
 
 
 @dataclass(frozen=True)
-class SteepestDescent:
+class SteepestDescent(Iterative):
     """Steepest descent of the complementary energy: clip the pressure to its bounds, shift it to carry the load.
 
     The step is the exact one for the points free to move, halved until the clipped and shifted pressure lowers the
@@ -46,9 +46,6 @@ class SteepestDescent:
     max_iterations: int = 20000
     name: ClassVar[str] = "steepest_descent"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bertsekas1976", "Stanley1997")
-
-    def __post_init__(self) -> None:
-        require_settings(self)
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
         """State at ``start``."""

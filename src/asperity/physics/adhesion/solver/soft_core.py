@@ -18,13 +18,12 @@ from typing import ClassVar
 import numpy as np
 
 from ....contact.solvers.protocol import FixedMean, FixedOffset
-from ....core import require
 from ....core.arrays import RealArray
 from ....core.errors import NoSolutionError
 from ....core.status import Outcome, Status
 from ..law import Adhesion, SoftAdhesion
-from .problem import Adhered, AdhesiveProblem, Linearised
-from .solver import AdhesiveSolution, Work, minimised
+from .problem import Adhered, AdhesiveProblem
+from .solver import AdhesiveSolution, Stepwise, Work, minimised
 
 _NEAREST = 0.65
 """Smallest gap over z0 from which Newton's method starts, and share of its gap that a point may keep in one step."""
@@ -51,7 +50,7 @@ class _Point:
 
 
 @dataclass(frozen=True)
-class SoftCoreNewton:
+class SoftCoreNewton(Stepwise):
     """Newton's method for the traction, each step cut so that the energy falls and no gap changes by more than a part of itself.
 
     Where the curvature is negative a step goes along that direction (Steihaug 1983), so that a branch that ends is left downhill.
@@ -68,10 +67,6 @@ class SoftCoreNewton:
     max_steps: int = 200
     name: ClassVar[str] = "Newton's method on a soft core"
     citation_keys: ClassVar[tuple[str, ...]] = ("Steihaug1983", "Greenwood1997")
-
-    def __post_init__(self) -> None:
-        require.between(self.tolerance, 0.0, 1.0, f"tolerance of the solver {self.name}")
-        require.integer(self.max_steps, 1, f"largest number of steps of the solver {self.name}")
 
     def solve(self, problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None = None) -> AdhesiveSolution:
         """Equilibrium that is reached downhill from the traction ``pressure`` - ``pull`` (nx, ny) in Pa.
@@ -106,10 +101,6 @@ class SoftCoreNewton:
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
         """Largest difference of the traction and the law at the ``gap`` over the larger of strength and traction; fields (nx, ny)."""
         return _miss(law, pressure - pull, gap)
-
-    def margin(self, problem: AdhesiveProblem, state: Adhered) -> float:
-        """1 less the largest eigenvalue of the response of the points whose attraction falls with the gap."""
-        return 1.0 - Linearised(problem, state).largest()
 
     def _starts(
         self, problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None, work: Work

@@ -72,7 +72,24 @@ _SAME = 1e-13
 
 
 @dataclass(frozen=True)
-class MajoriseMinimise:
+class Stepwise:
+    """Base of methods with a tolerance in (0, 1) and a largest number of steps; InputError names the wrong one."""
+
+    tolerance: float
+    max_steps: int
+    name: ClassVar[str] = ""
+
+    def __post_init__(self) -> None:
+        require.between(self.tolerance, 0.0, 1.0, f"tolerance of the solver {self.name}")
+        require.integer(self.max_steps, 1, f"largest number of steps of the solver {self.name}")
+
+    def margin(self, problem: AdhesiveProblem, state: Adhered) -> float:
+        """1 less the largest eigenvalue of the response of the free points, whose attraction falls with the gap."""
+        return 1.0 - Linearised(problem, state).largest()
+
+
+@dataclass(frozen=True)
+class MajoriseMinimise(Stepwise):
     """Hard-wall contacts under a fixed pull, which bound the energy from above, until the pull is that of the gap.
 
     For an attraction that falls with the gap φ is concave, so that its tangent bounds it from above, and every step, a hard-wall
@@ -95,10 +112,6 @@ class MajoriseMinimise:
     newton: bool = True
     name: ClassVar[str] = "majorise-minimise"
     citation_keys: ClassVar[tuple[str, ...]] = ("Hunter2004", "Steihaug1983", "Rey2017")
-
-    def __post_init__(self) -> None:
-        require.between(self.tolerance, 0.0, 1.0, f"tolerance of the solver {self.name}")
-        require.integer(self.max_steps, 1, f"largest number of steps of the solver {self.name}")
 
     def solve(self, problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None = None) -> AdhesiveSolution:
         """Equilibrium that is reached downhill from the attraction ``pull`` (nx, ny) in Pa, started from this wall ``pressure``.
@@ -142,10 +155,6 @@ class MajoriseMinimise:
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
         """Largest difference of ``pull`` and the attraction at the ``gap`` over the largest attraction; fields (nx, ny)."""
         return float(np.abs(law.attraction(gap) - pull).max()) / law.strength
-
-    def margin(self, problem: AdhesiveProblem, state: Adhered) -> float:
-        """1 less the largest eigenvalue of the response of the free points."""
-        return 1.0 - Linearised(problem, state).largest()
 
     def _newton(self, problem: AdhesiveProblem, state: Adhered, work: Work) -> Adhered | None:
         """Step of Newton's method from ``state`` followed by one of majorise-minimise; None where there is nothing to gain."""

@@ -19,7 +19,7 @@ from typing import ClassVar, Literal, NamedTuple
 import numpy as np
 
 from ....contact.operators.convolution import restricted
-from ....contact.solvers.protocol import require_settings
+from ....contact.solvers.protocol import Iterative
 from ....core import require
 from ....core.arrays import RealArray
 from .linear_system import NewtonSystem, Workspace
@@ -73,7 +73,7 @@ _LOOSEST = 0.02
 
 
 @dataclass(frozen=True)
-class StickSlipNewton:
+class StickSlipNewton(Iterative):
     """Newton's method on stick and slip.
 
     Parameters
@@ -98,7 +98,7 @@ class StickSlipNewton:
     citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "Kalker1990")
 
     def __post_init__(self) -> None:
-        require_settings(self)
+        super().__post_init__()
         require.one_of(self.precision, ("mixed", "double"), "precision of the tangential solver")
 
     def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ....contact.solvers.protocol import require_settings
+from ....contact.solvers.protocol import Iterative
 from ....core.arrays import RealArray
 from .problem import Deviation, Points, Sets, TangentialQP, TangentialSolution, best_shift, ended
 
@@ -55,7 +55,7 @@ class _Iterate:
 
 
 @dataclass(frozen=True)
-class AcceleratedGradient:
+class AcceleratedGradient(Iterative):
     """Projected gradient with Nesterov's momentum, restarted where it points uphill (Beck & Teboulle 2009; O'Donoghue & Candes 2015).
 
     Parameters
@@ -75,9 +75,6 @@ class AcceleratedGradient:
     max_iterations: int = 20000
     name: ClassVar[str] = "accelerated gradient"
     citation_keys: ClassVar[tuple[str, ...]] = ("Beck2009", "ODonoghue2015")
-
-    def __post_init__(self) -> None:
-        require_settings(self)
 
     def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:
         """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa."""
@@ -100,7 +97,7 @@ class AcceleratedGradient:
 
 
 @dataclass(frozen=True)
-class ProjectedGradients:
+class ProjectedGradients(Iterative):
     """Conjugate gradients on what sticks, slipping points turning on their circles, begun anew whenever the sets change.
 
     In the manner of Polonsky & Keer (1999) for the normal contact, with discs in place of half-lines.
@@ -122,9 +119,6 @@ class ProjectedGradients:
     max_iterations: int = 20000
     name: ClassVar[str] = "projected gradients"
     citation_keys: ClassVar[tuple[str, ...]] = ("Polonsky1999",)
-
-    def __post_init__(self) -> None:
-        require_settings(self)
 
     def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:
         """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa."""

@@ -9,7 +9,7 @@ rest decays as exp(-α(2h - z)) and nothing is singular at the surface.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -116,7 +116,7 @@ class PlaneCoefficients:
         The error is below 1e-8 of the largest coefficient.
         """
         if load == "y":
-            return self._exchanged.stress("x").map(np.transpose).exchanged()
+            return replace(self, grid=self.grid.exchanged).stress("x").map(np.transpose).exchanged()
         terms = STRESS_UNDER_PRESSURE if load == "z" else STRESS_UNDER_SHEAR
         nu = self.plane.region.material.poisson_ratio
         known = stress_coefficients(self.grid, self.plane.depth, load, nu) if self._outermost else None
@@ -128,7 +128,7 @@ class PlaneCoefficients:
     def displacement(self, load: Load) -> Displacement:
         """Displacement (m/Pa), as ``stress``; zero at infinity."""
         if load == "y":
-            return self._exchanged.displacement("x").map(np.transpose).exchanged()
+            return replace(self, grid=self.grid.exchanged).displacement("x").map(np.transpose).exchanged()
         terms = DISPLACEMENT_UNDER_PRESSURE if load == "z" else DISPLACEMENT_UNDER_SHEAR
         solid = self.plane.region.material
         shear, nu = solid.shear_modulus, solid.poisson_ratio
@@ -145,10 +145,6 @@ class PlaneCoefficients:
     @property
     def _homogeneous(self) -> bool:
         return not self.body.layers
-
-    @property
-    def _exchanged(self) -> PlaneCoefficients:
-        return PlaneCoefficients(self.body, self.plane, Grid(self.grid.shape[::-1], self.grid.spacing[::-1]))
 
     def _sums(self, terms: dict[str, tuple[Term, ...]]) -> dict[str, RealArray]:
         """Pixel averages of the point kernels in ``terms``; each kernel with each angular factor is averaged once."""

@@ -227,7 +227,7 @@ def stress_coefficients(grid: Grid, z: float, load: Load, nu: float) -> StressTe
     Relative error below 1e-12 up to 100 pixels away, 1e-9 up to 1000.
     """
     if load == "y":
-        return stress_coefficients(_exchanged(grid), z, "x", nu).map(np.transpose).exchanged()
+        return stress_coefficients(grid.exchanged, z, "x", nu).map(np.transpose).exchanged()
     formula = pressure_stress if load == "z" else shear_stress
     blocks = [formula(corner, nu).map(_corner_sum) for corner in _corners(grid, z)]
     return StressTensor(*(np.concatenate(parts) for parts in zip(*(vars(b).values() for b in blocks), strict=True)))
@@ -236,7 +236,7 @@ def stress_coefficients(grid: Grid, z: float, load: Load, nu: float) -> StressTe
 def displacement_coefficients(grid: Grid, z: float, load: Load, shear: float, nu: float) -> Displacement:
     """Displacement (m/Pa), as ``stress_coefficients``."""
     if load == "y":
-        return displacement_coefficients(_exchanged(grid), z, "x", shear, nu).map(np.transpose).exchanged()
+        return displacement_coefficients(grid.exchanged, z, "x", shear, nu).map(np.transpose).exchanged()
     formula = pressure_displacement if load == "z" else shear_displacement
     blocks = [formula(corner, shear, nu).map(_corner_sum) for corner in _corners(grid, z)]
     return Displacement(*(np.concatenate(parts) for parts in zip(*(vars(b).values() for b in blocks), strict=True)))
@@ -254,7 +254,3 @@ def _corners(grid: Grid, z: float) -> list[Corner]:
 def _corner_sum(potential: RealArray) -> RealArray:
     """F(X₁, Y₁) - F(X₁, Y₂) - F(X₂, Y₁) + F(X₂, Y₂) over the last two axes."""
     return np.diff(np.diff(potential, axis=-2), axis=-1)
-
-
-def _exchanged(grid: Grid) -> Grid:
-    return Grid(grid.shape[::-1], grid.spacing[::-1])
