@@ -223,7 +223,7 @@ def test_a_curve_is_drawn(run: Runner, tmp_path: Path) -> None:
     hertz = ("theory", "hertz", "--E-star", "115GPa", "--radius", "5mm")
     assert run(*hertz, "--load", "1N..100N", "--plot", tmp_path / "a.png").exit_code == 0
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
-    assert subject_of(run(*hertz, "--load", "1N", "--plot", tmp_path / "b.png")) == "--plot"
+    assert subject_of(run(*hertz, "--load", "1N", "--plot", tmp_path / "b.png")) == "plot of an answer"
 
 
 @pytest.mark.parametrize(

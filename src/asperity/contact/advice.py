@@ -12,7 +12,7 @@ from ..core.status import Advice, free_memory, room_text
 from ..core.units import percent, show, times
 from ..solids.elastic import TABOR, Elastic
 from ..solids.layers import Layered, RigidBase, materials_of
-from ..solids.strength import unknown_strengths, yield_pressure
+from ..solids.strength import strength_of, unknown_strengths, yield_pressure
 from ..surfaces.characterise.heights import rms_height
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
@@ -22,7 +22,6 @@ from .history import HistoryResult
 from .law import InterfaceLaw, LimitByDepth
 from .problem import ContactProblem
 from .result import ContactResult
-from .strength import strength_of
 
 LARGEST_SLOPE = 0.3
 """Half-space theory neglects slopes squared: 9 % at 0.3."""
@@ -355,7 +354,7 @@ def _plastic(result: ContactResult) -> Iterator[Advice]:
 
 def _hardness(result: ContactResult) -> Iterator[Advice]:
     problem, unknown = result.problem, []
-    surfaces = strength_of(problem)
+    surfaces = strength_of(problem.body, problem.counter_body)
     for surface in surfaces:
         if any(answer.imprint(surface.body) is not None for answer in result.answers):
             continue  # its flow is solved

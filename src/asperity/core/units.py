@@ -103,8 +103,8 @@ def parse(text: str | float, kind: str, what: str, instead: str = "") -> float:
         return float(text)
     if kind not in DIMENSIONS:
         return parse_in(str(text), kind, what, instead)
-    if kind == "hardness" and (hardness := hardness_of(str(text), what)) is not None:
-        return hardness
+    if kind == "hardness" and "H" in str(text).upper() and (hardness := hardness_of(str(text), what)) is not None:
+        return hardness  # a hardness number; no unit of pressure in use has this letter
     unit = DIMENSIONS[kind]
     number, name = _split(str(text), EXAMPLES.get(kind, f"1 {unit}"), what, instead, plain=kind == "number")
     return number * unit_factor(name, kind, what)

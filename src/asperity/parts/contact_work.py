@@ -35,7 +35,7 @@ class ContactWork(Work):
             "contact_modulus": problem.contact_modulus,
         }
         made = findings(result if solved.path is None else solved.path)
-        return Found(values, result, made, result.citation_keys)
+        return Found(values, result, made)
 
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the problem's papers."""

@@ -158,8 +158,9 @@ class Reached(NamedTuple):
     @property
     def where(self) -> str:
         """Step and load in words; empty where there are no others."""
-        load = show(self.result.mean_pressure, "Pa")
-        return f"step {self.number} of {self.many}, mean pressure {load}" if self.many > 1 else ""
+        if self.many == 1:
+            return ""
+        return f"step {self.number} of {self.many}, mean pressure {show(self.result.mean_pressure, 'Pa')}"
 
 
 @dataclass(frozen=True, eq=False)

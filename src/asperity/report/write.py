@@ -99,7 +99,7 @@ def write_report(
             ("written (UTC)", stored["created"]),
             *software_rows(stored["software"], **{key: stored[key]["digest"] for key in surfaces}),
         ],
-        citation_keys=dict.fromkeys((*result.citation_keys, *outcome.citation_keys)),
+        citation_keys=outcome.citation_keys,
         document=document,
         document_of="Problem",
         overwrite=overwrite,

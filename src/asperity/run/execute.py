@@ -140,7 +140,8 @@ class Outcome(Judged, Drawn):
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers behind the numbers."""
-        return tuple(dict.fromkeys(key for found in self.found.values() for key in found.citation_keys))
+        of_parts = (key for found in self.found.values() for key in found.citation_keys)
+        return tuple(dict.fromkeys((*getattr(self.result, "citation_keys", ()), *of_parts)))
 
 
 @dataclass(eq=False)

@@ -61,7 +61,7 @@ def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = 
     attributes = root_attributes(outcome.result, document, versions()) | status_attributes(outcome.status)
     attributes |= {
         OF_OUTCOME: 1,
-        "citation_keys": " ".join(dict.fromkeys((*outcome.result.citation_keys, *outcome.citation_keys))),
+        "citation_keys": " ".join(outcome.citation_keys),
         "findings": json.dumps([asdict(finding) for finding in outcome.findings]),
     }
     return Node((), attributes | ({"report_title": title} if title else {}), groups)

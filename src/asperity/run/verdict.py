@@ -12,12 +12,12 @@ import numpy as np
 from ..contact.advice import DOUBT, findings
 from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
-from ..contact.strength import strength_of
 from ..core.status import GRADES, Advice, Verdict
 from ..core.units import percent, show, times
 from ..io.words import area_text, headline_rows, limit_text
 from ..parts.part import Part, Reached, Words
 from ..solids.elastic import TABOR
+from ..solids.strength import strength_of
 from .execute import Outcome, answered
 
 FIRST_YIELD = 1.6 / TABOR
@@ -150,7 +150,7 @@ def _known(values: Mapping[str, Any], name: str) -> bool:
 
 def _strength(result: ContactResult) -> tuple[str, bool]:
     """The largest pressure against what the surfaces of the bodies bear, where nothing limits it."""
-    found = strength_of(result.problem)
+    found = strength_of(result.problem.body, result.problem.counter_body)
     known = {item.known_as: result.max_pressure / item.pressure for item in found if item.pressure}
     unknown = dict.fromkeys(item.material for item in found if not item.pressure)
     texts, worst = list[str](), max(known.values(), default=0.0)
