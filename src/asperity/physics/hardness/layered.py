@@ -18,6 +18,9 @@ from ...solids.layers import Layered
 from ...solids.strength import yield_pressure
 from ...theories.hardness.effective_hardness import EffectiveHardness, StackHardness
 
+_SHOWN = 1e-4
+"""Relative difference of hardnesses that their text shows."""
+
 
 @dataclass(frozen=True)
 class LayeredHardness:
@@ -96,8 +99,8 @@ class LayeredHardness:
         top, base = self._ends
         low, high = (top, base) if self._stack is None else self._stack.extremes
         extremes = [
-            (f"up to {show(high, 'Pa')}", high > max(top, base)),
-            (f"down to {show(low, 'Pa')}", low < min(top, base)),
+            (f"up to {show(high, 'Pa')}", high > max(top, base) * (1.0 + _SHOWN)),
+            (f"down to {show(low, 'Pa')}", low < min(top, base) * (1.0 - _SHOWN)),
         ]
         between = " and ".join(text for text, beyond in extremes if beyond)
         between = f", {between} in between" if between else ""

@@ -153,10 +153,9 @@ class StackHardness:
 
     @property
     def extremes(self) -> tuple[float, float]:
-        """Lowest and highest hardness in Pa at any depth, surface and base included."""
+        """Lowest and highest hardness in Pa at any depth, from the surface to far below all faces, where it is that of the base."""
         values = self.at(self._knots)
-        ends = (self.faces[0].film, self.faces[-1].substrate)
-        return min(*ends, float(values.min())), max(*ends, float(values.max()))
+        return float(values.min()), float(values.max())
 
     def work(self, depth: ArrayLike) -> RealArray:
         """∫ H dd from the surface to ``depth`` in m (any shape, >= 0): work per area in J/m².
