@@ -205,7 +205,7 @@ def test_a_study_of_thickness_and_hardness_ratio(tmp_path: Path) -> None:
         (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-line-load", "1N/m"), "the passes"),
         (STEEL, ("--passes", "1", "--pass-line-load", "1N/m", "--pass-indenter", "sphere"), "the passes"),
         (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-motion", "in place", "--pass-track", "1um"), "the passes"),
-        (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-elements", "30", "--pass-indenter", "sphere"), "the passes"),
+        (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-elements", "30", "--pass-indenter", "sphere"), "--pass-elements"),
         (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-motion", "sideways"), "--pass-motion"),
         (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-in", "counter_body"), "counter_body"),
         (STEEL, ("--passes", "1", "--pass-peak", "500GPa", "--pass-radius", "1um"), "load of the passes"),
