@@ -225,7 +225,8 @@ def problems(error: ValidationError, schema: Mapping[str, Any], names: Mapping[s
         if detail["type"] == "value_error" and (own := re.match(r"[.\[][\w.\[\]]*", str(detail["ctx"]["error"]))):
             found[f"{_called((key + own[0]).lstrip('.'), names)}{str(detail['ctx']['error'])[own.end() :]}"] = None
         else:
-            found[_sentence(dict(detail), _called(key, names), allowed)] = None
+            called = _called(key, names, unknown=detail["type"] == "extra_forbidden")
+            found[_sentence(dict(detail), called, allowed)] = None
     return list(found)
 
 
@@ -236,13 +237,13 @@ def _plain(value: Any) -> Any:
     return float(value) if isinstance(value, float) else value
 
 
-def _called(key: str, names: Mapping[str, str]) -> str:
-    """What the user calls the dotted ``key``: its name, or that of the list or table it is in and its place there."""
+def _called(key: str, names: Mapping[str, str], *, unknown: bool = False) -> str:
+    """What the user calls the dotted ``key``: its name, or that of the list or table it is in and its place there; an ``unknown`` one as it is written."""
     parts, whole = [], key
     while whole not in names:
         match = re.fullmatch(r"(.+)(?:\[(\d+)\]|\.(\w+))", whole)
         if match is None:
-            return key_in_words(key)
+            return key if unknown else key_in_words(key)
         parts.append(f"part {match[2]} of" if match[2] else f"{match[3]} of")
         whole = match[1]
     return " ".join([*parts, names[whole]])

@@ -104,8 +104,12 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
 
 
 def _finding(*, message: str = "", concerns: Sequence[str] = (), **values: Any) -> Advice:
-    """A finding of a file; earlier files hold its text as one ``message``."""
-    return Advice(**{"fact": message, **values}, concerns=tuple(concerns))
+    """A finding of a file; earlier files hold its text as one ``message``. ValueError if texts are none."""
+    found = Advice(**{"fact": message, **values}, concerns=tuple(concerns))
+    for text in (found.level, found.criterion, found.fact, found.remedy, *found.concerns):
+        if not isinstance(text, str):
+            raise ValueError(f"{text!r:.60} in the findings is no text")
+    return found
 
 
 def _require_provenance(stored: Any) -> None:

@@ -464,7 +464,7 @@ def test_stresses() -> None:
 
 
 def test_stresses_that_cannot_be_had_are_refused_before_solving() -> None:
-    with refused(InputError, "body in which stresses are asked", "counter body", "--stress-in body"):
+    with refused(InputError, "body in which stresses are asked", "counter body", 'stress.inside = "body"'):
         build(checked(table(stress={"inside": "counter_body"})))
     with refused(InputError, "y of a stress section", "6"):
         build(checked(table(stress={"sections": "y=7um"})))

@@ -74,11 +74,11 @@ def test_truncated_and_misused_instrument_files(tmp_path, shared_data):
         read(cut)
     with refused(FileFormatError, f"channel of file {path}", "'Phase'"):
         read(path, channel="Phase")
-    with refused(FileFormatError, f"size of file {path}", "--size"):
+    with refused(FileFormatError, f"size of file {path}", "size"):
         read(path, size=(1e-6, 1e-6))
-    with refused(FileFormatError, f"height unit of file {path}", "--height-unit"):
+    with refused(FileFormatError, f"height unit of file {path}", "height_unit"):
         read(path, height_unit="nm")
-    with refused(FileFormatError, f"z_scale of file {path}", "--z-scale"):
+    with refused(FileFormatError, f"z_scale of file {path}", "z_scale"):
         read(path, z_scale=1e-9)
     path = shared_data / "afm_granular_film_10um_512.di"
     with refused(FileFormatError, f"size and unit of channel 'Phase' of file {path}", "height_unit"):

@@ -80,7 +80,7 @@ def test_list_of_points(tmp_path, name, header, mark, comma):
     expected[1, 1] = np.nan
     np.testing.assert_allclose(surface.heights, expected)
     for given in ({}, {"size": SIZE}, {"size": SIZE, "height_unit": "nm"}):
-        with refused(FileFormatError, f"lateral unit of file {tmp_path / name}", "3 x 4", "--lateral-unit"):
+        with refused(FileFormatError, f"lateral unit of file {tmp_path / name}", "3 x 4", "lateral_unit="):
             read(tmp_path / name, **given)
 
 
@@ -156,14 +156,14 @@ def test_channels_of_a_plain_file(tmp_path):
 @pytest.mark.parametrize(
     ("name", "options", "subject", "shown"),
     [
-        ("a.txt", {}, "size of file {}", "--size"),
-        ("a.txt", {"size": SIZE}, "height unit of file {}", "--height-unit"),
+        ("a.txt", {}, "size of file {}", "size="),
+        ("a.txt", {"size": SIZE}, "height unit of file {}", "height_unit="),
         ("a.txt", {"size": (1e-6, 0.0), "height_unit": "nm"}, "size of file {}", "(1e-06, 0.0)"),
         ("a.txt", {"size": 1e-6, "height_unit": "nm"}, "size of file {}", "but is 1e-06"),
-        ("a.txt", {"size": SIZE, "height_unit": "nm", "z_scale": 1.0}, "z_scale of file {}", "--z-scale"),
-        ("a.png", {"size": SIZE}, "z_scale of file {}", "--z-scale"),
-        ("a.png", {"z_scale": 1e-9}, "size of file {}", "--size"),
-        ("a.png", {"size": SIZE, "height_unit": "nm"}, "z_scale of file {}", "--z-scale"),
+        ("a.txt", {"size": SIZE, "height_unit": "nm", "z_scale": 1.0}, "z_scale of file {}", "z_scale"),
+        ("a.png", {"size": SIZE}, "z_scale of file {}", "z_scale="),
+        ("a.png", {"z_scale": 1e-9}, "size of file {}", "size="),
+        ("a.png", {"size": SIZE, "height_unit": "nm"}, "z_scale of file {}", "z_scale="),
         ("colour.png", {"size": SIZE, "z_scale": 1e-9}, "colours of the picture", "grey"),
         ("empty.txt", {}, "file {}", "empty"),
         ("blank.txt", {}, "file {}", "empty"),
