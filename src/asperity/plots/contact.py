@@ -20,10 +20,9 @@ from ..core.units import show
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
 from .maps import (
-    Field,
     contact_kinds,
     enlarge_contact,
-    enlarge_indentation,
+    enlarge_island,
     gap_field,
     heights_field,
     indentation_field,
@@ -34,7 +33,6 @@ from .maps import (
     plot_pressure,
     plot_residual,
     pressure_field,
-    residual_field,
 )
 from .picture import (
     BLACK,
@@ -173,22 +171,14 @@ def _histogram(values: RealArray, in_unit: Scale, ax: Axes, name: str, if_none: 
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.
 
 
-def _surface_field(result: ContactResult) -> Field:
-    return heights_field(result.problem.surface)
-
-
-def _plot_surface(result: ContactResult, ax: Axes) -> Axes:
-    return plot_heights(result.problem.surface, ax)
-
-
 PLOTS = (
     Plot(
         "heights",
         "Heights",
         "Heights of the rough surface, relative to their mean.",
-        _plot_surface,
+        lambda result, ax: plot_heights(result.problem.surface, ax),
         "map",
-        shows=_surface_field,
+        shows=lambda result: heights_field(result.problem.surface),
         by_step=False,
     ),
     Plot(
@@ -256,7 +246,9 @@ PLASTIC_PLOTS = (
         "Permanent indentation of the composite surface wherever the pressure has ever reached its limit; grey elsewhere.",
         plot_indentation,
         "map",
-        enlarge_indentation,
+        lambda result, ax: enlarge_island(
+            result.indented, result.problem.grid, result.problem.boundary.wraps, "largest plastic zone", ax
+        ),
         shows=indentation_field,
     ),
     Plot(
@@ -265,7 +257,7 @@ PLASTIC_PLOTS = (
         "Heights of the composite surface that is left when the load is taken away, relative to their mean.",
         plot_residual,
         "map",
-        shows=residual_field,
+        shows=lambda result: heights_field(result.residual_surface()),
     ),
 )
 """The figures of a result that is permanently indented."""
