@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -50,14 +50,11 @@ class HalfSpace:
     """
 
     modulus: float
+    citation_keys: ClassVar[tuple[str, ...]] = ("Boussinesq1885", "Johnson1985")
+    """Boussinesq's point force; the boundary names the discretisation."""
 
     def __post_init__(self) -> None:
         require.positive(self.modulus, "plane-strain modulus of a half-space (Pa)")
-
-    @property
-    def citation_keys(self) -> tuple[str, ...]:
-        """Boussinesq's point force; the boundary names the discretisation."""
-        return ("Boussinesq1885", "Johnson1985")
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """c(q) = 2 / (E' q) in m/Pa (Johnson 1985, sec. 13.2), q > 0 in rad/m."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -345,14 +345,11 @@ class LayerStack:
     """
 
     body: Layered
+    citation_keys: ClassVar[tuple[str, ...]] = ("Burmister1945", "OSullivan1988", "Tan2006", "Hamilton2000")
+    """Layered elasticity, the mixed layer matrices, the logarithmic Hankel transform."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "body", self.body.bare)
-
-    @property
-    def citation_keys(self) -> tuple[str, ...]:
-        """Layered elasticity, the mixed layer matrices, the logarithmic Hankel transform."""
-        return ("Burmister1945", "OSullivan1988", "Tan2006", "Hamilton2000")
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """C_zz(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
