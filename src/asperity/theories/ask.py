@@ -91,13 +91,19 @@ CONTACT_RADIUS = asked("contact_radius", "m", "contact radius")
 BY_RADIUS = Way(CONTACT_RADIUS, "at_radius", (POINT[0], POINT[1], POINT[3]))
 """Contacts whose pressure is infinitely tensile at the edge."""
 
+BY_CONTACT = (
+    Way(asked("load", "N", "normal force"), "at_load", POINT),
+    Way(asked("approach", "m", "displacement of distant points toward each other"), "at_approach", POINT),
+    Way(CONTACT_RADIUS, "at_radius", POINT),
+)
+"""Ways to ask for one contact."""
+
 COMMON: tuple[Way, ...] = (
     Way(PRESSURE, "at_pressure", QUANTITIES),
     Way(SEPARATION, "at_separation", QUANTITIES),
-    Way(asked("load", "N", "normal force"), "at_load", POINT),
-    Way(asked("approach", "m", "displacement of distant points toward each other"), "at_approach", POINT),
+    *BY_CONTACT[:2],
     Way(asked("interference", "m", "displacement of distant points toward each other"), "at_interference", POINT),
-    Way(CONTACT_RADIUS, "at_radius", POINT),
+    BY_CONTACT[2],
 )
 """Ways of every theory that has the method."""
 
