@@ -4,13 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, cast
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
+from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.interpolation import STEP, LogTable, log_grid, log_hankel, log_table
 from ...core.quadrature import rule
+
+
+def wavenumbers(given: ArrayLike) -> RealArray:
+    """Wavenumbers > 0 (rad/m) as an array of any shape; one on a GPU as it is.
+
+    InputError if one is not positive.
+    """
+    if getattr(given, "shape", ()) and not isinstance(given, np.ndarray):
+        on_device: Any = given
+        return cast(RealArray, on_device)
+    q = np.asarray(given, dtype=float)
+    if not np.all(q > 0.0):
+        raise InputError(
+            f"wavenumber of a compliance (rad/m) must be greater than zero, but is {q[~(q > 0.0)].flat[0]:g}. "
+            "The displacement under a mean pressure is that of mean_mode()."
+        )
+    return q
+
 
 # Displacement of a half-space under uniform pressure on a rectangle (Love 1929; Johnson 1985, eq. 3.25).
 
