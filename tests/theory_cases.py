@@ -38,7 +38,7 @@ EXAMPLES = {
     "majumdar-bhushan": {"dimension": 1.4, "roughness": 1e-10, "E_star": 1e11, "hardness": 8e9, "nominal_area": 1e-8},
     "persson": {
         "E_star": 1e11,
-        "rms_gradient": 0.1,
+        "rms_gradient": 4e-3,
         "q": np.array([1e6, 1e7, 1e8]),
         "psd": np.array([1e-30, 1e-33, 1e-36]),
     },
@@ -55,6 +55,14 @@ EXAMPLES = {
     "hertz": BALL,
     "hertz-line": BALL,
     "hertz-ellipse": {"E_star": 1e11, "radius_x": 1e-6, "radius_y": 3e-6},
+    "hertz-bodies": {
+        "E_star": 1e11,
+        "radius_1x": 1e-6,
+        "radius_1y": 3e-6,
+        "radius_2x": 2e-6,
+        "radius_2y": 4e-6,
+        "angle": 0.5,
+    },
     "power-law-indenter": {"E_star": 1e11, "coefficient": 0.5e6, "exponent": 2.0},
     "cone": {"E_star": 1e11, "slope": 0.1},
     "flat-punch": BALL,

@@ -19,10 +19,12 @@ from asperity.theories.adhesion.spheres import (
     approach_ratio,
     contact_ratio,
     load_ratio,
+    maugis_fold,
     maugis_pull_off,
     maugis_state,
     tabor_parameter,
 )
+from asperity.theories.ask import evaluate
 from asperity.theories.single.hertz import HertzPoint
 
 DIGITS = 1e-13  # the tables carry 16 digits (found: 7e-15)
@@ -116,6 +118,47 @@ def test_maugis_curves_reach_the_pull_off():
     assert np.all(np.diff(answer.radius) > 0.0)
     with refused(InputError, "load (N)"):
         sphere.at_load(-1.01 * sphere.pull_off)
+
+
+@every_row(reference("adhesion/maugis_transition"), label=lambda row: f"{row['lambda']:g}")
+def test_maugis_with_fixed_grips(row):
+    """The fold in units of Maugis, and the same sphere with all dimensions: approach, load, and the outer radius of the attraction."""
+    least = maugis_fold(row["lambda"])
+    if row["delta_fold_norm"] != "":
+        assert float(least.approach) == pytest.approx(row["delta_fold_norm"], rel=1e-12)
+        assert float(least.load) == pytest.approx(row["P_at_delta_fold_norm"], rel=1e-5)
+        assert float(least.radius) == pytest.approx(row["A_at_delta_fold"], rel=2e-5)
+    else:
+        assert float(least.radius) < 1e-3  # it shrinks to a point, found to the root of the rounding
+    E_star, R, w = 1e9, 1e-6, 0.05
+    K = 4.0 / 3.0 * E_star
+    sphere = MaugisDugdale(E_star, R, w, 0.5 * row["lambda"] * np.cbrt(np.pi * w * K**2 / R))
+    length, depth = np.cbrt(np.pi * w * R**2 / K), np.cbrt((np.pi * w / K) ** 2 * R)
+    free = sphere.at_approach(row["delta_zero_load_norm"] * depth)
+    assert free.radius == pytest.approx(row["A_zero_load"] * length, rel=1e-10)
+    assert free.load == pytest.approx(0.0, abs=1e-10 * sphere.pull_off)
+    apart = sphere.at_radius(row["A_at_pulloff"] * length)
+    assert apart.outer_radius == pytest.approx(row["m_at_pulloff"] * row["A_at_pulloff"] * length, rel=1e-7)
+    with refused(InputError, "approach (m)"):
+        sphere.at_approach(1.001 * float(least.approach) * depth)
+
+
+def test_columns_of_maugis_hold_the_outer_radius():
+    sphere = MaugisDugdale(1e9, 1e-6, 0.05, 1e8)
+    for way, value in (("load", 0.0), ("approach", 1e-9), ("contact_radius", 1e-7)):
+        columns = {column.name: values for column, values in evaluate(sphere, **{way: [value]}).columns}
+        assert columns["outer_radius"] > columns["radius"] > 0.0
+
+
+@given(depth=st.floats(0.0, 1e-6))
+def test_dmt_with_fixed_grips_is_hertz_less_the_pull_off(depth):
+    dmt, hertz = DMT(1e9, 1e-6, 0.05), HertzPoint(1e9, 1e-6)
+    assert dmt.at_approach(depth).load == pytest.approx(
+        float(hertz.at_approach(depth).load) - dmt.pull_off, rel=1e-12, abs=1e-12 * dmt.pull_off
+    )
+    assert dmt.at_approach(depth).approach == pytest.approx(depth, rel=1e-12, abs=1e-30)
+    with refused(InputError, "approach (m)"):
+        dmt.at_approach(-1e-12)
 
 
 @given(x=st.floats(1.01, 30.0))

@@ -12,6 +12,7 @@ from reference_data import every_row, reference
 from refusals import refused
 from scipy.integrate import quad
 
+import asperity as asp
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.theories.catalogue import theory as theory_by_name
 from asperity.theories.rough.persson import LOW_LOAD_SLOPE, IsotropicSpectrum, Persson, PerssonGap, diffused_pressure
@@ -167,6 +168,30 @@ def test_diffusion_follows_the_magnification():
         slope = math.sqrt(float(waves.partial_moment(3, np.array([span]))[0]) / (2.0 * math.pi))
         cut = float(Persson(MODULUS, slope).area_fraction(nominal))
         assert history.area_fraction[number] == pytest.approx(cut, rel=1e-4)
+
+
+def test_a_slope_that_contradicts_its_spectrum_is_refused():
+    """As sqrt(m2) in a spectrum of the other convention, or a wavenumber without 2π; what a grid leaves out of either is accepted."""
+    waves = spectrum("A")
+    for factor in (1.0, 0.6, 1.5):
+        Persson(1e9, factor * waves.rms_slope, waves.wavenumber, waves.psd)
+    for q, psd in (
+        (waves.wavenumber, np.asarray(waves.psd) / (2.0 * math.pi) ** 2),
+        (np.asarray(waves.wavenumber) / (2.0 * math.pi), waves.psd),
+    ):
+        held = f"{IsotropicSpectrum(q, psd).rms_slope:.4g}"
+        with refused(InputError, "rms gradient and spectrum", f"{waves.rms_slope:.4g}", held):
+            Persson(1e9, waves.rms_slope, q, psd)
+
+
+def test_a_measured_spectrum_without_the_slopes_gives_no_gap():
+    """Steps from pixel to pixel lie beyond the rings of a radial spectrum."""
+    steps = (-1.0) ** np.add.outer(np.arange(64), np.arange(64))
+    heights = 1e-9 * steps + 1e-11 * np.random.default_rng(1).standard_normal((64, 64))
+    measured = asp.roughness_of(asp.Surface(heights, 1e-8, 1e-8, periodic=True))
+    found = Persson.from_roughness(measured, 1e9)
+    assert np.size(found.q) == 0
+    assert found.rms_gradient == measured.rms_gradient
 
 
 def test_inputs_out_of_range_are_refused():

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from reference_data import every_row, reference
 from refusals import refused
 
 from asperity.core.errors import InputError
 from asperity.core.quadrature import gauss
+from asperity.theories.ask import evaluate
 from asperity.theories.friction.partial_slip import MindlinLine, MindlinPoint, tangential_modulus
-from asperity.theories.single.hertz import HertzEllipse, HertzLine, HertzPoint, axis_ratio
+from asperity.theories.single.hertz import HertzBodies, HertzEllipse, HertzLine, HertzPoint, axis_ratio
 from asperity.theories.single.indenters import (
     FlatPunch,
     LineFlatPunch,
@@ -52,6 +55,45 @@ def test_ellipse(row):
     assert turned.pressure(0.5 * row["b"], 0.5 * row["a"], row["P"]) == pytest.approx(
         row["p0"] / np.sqrt(2.0), rel=1e-12
     )
+
+
+@every_row(reference("hertz_elliptical"), label=name)
+def test_answers_of_an_ellipse_hold_its_semi_axes(row):
+    columns = {
+        c.name: v[0] for c, v in evaluate(HertzEllipse(row["E_star"], row["R_x"], row["R_y"]), load=[row["P"]]).columns
+    }
+    assert [columns["semi_x"], columns["semi_y"]] == pytest.approx([row["a"], row["b"]], rel=DIGITS)
+
+
+@given(
+    curvatures=st.tuples(st.floats(0.0, 1e3), st.floats(1.0, 1e3), st.floats(-0.4, 1e3), st.floats(1.0, 1e3)),
+    angle=st.floats(-7.0, 7.0),
+)
+def test_two_bodies_have_the_curvatures_of_their_gap(curvatures, angle):
+    """Against the eigenvalues of the sum of both tensors of curvature, the second one turned."""
+    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    curvatures = [0.0 if abs(kappa) < 1e-9 else kappa for kappa in curvatures]
+    tensor = np.diag(curvatures[:2]) + turn @ np.diag(curvatures[2:]) @ turn.T
+    (flat, steep), axes = np.linalg.eigh(tensor)
+    assume(flat > 1e-3)
+    bodies = HertzBodies(1e9, *(math.inf if kappa == 0.0 else 1.0 / kappa for kappa in curvatures), angle)
+    rounding = 1e-14 * (abs(flat) + abs(steep))
+    assert [1.0 / bodies.radius_x, 1.0 / bodies.radius_y] == pytest.approx([flat, steep], rel=1e-12, abs=rounding)
+    if steep - flat > 1e-3 * steep:
+        along = np.array([math.cos(bodies.turn), math.sin(bodies.turn)])
+        assert abs(along @ axes[:, 0]) == pytest.approx(1.0, abs=1e-8)
+    answer, ellipse = bodies.at_load(2.0), HertzEllipse(1e9, bodies.radius_x, bodies.radius_y).at_load(2.0)
+    assert (answer.semi_x, answer.semi_y, answer.approach) == (ellipse.semi_x, ellipse.semi_y, ellipse.approach)
+
+
+def test_spheres_and_cylinders_as_two_bodies():
+    """Equal crossed cylinders are a sphere on a plane; parallel ones a line contact, which is refused as a ball too wide for its cup."""
+    crossed = HertzBodies(1e9, math.inf, 0.01, math.inf, 0.01, 0.5 * math.pi).at_load(3.0)
+    ball = HertzPoint(1e9, 0.01).at_load(3.0)
+    assert [crossed.radius, crossed.approach] == pytest.approx([float(ball.radius), float(ball.approach)], rel=1e-12)
+    for radii in ((math.inf, 0.01, math.inf, 0.01), (0.02, 0.02, -0.01, -0.01), (0.0, 1.0, 1.0, 1.0)):
+        with refused(InputError, "principal radii (m)"):
+            HertzBodies(1e9, *radii)
 
 
 @given(radius=st.floats(1e-9, 1e3), load=st.floats(1e-12, 1e6), modulus=st.floats(1e3, 1e13))

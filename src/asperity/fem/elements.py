@@ -60,14 +60,15 @@ class Elements:
         own = displacement[self.unknowns]
         found = np.zeros((*self.shape, 6))
         rows = list(self.components)
-        engineering = (self._flat @ own[:, :, None]).reshape(*self.shape, len(rows))
+        flat = self.strain_of.reshape(len(own), -1, own.shape[1])
+        engineering = (flat @ own[:, :, None]).reshape(*self.shape, len(rows))
         found[..., rows] = engineering / WEIGHTS[rows]
         return found
 
     def forces(self, stress: RealArray) -> RealArray:
         """Forces (unknowns,) in N that balance the ``stress`` (elements, points, 6) in Pa."""
         weighed = (stress[..., list(self.components)] * self.weights[..., None]).reshape(self.shape[0], 1, -1)
-        own = (weighed @ self._flat)[:, 0]
+        own = (weighed @ self.strain_of.reshape(len(weighed), -1, self.unknowns.shape[1]))[:, 0]
         return np.bincount(self.unknowns.ravel(), own.ravel(), minlength=self.size).astype(float)
 
     def stiffnesses(self, tangent: RealArray, chosen: IntArray | slice = slice(None)) -> RealArray:
@@ -80,11 +81,6 @@ class Elements:
         flat = strain_of.reshape(count, -1, unknowns)
         found: RealArray = np.swapaxes(flat, 1, 2) @ turned.reshape(count, -1, unknowns)
         return found
-
-    @property
-    def _flat(self) -> RealArray:
-        count, points, rows, unknowns = self.strain_of.shape
-        return self.strain_of.reshape(count, points * rows, unknowns)
 
 
 @dataclass(frozen=True, eq=False)

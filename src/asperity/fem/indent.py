@@ -11,7 +11,7 @@ import numpy as np
 from scipy import sparse
 
 from ..core import require
-from ..core.arrays import RealArray
+from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.quadrature import rule
 from ..solids.elastic import Elastic, Rigid
@@ -168,16 +168,15 @@ class Indentation:
         laws = flow_of(body, plasticity)
         radius = resolution.radius or _largest_radius(indenter, steps, laws)
         mesh = layered_mesh(layered, radius, resolution)
-        parts, supports, fixed = [axisymmetric(mesh)], [_support(mesh, layered)], [_held(mesh, layered)]
+        low, relative = axisymmetric(mesh), None
+        support, held = _lower_side(mesh, layered)
         if isinstance(counter_body, Rigid):
-            solid, relative = Solid(parts[0], laws, supports[0]), None
+            solid = Solid(low, laws, support)
         else:
             other = counter_body if isinstance(counter_body, Layered) else Layered([], counter_body)
             upper = layered_mesh(other, radius, resolution)
-            parts.append(axisymmetric(upper))
-            supports.append(_support(upper, other))
-            fixed.append(_held(upper, other))
-            low, high = parts  # each in its own coordinates with z into it
+            high = axisymmetric(upper)  # in its own coordinates with z into it
+            more, held_above = _lower_side(upper, other)
             joined = Elements(
                 np.concatenate([low.strain_of, high.strain_of]),
                 np.concatenate([low.weights, high.weights]),
@@ -187,7 +186,8 @@ class Indentation:
                 low.size + high.size,
                 low.components,
             )
-            support = sparse.csc_array(sparse.block_diag(supports))
+            held = np.concatenate([held, held_above])
+            support = sparse.csc_array(sparse.block_diag([support, more]))
             solid = Solid(joined, (*laws, *regions_of(other)), support)
             # The approach of the surfaces is stored in place of the displacement of the lower one.
             below, above = 2 * mesh.surface, low.size + 2 * upper.surface
@@ -198,7 +198,7 @@ class Indentation:
         nodes = mesh.surface[mesh.points[mesh.surface, 0] < 2.0 * radius]
         heights = indenter(mesh.points[nodes, 0])
         along = 2 * nodes[:, None] if friction else np.zeros((len(nodes), 0), dtype=np.intp)
-        surface = ContactSurface(2 * nodes + 1, np.concatenate(fixed), along[:, :1], friction, relative)
+        surface = ContactSurface(2 * nodes + 1, held, along[:, :1], friction, relative)
         return cls(mesh, Pressed(solid, surface), nodes, heights, ball_radius(indenter))
 
     @property
@@ -414,17 +414,11 @@ def _largest_radius(indenter: Indenter, steps: Sequence[IndentationTarget], laws
     return radius_at(indenter, deepest)
 
 
-def _held(mesh: Mesh, body: Layered) -> np.ndarray:
-    """Unknowns that are zero: u_r on the axis, and all on a rigid base and the far side of a body that has one."""
-    fixed = np.zeros((len(mesh.points), 2), dtype=bool)
+def _lower_side(mesh: Mesh, body: Layered) -> tuple[sparse.csc_array, BoolArray]:
+    """Stiffness of what lies beyond the mesh, and unknowns that are zero: u_r on the axis, and all on a rigid base and the far side of a body that has one."""
+    fixed, base = np.zeros((len(mesh.points), 2), dtype=bool), body.reduced.base
     fixed[mesh.side(-1), 0] = True
-    if isinstance(body.reduced.base, RigidBase):
-        fixed[mesh.lower] = fixed[mesh.side()] = True
-    return fixed.ravel()
-
-
-def _support(mesh: Mesh, body: Layered) -> sparse.csc_array:
-    base = body.reduced.base
-    if isinstance(base, RigidBase):
-        return sparse.csc_array((2 * len(mesh.points), 2 * len(mesh.points)))
-    return exterior(mesh, base)
+    if not isinstance(base, RigidBase):
+        return exterior(mesh, base), fixed.ravel()
+    fixed[mesh.lower] = fixed[mesh.side()] = True
+    return sparse.csc_array((fixed.size, fixed.size)), fixed.ravel()

@@ -28,13 +28,18 @@ Indenter: TypeAlias = Callable[[RealArray], RealArray]
 
 
 @dataclass(frozen=True)
-class Paraboloid:
-    """r²/2R: what Hertz takes for a sphere. ``radius``: R in m, > 0."""
+class _OfRadius:
+    """Base of the indenters with a ``radius`` in m, > 0."""
 
     radius: float
 
     def __post_init__(self) -> None:
         require.magnitude(self.radius, "radius of the indenter (m)")
+
+
+@dataclass(frozen=True)
+class Paraboloid(_OfRadius):
+    """r²/2R: what Hertz takes for a sphere. ``radius``: R in m, > 0."""
 
     def __call__(self, r: RealArray) -> RealArray:
         """Height in m at ``r`` in m."""
@@ -43,13 +48,8 @@ class Paraboloid:
 
 
 @dataclass(frozen=True)
-class Sphere:
+class Sphere(_OfRadius):
     """Ball with its true shape, up to its equator. ``radius``: R in m, > 0."""
-
-    radius: float
-
-    def __post_init__(self) -> None:
-        require.magnitude(self.radius, "radius of the indenter (m)")
 
     def __call__(self, r: RealArray) -> RealArray:
         """Height in m at ``r`` in m."""
@@ -74,13 +74,8 @@ class Cone:
 
 
 @dataclass(frozen=True)
-class FlatPunch:
+class FlatPunch(_OfRadius):
     """Flat end of a cylinder. ``radius``: in m, > 0."""
-
-    radius: float
-
-    def __post_init__(self) -> None:
-        require.magnitude(self.radius, "radius of the indenter (m)")
 
     def __call__(self, r: RealArray) -> RealArray:
         """Height in m at ``r`` in m; the edge belongs to the punch."""

@@ -102,20 +102,15 @@ def hertz_steps(
     require.positive(peak, "peak pressure (Pa)")
     require.positive(half_width, "half-width of a line load (m)")
     rise = np.linspace(0.0, 1.0, require.integer(ramp, 1, "steps of a ramp") + 1)
+    places = np.linspace(*ends, require.integer(steps, 1, "steps of a pass") + 1)
     course = [(ends[0], share) for share in rise[1:]]
-    course += [(place, 1.0) for place in _moves(ends, steps)]
+    course += [(place, 1.0) for place in places[1:] if ends[0] != ends[1]]
     course += [(ends[1], share) for share in rise[-2::-1]]
     load, now = line_load if track.dimension == 2 else point_load, start
     for place, share in course:
         push = share * load(track, place, half_width, peak)
         now = track.carry(replace(now, place=place), push, friction * push, place)
         yield now
-
-
-def _moves(ends: tuple[float, float], steps: int) -> RealArray:
-    """Places after each step from the first of the ``ends`` to the other, none where they are equal."""
-    require.integer(steps, 1, "steps of a pass")
-    return np.linspace(*ends, steps + 1)[1:] if ends[0] != ends[1] else np.zeros(0)
 
 
 def sliding_pass(
@@ -158,11 +153,12 @@ def sliding_steps(
     """The states at the ends of the steps of ``sliding_pass``, one after the other; between equal ends the indenter is pressed and lifted alone."""
     require.positive(force, "force of an indenter")
     loads = np.linspace(0.0, force, require.integer(ramp, 1, "steps of a ramp") + 1)
-    moves, now = _moves(ends, steps), replace(start, place=ends[0], approach=math.nan)
+    places = np.linspace(*ends, require.integer(steps, 1, "steps of a pass") + 1)
+    now = replace(start, place=ends[0], approach=math.nan)
     for load in loads[1:]:
         now = track.press(now, indenter, place=ends[0], force=float(load))
         yield now
-    for place in moves:
+    for place in places[1:] if ends[0] != ends[1] else ():
         now = track.press(now, indenter, place=float(place), force=force, friction=friction)
         yield now
     for load in loads[-2:0:-1]:

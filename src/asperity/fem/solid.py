@@ -84,7 +84,10 @@ class Solid:
             If the plastic strain is not found at a point.
         """
         strain = self.elements.strains(displacement)
-        stress = self.elastic_stress(strain - state.plastic_strain)
+        elastic, stress = strain - state.plastic_strain, np.empty_like(strain)
+        for number, tensor in enumerate(self.moduli):
+            inside = self.elements.region == number
+            stress[inside] = elastic[inside] @ (tensor * WEIGHTS).T
         entries = self.entries
         for number, law in enumerate(self.laws):
             if not isinstance(law, J2):
@@ -124,14 +127,6 @@ class Solid:
         return Response(
             forces, stress, state, whole if self.support is None else sparse.csc_array(whole + self.support)
         )
-
-    def elastic_stress(self, strain: RealArray) -> RealArray:
-        """Stress (elements, points, 6) in Pa of elastic ``strain``."""
-        found = np.empty_like(strain)
-        for number, tensor in enumerate(self.moduli):
-            inside = self.elements.region == number
-            found[inside] = strain[inside] @ (tensor * WEIGHTS).T
-        return found
 
     def elastic_energy(self, stress: RealArray) -> RealArray:
         """Elastic energy (elements,) in J of a ``stress``."""

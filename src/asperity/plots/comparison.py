@@ -72,14 +72,12 @@ def plot_comparison_area(data: xarray.Dataset, ax: Axes) -> Axes:
     return _named(ax, curves)
 
 
-def plot_comparison_kappa(data: xarray.Dataset, ax: Axes) -> Axes:
-    """Draw κ of every curve of ``data`` against p/E* on ``ax``."""
-    return _slopes(data, "kappa", "κ = (A/A₀) E* h'/p", ax)
-
-
-def plot_comparison_slope(data: xarray.Dataset, ax: Axes) -> Axes:
-    """Draw the local slope of the area of every curve of ``data`` against p/E* on ``ax``."""
-    return _slopes(data, "slope", "d(A/A₀)/d(p/(E* h'))", ax)
+def _plot_slopes(name: str, label: str, data: xarray.Dataset, ax: Axes) -> Axes:
+    """Draw the slope ``name`` of the area of every curve of ``data`` against p/E* on ``ax``."""
+    curves = _draw(data, name, ax) + _points(data, f"numerical_{name}", ax)
+    ax.set(xscale="log", xlabel="p/E*", ylabel=label)
+    ax.set_ylim(0.0, min(STEEPEST, ax.get_ylim()[1]))
+    return _named(ax, curves)
 
 
 def plot_comparison_gap(data: xarray.Dataset, ax: Axes) -> Axes:
@@ -124,14 +122,14 @@ COMPARISON_PLOTS = (
         "Slope of the area",
         "κ = (A/A₀) E* h'/p, with the rms gradient h', is constant where the area is proportional to the load. "
         "Limits at vanishing load: √(2π) of Bush, Gibson and Thomas, √(8/π) of Persson. The axis ends at 5.",
-        plot_comparison_kappa,
+        partial(_plot_slopes, "kappa", "κ = (A/A₀) E* h'/p"),
         "comparison",
     ),
     Plot(
         "local_slope",
         "Local slope of the area",
         "d(A/A₀)/d(p/(E* h')) by differences between neighbouring loads.",
-        plot_comparison_slope,
+        partial(_plot_slopes, "slope", "d(A/A₀)/d(p/(E* h'))"),
         "comparison",
     ),
     Plot(
@@ -163,13 +161,6 @@ def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
         curve_figure(plot.name, plot.title, plot.caption, partial(plot.draw, data), SIZE, wide=True)
         for plot in comparison_plots(data)
     )
-
-
-def _slopes(data: xarray.Dataset, name: str, label: str, ax: Axes) -> Axes:
-    curves = _draw(data, name, ax) + _points(data, f"numerical_{name}", ax)
-    ax.set(xscale="log", xlabel="p/E*", ylabel=label)
-    ax.set_ylim(0.0, min(STEEPEST, ax.get_ylim()[1]))
-    return _named(ax, curves)
 
 
 class _Curve(NamedTuple):

@@ -20,10 +20,9 @@ from ..core.units import show
 from ..io.atomic import atomic_file
 from ..surfaces.surface import Surface
 from .maps import (
-    Field,
     contact_kinds,
     enlarge_contact,
-    enlarge_indentation,
+    enlarge_island,
     gap_field,
     heights_field,
     indentation_field,
@@ -31,7 +30,6 @@ from .maps import (
     plot_heights,
     plot_pressure,
     pressure_field,
-    residual_field,
 )
 from .picture import (
     BLACK,
@@ -170,16 +168,12 @@ def _histogram(values: RealArray, in_unit: Scale, ax: Axes, name: str, if_none: 
 # Whole figures as PNG: the standard set of a result, and the picture of one surface.
 
 
-def _surface_field(result: ContactResult) -> Field:
-    return heights_field(result.problem.surface)
-
-
 PLOTS = (
     map_of(
         "heights",
         "Heights",
         "Heights of the rough surface, relative to their mean.",
-        _surface_field,
+        lambda result: heights_field(result.problem.surface),
         by_step=False,
     ),
     Plot(
@@ -242,13 +236,15 @@ PLASTIC_PLOTS = (
         "Plastic zone",
         "Permanent indentation of the composite surface wherever the pressure has ever reached its limit; grey elsewhere.",
         indentation_field,
-        enlarge_indentation,
+        lambda result, ax: enlarge_island(
+            result.indented, result.problem.grid, result.problem.boundary.wraps, "largest plastic zone", ax
+        ),
     ),
     map_of(
         "residual",
         "Residual surface",
         "Heights of the composite surface that is left when the load is taken away, relative to their mean.",
-        residual_field,
+        lambda result: heights_field(result.residual_surface()),
     ),
 )
 """The figures of a result that is permanently indented."""

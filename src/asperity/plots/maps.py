@@ -179,14 +179,9 @@ def plot_indentation(result: ContactResult, ax: Axes) -> Axes:
     return plot_map(indentation_field(result), ax)
 
 
-def residual_field(result: ContactResult) -> Field:
-    """Heights of the composite surface that is left of ``result`` when the load is taken away."""
-    return heights_field(result.residual_surface())
-
-
 def plot_residual(result: ContactResult, ax: Axes) -> Axes:
     """Draw the heights of the composite surface that is left of ``result`` when the load is taken away on ``ax``."""
-    return plot_map(residual_field(result), ax)
+    return plot_heights(result.residual_surface(), ax)
 
 
 def contact_kinds(result: ContactResult) -> Kinds:
@@ -386,12 +381,6 @@ def enlarge_contact(result: ContactResult, ax: Axes) -> bool:
 
 _LARGEST_CONTACTS: WeakKeyDictionary[ContactResult, Window | None] = WeakKeyDictionary()
 """Windows that every map of a contact shows: to find one takes as long as a fifth of a map."""
-
-
-def enlarge_indentation(result: ContactResult, ax: Axes) -> bool:
-    """The same for the largest permanent indentation."""
-    problem = result.problem
-    return enlarge_island(result.indented, problem.grid, problem.boundary.wraps, "largest plastic zone", ax)
 
 
 def enlarge_island(

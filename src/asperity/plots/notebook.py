@@ -87,7 +87,20 @@ def _chosen(thing: Any, kind: str) -> _Chosen:
             return _Chosen(*home(drawn.figure)(thing, kind))
     thing = getattr(thing, "dataset", thing)  # of a comparison
     thing = getattr(thing, "drawn", thing)  # of an outcome
-    what, first, plots = _plots(thing)
+    plots: Sequence[Plot]
+    if isinstance(thing, Surface):
+        what, first, plots = "a surface", "heights", _OF_SURFACE
+    elif isinstance(thing, Characterisation):
+        what, first, plots = "a characterisation", "distribution", SURFACE_PLOTS
+    elif isinstance(thing, ContactResult):
+        more = (*physics_plots(), *map(home, MORE_FIGURES))
+        what, first, plots = "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable(more))
+    elif isinstance(thing, HistoryResult):
+        own = {name: home(place) for name, place in PATH_FIGURES.items()}
+        first = next((plots[0].name for name, plots in own.items() if name in thing.last.couplings), "load_loop")
+        what, plots = "a load history", (*PATH_PLOTS, *chain.from_iterable(own.values()))
+    else:
+        what, first, plots = "a comparison", "area", comparison_plots(thing)
     by_name = {plot.name: plot for plot in plots}
     plot = by_name[require.one_of(kind or first, by_name, f"figure of {what}")]
     draw = partial(plot.draw, thing)
@@ -97,19 +110,3 @@ def _chosen(thing: Any, kind: str) -> _Chosen:
         one = getattr(thing, "last", thing)
         return _Chosen(draw, map_size(getattr(one, "problem", getattr(one, "surface", one)).grid))
     return _Chosen(draw, COMPARISON_SIZE if plot.kind == "comparison" else CURVE_SIZE)
-
-
-def _plots(thing: Any) -> tuple[str, str, Sequence[Plot]]:
-    """What ``thing`` is called, the name of its most telling figure, and all figures."""
-    if isinstance(thing, Surface):
-        return "a surface", "heights", _OF_SURFACE
-    if isinstance(thing, Characterisation):
-        return "a characterisation", "distribution", SURFACE_PLOTS
-    if isinstance(thing, ContactResult):
-        more = map(home, MORE_FIGURES)
-        return "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable((*physics_plots(), *more)))
-    if isinstance(thing, HistoryResult):
-        own = {name: home(place) for name, place in PATH_FIGURES.items()}
-        first = next((plots[0].name for name, plots in own.items() if name in thing.last.couplings), "load_loop")
-        return "a load history", first, (*PATH_PLOTS, *chain.from_iterable(own.values()))
-    return "a comparison", "area", comparison_plots(thing)

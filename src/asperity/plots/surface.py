@@ -16,7 +16,7 @@ from ..surfaces.characterise.correlation import DROP_1E, DROP_TENTH
 from ..surfaces.characterise.heights import core
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
-from .maps import Field, heights_field, map_of, plot_heights
+from .maps import heights_field, map_of, plot_heights
 from .picture import (
     BLACK,
     BLUE,
@@ -277,23 +277,21 @@ def plot_scale_dependence(found: Characterisation, ax: Axes) -> Axes:
 # The standard figures of a surface, as PNG.
 
 
-def _heights_field(found: Characterisation) -> Field:
-    return heights_field(found.surface)
-
-
-def _view(found: Characterisation, ax: Axes) -> Axes:
-    return plot_surface_view(found.surface, ax)
-
-
 SURFACE_PLOTS = (
     map_of(
         "heights",
         "Heights",
         "Heights relative to their mean; missing points are grey.",
-        _heights_field,
+        lambda found: heights_field(found.surface),
         by_step=False,
     ),
-    Plot("view", "View", "The surface in space; how much heights are exaggerated stands above.", _view, "view"),
+    Plot(
+        "view",
+        "View",
+        "The surface in space; how much heights are exaggerated stands above.",
+        lambda found, ax: plot_surface_view(found.surface, ax),
+        "view",
+    ),
     Plot(
         "distribution",
         "Distribution of heights",

@@ -116,9 +116,18 @@ class Relaxation:
             (np.array(column) for column in zip(*self.terms, strict=True)) if self.terms else (_NONE, _NONE)
         )
         weights = strengths * taus
-        zeros = _zeros(
-            taus, lambda distances: self.relaxed - float((weights / distances).sum()), last=self.relaxed > 0.0
-        )
+
+        def rising(distances: RealArray) -> float:  # from minus to plus infinity between two of the times
+            return self.relaxed - float((weights / distances).sum())
+
+        zeros = [
+            _zero_between(taus, i, float(a), float(b), rising) for i, (a, b) in enumerate(itertools.pairwise(taus))
+        ]
+        if self.relaxed > 0.0 and taus.size:  # one above all times
+            width = float(taus[-1])
+            while rising(taus[-1] + width - taus) < 0.0:
+                width *= 4.0
+            zeros.append(_zero_from(taus, taus.size - 1, 1.0, width, rising))
         terms = [(1.0 / (lam * float((weights / distances**2).sum())), lam) for lam, distances in zeros]
         fluidity = 0.0 if self.relaxed > 0.0 else 1.0 / float(weights.sum())
         return Creep(1.0 / self.instantaneous, tuple(terms), fluidity)
@@ -205,22 +214,6 @@ class Creep:
 
 
 _NONE = np.empty(0)
-
-
-def _zeros(poles: RealArray, function: Callable[[RealArray], float], *, last: bool) -> list[tuple[float, RealArray]]:
-    """Zeros of a ``function`` of the distances to the rising ``poles`` that grows from minus to plus infinity between two of them.
-
-    With ``last`` there is one above all poles, below which the function is negative. Each comes with its distances to the poles.
-    """
-    found = []
-    for number, (low, high) in enumerate(itertools.pairwise(poles)):
-        found.append(_zero_between(poles, number, float(low), float(high), function))
-    if last and poles.size:
-        width = float(poles[-1])
-        while function(poles[-1] + width - poles) < 0.0:
-            width *= 4.0
-        found.append(_zero_from(poles, poles.size - 1, 1.0, width, function))
-    return found
 
 
 def _zero_between(

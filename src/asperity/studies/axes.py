@@ -82,7 +82,19 @@ def make_axis(base: Base, table: AxisTable, name: str) -> Axis:
     for number, value in enumerate(values):
         position = coordinate(place, value)
         changes = [(place, value)]
-        changes += [(other, _following(other, rule, place, value, number, len(values))) for other, rule in followers]
+        for other, rule in followers:  # from a list, or that many times the value
+            if isinstance(rule, tuple):
+                if len(rule) != len(values):
+                    raise InputError(
+                        f"also.{other.path} must hold {len(values)} values like {place.path}, but holds {len(rule)}."
+                    )
+                changes.append((other, _as_written(other, rule[number])))
+            elif other.unit != place.unit:
+                raise InputError(
+                    f"also.{other.path} must be a list, because its unit {other.unit} is not the unit {place.unit} of {place.path}."
+                )
+            else:
+                changes.append((other, other.written(rule * place.number(value))))
         # checked together: a hardness alone may have no modulus to go with
         edits = tuple(Edit(at.keys, new, at.content(new, base.folder)) for at, new in changes)
         shown = ", ".join(f"{at.path} = {new!r}" for at, new in changes)
@@ -154,16 +166,3 @@ def _as_written(place: Place, value: Any) -> Any:
         found = place.content(value, Path()) if isinstance(value, str) else place.number(value)
         return place.written(found) if isinstance(found, float) else value
     return value
-
-
-def _following(other: Place, rule: Any, place: Place, value: Any, number: int, count: int) -> Any:
-    """Value of a scalar that follows another: from a list, or that many times the other."""
-    if isinstance(rule, tuple):
-        if len(rule) != count:
-            raise InputError(f"also.{other.path} must hold {count} values like {place.path}, but holds {len(rule)}.")
-        return _as_written(other, rule[number])
-    if other.unit != place.unit:
-        raise InputError(
-            f"also.{other.path} must be a list, because its unit {other.unit} is not the unit {place.unit} of {place.path}."
-        )
-    return other.written(rule * place.number(value))

@@ -52,14 +52,11 @@ class DaskCluster:
             completed = distributed.as_completed(islice(stream, ahead), loop=client.loop)
             try:
                 for future in completed:
-                    yield under_way.pop(future), _answer(future, distributed.KilledWorker)
+                    try:
+                        answer = future.result()
+                    except distributed.KilledWorker as error:
+                        answer = Lost(" ".join(str(error).split()))
+                    yield under_way.pop(future), answer
                     completed.update(islice(stream, 1))
             finally:
                 client.cancel(list(under_way))
-
-
-def _answer(future: Any, killed: type[Exception]) -> Any | Lost:
-    try:
-        return future.result()
-    except killed as error:
-        return Lost(" ".join(str(error).split()))

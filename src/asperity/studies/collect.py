@@ -90,22 +90,23 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
             given[name][place] = in_words(text)
         cited |= dict.fromkeys(record["citations"])
     dims = tuple(item.name for item in plan.axes)
-
-    def on_axes(flat: Any, labels: dict[str, Any]) -> tuple[tuple[str, ...], Any, dict[str, Any]]:
-        return dims, flat.reshape(plan.shape), labels
-
     known = measures() | {item.name: item for item in CERTIFICATE if item.name in CHECKS}
-    variables = {name: on_axes(array, known[name].attributes) for name, array in values.items()}
+    variables: dict[str, Any] = {
+        name: (dims, array.reshape(plan.shape), known[name].attributes) for name, array in values.items()
+    }
     codes = {"flag_values": np.array([DONE, FAILED, MISSING], np.int8), "flag_meanings": "done failed missing"}
-    variables["outcome"] = on_axes(outcome, {"long_name": "what became of the case", **codes})
-    variables |= {name: on_axes(texts, {"long_name": VERDICT[name]}) for name, texts in given.items()}
+    labels: dict[str, Any] = {"long_name": "what became of the case", **codes}
+    variables["outcome"] = (dims, outcome.reshape(plan.shape), labels)
+    variables |= {
+        name: (dims, texts.reshape(plan.shape), {"long_name": VERDICT[name]}) for name, texts in given.items()
+    }
     if errors:
         texts = np.full(plan.n_cases, "", object)
         texts[list(errors)] = list(errors.values())
-        variables["error"] = on_axes(texts, {"long_name": "why the case failed"})
+        variables["error"] = (dims, texts.reshape(plan.shape), {"long_name": "why the case failed"})
     coordinates: dict[str, Any] = {}
     for item in plan.axes:
-        labels: dict[str, Any] = {item.name: {"units": item.unit, "long_name": item.path or item.name}}
+        labels = {item.name: {"units": item.unit, "long_name": item.path or item.name}}
         columns: dict[str, list[Any]] = {item.name: [point.coordinate for point in item.points]}
         for name, unit in item.columns.items():
             labels[name] = {"units": unit} if unit else {}

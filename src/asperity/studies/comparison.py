@@ -188,7 +188,48 @@ class Comparison(Drawn):
     @property
     def dataset(self) -> xarray.Dataset:
         """All of it as a labelled dataset with dimensions ``theory`` and ``pressure``, units and provenance."""
-        return _dataset(self)
+        import xarray
+
+        curves = self.curves
+        variables: dict[str, Any] = {}
+        for quantity in QUANTITIES[1:]:
+            values = [getattr(curve.prediction, quantity.name) for curve in curves]
+            variables[quantity.name] = _of_theories(self, values, quantity.unit, quantity.label)
+        gaps = [curve.gap for curve in curves]
+        variables["gap"] = _of_theories(self, gaps, "m", "mean gap, or separation where the theory defines no gap")
+        for name, meaning in _DERIVED.items():
+            values = [getattr(self, name)(curve.prediction.area_fraction) for curve in curves]
+            variables[name] = _of_theories(self, values, "1", meaning)
+        for name in _EXACT:
+            valid = np.array([curve.valid_for[name] for curve in curves]).reshape(len(curves), self.pressures.size)
+            label = f"whether all limits of the theory hold that concern {name}"
+            variables[f"{name}_valid"] = (("theory", "pressure"), valid, _labels("1", label))
+        numerical = self.numerical
+        if numerical is not None:
+            area = numerical.area_fraction_corrected
+            columns = {
+                "area_fraction": (numerical.area_fraction, "1", "real area per nominal area, pixels counted"),
+                "area_fraction_corrected": (area, "1", "real area per nominal area, by edges between pixels"),
+                "contact_density": (numerical.contact_density, "1/m^2", "contact spots per nominal area"),
+                "mean_gap": (numerical.mean_gap, "m", "mean distance of the deformed surfaces"),
+                **{name: (getattr(self, name)(area), "1", meaning) for name, meaning in _DERIVED.items()},
+            }
+            for name, (column, unit, meaning) in columns.items():
+                variables[f"numerical_{name}"] = ("pressure", column, _labels(unit, f"boundary elements: {meaning}"))
+            for name, exact in _EXACT.items():
+                rows = [self.deviation(curve.name, name) for curve in curves]
+                scale = "rms height" if name == "gap" else f"numerical_{exact}"
+                label = f"({name} of the theory - numerical_{exact}) / {scale}"
+                variables[f"{name}_deviation"] = _of_theories(self, rows, "1", label)
+        pressures = self.pressures
+        coordinates = {
+            "theory": ("theory", np.array([curve.name for curve in curves], dtype=object)),
+            "title": ("theory", np.array([curve.title for curve in curves], dtype=object)),
+            "family": ("theory", np.array([curve.family for curve in curves], dtype=object)),
+            "pressure": ("pressure", pressures, _labels("Pa", "nominal pressure")),
+            "relative_pressure": ("pressure", pressures / self.E_star, _labels("1", "nominal pressure / E*")),
+        }
+        return xarray.Dataset(variables, coordinates, _attributes(self))
 
 
 _EXACT = {"area_fraction": "area_fraction_corrected", "contact_density": "contact_density", "gap": "mean_gap"}
@@ -198,51 +239,6 @@ _DERIVED = {
     "kappa": "slope from the origin, area fraction x E* h'_rms / p",
     "slope": "local slope, d(area fraction) / d(p / (E* h'_rms))",
 }
-
-
-def _dataset(comparison: Comparison) -> xarray.Dataset:
-    import xarray
-
-    curves = comparison.curves
-    variables: dict[str, Any] = {}
-    for quantity in QUANTITIES[1:]:
-        values = [getattr(curve.prediction, quantity.name) for curve in curves]
-        variables[quantity.name] = _of_theories(comparison, values, quantity.unit, quantity.label)
-    gaps = [curve.gap for curve in curves]
-    variables["gap"] = _of_theories(comparison, gaps, "m", "mean gap, or separation where the theory defines no gap")
-    for name, meaning in _DERIVED.items():
-        values = [getattr(comparison, name)(curve.prediction.area_fraction) for curve in curves]
-        variables[name] = _of_theories(comparison, values, "1", meaning)
-    for name in _EXACT:
-        valid = np.array([curve.valid_for[name] for curve in curves]).reshape(len(curves), comparison.pressures.size)
-        label = f"whether all limits of the theory hold that concern {name}"
-        variables[f"{name}_valid"] = (("theory", "pressure"), valid, _labels("1", label))
-    numerical = comparison.numerical
-    if numerical is not None:
-        area = numerical.area_fraction_corrected
-        columns = {
-            "area_fraction": (numerical.area_fraction, "1", "real area per nominal area, pixels counted"),
-            "area_fraction_corrected": (area, "1", "real area per nominal area, by edges between pixels"),
-            "contact_density": (numerical.contact_density, "1/m^2", "contact spots per nominal area"),
-            "mean_gap": (numerical.mean_gap, "m", "mean distance of the deformed surfaces"),
-            **{name: (getattr(comparison, name)(area), "1", meaning) for name, meaning in _DERIVED.items()},
-        }
-        for name, (column, unit, meaning) in columns.items():
-            variables[f"numerical_{name}"] = ("pressure", column, _labels(unit, f"boundary elements: {meaning}"))
-        for name, exact in _EXACT.items():
-            rows = [comparison.deviation(curve.name, name) for curve in curves]
-            scale = "rms height" if name == "gap" else f"numerical_{exact}"
-            label = f"({name} of the theory - numerical_{exact}) / {scale}"
-            variables[f"{name}_deviation"] = _of_theories(comparison, rows, "1", label)
-    pressures = comparison.pressures
-    coordinates = {
-        "theory": ("theory", np.array([curve.name for curve in curves], dtype=object)),
-        "title": ("theory", np.array([curve.title for curve in curves], dtype=object)),
-        "family": ("theory", np.array([curve.family for curve in curves], dtype=object)),
-        "pressure": ("pressure", pressures, _labels("Pa", "nominal pressure")),
-        "relative_pressure": ("pressure", pressures / comparison.E_star, _labels("1", "nominal pressure / E*")),
-    }
-    return xarray.Dataset(variables, coordinates, _attributes(comparison))
 
 
 def _attributes(comparison: Comparison) -> dict[str, Any]:

@@ -69,6 +69,8 @@ def chosen_theories(
     InputError
         If a name is unknown or something is no theory.
     """
+    from ..theories.catalogue import THEORIES
+
     if isinstance(theories, str):
         raise InputError(
             f"theories of a comparison must be a list of names, but is {theories!r}. Write [{theories!r}]."
@@ -82,10 +84,23 @@ def chosen_theories(
             raise InputError(
                 f"theories of a comparison must be names or theories with at_pressure and validity, but hold {item!r}."
             )
-        found = _made(item, roughness, E_star, known) if isinstance(item, str) else item
-        if isinstance(found, LeftOut):
-            left_out.append(found)
-            continue
+        found: SurfaceTheory
+        if isinstance(item, str):
+            kind = THEORIES[require.one_of(item, surface_theories(), "name of a theory to compare")]
+            wanted = [part for part in parameters(kind) if part.of == "bodies" and part.name != "E_star"]
+            missing = [part for part in wanted if part.required and part.name not in known]
+            if missing:
+                needs = " and ".join(f"the {part.help} ({part.name}, {part.unit})" for part in missing)
+                left_out.append(LeftOut(item, kind.title, f"It needs {needs}, which is not known as one number."))
+                continue
+            values = {part.name: known[part.name] for part in wanted if part.name in known}
+            try:
+                found = kind.from_roughness(roughness, E_star, **values)  # type: ignore[attr-defined]
+            except InputError as error:
+                left_out.append(LeftOut(item, kind.title, str(error)))
+                continue
+        else:
+            found = item
         number = 1 + sum(other == found.name or other.startswith(f"{found.name} ") for other in made)
         made[found.name if number == 1 else f"{found.name} {number}"] = found
     return Chosen(made, tuple(left_out))
@@ -112,23 +127,6 @@ def known_of_bodies(problem: ContactProblem) -> dict[str, float]:
     elif math.isfinite(cap):
         found["hardness"] = cap
     return found
-
-
-def _made(name: str, roughness: Roughness, E_star: float, known: Mapping[str, float]) -> SurfaceTheory | LeftOut:
-    from ..theories.catalogue import THEORIES
-
-    kind = THEORIES[require.one_of(name, surface_theories(), "name of a theory to compare")]
-    wanted = [item for item in parameters(kind) if item.of == "bodies" and item.name != "E_star"]
-    missing = [item for item in wanted if item.required and item.name not in known]
-    if missing:
-        needs = " and ".join(f"the {item.help} ({item.name}, {item.unit})" for item in missing)
-        return LeftOut(name, kind.title, f"It needs {needs}, which is not known as one number.")
-    values = {item.name: known[item.name] for item in wanted if item.name in known}
-    try:
-        theory: SurfaceTheory = kind.from_roughness(roughness, E_star, **values)  # type: ignore[attr-defined]
-    except InputError as error:
-        return LeftOut(name, kind.title, str(error))
-    return theory
 
 
 # Where the theories leave their validity, with the numbers.

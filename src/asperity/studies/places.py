@@ -143,25 +143,15 @@ def _below(value: Any, field: FieldInfo, keys: tuple[Key, ...]) -> Iterator[Plac
     if isinstance(value, Settings):
         for key in type(value).model_fields:
             yield from _below(getattr(value, key), type(value).model_fields[key], (*keys, key))
-    elif isinstance(value, tuple) and not isinstance(value, WrittenPair):
-        if keys[-1] == "points":
-            yield _place(field, keys)
-        for number, item in enumerate(value):
-            yield from _below(item, field, (*keys, number))
-    elif value is not None or not _holds_tables(field.annotation):
-        yield _place(field, keys)
-
-
-def _place(field: FieldInfo, keys: tuple[Key, ...]) -> Place:
-    kinds = {part for part in _kinds(field.annotation) if part in (int, float, str, bool)}
-    whole = keys[-1] != "points" and kinds == {int}
-    return Place(".".join(map(str, keys)), keys, quantity(field), whole)
-
-
-def _holds_tables(annotation: Any) -> bool:
-    if isinstance(annotation, type):
-        return issubclass(annotation, Settings)
-    return any(_holds_tables(part) for part in get_args(annotation))
+        return
+    several = value if isinstance(value, tuple) and not isinstance(value, WrittenPair) else None
+    parts = list(_kinds(field.annotation))
+    tables = value is None and any(isinstance(part, type) and issubclass(part, Settings) for part in parts)
+    if keys[-1] == "points" if several is not None else not tables:
+        kinds = {part for part in parts if part in (int, float, str, bool)}
+        yield Place(".".join(map(str, keys)), keys, quantity(field), keys[-1] != "points" and kinds == {int})
+    for number, item in enumerate(several or ()):
+        yield from _below(item, field, (*keys, number))
 
 
 def _kinds(annotation: Any) -> Iterator[Any]:

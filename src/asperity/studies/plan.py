@@ -147,7 +147,16 @@ def make_plan(study: LoadedStudy) -> Plan:
         axes.append(thickness_axis(base, document.critical_thickness))
     if document.sensitivity is not None:
         axes.append(parameter_axis(base, document.sensitivity))
-    _require_distinct_scalars(axes)
+    seen: dict[tuple[Any, ...], str] = {}
+    for item in axes:
+        for edit in (edit for point in item.points[:3] for edit in point.edits):
+            keys = ("control",) if edit.keys[0] == "control" else edit.keys
+            for known, name in seen.items():
+                shared = min(len(known), len(keys))
+                if known[:shared] == keys[:shared] and name != item.name:
+                    shown = ".".join(map(str, edit.keys))
+                    raise InputError(f"axes must vary different scalars, but {name} and {item.name} both set {shown}.")
+            seen[keys] = item.name
     stop = None if document.monte_carlo is None else document.monte_carlo.stop
     asked = (*document.quantities, *(() if stop is None else (stop.quantity,)))
     return Plan(document, base, tuple(axes), computed(study.problem, asked))
@@ -228,19 +237,6 @@ def _names(document: StudyDocument) -> list[str]:
             )
         names.append(name)
     return names
-
-
-def _require_distinct_scalars(axes: Sequence[Axis]) -> None:
-    seen: dict[tuple[Any, ...], str] = {}
-    for item in axes:
-        for edit in (edit for point in item.points[:3] for edit in point.edits):
-            keys = ("control",) if edit.keys[0] == "control" else edit.keys
-            for known, name in seen.items():
-                shared = min(len(known), len(keys))
-                if known[:shared] == keys[:shared] and name != item.name:
-                    shown = ".".join(map(str, edit.keys))
-                    raise InputError(f"axes must vary different scalars, but {name} and {item.name} both set {shown}.")
-            seen[keys] = item.name
 
 
 def measures() -> dict[str, Quantity]:

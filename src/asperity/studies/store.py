@@ -102,7 +102,16 @@ class Store:
                 subject=f"results {path}",
             ) from error
         try:
-            _lock(self._file, path)
+            if importlib.util.find_spec("fcntl") is not None:  # Windows: opening is not exclusive there
+                import fcntl
+
+                try:  # the lock ends with the process however it ends
+                    fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                except OSError:
+                    raise OutputError(
+                        f"results {path} are being written by another process; wait for it, or give {{folder}}.",
+                        subject=f"results {path}",
+                    ) from None
             self._file.truncate(max((end for end, *_ in _lines(path)), default=0))
         except BaseException:
             self._file.close()
@@ -113,7 +122,8 @@ class Store:
         lines = []
         for record in finished:  # ``key state checksum json`` and the end of the line; the checksum is of the json
             payload = json.dumps(record, separators=(",", ":")).encode()
-            lines.append(b"%s %s %08x %s\n" % (record["key"].encode(), _state(record), zlib.crc32(payload), payload))
+            state = DONE if record["error"] is None else FAILED
+            lines.append(b"%s %s %08x %s\n" % (record["key"].encode(), state, zlib.crc32(payload), payload))
         try:
             self._file.write(b"".join(lines))
             self._file.flush()
@@ -144,8 +154,10 @@ def _lines(path: Path) -> Iterator[tuple[int, bytes, Record]]:
             parts = line.split(b" ", 3)
             if line.endswith(b"\n") and len(parts) == 4 and b"%08x" % zlib.crc32(parts[3][:-1]) == parts[2]:
                 record = _record(parts[3])
-                if record is not None and record["key"].encode() == parts[0] and parts[1] == _state(record):
-                    yield end, parts[1], record
+                if record is not None and record["key"].encode() == parts[0]:
+                    state = DONE if record["error"] is None else FAILED
+                    if parts[1] == state:
+                        yield end, state, record
 
 
 def _record(payload: bytes) -> Record | None:
@@ -175,22 +187,3 @@ def _record(payload: bytes) -> Record | None:
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
         return None
     return record if good else None
-
-
-def _state(record: Record) -> bytes:
-    return DONE if record["error"] is None else FAILED
-
-
-def _lock(file: IO[bytes], path: Path) -> None:
-    """Refuse a second process; the lock ends with the process however it ends."""
-    if importlib.util.find_spec("fcntl") is None:  # Windows: opening is not exclusive there
-        return
-    import fcntl
-
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        raise OutputError(
-            f"results {path} are being written by another process; wait for it, or give {{folder}}.",
-            subject=f"results {path}",
-        ) from None

@@ -74,7 +74,7 @@ from .rough.persson import IsotropicSpectrum, Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
 from .rough.rubber_friction import PerssonFriction, RubberFriction, rubber_friction
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
-from .single.hertz import HertzEllipse, HertzLine, HertzPoint
+from .single.hertz import HertzBodies, HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
     Cone,
     EllipticPunch,
@@ -185,6 +185,7 @@ __all__ = [
     "GreenwoodTripp",
     "GreenwoodWilliamson",
     "GrowingMenisci",
+    "HertzBodies",
     "HertzEllipse",
     "HertzEllipseStress",
     "HertzLine",

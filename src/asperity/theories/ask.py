@@ -94,13 +94,19 @@ CONTACT_RADIUS = asked("contact_radius", "m", "contact radius")
 BY_RADIUS = Way(CONTACT_RADIUS, "at_radius", (POINT[0], POINT[1], POINT[3]))
 """Contacts whose pressure is infinitely tensile at the edge."""
 
+BY_CONTACT = (
+    Way(asked("load", "N", "normal force"), "at_load", POINT),
+    Way(asked("approach", "m", "displacement of distant points toward each other"), "at_approach", POINT),
+    Way(CONTACT_RADIUS, "at_radius", POINT),
+)
+"""Ways to ask for one contact."""
+
 COMMON: tuple[Way, ...] = (
     Way(PRESSURE, "at_pressure", QUANTITIES),
     Way(SEPARATION, "at_separation", QUANTITIES),
-    Way(asked("load", "N", "normal force"), "at_load", POINT),
-    Way(asked("approach", "m", "displacement of distant points toward each other"), "at_approach", POINT),
+    *BY_CONTACT[:2],
     Way(asked("interference", "m", "displacement of distant points toward each other"), "at_interference", POINT),
-    Way(CONTACT_RADIUS, "at_radius", POINT),
+    BY_CONTACT[2],
 )
 """Ways of every theory that has the method."""
 
@@ -156,17 +162,19 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
     [('load', '10', 'N'), ('approach', '9.48e-07', 'm'), ('radius', '6.88e-05', 'm')]
     """
     numbers = tuple((column, float(attrgetter(column.name)(theory))) for column in theory.numbers)
+    ways, names = ways_of(theory), set(arguments)
+    texts = [" with ".join([way.axis.name, *(item.name for item in way.given if item.required)]) for way in ways]
+    choice = "by " + ", or by ".join(texts) if texts else "nothing: it has numbers alone"
     if not arguments:
         if not numbers:
-            raise InputError(f"{theory.name} must be asked {_choice(theory)}, but nothing is given.")
+            raise InputError(f"{theory.name} must be asked {choice}, but nothing is given.")
         return Evaluation(theory, numbers)
-    names = set(arguments)
-    for way in ways_of(theory):
+    for way in ways:
         needed = {way.axis.name} | {item.name for item in way.given if item.required}
         if needed <= names <= needed | {item.name for item in way.given}:
             break
     else:
-        raise InputError(f"{theory.name} must be asked {_choice(theory)}, but is asked by {', '.join(sorted(names))}.")
+        raise InputError(f"{theory.name} must be asked {choice}, but is asked by {', '.join(sorted(names))}.")
     values = curve(arguments[way.axis.name], f"{way.axis.help} ({way.axis.unit or 'number'})")
     given = {}
     for item in way.given:
@@ -182,14 +190,6 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
             columns.append((column, found))
     limits = theory.validity(answer) if way.checked else ()
     return Evaluation(theory, numbers, tuple(columns), limits)
-
-
-def _choice(theory: Described) -> str:
-    """In words, the arguments by which ``theory`` can be asked."""
-    texts = [
-        " with ".join([way.axis.name, *(item.name for item in way.given if item.required)]) for way in ways_of(theory)
-    ]
-    return "by " + ", or by ".join(texts) if texts else "nothing: it has numbers alone"
 
 
 # Fields in a half-space as answers of theories: displacement and stress at points, and the stress of von Mises.

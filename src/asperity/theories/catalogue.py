@@ -43,7 +43,7 @@ from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
 from .rough.rubber_friction import PerssonFriction
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
-from .single.hertz import HertzEllipse, HertzLine, HertzPoint
+from .single.hertz import HertzBodies, HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
     Cone,
     EllipticPunch,
@@ -91,6 +91,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
             HertzPoint,
             HertzLine,
             HertzEllipse,
+            HertzBodies,
             PowerLawIndenter,
             Cone,
             FlatPunch,

@@ -19,7 +19,7 @@ from ..core import require
 from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.late import Tabled
-from ..core.parameters import Declared, Help
+from ..core.parameters import Declared, Help, Parameter, parameters
 from ..core.quantity import Quantity
 from ..core.values import Choice, Length, Number, Positive, Real, SignedLength
 from .statistics.heights import NAMED_HEIGHTS, SummitHeights
@@ -261,12 +261,22 @@ CONTACT_RADIUS = small_slope(
 )
 
 
+class _Inputs:
+    """Gives a theory, or its class, its declared parameters."""
+
+    def __get__(self, theory: object, kind: type) -> tuple[Parameter, ...]:
+        return parameters(kind)
+
+
 class Theory(Declared):
     """Base of the theories of the catalogue: frozen dataclasses whose parameters are checked when they are made.
 
-    ``name`` as on the command line, lower case with hyphens; ``title`` for headings; ``numbers`` depend on the parameters
-    alone; ``limits`` are the conditions for it to hold. What else it answers, see ``ask.ways_of``.
+    ``name`` as on the command line, lower case with hyphens; ``title`` for headings; ``inputs`` are its parameters, each with unit,
+    range, default and help; ``numbers`` depend on them alone; ``limits`` are the conditions for it to hold. What else it answers,
+    see ``ask.ways_of``.
     """
+
+    inputs = _Inputs()
 
     name: ClassVar[str]
     title: ClassVar[str]

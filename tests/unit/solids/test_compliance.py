@@ -1,11 +1,14 @@
 """The compliance of a half-space and of two bodies: scaling, decay, superposition and refusals."""
 
+import math
+
 import numpy as np
 import pytest
 from refusals import refused
 
 import asperity as asp
 from asperity.solids.compliance.halfspace import HalfSpace, contact_compliance
+from asperity.solids.compliance.tensor import BodiesSurface
 
 Q = np.geomspace(1e-3, 1e12, 31)
 SOFT, STIFF = asp.Elastic(2e9, 0.45), asp.Elastic(200e9, 0.3)
@@ -36,6 +39,28 @@ def test_compliances_of_two_bodies_add_up():
     grid = asp.Grid((3, 5), (1e-7, 1e-7))
     single = [contact_compliance(body, asp.Rigid()).influence(grid) for body in (SOFT, STIFF)]
     np.testing.assert_allclose(contact_compliance(SOFT, STIFF).influence(grid), sum(single), rtol=1e-14)
+
+
+COATED = asp.Layered([asp.Layer(STIFF, 5e-9)], base=SOFT)
+
+
+@pytest.mark.parametrize(
+    "compliance",
+    [
+        HalfSpace(4.0),
+        contact_compliance(COATED, asp.Rigid()),
+        contact_compliance(COATED, SOFT),
+        BodiesSurface(COATED, SOFT),
+    ],
+    ids=["half-space", "layers", "two bodies", "along the surface"],
+)
+def test_a_compliance_takes_one_wavenumber_and_refuses_the_mean_mode(compliance):
+    together = compliance.spectral(np.array([1e6, 1e9]))
+    np.testing.assert_allclose([float(compliance.spectral(q)) for q in (1e6, 1e9)], together, rtol=1e-12)
+    np.testing.assert_allclose(compliance.spectral([1e6, 1e9]), together, rtol=1e-12)
+    for wrong in (0.0, [1e6, 0.0], -1.0, math.nan):
+        with refused(asp.errors.InputError, "wavenumber of a compliance (rad/m)"):
+            compliance.spectral(wrong)
 
 
 def test_moduli_of_an_elastic_body():

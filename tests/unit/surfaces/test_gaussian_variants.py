@@ -407,3 +407,12 @@ def test_surface_carries_its_provenance():
     for text in ("two slopes", "q^-6.5 from 90", "q^-4.6 from 50", "seed 11"):
         assert text in surface.origin.history[0]
     assert surface.citation_keys == ("Jacobs2017",)
+
+
+@pytest.mark.parametrize("kind", [ExponentialAutocorrelation, GaussianAutocorrelation])
+def test_a_length_is_no_drop_of_an_autocorrelation(kind):
+    """The third number is what is left at the correlation length, and a second length easily stands in its place."""
+    with refused(InputError, "drop of an autocorrelation", "0.001", "5e-07"):
+        kind(2e-9, 1e-6, 0.5e-6)
+    assert kind(2e-9, 1e-6, 1e-3).drop == 1e-3
+    assert kind(2e-9, 1e-6, correlation_length_y=0.5e-6).correlation_length_y == 0.5e-6

@@ -34,6 +34,7 @@ def test_every_theory_is_described(name):
     assert kind.title
     assert [reference(key) for key in kind.citation_keys]
     assert [item.name for item in parameters(kind)] == list(inspect.signature(kind).parameters)
+    assert kind.inputs == parameters(kind)
     assert all(item.help for item in parameters(kind))
 
 
@@ -71,6 +72,13 @@ def test_every_theory_is_in_the_public_namespace():
     assert [kind.__name__ for kind in THEORIES.values() if kind.__name__ not in asp.theories.__all__] == []
     assert sorted(set(asp.theories.__all__)) == sorted(asp.theories.__all__)
     assert all(getattr(asp.theories, name).__doc__ or name in ("FAMILIES", "THEORIES") for name in asp.theories.__all__)
+
+
+def test_a_near_miss_of_a_class_names_it():
+    with pytest.raises(AttributeError) as caught:
+        _ = asp.theories.HertzPont
+    assert "HertzPoint" in str(caught.value)
+    assert (caught.value.name, caught.value.obj) == ("HertzPont", asp.theories)
 
 
 def test_unknown_theories_are_refused():

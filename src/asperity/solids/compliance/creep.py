@@ -13,6 +13,7 @@ from functools import cached_property, lru_cache
 from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...core.arrays import BoolArray, ComplexArray, RealArray
 from ...core.errors import InputError
@@ -22,7 +23,15 @@ from ..layers import Body, Layered, deformable, materials_of, relaxes
 from ..relaxation import Creep, merged
 from ..viscoelastic import Viscoelastic, alike
 from .halfspace import Compliance, contact_compliance
-from .influence import Limits, line_kernel, patch_coefficients, point_kernel, strip_coefficients, wavenumber_grid
+from .influence import (
+    Limits,
+    line_kernel,
+    patch_coefficients,
+    point_kernel,
+    strip_coefficients,
+    wavenumber_grid,
+    wavenumbers,
+)
 from .layered import PlaneCompliance, Samples, operational_moduli, operational_plane
 from .retardation_fit import fitted, fitted_planes
 from .tensor import (
@@ -121,11 +130,11 @@ class RetardedCompliance:
         """c(0) of the terms alone, m/Pa."""
         return float(np.array(self.weights) @ self.creep.mean_modes)
 
-    def spectral(self, wavenumber: RealArray) -> RealArray:
+    def spectral(self, wavenumber: ArrayLike) -> RealArray:
         """c(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
-        rigid_base = bool(self.mean_mode_of_terms)
-        found = _between(self.creep.nodes, self._strength, wavenumber, rigid_base=rigid_base) / wavenumber
-        return found + self.share * self.creep.instantaneous.spectral(wavenumber) if self.share else found
+        rigid_base, q = bool(self.mean_mode_of_terms), wavenumbers(wavenumber)
+        found = _between(self.creep.nodes, self._strength, q, rigid_base=rigid_base) / q
+        return found + self.share * self.creep.instantaneous.spectral(q) if self.share else found
 
     def mean_mode(self) -> float:
         """c(0) in m/Pa; 0 where the datum is the mean displacement."""
@@ -194,8 +203,9 @@ class RetardedSurface:
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """(C_LL + C_T)/2 in m/Pa at each ``wavenumber`` > 0 (rad/m)."""
-        found = self._plane(wavenumber)
-        return 0.5 * (found.LL + found.T) / wavenumber
+        q = wavenumbers(wavenumber)
+        found = self._plane(q)
+        return 0.5 * (found.LL + found.T) / q
 
     def tensor(self, grid: Grid) -> SurfaceTensor:
         """That of a periodic cell."""
@@ -284,7 +294,7 @@ def complex_compliance(body: Body, counter_body: Body, wavenumber: RealArray, om
     """
     solids = (_stacked(solid) for solid, _ in deformable(body, counter_body))
     first, *others = (
-        np.asarray(operational_plane(solid, wavenumber, 1j * omega).zz, dtype=complex) for solid in solids
+        np.asarray(operational_plane(solid, wavenumbers(wavenumber), 1j * omega).zz, dtype=complex) for solid in solids
     )
     return sum(others, start=first)
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.citations import citation_keys
 from ...core.grid import Grid
 from ..layers import Body, Layered, contact_modulus, deformable, materials_of
-from .influence import patch_displacement
+from .influence import patch_displacement, wavenumbers
 from .layered import LayerStack
 
 
@@ -26,8 +27,8 @@ class Compliance(Protocol):
     def citation_keys(self) -> tuple[str, ...]:
         """Keys of the papers the compliance rests on."""
 
-    def spectral(self, wavenumber: RealArray) -> RealArray:
-        """Displacement per pressure c(q) in m/Pa at each ``wavenumber`` q > 0 (rad/m)."""
+    def spectral(self, wavenumber: ArrayLike) -> RealArray:
+        """Displacement per pressure c(q) in m/Pa at each ``wavenumber`` q > 0 (rad/m), of any shape; InputError at q = 0."""
 
     def mean_mode(self) -> float:
         """Displacement per pressure in m/Pa of the mode q = 0; 0 where the datum is the mean displacement."""
@@ -50,18 +51,15 @@ class HalfSpace:
     """
 
     modulus: float
+    citation_keys: ClassVar[tuple[str, ...]] = ("Boussinesq1885", "Johnson1985")
+    """Boussinesq's point force; the boundary names the discretisation."""
 
     def __post_init__(self) -> None:
         require.positive(self.modulus, "plane-strain modulus of a half-space (Pa)")
 
-    @property
-    def citation_keys(self) -> tuple[str, ...]:
-        """Boussinesq's point force; the boundary names the discretisation."""
-        return ("Boussinesq1885", "Johnson1985")
-
-    def spectral(self, wavenumber: RealArray) -> RealArray:
+    def spectral(self, wavenumber: ArrayLike) -> RealArray:
         """c(q) = 2 / (E' q) in m/Pa (Johnson 1985, sec. 13.2), q > 0 in rad/m."""
-        return 2.0 / (self.modulus * wavenumber)
+        return 2.0 / (self.modulus * wavenumbers(wavenumber))
 
     def mean_mode(self) -> float:
         """0: the mean displacement of a half-space under mean pressure is unbounded and serves as datum."""
@@ -93,7 +91,7 @@ class SumOfCompliances:
         """Keys of all parts."""
         return (*citation_keys(*self.parts), "Peng2001")
 
-    def spectral(self, wavenumber: RealArray) -> RealArray:
+    def spectral(self, wavenumber: ArrayLike) -> RealArray:
         """Sum of c(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
         first, *others = (part.spectral(wavenumber) for part in self.parts)
         return sum(others, start=first)

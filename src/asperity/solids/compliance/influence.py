@@ -4,13 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, cast
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
+from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.interpolation import STEP, LogTable, log_grid, log_hankel, log_table
 from ...core.quadrature import rule
+
+
+def wavenumbers(given: ArrayLike) -> RealArray:
+    """Wavenumbers > 0 (rad/m) as an array of any shape; one on a GPU as it is.
+
+    InputError if one is not positive.
+    """
+    if getattr(given, "shape", ()) and not isinstance(given, np.ndarray):
+        on_device: Any = given
+        return cast(RealArray, on_device)
+    q = np.asarray(given, dtype=float)
+    if not np.all(q > 0.0):
+        raise InputError(
+            f"wavenumber of a compliance (rad/m) must be greater than zero, but is {q[~(q > 0.0)].flat[0]:g}. "
+            "The displacement under a mean pressure is that of mean_mode()."
+        )
+    return q
+
 
 # Displacement of a half-space under uniform pressure on a rectangle (Love 1929; Johnson 1985, eq. 3.25).
 
@@ -174,8 +195,10 @@ def patch_coefficients(kernel: PointKernel, grid: Grid, angular: Angular = ISOTR
 
     i, j = np.nonzero(distance < NEAR * side)
     near_x, near_y = _reach(NEAR, side, dx, nx), _reach(NEAR, side, dy, ny)
-    X, Y = (np.arange(near_x) + 0.5)[:, None] * dx, (np.arange(near_y) + 0.5)[None, :] * dy
-    quarter = _rectangle(kernel, X, Y, angular)  # between the origin and the far corners of the pixels
+    X, Y = np.broadcast_arrays((np.arange(near_x) + 0.5)[:, None] * dx, (np.arange(near_y) + 0.5)[None, :] * dy)
+    below = _triangle(kernel, X, Y, angular.factor)
+    above = _triangle(kernel, Y, X, lambda along, across: angular.factor(across, along))
+    quarter = (below + above) / (2.0 * np.pi)  # between the origin and the far corners of the pixels
     # the pixels at the origin reach half a side beyond it: mirror, with the sign of an integral from 0 to -X
     over_x = np.vstack([(-quarter[:1] if angular.even_x else quarter[:1]), quarter])
     whole = np.hstack([(-over_x[:, :1] if angular.even_y else over_x[:, :1]), over_x])
@@ -198,25 +221,21 @@ def _values(kernel: PointKernel, x: RealArray, y: RealArray, angular: Angular) -
     return result
 
 
-def _rectangle(kernel: PointKernel, X: RealArray, Y: RealArray, angular: Angular) -> RealArray:
-    """Integral of the response over 0 < x < X, 0 < y < Y in polar coordinates, the radial one in closed form.
+def _triangle(
+    kernel: PointKernel, length: RealArray, width: RealArray, factor: Callable[[RealArray, RealArray], RealArray]
+) -> RealArray:
+    """2 pi times the integral of the response over 0 < x < ``length`` below the diagonal to ``width``, the radial one in closed form.
 
-    Below the diagonal r ends at X/cos theta; with tan theta = sinh v, X/cos theta = X cosh v and d theta = dv/cosh v.
+    r ends at X/cos theta; with tan theta = sinh v, X/cos theta = X cosh v and d theta = dv/cosh v.
     """
-
-    def triangle(length: RealArray, width: RealArray, *, exchanged: bool) -> RealArray:
-        last = np.arcsinh(width / length)
-        panels = int(np.ceil(last.max() / _PANEL))
-        node, weight = rule(_PANEL_GAUSS)
-        share = (np.arange(panels)[:, None] + 0.5 * (node + 1.0)).ravel() / panels
-        v = last[..., None] * share
-        along, across = 1.0 / np.cosh(v), np.tanh(v)
-        factor = angular.factor(across, along) if exchanged else angular.factor(along, across)
-        values = kernel.moment(length[..., None] / along) * along * factor
-        return values @ np.tile(0.5 * weight / panels, panels) * last
-
-    X, Y = np.broadcast_arrays(X, Y)
-    return (triangle(X, Y, exchanged=False) + triangle(Y, X, exchanged=True)) / (2.0 * np.pi)
+    last = np.arcsinh(width / length)
+    panels = int(np.ceil(last.max() / _PANEL))
+    node, weight = rule(_PANEL_GAUSS)
+    share = (np.arange(panels)[:, None] + 0.5 * (node + 1.0)).ravel() / panels
+    v = last[..., None] * share
+    along, across = 1.0 / np.cosh(v), np.tanh(v)
+    values = kernel.moment(length[..., None] / along) * along * factor(along, across)
+    return values @ np.tile(0.5 * weight / panels, panels) * last
 
 
 # Plane strain: surface displacement of strips along y, from the spectrum of the body.

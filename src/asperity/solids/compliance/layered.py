@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,6 +26,7 @@ from .influence import (
     point_kernel,
     strip_coefficients,
     wavenumber_grid,
+    wavenumbers,
 )
 
 # Compliance of a stack of layers in the wavenumber domain by hybrid layer matrices (after Tan 2006, for waves).
@@ -345,20 +346,17 @@ class LayerStack:
     """
 
     body: Layered
+    citation_keys: ClassVar[tuple[str, ...]] = ("Burmister1945", "OSullivan1988", "Tan2006", "Hamilton2000")
+    """Layered elasticity, the mixed layer matrices, the logarithmic Hankel transform."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "body", self.body.bare)
 
-    @property
-    def citation_keys(self) -> tuple[str, ...]:
-        """Layered elasticity, the mixed layer matrices, the logarithmic Hankel transform."""
-        return ("Burmister1945", "OSullivan1988", "Tan2006", "Hamilton2000")
-
-    def spectral(self, wavenumber: RealArray) -> RealArray:
+    def spectral(self, wavenumber: ArrayLike) -> RealArray:
         """C_zz(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
         return self._interpolated(wavenumber, lambda c: (c.zz,))[0]
 
-    def plane(self, wavenumber: RealArray) -> PlaneCompliance:
+    def plane(self, wavenumber: ArrayLike) -> PlaneCompliance:
         """All components of C(q) in m/Pa at ``wavenumber`` q > 0 (rad/m)."""
         return PlaneCompliance(*self._interpolated(wavenumber, lambda c: (c.LL, c.zz, c.Lz, c.T)))
 
@@ -396,14 +394,15 @@ class LayerStack:
         return line_kernel(self._samples.values.zz, self._samples.limits(lambda c: c.zz))
 
     def _interpolated(
-        self, wavenumber: RealArray, components: Callable[[PlaneCompliance], tuple[RealArray, ...]]
+        self, wavenumber: ArrayLike, components: Callable[[PlaneCompliance], tuple[RealArray, ...]]
     ) -> list[RealArray]:
         """Some ``components`` of C(q), from a table of q C where the array is larger than the table."""
-        nodes = covering_grid(float(wavenumber.min()), float(wavenumber.max()))
-        if wavenumber.size <= nodes.size:
-            return list(components(interface_compliances(self.body, wavenumber)[0]))
+        q = wavenumbers(wavenumber)
+        nodes = covering_grid(float(q.min()), float(q.max())) if q.size > 1 else q
+        if q.size <= nodes.size:
+            return list(components(interface_compliances(self.body, q)[0]))
         tables = [log_table(nodes[0], c) for c in components(interface_compliances(self.body, nodes)[0].scaled(nodes))]
-        found = [table(wavenumber) for table in tables]
+        found = [table(q) for table in tables]
         for values in found:
-            values /= wavenumber
+            values /= q
         return found

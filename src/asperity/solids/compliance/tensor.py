@@ -24,6 +24,7 @@ from .influence import (
     patch_coefficients,
     strip_coefficients,
     wavenumber_grid,
+    wavenumbers,
 )
 from .layered import LayerStack, PlaneCompliance, Samples, half_space, samples
 
@@ -46,7 +47,7 @@ class SurfaceTensor:
 def plane_compliance(body: Elastic | Layered, wavenumber: RealArray) -> PlaneCompliance:
     """Compliances along, across and normal to the wavevector at each ``wavenumber`` > 0 (rad/m)."""
     if isinstance(body, Elastic):
-        return half_space(wavenumber, shear_modulus=body.shear_modulus, nu=body.poisson_ratio)
+        return half_space(wavenumbers(wavenumber), shear_modulus=body.shear_modulus, nu=body.poisson_ratio)
     reduced = body.reduced
     if not reduced.layers and isinstance(reduced.base, Elastic):
         return plane_compliance(reduced.base, wavenumber)

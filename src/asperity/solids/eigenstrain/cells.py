@@ -131,18 +131,14 @@ def depth_edges(body: Elastic | Layered, depth: float, first: float, cells: int 
     if len(stops) < len(places) and (places[len(stops)] - bottom) < 0.25 * (bottom - stops[-1]):
         bottom = places[len(stops)]
     spans = list(zip(stops, [*stops[1:], bottom], strict=True))
-
-    def made(growth: float) -> list[RealArray]:
-        return [_span(low, high, first, growth, ends=high != bottom) for low, high in spans]
-
     low, high = 0.0, 2.0
     for _ in range(40):
         middle = 0.5 * (low + high)
-        if sum(part.size for part in made(middle)) > cells:
+        if sum(_span(z, end, first, middle, ends=end != bottom).size for z, end in spans) > cells:
             low = middle
         else:
             high = middle
-    return np.concatenate([[0.0], *made(high)])
+    return np.concatenate([[0.0], *(_span(z, end, first, high, ends=end != bottom) for z, end in spans)])
 
 
 def _span(low: float, high: float, first: float, growth: float, *, ends: bool) -> RealArray:

@@ -94,7 +94,8 @@ def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16
         lengths.append(math.sqrt(shape[0] * surface.dx * shape[1] * surface.dy))
         along_x, along_y = (range(0, n - width + 1, width) for n, width in zip(surface.shape, shape, strict=True))
         periodic, level = surface.periodic and shape == surface.shape, []
-        for i, j in _spread_evenly([(i, j) for i in along_x for j in along_y], most):
+        offsets = [(i, j) for i in along_x for j in along_y]
+        for i, j in (offsets[round(k)] for k in np.linspace(0, len(offsets) - 1, min(most, len(offsets)))):
             part = (slice(i, i + shape[0]), slice(j, j + shape[1]))
             if np.count_nonzero(surface.mask[part]) <= 0.5 * shape[0] * shape[1]:
                 window = Surface(surface.heights[part], surface.dx, surface.dy, periodic=periodic, origin=origin)
@@ -131,7 +132,7 @@ def sampling_interval_study(
         lengths.append(math.sqrt(surface.grid.pixel_area) * step)
         periodic = surface.periodic and all(n % step == 0 for n in surface.shape)
         if mode == "pick":
-            offsets = _spread_evenly([(i, j) for i in range(step) for j in range(step)], most)
+            offsets = [divmod(round(k), step) for k in np.linspace(0, step**2 - 1, min(most, step**2))]
             parts = [surface.heights[i::step, j::step] for i, j in offsets]
         else:
             nx, ny = (n // step for n in surface.shape)
@@ -147,12 +148,6 @@ def _halvings(points: int, least: int) -> list[int]:
     if points < least:
         raise InputError(f"surface must have at least {least} points along each side for a study, but has {points}.")
     return list(range(int(math.log2(points / least)) + 1))
-
-
-def _spread_evenly(items: list[tuple[int, int]], most: int) -> list[tuple[int, int]]:
-    if len(items) <= most:
-        return items
-    return [items[round(k)] for k in np.linspace(0, len(items) - 1, most)]
 
 
 def _measured(part: Surface, form: str) -> dict[str, float]:

@@ -9,15 +9,17 @@ from typing import Annotated, ClassVar
 import numpy as np
 
 from ...core.arrays import RealArray
+from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import Declared
 from ...core.units import show
 from ...core.values import Fraction, Length
 from .gaussian import clipped_eigenvalues, eigenvalues, negative_part
 
-_INDEPENDENT = math.log(
-    1e3
-)  # three 10 % lengths of the exponential: heights whose correlation is 1e-3 count as independent
+LEAST_DROP = 1e-3
+"""Correlation at and below which heights count as independent: three 10 % lengths of the exponential."""
+
+_INDEPENDENT = math.log(1.0 / LEAST_DROP)
 _AMPLE = 1.5  # embedding lengths from which on there is no negative part: computed for both autocorrelations
 _NOISE = 1e-15  # negative part that rounding of the transform leaves
 
@@ -36,6 +38,14 @@ class _Autocorrelation(Declared):
     form: ClassVar[str]
     domain: ClassVar[float]
     smooth: ClassVar[bool]
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.drop < LEAST_DROP:
+            raise InputError(
+                f"drop of an autocorrelation must be from {LEAST_DROP:g} to below 1, but is {self.drop:g}: it is what is left at the "
+                "correlation length, such as 0.1 or 0.37. Give a second length as correlation_length_y."
+            )
 
     @property
     def decay_lengths(self) -> tuple[float, float]:

@@ -45,14 +45,26 @@ ShortestWave: TypeAlias = Annotated[NonNegativeLength, "shortest wave λ_s; 0m f
 LongestWave: TypeAlias = Annotated[float, Number("length", above=0.0, infinite=True), "longest wave λ_L; inf for all"]
 
 
-class _PowerLawSpectrum(ABC):
-    """What spectra of power laws share."""
+class _PowerLawSpectrum(Declared, ABC):
+    """What spectra of power laws share: of this ``kind``, with wavelengths in the ``order``."""
 
     amplitude: Amplitude
     rolloff_wavelength: float
     shortest_wavelength: float
     longest_wavelength: float
+    kind: ClassVar[str]
+    order: ClassVar[tuple[str, ...]]
     citation_keys: ClassVar[tuple[str, ...]] = ("Jacobs2017",)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_amplitude(self.amplitude, self.kind)
+        waves = [getattr(self, f"{name.replace('-', '')}_wavelength") for name in self.order]
+        if not all(short <= long for short, long in pairwise(waves)):
+            listed = ", ".join(f"{wave:g}" for wave in waves)
+            raise InputError(
+                f"wavelengths of a {self.kind} spectrum must satisfy {' <= '.join(self.order)}, but are {listed} m."
+            )
 
     @property
     @abstractmethod
@@ -96,7 +108,7 @@ class _PowerLawSpectrum(ABC):
 
 
 @dataclass(frozen=True, kw_only=True)
-class SelfAffine(_PowerLawSpectrum, Declared):
+class SelfAffine(_PowerLawSpectrum):
     """Plateau and power law: C = C0 for q_L <= q <= q_r, C0 (q/q_r)^(-2-2H) for q_r < q <= q_s, zero elsewhere.
 
     ``amplitude`` fixes C0; on a grid an rms height or rms slope is met exactly by the sum over the modes of that grid
@@ -110,12 +122,8 @@ class SelfAffine(_PowerLawSpectrum, Declared):
     rolloff_wavelength: RollOff
     shortest_wavelength: ShortestWave
     longest_wavelength: LongestWave = math.inf
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        require_amplitude(self.amplitude, "self-affine")
-        waves = (self.shortest_wavelength, self.rolloff_wavelength, self.longest_wavelength)
-        _require_ascending(waves, "shortest <= roll-off <= longest", "self-affine")
+    kind: ClassVar[str] = "self-affine"
+    order: ClassVar[tuple[str, ...]] = ("shortest", "roll-off", "longest")
 
     @property
     def bends(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -131,7 +139,7 @@ class SelfAffine(_PowerLawSpectrum, Declared):
 
 
 @dataclass(frozen=True, kw_only=True)
-class TwoSlopes(_PowerLawSpectrum, Declared):
+class TwoSlopes(_PowerLawSpectrum):
     """Plateau and two power laws: C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, then continued as q^-a2 up to q_s.
 
     Films whose asperities are smooth, or rounded by the tip of the instrument, fall faster than q^-4 (H > 1): such a
@@ -147,17 +155,8 @@ class TwoSlopes(_PowerLawSpectrum, Declared):
     crossover_wavelength: Annotated[Length, "wavelength λ_c at which the exponent changes"]
     shortest_wavelength: ShortestWave = 0.0
     longest_wavelength: LongestWave = math.inf
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        require_amplitude(self.amplitude, "two-slope")
-        waves = (
-            self.shortest_wavelength,
-            self.crossover_wavelength,
-            self.rolloff_wavelength,
-            self.longest_wavelength,
-        )
-        _require_ascending(waves, "shortest <= crossover <= roll-off <= longest", "two-slope")
+    kind: ClassVar[str] = "two-slope"
+    order: ClassVar[tuple[str, ...]] = ("shortest", "crossover", "roll-off", "longest")
 
     @property
     def bends(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -170,12 +169,6 @@ class TwoSlopes(_PowerLawSpectrum, Declared):
         bends = f"q^-{first:.4g} from {show(self.rolloff_wavelength, 'm')}, q^-{second:.4g} from {show(self.crossover_wavelength, 'm')}"
         ends = _ends(self.shortest_wavelength, self.longest_wavelength)
         return f"two slopes, {bends}, {ends}, {amplitude_text(self.amplitude)}"
-
-
-def _require_ascending(waves: tuple[float, ...], order: str, what: str) -> None:
-    if not all(short <= long for short, long in pairwise(waves)):
-        listed = ", ".join(f"{wave:g}" for wave in waves)
-        raise InputError(f"wavelengths of a {what} spectrum must satisfy {order}, but are {listed} m.")
 
 
 def _ends(shortest: float, longest: float) -> str:

@@ -217,11 +217,18 @@ def filtered(
             smooth = _robust(known, valid, fit) if kind == "robust" else fit.smooth(known, valid)
             heights = smooth if name == "short" else heights - smooth
             heights[surface.mask] = np.nan
-    words = ", ".join(f"{name} waves from {_text(cutoff)}" for name, cutoff in cutoffs.items())
+    words = []
+    for name, (along_x, along_y) in cutoffs.items():
+        lengths = show(along_x, "m") + ("" if along_x == along_y else f" along x and {show(along_y, 'm')} along y")
+        words.append(f"{name} waves from {lengths}")
     what = kind if order == 0 else f"{kind} of order {order}"
     keys = {"gaussian": ("ISO16610-61",), "robust": ("ISO16610-71",), "sharp": ()}[kind]
     return recorded(
-        surface, heights, f"filtered: {words} on removed, {what}", periodic=surface.periodic, citation_keys=keys
+        surface,
+        heights,
+        f"filtered: {', '.join(words)} on removed, {what}",
+        periodic=surface.periodic,
+        citation_keys=keys,
     )
 
 
@@ -271,11 +278,6 @@ def _robust(values: RealArray, valid: RealArray, fit: LocalRegression) -> RealAr
         biweight = np.square(np.maximum(1.0 - np.square(residual / width), 0.0))
         weights = valid * np.maximum(biweight, _LEAST_WEIGHT)
     return smooth
-
-
-def _text(cutoff: tuple[float, float]) -> str:
-    along_x, along_y = (show(length, "m") for length in cutoff)
-    return along_x if cutoff[0] == cutoff[1] else f"{along_x} along x and {along_y} along y"
 
 
 # Removal of waves distorted by the tip of an instrument.

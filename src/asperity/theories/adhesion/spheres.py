@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -13,6 +14,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.quantity import Quantity
 from ...core.values import Length, Pressure
+from ..ask import BY_CONTACT, Way
 from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, Work, bisected, checked
 from ..single.hertz import hertz_profile
 
@@ -210,6 +212,13 @@ class DMT(_AdhesiveSphere):
         P = checked(load, "load (N)", -self.pull_off, "A larger tensile force separates the bodies.")
         return self.at_radius(np.cbrt(0.75 * self.radius / self.E_star * (P + self.pull_off)))
 
+    def at_approach(self, approach: ArrayLike) -> ContactAnswer:
+        """The contact with fixed grips at the ``approach`` δ in m, >= 0, of any shape: that of Hertz.
+
+        InputError if an approach is negative: apart from each other the bodies attract, but do not touch.
+        """
+        return self.at_radius(np.sqrt(self.radius * checked(approach, "approach (m)")))
+
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
         """The contact of the ``contact_radius`` a in m, >= 0, of any shape."""
         a = checked(contact_radius, "contact radius (m)")
@@ -277,11 +286,24 @@ def maugis_at_ring(transition: float, ring: RealArray) -> MaugisState:
 
 def maugis_pull_off(transition: float) -> MaugisState:
     """The contact of the least load, for λ = ``transition`` > 0: P = -1.5 for JKR, -2 for DMT."""
+    return _least(transition, lambda state: state.load)
+
+
+def maugis_fold(transition: float) -> MaugisState:
+    """The contact of the least approach, for λ = ``transition`` > 0, below which rigid grips hold no contact.
+
+    Up to λ = 0.94 the contact shrinks to a point there, and the bodies go on attracting each other.
+    """
+    return _least(transition, lambda state: state.approach)
+
+
+def _least(transition: float, quantity: Callable[[MaugisState], RealArray]) -> MaugisState:
+    """The contact with the least value of a ``quantity``."""
     require.positive(transition, "transition parameter")
     low, high = -30.0, 30.0
     for _ in range(16):  # each a tenth of the one before
         log_s = np.linspace(low, high, 41)
-        best = int(np.argmin(maugis_at_ring(transition, np.exp(log_s)).load))
+        best = int(np.argmin(quantity(maugis_at_ring(transition, np.exp(log_s)))))
         low, high = log_s[max(best - 2, 0)], log_s[min(best + 2, 40)]
     return maugis_at_ring(transition, np.exp(log_s[best]))
 
@@ -296,6 +318,16 @@ def _radius(lam: float, s: RealArray) -> RealArray:
     # sϑ - m + 1 with m - 1 = s²/(m + 1)
     v = 2.0 / 3.0 * lam**2 * (s * theta - s**2 / (1.0 + np.hypot(1.0, s)))
     return 1.0 / (v + np.sqrt(v**2 + u))
+
+
+@dataclass(frozen=True, eq=False)
+class MaugisAnswer(ContactAnswer):
+    """Contacts with the ``outer_radius`` c in m of the attraction around them."""
+
+    outer_radius: RealArray
+
+
+_OUTER = Quantity("outer_radius", "m", "outer radius of the attraction around the contact")
 
 
 @dataclass(frozen=True)
@@ -321,6 +353,7 @@ class MaugisDugdale(Theory):
         Quantity("pull_off", "N", "force that separates the bodies"),
         Quantity("transition", "1", "parameter λ: DMT for small, JKR for large values"),
     )
+    ways: ClassVar[tuple[Way, ...]] = tuple(replace(way, columns=(*way.columns, _OUTER)) for way in BY_CONTACT)
 
     @property
     def transition(self) -> float:
@@ -334,7 +367,7 @@ class MaugisDugdale(Theory):
         """Force in N that separates the bodies under dead load."""
         return -float(maugis_pull_off(self.transition).load) * np.pi * self.work * self.radius
 
-    def at_load(self, load: ArrayLike) -> ContactAnswer:
+    def at_load(self, load: ArrayLike) -> MaugisAnswer:
         """The stable contact under ``load`` in N, not below minus the pull-off force, of any shape.
 
         InputError if a load is below the pull-off force.
@@ -346,12 +379,25 @@ class MaugisDugdale(Theory):
         s = np.exp(bisected(lambda y: P - maugis_at_ring(self.transition, np.exp(y)).load, *ends))
         return self._answer(maugis_at_ring(self.transition, s))
 
-    def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
+    def at_approach(self, approach: ArrayLike) -> MaugisAnswer:
+        """The stable contact with fixed grips at the ``approach`` δ in m of any shape; negative down to where it breaks.
+
+        InputError if an approach is below that: from λ = 0.94 on the contact jumps off there, else it has shrunk to a point.
+        """
+        least, unit = maugis_fold(self.transition), self._unit_radius**2 / self.radius
+        delta = (
+            checked(approach, "approach (m)", float(least.approach) * unit, "Further apart there is no contact.") / unit
+        )
+        ends = np.full_like(delta, _NARROWEST), np.full_like(delta, np.log(least.ring))
+        s = np.exp(bisected(lambda y: delta - maugis_at_ring(self.transition, np.exp(y)).approach, *ends))
+        return self._answer(maugis_at_ring(self.transition, s))
+
+    def at_radius(self, contact_radius: ArrayLike) -> MaugisAnswer:
         """The contact of the ``contact_radius`` a in m, > 0, of any shape."""
         a = checked(contact_radius, "contact radius (m)")
         return self._answer(maugis_state(self.transition, a / self._unit_radius))
 
-    def _answer(self, state: MaugisState) -> ContactAnswer:
+    def _answer(self, state: MaugisState) -> MaugisAnswer:
         step = 1e-5
         ends = [maugis_at_ring(self.transition, state.ring * (1.0 + s)) for s in (-step, step)]
         rise = (ends[1].load - ends[0].load) / (ends[1].approach - ends[0].approach)
@@ -360,13 +406,14 @@ class MaugisDugdale(Theory):
         a = state.radius * self._unit_radius
         # (2E*/πR) a of Hertz less the pull of the ring, 2σ0/π arctan s, at the centre
         pull = 2.0 / np.pi * self.attraction * np.arctan(state.ring)
-        return ContactAnswer(
+        return MaugisAnswer(
             load=state.load * unit_load,
             approach=state.approach * unit_approach,
             radius=a,
             area=np.pi * a**2,
             max_pressure=2.0 / np.pi * self.E_star * a / self.radius - pull,
             stiffness=rise * unit_load / unit_approach,
+            outer_radius=a * state.outer_over_inner,
         )
 
     @property

@@ -62,16 +62,13 @@ class _Mesh:
         self.offset = self.middle[:, None] + self.half[:, None] * self.local
         self.x: RealArray = (self.anchor[:, None] + self.offset).ravel()
         self.weight: RealArray = (self.half[:, None] * self.rule).ravel()
+        # Legendre coefficients from values at the nodes
+        orders = np.arange(_NODES) + 0.5
+        self.coefficients = orders[:, None] * (legendre.legvander(self.local, _NODES - 1) * self.rule[:, None]).T
 
     def values_at(self, z: RealArray) -> RealArray:
         """Lagrange polynomials of a panel at local places ``z``, (z, nodes)."""
-        return np.asarray(legendre.legvander(z, _NODES - 1) @ self._coefficients)
-
-    @property
-    def _coefficients(self) -> RealArray:
-        """Legendre coefficients from values at the nodes."""
-        orders = np.arange(_NODES) + 0.5
-        return np.asarray(orders[:, None] * (legendre.legvander(self.local, _NODES - 1) * self.rule[:, None]).T)
+        return np.asarray(legendre.legvander(z, _NODES - 1) @ self.coefficients)
 
     def cauchy(self, sign: float) -> RealArray:
         """∫ l_j(t)/(t - ``sign`` x_i) dt, principal values, (i, j)."""
@@ -90,7 +87,7 @@ class _Mesh:
         second[1] = at * second[0] - 1.0
         for n in range(1, _NODES - 1):
             second[n + 1] = ((2 * n + 1) * at * second[n] - n * second[n - 1]) / (n + 1)
-        found[near] = -2.0 * second.T @ self._coefficients
+        found[near] = -2.0 * second.T @ self.coefficients
         found[far] = self.rule / (self.local - z[far][:, None])
         fine, weight = rule(_FINE)
         found[between] = (weight / (fine - z[between][:, None])) @ self.values_at(fine)
@@ -103,21 +100,18 @@ class _Mesh:
         later = panel[None, :] > panel[:, None]
         matrix = np.zeros(later.shape)
         row, column = np.nonzero(later)
-        matrix[row, column] = _slip_kernel(x[row], x[column]) * weight[column]
+        # the kernel is (K - E)/(k²t²)
+        matrix[row, column] = elliptic_ratio((x[row] / x[column]) ** 2) / x[column] ** 2 * weight[column]
         middle, half = (part[self.sticking // _NODES :] for part in (self.anchor + self.middle, self.half))
         for a, start in enumerate(self.local):  # the own panel from the place on
             z, rule = start + 0.5 * (1.0 - start) * (self.local + 1.0), 0.5 * (1.0 - start) * self.rule
             t = middle[:, None] + half[:, None] * z
             rows = np.arange(half.size) * _NODES + a
-            own = (_slip_kernel(x[rows][:, None], t) * rule * half[:, None]) @ self.values_at(z)
+            kernel = elliptic_ratio((x[rows][:, None] / t) ** 2) / t**2
+            own = (kernel * rule * half[:, None]) @ self.values_at(z)
             for b in range(_NODES):
                 matrix[rows, rows - a + b] += own[:, b]
         return np.eye(x.size) - 2.0 / np.pi * x[:, None] * matrix
-
-
-def _slip_kernel(x: RealArray, t: RealArray) -> RealArray:
-    """(K - E)/(k²t²)."""
-    return elliptic_ratio((x / t) ** 2) / t**2
 
 
 class _Punch:

@@ -43,15 +43,14 @@ LOWEST, HIGHEST = -40.0, 37.0
 
 
 @dataclass(frozen=True)
-class SphericalSummits(SeparationTheory):
-    """Base of theories of independent summits of one radius: equations of ``GreenwoodWilliamson``."""
+class _RandomHeights(SeparationTheory):
+    """Base of theories of summits of one radius and of random heights."""
 
     E_star: Modulus
     density: SummitDensity
     radius: SummitRadius
     height_deviation: HeightDeviation
     mean_height: MeanHeight = 0.0
-    limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS)
 
     @property
     def heights(self) -> SummitHeights:
@@ -59,18 +58,31 @@ class SphericalSummits(SeparationTheory):
         return GaussianHeights()
 
     @property
-    def pressure_unit(self) -> float:
-        """η R σ_s E* (σ_s/R)^(1/2) in Pa, the unit of the dimensionless pressure P_a."""
-        return self.density * self.radius * self.height_deviation * self.E_star * math.sqrt(self.roughness_ratio)
-
-    @property
     def roughness_ratio(self) -> float:
-        """σ_s/R."""
+        """σ_s over the radius."""
         return self.height_deviation / self.radius
 
     def standardised(self, separation: RealArray) -> RealArray:
         """D at ``separation`` in m, in the coordinate of the distribution of heights."""
         return np.asarray((separation - self.mean_height) / self.height_deviation + self.heights.mean)
+
+    @property
+    def _ends(self) -> tuple[float, float, float]:
+        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
+        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
+        return low, high, self.height_deviation
+
+
+@dataclass(frozen=True)
+class SphericalSummits(_RandomHeights):
+    """Base of theories of independent summits of one radius: equations of ``GreenwoodWilliamson``."""
+
+    limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS)
+
+    @property
+    def pressure_unit(self) -> float:
+        """η R σ_s E* (σ_s/R)^(1/2) in Pa, the unit of the dimensionless pressure P_a."""
+        return self.density * self.radius * self.height_deviation * self.E_star * math.sqrt(self.roughness_ratio)
 
     def borne(self, separation: RealArray) -> RealArray:
         """Pressure in Pa that the summits carry at ``separation`` in m, of any shape."""
@@ -83,12 +95,6 @@ class SphericalSummits(SeparationTheory):
     def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
         D, share = self.standardised(h), math.pi * self.density * self.radius * self.height_deviation
         return share * self.heights.tail_moment(D, 1.0), self.density * self.heights.tail_moment(D, 0.0)
-
-    @property
-    def _ends(self) -> tuple[float, float, float]:
-        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
-        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
-        return low, high, self.height_deviation
 
 
 @dataclass(frozen=True)
@@ -368,7 +374,7 @@ def separation_at_plastic_onset(psi: float, share: float = NOTICEABLE, *, beyond
 
 
 @dataclass(frozen=True)
-class GreenwoodTripp(SeparationTheory):
+class GreenwoodTripp(_RandomHeights):
     """Two surfaces, each with paraboloidal summits of the same radius and density, at random relative positions.
 
     With the sum of two summit heights of standard deviation σ_s and D = (h - z̄_s)/σ_s, averaged over the misalignment
@@ -406,26 +412,15 @@ class GreenwoodTripp(SeparationTheory):
         """η β σ_s."""
         return self.density * self.radius * self.height_deviation
 
-    @property
-    def roughness_ratio(self) -> float:
-        """σ_s/β."""
-        return self.height_deviation / self.radius
-
-    @property
-    def _ends(self) -> tuple[float, float, float]:
-        ends = (LOWEST, min(HIGHEST, self.heights.support[1]))
-        low, high = (self.mean_height + self.height_deviation * (D - self.heights.mean) for D in ends)
-        return low, high, self.height_deviation
-
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
-        D = (h - self.mean_height) / self.height_deviation + self.heights.mean
+        D = self.standardised(h)
         unit = 16.0 * math.sqrt(2.0) * math.pi / 15.0 * self._crowding**2 * self.E_star
         unit *= math.sqrt(self.roughness_ratio)
         slope = 2.5 * unit / self.height_deviation * self.heights.tail_moment(D, 1.5)
         return unit * self.heights.tail_moment(D, 2.5), slope
 
     def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
-        D = (h - self.mean_height) / self.height_deviation + self.heights.mean
+        D = self.standardised(h)
         pairs = 4.0 * math.pi * self.density * self._crowding
         return (math.pi * self._crowding) ** 2 * self.heights.tail_moment(D, 2.0), pairs * self.heights.tail_moment(
             D, 1.0

@@ -27,11 +27,20 @@ Outer = Annotated[Length, "radius of the hole or cavity R2, larger than R1"]
 _ARC = small_slope("contact radius over radius of the inner body", lambda theory, answer: answer.radius / theory.inner)
 
 
-def _require_clearance(inner: float, outer: float) -> None:
-    if not outer > inner:
-        raise InputError(
-            f"radius of the hole (m) must be larger than that of the body in it, {inner:g} m, but is {outer:g} m."
-        )
+@dataclass(frozen=True)
+class _InHole(Theory):
+    """Base of theories of a body in a hole that is larger."""
+
+    E_star: Modulus
+    inner: Inner
+    outer: Outer
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.outer > self.inner:
+            raise InputError(
+                f"radius of the hole (m) must be larger than that of the body in it, {self.inner:g} m, but is {self.outer:g} m."
+            )
 
 
 # Exact circular profiles on half-planes (Steuermann 1939; Johnson 1985, secs. 5.3 and 2.7): the gap is
@@ -39,7 +48,7 @@ def _require_clearance(inner: float, outer: float) -> None:
 
 
 @dataclass(frozen=True)
-class CylinderInHole(Theory):
+class CylinderInHole(_InHole):
     """Cylinder in a hole, both as half-planes, with the elliptic integrals K and E of the moduli k = a/R:
 
         P = E* (R_1 (K(k_1) - E(k_1)) - R_2 (K(k_2) - E(k_2))),  k_1 = a/R_1,  k_2 = a/R_2.
@@ -47,18 +56,11 @@ class CylinderInHole(Theory):
     What Hertz's parabolas leave out of the profile; what the half-planes leave out of the compliance is in ``PinInHole``.
     """
 
-    E_star: Modulus
-    inner: Inner
-    outer: Outer
     name: ClassVar[str] = "cylinder-in-hole"
     title: ClassVar[str] = "Steuermann, cylinder in a hole"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985", "Steuermann1939")
     limits: ClassVar[tuple[Bound, ...]] = (_ARC,)
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        _require_clearance(self.inner, self.outer)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N/m, >= 0, of any shape.
@@ -112,7 +114,7 @@ class CylinderInHole(Theory):
 
 
 @dataclass(frozen=True)
-class SphereInCavity(Theory):
+class SphereInCavity(_InHole):
     """Sphere in a spherical cavity with the exact profiles of both, as half-spaces: the difference of two ``SphericalIndenter``.
 
         δ = a (artanh(a/R_1) - artanh(a/R_2)).
@@ -120,17 +122,10 @@ class SphereInCavity(Theory):
     Goodman and Keer (1965) treated sphere and cavity as such, which has no closed form.
     """
 
-    E_star: Modulus
-    inner: Inner
-    outer: Outer
     name: ClassVar[str] = "sphere-in-cavity"
     title: ClassVar[str] = "Sphere in a cavity"
     citation_keys: ClassVar[tuple[str, ...]] = ("Sneddon1965", "Steuermann1939")
     limits: ClassVar[tuple[Bound, ...]] = (_ARC,)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        _require_clearance(self.inner, self.outer)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
         """The contact under ``load`` in N, >= 0, of any shape. InputError if it needs more than 0.999 of the inner radius."""
@@ -163,7 +158,7 @@ class SphereInCavity(Theory):
 
 
 @dataclass(frozen=True)
-class PinInHole(Theory):
+class PinInHole(_InHole):
     """Disc in the hole of an infinite plate of the same material, exactly.
 
         2 E* ΔR/P = (2 - ln(1 + b²) - 2 b⁴)/(π b² (1 + b²)),  b = tan(ε/2).
@@ -172,9 +167,6 @@ class PinInHole(Theory):
     far away in the plate. Without clearance the arc is 84.9° wide to each side whatever the load.
     """
 
-    E_star: Modulus
-    inner: Inner
-    outer: Outer
     name: ClassVar[str] = "pin-in-hole"
     title: ClassVar[str] = "Persson, pin in a hole"
     citation_keys: ClassVar[tuple[str, ...]] = ("Ciavarella2001", "Persson1964")
@@ -182,10 +174,6 @@ class PinInHole(Theory):
     numbers: ClassVar[tuple[Quantity, ...]] = (
         Quantity("largest_angle", "rad", "half-angle of contact that no load exceeds"),
     )
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        _require_clearance(self.inner, self.outer)
 
     @property
     def largest_angle(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
@@ -11,12 +11,15 @@ from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.values import Length
-from ..ask import LINE_LOAD, Way
+from ...core.errors import InputError
+from ...core.quantity import Quantity
+from ...core.values import Angle, Length, Number
+from ..ask import BY_CONTACT, LINE_LOAD, Way
 from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, bisected, checked, small_slope
 
 RadiusX: TypeAlias = Annotated[Length, "relative radius of curvature along x"]
 RadiusY: TypeAlias = Annotated[Length, "relative radius of curvature along y"]
+PrincipalRadius: TypeAlias = Annotated[float, Number("length", infinite=True)]
 
 # Hertz's point contact of two paraboloids of revolution (Hertz 1882; Johnson 1985, sec. 4.2).
 
@@ -185,6 +188,18 @@ def axis_ratio(curvature_ratio: ArrayLike) -> RealArray:
     return np.exp(-bisected(excess, np.zeros_like(target), target))
 
 
+@dataclass(frozen=True, eq=False)
+class EllipseAnswer(ContactAnswer):
+    """Elliptical contacts with their semi-axes along x and y, ``semi_x`` and ``semi_y`` in m."""
+
+    semi_x: RealArray
+    semi_y: RealArray
+
+
+_BY_LOAD = BY_CONTACT[0]
+_SEMI_X, _SEMI_Y = (Quantity(f"semi_{axis}", "m", f"semi-axis of the contact along {axis}") for axis in "xy")
+
+
 @dataclass(frozen=True)
 class HertzEllipse(Theory):
     """Frictionless elastic contact of bodies whose gap before loading is x²/2Rx + y²/2Ry.
@@ -192,6 +207,7 @@ class HertzEllipse(Theory):
         p = p_0 sqrt(1 - x²/a² - y²/b²),  p_0 = 3 P/(2 π a b),  δ = p_0 b K(e)/E*,  e² = 1 - b²/a².
 
     a is the larger semi-axis, which lies along the axis of the larger radius, K the complete elliptic integral.
+    ``HertzBodies`` makes it from the principal radii of both bodies.
     """
 
     E_star: Modulus
@@ -203,6 +219,7 @@ class HertzEllipse(Theory):
     limits: ClassVar[tuple[Bound, ...]] = (
         small_slope("semi-axis over radius of curvature", lambda theory, answer: theory.steepest(answer.load)),
     )
+    ways: ClassVar[tuple[Way, ...]] = (replace(_BY_LOAD, columns=(*_BY_LOAD.columns, _SEMI_X, _SEMI_Y)),)
 
     @property
     def eccentricity(self) -> float:
@@ -210,7 +227,7 @@ class HertzEllipse(Theory):
         ratio = self._axis_ratio
         return float(np.sqrt((1.0 - ratio) * (1.0 + ratio)))
 
-    def at_load(self, load: ArrayLike) -> ContactAnswer:
+    def at_load(self, load: ArrayLike) -> EllipseAnswer:
         """The contact under ``load`` in N, >= 0, of any shape."""
         from scipy.special import ellipkm1
 
@@ -222,7 +239,8 @@ class HertzEllipse(Theory):
         approach = p0 * b * ellipkm1(self._axis_ratio**2) / self.E_star
         with np.errstate(invalid="ignore"):
             stiffness = np.where(P > 0.0, 1.5 * P / approach, 0.0)  # P rises like δ^(3/2)
-        return ContactAnswer(P, approach, np.sqrt(a * b), area, p0, stiffness)
+        along = (a, b) if self.radius_x >= self.radius_y else (b, a)
+        return EllipseAnswer(P, approach, np.sqrt(a * b), area, p0, stiffness, *along)
 
     def semi_axes(self, load: ArrayLike) -> tuple[RealArray, RealArray]:
         """Semi-axes of the contact along x and y in m under ``load`` in N, >= 0, of any shape."""
@@ -252,6 +270,101 @@ class HertzEllipse(Theory):
         ratio, flattest = self._axis_ratio, max(self.radius_x, self.radius_y)
         a: RealArray = np.cbrt(P * flattest * elliprd(0.0, ratio**2, 1.0) / (np.pi * self.E_star))
         return a, ratio * a
+
+
+@dataclass(frozen=True)
+class HertzBodies(Theory):
+    """Frictionless elastic contact of two bodies by their four principal radii, whose planes x are turned by the angle α.
+
+    A relative radius R of the gap is that of the curvatures 1/R = 1/2 (S ± D) with
+
+        S = 1/R_1x + 1/R_1y + 1/R_2x + 1/R_2y,  D² = d_1² + d_2² + 2 d_1 d_2 cos 2α,  d_i = 1/R_ix - 1/R_iy,
+
+    and the contact is that of ``HertzEllipse``. Radii are positive where a body is convex, negative where it is hollow and infinite
+    where it is straight.
+
+    Examples
+    --------
+    Two crossed cylinders of equal radii touch in a circle:
+
+    >>> rods = HertzBodies(100e9, radius_1x=math.inf, radius_1y=0.01, radius_2x=math.inf, radius_2y=0.01, angle=math.pi / 2)
+    >>> f"{rods.radius_x:.4f} m, {rods.radius_y:.4f} m"
+    '0.0100 m, 0.0100 m'
+    """
+
+    E_star: Modulus
+    radius_1x: Annotated[PrincipalRadius, "radius of the first body in its plane x; inf where it is straight"]
+    radius_1y: Annotated[PrincipalRadius, "radius of the first body in its plane y; inf where it is straight"]
+    radius_2x: Annotated[PrincipalRadius, "radius of the second body in its plane x; inf where it is straight"]
+    radius_2y: Annotated[PrincipalRadius, "radius of the second body in its plane y; inf where it is straight"]
+    angle: Annotated[Angle, "angle from the plane x of the first body to that of the second"] = 0.0
+    name: ClassVar[str] = "hertz-bodies"
+    title: ClassVar[str] = "Hertz, two bodies by their principal radii"
+    citation_keys: ClassVar[tuple[str, ...]] = HertzEllipse.citation_keys
+    limits: ClassVar[tuple[Bound, ...]] = (
+        small_slope("semi-axis over radius of curvature", lambda theory, answer: theory.ellipse.steepest(answer.load)),
+    )
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("radius_x", "m", "larger relative radius of curvature, that along the larger semi-axis"),
+        Quantity("radius_y", "m", "smaller relative radius of curvature"),
+        Quantity("turn", "rad", "angle from the plane x of the first body to the larger semi-axis"),
+    )
+    ways: ClassVar[tuple[Way, ...]] = (
+        replace(
+            _BY_LOAD,
+            columns=(
+                *_BY_LOAD.columns,
+                replace(_SEMI_X, label="larger semi-axis of the contact"),
+                replace(_SEMI_Y, label="smaller semi-axis of the contact"),
+            ),
+        ),
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        radii = (self.radius_1x, self.radius_1y, self.radius_2x, self.radius_2y)
+        if 0.0 in radii:
+            raise InputError("principal radii (m) must not be zero, but one is. Write inf where a body is straight.")
+        flat, steep, _ = self._curvatures
+        # what rounding leaves of two equal curvatures is none
+        if not flat > 1e-12 * sum(abs(1.0 / radius) for radius in radii):
+            raise InputError(
+                "principal radii (m) must leave a gap that opens in all directions, but its curvatures are "
+                f"{flat:.4g} and {steep:.4g} 1/m. A line contact is that of HertzLine; a hollow body must be wider than the one in it."
+            )
+
+    @property
+    def _curvatures(self) -> tuple[float, float, float]:
+        """Smaller and larger curvature of the gap in 1/m, and the angle of the plane of the smaller one."""
+        first, second = 1.0 / self.radius_1x - 1.0 / self.radius_1y, 1.0 / self.radius_2x - 1.0 / self.radius_2y
+        along, across = first + second * math.cos(2.0 * self.angle), second * math.sin(2.0 * self.angle)
+        total = 1.0 / self.radius_1x + 1.0 / self.radius_1y + 1.0 / self.radius_2x + 1.0 / self.radius_2y
+        difference = math.hypot(along, across)
+        return 0.5 * (total - difference), 0.5 * (total + difference), 0.5 * math.atan2(-across, -along)
+
+    @property
+    def radius_x(self) -> float:
+        """Larger relative radius in m."""
+        return 1.0 / self._curvatures[0]
+
+    @property
+    def radius_y(self) -> float:
+        """Smaller relative radius in m."""
+        return 1.0 / self._curvatures[1]
+
+    @property
+    def turn(self) -> float:
+        """Angle in rad, above -π/2 and up to π/2, from the plane x of the first body to the larger semi-axis."""
+        return self._curvatures[2]
+
+    @property
+    def ellipse(self) -> HertzEllipse:
+        """The same in the principal planes of the gap, its larger radius along x."""
+        return HertzEllipse(self.E_star, self.radius_x, self.radius_y)
+
+    def at_load(self, load: ArrayLike) -> EllipseAnswer:
+        """The contact under ``load`` in N, >= 0, of any shape; ``semi_x`` is the larger semi-axis."""
+        return self.ellipse.at_load(load)
 
 
 # Hertz contact of a summit with two curvatures (Johnson 1985, eq. 4.26-4.30), without solving for the ellipse.

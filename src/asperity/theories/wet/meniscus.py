@@ -86,7 +86,9 @@ def droplet_force(
     sphere is immersed by d in m (case B, Bhushan 1998, fig. 35).
     """
     apart = require.not_negative(gap, "gap of sphere and flat (m)")
-    return _touching(radius, surface_tension, wetting) / (1.0 + apart / immersion)
+    gamma = require.positive(surface_tension, "surface tension (N/m)")
+    touching = 2.0 * math.pi * require.positive(radius, "radius of the sphere (m)") * gamma * wetting
+    return touching / (1.0 + apart / immersion)
 
 
 def film_force(
@@ -97,12 +99,7 @@ def film_force(
     ``angle`` θ in rad on the sphere, ``gap`` D and meniscus ``height`` s in m (case C, Bhushan 1998, fig. 35).
     """
     apart = require.not_negative(gap, "gap of sphere and flat (m)")
-    return _touching(radius, surface_tension, wetting_factor(angle)) * max(0.0, 1.0 - apart / height)
-
-
-def _touching(radius: float, surface_tension: float, wetting: float) -> float:
-    gamma = require.positive(surface_tension, "surface tension (N/m)")
-    return 2.0 * math.pi * require.positive(radius, "radius of the sphere (m)") * gamma * wetting
+    return droplet_force(radius, surface_tension, wetting_factor(angle)) * max(0.0, 1.0 - apart / height)
 
 
 # Growth of a meniscus that draws liquid from the surrounding film, up to equilibrium with the disjoining pressure.
