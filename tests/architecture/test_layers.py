@@ -29,7 +29,8 @@ ROOMS = {"part": "parts", "work": "parts", "figures": "plots", "files": "io"}
 """Folder of whose layer a file in the folder of a physics is, by the beginning of its name; all others are of ``physics`` itself."""
 
 NAMED = {
-    "asperity.contact.known": "names of the physics and of what they found with their types, which only type checkers read",
+    "asperity.contact.known": "names of the physics with their types, which only type checkers read",
+    "asperity.contact.found": "names of what the physics found with their types, which only type checkers read",
 }
 """Modules that may import upwards, each with its reason."""
 

@@ -28,7 +28,8 @@ TABLES = {
     "core/registry.py": "the list of all",
     "core/citations.py": "papers by their names",
     "theories/catalogue.py": "all theories",
-    "contact/known.py": "names of the physics and of what they found with their types",
+    "contact/known.py": "names of the physics with their types",
+    "contact/found.py": "names of what the physics found with their types",
 }
 """Files that name several physics, each with its reason."""
 

@@ -25,7 +25,7 @@ from .controls import Control
 from .couplings.protocol import Contact, Deflections, Memory
 from .edge_tables import PATCHES, WAVES
 from .edges import Edges, Kind, RealArea, Setting, edges_of, real_area
-from .known import ResultNames
+from .found import ResultNames
 from .operators import Operator, prepare_operator
 from .peak_pressure import PeakPressure, peak_pressure
 from .problem import ContactProblem
