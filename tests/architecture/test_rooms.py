@@ -30,7 +30,6 @@ TABLES = {
     "theories/catalogue.py": "all theories",
     "contact/known.py": "names of the physics with their types",
     "contact/found.py": "names of what the physics found with their types",
-    "io/format2.py": "reads files that were written before there was a codec",
 }
 """Files that name several physics, each with its reason."""
 

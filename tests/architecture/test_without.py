@@ -22,12 +22,11 @@ PHYSICS = tuple(sorted(path.parent.name for path in ROOT.glob("physics/*/__init_
 """Folders."""
 
 ONLY_FOR = {
-    "asperity.io.format2": ("adhesion", "friction", "menisci", "plastic_flow", "viscoelastic"),
     "asperity.run.tractions": ("stress",),
     "asperity.report.tractions": ("stress",),
     "asperity.report.animation": ("indentation", "plastic_flow"),
 }
-"""Modules outside the folders that serve some physics alone: older files that name all of their time, loads without a contact, pictures of plastic zones."""
+"""Modules outside the folders that serve some physics alone: loads without a contact, pictures of plastic zones."""
 
 NOT_YET = {
     "asperity.cli.results": "the command `stress` stands beside those on all results",

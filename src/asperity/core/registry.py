@@ -176,6 +176,18 @@ ANSWERS = (
 )
 """Where the types of what couplings of this package find stand, for files."""
 
+OLDER: Mapping[str, str] = MappingProxyType(
+    {
+        "adhesion": "physics.adhesion.files:older",
+        "menisci": "physics.menisci.files:older",
+        "sliding": "physics.friction.files:older_sliding",
+        "stick_slip": "physics.friction.files:older_stick_slip",
+        "creep": "physics.viscoelastic.files:older",
+        "plastic_flow": "physics.plastic_flow.files:older",
+    }
+)
+"""Where what a coupling found, by its name, is read from files of format 2, which were written until the codec."""
+
 RESULTS: Mapping[str, Kept] = MappingProxyType(
     {
         "field": Kept(

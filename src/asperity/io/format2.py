@@ -7,30 +7,22 @@ and of states of finite elements stayed so for a while in files of format 3.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
-from typing import Any, get_type_hints
+from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 
 from ..contact.certificate import Certificate
+from ..contact.couplings.protocol import Memory
 from ..contact.history import HistoryResult
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..contact.state import InterfaceState
-from ..core.registry import RESULTS, home
+from ..core.registry import OLDER, RESULTS, home
 from ..core.status import Outcome, Status
 from ..fem.contact import Equilibrium
 from ..fem.history import PlasticZone
-from ..physics.adhesion.answer import AdhesiveContact
-from ..physics.adhesion.law import Adhesion
-from ..physics.friction.answer import StickSlip
-from ..physics.friction.law import Coulomb, FrictionLaw
-from ..physics.friction.sliding import GrossSliding
-from ..physics.menisci.coupling import Menisci
-from ..physics.menisci.film import wetting
-from ..physics.plastic_flow.coupling import found_in
-from ..physics.viscoelastic.moments import COLUMNS, Creeping
 from ..solids.plasticity import PlasticState
 from .contacts import EARLIER, fields_in, problem_in
 from .description import rebuild
@@ -42,20 +34,36 @@ from .words import FIELDS
 _CHECKS = ("couplings", "rounds", "complementarity", "pressure_error")
 """Entries of the certificate that older files lack, written as JSON texts."""
 
-_STICK_SLIP, _ADHESION, _CREEP, _FLOW = "stick_slip", "adhesion", "creep", "plastic_flow"
-"""Couplings."""
 
-_VECTORS = ("traction", "slip_increment", "slip", "tangential_displacement")
-"""Fields of stick and slip whose components along x and y stood apart."""
+class Older(NamedTuple):
+    """What a file holds of a contact or of one step of a load path, for those who know what their couplings found in it.
 
-_SHEAR = ("tangential", "status", "law", *_VECTORS)
+    Attributes
+    ----------
+    problem
+        What was solved.
+    values
+        Fields, numbers and texts by name, those of a group of its own after the name of the group.
+    rows
+        Rows of a contact or step by the names of their counts and of the variable.
+    memory
+        What couplings remember, where that is known by their names: of a contact, and of the last step.
+    past
+        What relaxing bodies remember after a step before the last; None if it is not there.
+    """
 
-_LATER = ("shear_work", "missed", "explained", "largest_work")
-"""Numbers of viscoelastic steps that older files do not hold."""
+    problem: ContactProblem
+    values: Mapping[str, Any]
+    rows: Callable[[str, str], Any]
+    memory: Mapping[str, Memory]
+    past: Memory | None = None
 
-_POINTS = ("points", "plastic_strain", "back_stress", "accumulated")
-_EACH = ("lift", "first", "work", "step_work", "energy", "iterations")
-"""Memory of plastic flow: what is as long as there are points, and what every step has one of."""
+
+def _found_in(at: Older) -> tuple[dict[str, Any], dict[str, Memory]]:
+    """What the couplings found and what follows from it for their memories, by their names."""
+    told = {name: found for name, place in OLDER.items() if (found := home(place)(at)) is not None}
+    memories = {name: memory for name, (_, memory) in told.items() if memory is not None}
+    return {name: answer for name, (answer, _) in told.items()}, memories
 
 
 def contact_in(groups: Mapping[str, Node]) -> ContactResult:
@@ -66,18 +74,16 @@ def contact_in(groups: Mapping[str, Node]) -> ContactResult:
     KeyError, ValueError
         If something is missing, or contradicts itself.
     """
-    node, film, memory, shear, creep = (groups.get(n) for n in ("contact", "film", "memory", _STICK_SLIP, _CREEP))
-    assert node is not None
+    node, memory = groups["contact"], groups.get("memory")
     attributes, arrays = node.attributes, fields_in(node)
     problem, control = problem_in(node, arrays)
-    numbers = None if film is None or "menisci" not in film.attributes else film.attributes["menisci"]
-    couplings = _couplings(problem, arrays, numbers, attributes.get("adhesion_found")) | _creep_in(creep)
     memories = {} if memory is None else {name: _memory(child) for name, child in memory.children.items()}
-    if problem.plastic_flow is not None:
-        couplings[_FLOW] = found_in(problem, memories.get(_FLOW, {}))
-    if shear is not None and problem.friction is not None:
-        stored = {**shear.attributes, **{item.quantity.name: item.values for item in shear.values}}
-        couplings[_STICK_SLIP] = _shear(stored, problem.friction)
+    values = {item.quantity.name: item.values for item in node.values} | arrays
+    values |= {key: text for key, text in attributes.items() if key.endswith("_found")}
+    for name, group in groups.items():
+        more = {item.quantity.name: item.values for item in group.values} | dict(group.attributes)
+        values |= {f"{name}_{key}": value for key, value in more.items() if group is not node}
+    couplings, following = _found_in(Older(problem, values, lambda counts, name: values[name], memories))
     found = ContactResult(
         problem=problem,
         control=control,
@@ -86,7 +92,7 @@ def contact_in(groups: Mapping[str, Node]) -> ContactResult:
         status=status_in(attributes),
         citation_keys=tuple(attributes["citation_keys"].split()),
         couplings=couplings,
-        memory=memories | _following(couplings, arrays["gap"], float(node["approach"])),
+        memory=memories | following,
         earlier=arrays.get(EARLIER.name),
         **dict[str, Any]((item.name, arrays[item.name]) for item in FIELDS),
         **scalars_in({item.quantity.name: item.values for item in node.values}),
@@ -102,15 +108,17 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
         memory = {name: _memory(child) for name, child in node.children["start"].children.items()}
         start = InterfaceState(node["start_pressure"], memory, node.get("start_earlier"))
     before = None if start is None or not start.pressure.any() else start.pressure
+    pasts = {name: _memory(child) for name, child in node.children.get("pasts", Node()).children.items()}
     for step in range(count):
         at = {item.quantity.name: item.values[step] for item in node.values if item.quantity.dims[:1] == ("step",)}
-        couplings, friction = _couplings(last.problem, at, at.get("menisci"), at.get(_ADHESION)), last.problem.friction
-        if "stick_slip_tangential" in at and friction is not None:
-            couplings[_STICK_SLIP] = _shear(at, friction, "stick_slip_")
-        flow = _flow(node, at, step)
-        couplings |= _creep_at(node, at, step)
-        if last.problem.plastic_flow is not None:
-            couplings[_FLOW] = found_in(last.problem, flow.get(_FLOW, {}))
+
+        def rows(counts: str, name: str, step: int = step) -> Any:
+            end = int(np.asarray(node[counts])[: step + 1].sum())
+            return np.asarray(node[name])[end - int(node[counts][step]) : end]
+
+        known = last.memory if step == count - 1 else {}
+        couplings, following = _found_in(Older(last.problem, at, rows, known, pasts.get(f"step_{step}")))
+        memories = json.loads(at["memory"]).items()  # but for what fields are kept of
         result = replace(
             last,
             control=rebuild(json.loads(at["control"])),
@@ -120,10 +128,8 @@ def path_from(node: Node, last: ContactResult) -> HistoryResult:
             ),
             status=status_in(at),
             couplings=couplings,
-            memory=_memories(at["memory"])
-            | flow
-            | _following(couplings, at["gap"], float(at["approach"]))
-            | ({_CREEP: last.memory[_CREEP]} if _CREEP in couplings and step == count - 1 else _past(node, step)),
+            memory={name: {key: np.asarray(value) for key, value in each.items()} for name, each in memories}
+            | following,
             earlier=before,
             **{item.name: at[item.name] for item in FIELDS},
             **scalars_in(at),
@@ -141,102 +147,9 @@ def _certificate(attributes: Mapping[str, Any]) -> Certificate:
     return Certificate(**found)
 
 
-def _couplings(
-    problem: ContactProblem, arrays: Mapping[str, Any], numbers: str | None, text: str | None
-) -> dict[str, Any]:
-    """What the couplings found, from the fields of a contact, the ``numbers`` of its menisci and the ``text`` of its adhesion."""
-    law = problem.adhesion
-    found: dict[str, Any] = {} if law is None or text is None else {_ADHESION: _adhesion(arrays, law, str(text))}
-    if problem.film is not None and numbers is not None:
-        contact = arrays["pressure"] > 0.0
-        stands = wetting(arrays["gap"], contact, problem.film, wraps=problem.boundary.wraps)
-        stored = {name: rebuild(value) for name, value in json.loads(numbers).items()}
-        found["menisci"] = Menisci(problem.film, stands, **stored)
-    friction = problem.friction
-    if isinstance(friction, Coulomb) and "shear_displacement" in arrays:
-        found["sliding"] = GrossSliding(friction.coefficient, friction.direction, arrays["shear_displacement"])
-    return found
-
-
-def _adhesion(source: Mapping[str, Any], law: Adhesion, text: str) -> AdhesiveContact:
-    """Adhesion of a group or a step, whose variables are ``source``, from its ``text``."""
-    numbers = {key: rebuild(value) for key, value in json.loads(text).items()}
-    ended = numbers.pop("status")
-    status = Status(Outcome(ended[0]), ended[1], ended[2])
-    return AdhesiveContact(law=law, attraction=np.asarray(source["attraction"]), status=status, **numbers)
-
-
-def _following(couplings: Mapping[str, Any], gap: Any, approach: float) -> dict[str, Any]:
-    """Memories that follow from what the couplings found, and from the ``gap`` (nx, ny) and the ``approach`` in m."""
-    found = {_STICK_SLIP: couplings[_STICK_SLIP].memory} if _STICK_SLIP in couplings else {}
-    return found | ({_ADHESION: couplings[_ADHESION].memory(gap, approach)} if _ADHESION in couplings else {})
-
-
-def _shear(source: Mapping[str, Any], law: FrictionLaw, prefix: str = "") -> StickSlip:
-    """Stick and slip from the variables of a group, or of one step of a history, by name."""
-    found: dict[str, Any] = {name: np.stack([source[f"{prefix}{name}_{axis}"] for axis in "xy"]) for name in _VECTORS}
-    for item in fields(StickSlip):
-        if item.name not in _SHEAR:
-            value = np.asarray(source[f"{prefix}{item.name}"])
-            found[item.name] = value if value.ndim else value.item()
-    ended = [str(source[f"{prefix}status_{name}"]) for name in ("outcome", "message", "remedy")]
-    tangential = rebuild(json.loads(str(source[f"{prefix}tangential"])))
-    return StickSlip(law=law, tangential=tangential, status=Status(Outcome(ended[0]), ended[1], ended[2]), **found)
-
-
-def _creep_in(node: Node | None) -> dict[str, Any]:
-    """What happened in time, by the name of the coupling, from its group."""
-    if node is None:
-        return {}
-    values = {item.quantity.name: item.values for item in node.values}
-    records = np.stack([np.asarray(values[item.name]) for item in COLUMNS], axis=1)
-    return {_CREEP: _creeping(records, values, "")}
-
-
-def _creep_at(node: Node, at: Mapping[str, Any], step: int) -> dict[str, Any]:
-    """The same of one ``step`` of a history, from its group and what it holds ``at`` that step."""
-    if "creep_moments" not in at:
-        return {}
-    ends = np.cumsum(node["creep_moments"])
-    rows = slice(int(ends[step] - at["creep_moments"]), int(ends[step]))
-    records = np.stack([np.asarray(node[f"creep_{item.name}"])[rows] for item in COLUMNS], axis=1)
-    return {_CREEP: _creeping(records, at, "creep_")}
-
-
-def _creeping(records: Any, values: Mapping[str, Any], prefix: str) -> Creeping:
-    names = [item.name for item in fields(Creeping) if item.name not in ("records", "retarded_displacement")]
-    there = [name for name in names if name not in _LATER or f"{prefix}step_{name}" in values]
-    numbers: dict[str, Any] = {name: np.asarray(values[f"{prefix}step_{name}"]).item() for name in there}
-    return Creeping(records, np.asarray(values[f"{prefix}retarded_displacement"]), **numbers)
-
-
-def _past(node: Node, step: int) -> dict[str, Any]:
-    """What relaxing bodies remember after one ``step`` of the history in a group, by the name of the coupling; nothing if it is not there."""
-    pasts = node.children.get("pasts", Node()).children
-    name = f"step_{step}"
-    return {_CREEP: _memory(pasts[name])} if name in pasts else {}
-
-
-def _flow(node: Node, at: Mapping[str, Any], step: int) -> dict[str, Any]:
-    """Memory of plastic flow, by the name of the coupling, after one ``step`` of a history, from its group and what it holds ``at`` that step."""
-    if not at.get("plastic_flow_points_count"):
-        return {}
-    found: dict[str, Any] = {name: np.asarray(at[f"plastic_flow_{name}"]) for name in _EACH}
-    for name in (*_POINTS, "edges"):
-        counts = np.asarray(node[f"plastic_flow_{'edges' if name == 'edges' else 'points'}_count"])
-        end = int(counts[: step + 1].sum())
-        found[name] = np.asarray(node[f"plastic_flow_{name}"])[end - int(counts[step]) : end]
-    return {_FLOW: found}
-
-
 def _memory(node: Node) -> dict[str, Any]:
     """Named arrays of a group."""
     return {item.quantity.name: np.asarray(item.values) for item in node.values}
-
-
-def _memories(text: str) -> dict[str, Any]:
-    """Memories of the couplings, but for what fields are kept of, from JSON."""
-    return {key: {name: np.asarray(value) for name, value in item.items()} for key, item in json.loads(text).items()}
 
 
 # Rolling contacts and states of finite elements.

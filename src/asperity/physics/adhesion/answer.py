@@ -221,7 +221,7 @@ class AdhesiveContact(Answer, Shown):
     @property
     def radius_needed(self) -> float:
         """Pixels that the radius of spots with their zone must span for the same; zero without a range."""
-        return 0.0 if self.short_range else _pixels(self.law, RESOLVED_ZONE, STEP_RADIUS)
+        return 0.0 if self.short_range else pixels_in_length(self.law, RESOLVED_ZONE, STEP_RADIUS)
 
     @property
     def pixels_per_length(self) -> float:
@@ -254,13 +254,9 @@ class AdhesiveContact(Answer, Shown):
         return self.margin > 0.0
 
 
-def pixels_in_length(law: Adhesion) -> float:
-    """Pixels that the cohesive length of a ``law`` with a range must span."""
-    return _pixels(law, RESOLVED, STEP)
-
-
-def _pixels(law: Adhesion, least: float, most: float) -> float:
-    """Pixels that a ``law`` with a range needs, of those of a gentle fall and of a step: ``FALL`` over the share of the range in which it falls."""
+def pixels_in_length(law: Adhesion, least: float = RESOLVED, most: float = STEP) -> float:
+    """Pixels that the cohesive length of a ``law`` with a range must span, of those of a gentle fall and of a step: ``FALL`` over the share of the range in
+    which it falls."""
     return min(max(least, FALL * law.steepest * law.range / law.strength), most)
 
 

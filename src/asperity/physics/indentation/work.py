@@ -17,14 +17,14 @@ from ...fem.history import IndentationStep, SolidFields
 from ...fem.indent import Indentation, Load
 from ...fem.indenters import Cone, Paraboloid, beyond_small_strain
 from ...fem.mesh import Resolution
-from ...parts.part import Found, Rows, Solved, Stored, Words, Work
+from ...parts.part import Found, Rows, Solved, Words
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Layered, materials_of
 from ...solids.strength import flow_stress
 from ...theories.hardness.unloading import analyse_indentation
 from ..plastic_flow.figures import plots_of, step_label
-from ..plastic_flow.part_quantities import Detail, number_rows, tension_table, zones_table
+from ..plastic_flow.part_quantities import Detail, OfElements, number_rows, tension_table, zones_table
 from ..plastic_flow.work_values import (
     PlasticValues,
     inferred_strengths,
@@ -290,7 +290,7 @@ BERKOVICH_ANGLE = math.radians(70.3)
 """Half angle of the cone with the area of Berkovich's pyramid."""
 
 
-class IndentationWork(Work):
+class IndentationWork(OfElements):
     """An indenter in the body, by finite elements: what is done for it."""
 
     def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
@@ -344,14 +344,6 @@ class IndentationWork(Work):
                 f"{percent(float(values['indent_plastic_strain']))}, and {show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
             )
         return Words(sentence, [("hardness by indentation", hard)], rows, tables, (REMARK,))
-
-    def stored(self, found: Found) -> Stored:
-        """Names of layers, the fitted unloading and the table of zones."""
-        return Stored(facts=found.detail.facts)
-
-    def restored(self, stored: Stored, solved: Solved) -> Detail:
-        """The same again, without the run."""
-        return Detail(dict(stored.facts))
 
 
 KEYS = ("SimoTaylor1985", "Oliver1992")

@@ -12,7 +12,7 @@ from ...contact.problem import ContactProblem
 from ...core.status import Advice
 from ...core.units import percent, show
 from ...fem.indenters import LARGE_STRAIN, SMALL_SLOPE
-from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
+from ...parts.part import Found, Rows, Solved, Table, Words
 from ...plots.picture import Figure, figures_by
 from ...solids.elastic import Elastic
 from ...solids.layers import Layered, RigidBase
@@ -20,7 +20,7 @@ from ...solids.strength import flow_stress
 from ...theories.subsurface.point_shakedown import sphere_shakedown
 from ...theories.subsurface.shakedown import cylinder_shakedown
 from ..plastic_flow.figures import plots_of
-from ..plastic_flow.part_quantities import Detail, number_rows, tension_table, zones_table
+from ..plastic_flow.part_quantities import Detail, OfElements, number_rows, tension_table, zones_table
 from ..plastic_flow.work_values import (
     inferred_strengths,
     layer_names,
@@ -162,7 +162,7 @@ ONWARD = 0.1
 """Change of the plastic strain by a pass over its growth from which on strain adds up from pass to pass; below it cycles are closed."""
 
 
-class PassesWork(Work):
+class PassesWork(OfElements):
     """A cylinder or sphere that passes over the body again and again, by finite elements: what is done for it."""
 
     def check(self, ask: Passing, problem: ContactProblem) -> None:
@@ -221,14 +221,6 @@ class PassesWork(Work):
                 last, ratio = percent(float(values["pass_strain_growth"])), percent(float(values["pass_growth_ratio"]))
                 sentence = f"{start} {reached}; the last pass adds {last} in the middle of the track, {ratio} of the first: {ends}."
         return Words(sentence, [("repeated passes", ends)], rows, tables, (REMARK,))
-
-    def stored(self, found: Found) -> Stored:
-        """Names of layers, the motion and the table of zones."""
-        return Stored(facts=found.detail.facts)
-
-    def restored(self, stored: Stored, solved: Solved) -> Detail:
-        """The same again, without the run."""
-        return Detail(dict(stored.facts))
 
 
 KEYS = ("SimoTaylor1985", "Johnson1962", "Hearle1985")

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...core.quantity import Quantity
 from ...core.units import show
-from ...parts.part import Rows, Table
+from ...parts.part import Found, Rows, Solved, Stored, Table, Work
 
 CUT = (
     ("across", "m", "edges of the cells of the cut", "edge_across"),
@@ -51,6 +51,18 @@ class Detail:
 
     facts: Mapping[str, Any] = field(default_factory=dict)
     run: Any = None
+
+
+class OfElements(Work):
+    """What is done for a part by finite elements, whose ``Detail`` files keep without the run."""
+
+    def stored(self, found: Found) -> Stored:
+        """The facts."""
+        return Stored(facts=found.detail.facts)
+
+    def restored(self, stored: Stored, solved: Solved) -> Detail:
+        """The same again."""
+        return Detail(dict(stored.facts))
 
 
 def number_rows(scalars: Sequence[Quantity], values: Mapping[str, Any]) -> Rows:
