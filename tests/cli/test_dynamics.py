@@ -160,6 +160,19 @@ def test_a_law_of_few_pixels_is_refused(run: Runner, matrix: Path) -> None:
     assert done.exit_code != 0
 
 
+def test_loads_of_few_pixels_are_left_out_of_the_law() -> None:
+    """A path from a light load on gives the law of its loads from about twenty pixels on, and one of its own where those are too few."""
+    control = {"path": {"mean_pressure": ["1 MPa"], "steps": 40}}
+    outcome = asp.run(
+        PROBLEM | {"control": control, "dynamics": PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms"}}
+    )
+    steps = {step.mean_pressure: int(step.contact.sum()) for step in outcome.path.steps}
+    assert min(count for count in steps.values() if count) < 20
+    used = outcome.found["dynamics"].values["curve_pressure"]
+    assert used.size >= 8
+    assert all(steps[pressure] >= 20 for pressure in used)
+
+
 def test_ends_that_are_not_steady_are_findings() -> None:
     """Without damping the friction falls as the block hops: the spring relaxes through the whole window, at times that hang on rounding."""
     friction = {"coefficient": 0.5, "speed": "1 mm/s"}

@@ -7,7 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from cli.conftest import BODY, SCALE, Runner
+from cli.conftest import BODY, LOAD, SCALE, Runner
 from rich.console import Console
 
 import asperity as asp
@@ -61,6 +61,32 @@ def test_all_missing_options_are_named_at_once(run: Runner) -> None:
     assert (one.exit_code, "--out" in one.stderr) == (2, True)
 
 
+def test_what_a_spectrum_lacks_is_named_at_once_too(run: Runner) -> None:
+    """Its amplitude, one of three, with all else; alone if nothing else is missing."""
+    base = (
+        "generate",
+        "rough",
+        "--points",
+        "16",
+        "--size",
+        "1um",
+        "--seed",
+        "1",
+        "--spectrum",
+        "self-affine",
+        "--out",
+        "a.nc",
+    )
+    waves = ("--rolloff-wavelength", "1um", "--shortest-wavelength", "0.2um")
+    amplitudes = ("--rms-height", "--rms-slope", "--plateau")
+    for more, wanted in ((waves, ("--hurst", *amplitudes)), ((*waves, "--hurst", "0.8"), amplitudes)):
+        found = run(*base, *more)
+        assert found.exit_code == 2
+        assert all(name in found.stderr for name in wanted)
+        assert len(found.stderr.strip().splitlines()) == (3 if "--hurst" in wanted else 1)
+    assert "--plateau" not in run(*base, *waves, "--rms-height", "1nm").stderr
+
+
 def test_a_comma_before_the_decimals_is_answered_with_the_point(run: Runner, matrix: Path) -> None:
     for text, meant in (("0,5MPa", "'0.5MPa'"), (" -1,25 kPa", "'-1.25 kPa'"), (",5Pa", "'.5Pa'")):
         with pytest.raises(UnitError) as caught:
@@ -68,6 +94,9 @@ def test_a_comma_before_the_decimals_is_answered_with_the_point(run: Runner, mat
         assert meant in str(caught.value)
     found = run("contact", matrix, *SCALE, *BODY, "--pressure", "0,5MPa")
     assert (found.exit_code, "0.5MPa" in found.stderr) == (2, True)
+    for body, meant in (("E=200GPa,nu=0,3", "'0.3'"), ("E=0,2GPa,nu=0.3", "'0.2GPa'"), ("DLC:0,5um/steel", "'0.5um'")):
+        found = run("contact", matrix, *SCALE, "--body", body, *LOAD)
+        assert (found.exit_code, meant in found.stderr) == (2, True), found.stderr
 
 
 def test_generated_surfaces_state_the_slope_of_the_waves_beside_that_of_differences(

@@ -456,3 +456,44 @@ def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#]+)\)", page.read_text(encoding="utf-8")):
         if not target.startswith("http"):
             assert (page.parent / target).exists(), f"{page.name} links to {target}"
+
+
+@pytest.mark.parametrize("package", ["tamaas", "ContactMechanics"])
+def test_the_same_problem_in_other_packages(package, capsys):
+    """Where they are installed they give the pressures of asperity, with the numbers that the page states."""
+    pytest.importorskip(package, reason=f"{package} is not installed, whose pressures would be compared")
+    page = ROOT / "docs/reference/other-packages.md"
+    problem, ours, *scripts = blocks(page, "python")
+    names = {}
+    for code in (
+        problem,
+        ours,
+        next(code for code in scripts if f"{package} import" in code or f"import {package}" in code),
+    ):
+        exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    theirs = names["of_tamaas" if package == "tamaas" else "of_contact_mechanics"]
+    result = names["result"]
+    assert np.abs(theirs - result.pressure).max() < 2e-6 * result.max_pressure
+    assert np.array_equal(theirs > 0.0, result.contact)
+
+
+def test_the_same_problem_for_asperity_and_contact(tmp_path, monkeypatch, capsys):
+    """Pixels and pressure as stated; the file for CONTACT has a distance for each element, none of them negative, x first."""
+    monkeypatch.chdir(tmp_path)
+    page = ROOT / "docs/reference/other-packages.md"
+    problem, ours, *_, written = blocks(page, "python")
+    names = {}
+    for code in (problem, ours, written):
+        exec(compile(code, page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    result, text = names["result"], page.read_text(encoding="utf-8")
+    assert f"{int(result.contact.sum())} pixels touch" in text
+    assert f"{result.max_pressure / 1e9:.3f} GPa" in text
+    head, _, rest = (tmp_path / "cap.inp").read_text().partition("IBASE, IPLAN\n")
+    distance = np.array(rest.partition(" 0  MODULE")[0].split(), dtype=float)
+    assert "26315.789" in head
+    np.testing.assert_allclose(
+        distance.reshape(64, 64).T,
+        1e3 * np.ptp(names["heights"]) - 1e3 * (names["heights"] - names["heights"].min()),
+        atol=1e-12,
+    )
+    assert distance.min() == 0.0

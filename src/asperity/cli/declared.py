@@ -221,7 +221,7 @@ class Command(TyperCommand):
             if len(missing) < 2:
                 raise
             names = [
-                f"'{param.opts[0]}'" if param.param_type_name == "option" else str(param.human_readable_name)
+                f"'{param.opts[0]}'" if param.param_type_name == "option" else str(param.metavar or param.name)
                 for param in missing
             ]
             ctx.fail(f"Missing {', '.join(names[:-1])} and {names[-1]}")

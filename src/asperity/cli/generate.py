@@ -16,7 +16,7 @@ from ..core.settings import COMMAND_LINE, validated
 from ..core.units import parse, show
 from ..core.values import Choice, Number
 from ..io.atomic import require_new_files
-from ..io.schemas.surfaces import HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnySurface, FileSurface
+from ..io.schemas.surfaces import AMPLITUDES, HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnySurface, FileSurface
 from ..io.surface_files import require_ending, save_endless, save_gaussian, save_surface
 from ..io.words import surface_text
 from ..plots.contact import save_surface_plot
@@ -92,7 +92,7 @@ def _command(kind: str) -> Any:
         for part in asked.values():
             if isinstance(part, dict) and "surface" in part:
                 part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(Given({}))}
-        asked_for: Any = validated(SURFACE_TABLES[kind], asked, COMMAND_LINE, given.names)
+        asked_for: Any = _checked(kind, asked, given.names)
         if memory is not None:
             _stream(asked_for, out, memory, force)
             print_files([out])
@@ -123,6 +123,39 @@ def _command(kind: str) -> Any:
 
     run.__doc__ = (SURFACE_TABLES[kind].__doc__ or "").replace("``", "")
     return built(run, kind, options(kind))
+
+
+def _checked(kind: str, asked: dict[str, Any], names: Mapping[str, str]) -> Any:
+    """The table of a surface of ``kind`` as ``asked``; a missing amplitude of a spectrum is named with all else that is missing.
+
+    Raises
+    ------
+    InputError
+        If anything is missing or out of range.
+    """
+    missing = []
+    for part, given in asked.items():
+        keys = [key for key in AMPLITUDES if f"{part}.{key}" in names]
+        of_kind = (
+            SPECTRUM_TABLES.get(str(given.get("kind", "")).lower().replace("-", "_"))
+            if isinstance(given, dict)
+            else None
+        )
+        if of_kind is not None and keys and {*keys} <= {*of_kind.model_fields} and not {*keys} & {*given}:
+            missing.append(
+                f"{part} must give exactly one of {', '.join(names[f'{part}.{key}'] for key in keys)}, but gives none."
+            )
+    try:
+        return validated(SURFACE_TABLES[kind], asked, COMMAND_LINE, names)
+    except InputError as error:
+        lines = [line.strip() for line in str(error).splitlines() if not line.startswith(COMMAND_LINE)]
+        found = [line for line in lines if "exactly one" not in line or not missing] + missing
+        if not missing:
+            raise
+        if len(found) == 1:
+            raise InputError(found[0]) from None
+        listed = "\n".join(f"  {line}" for line in found)
+        raise InputError(f"{COMMAND_LINE} has {len(found)} problems:\n{listed}", subject=COMMAND_LINE) from None
 
 
 def _slope(surface: Surface) -> str:

@@ -15,7 +15,7 @@ from ..core.quantity import Quantity
 from ..core.text import printable
 from ..core.units import DIMENSIONS, show
 from ..solids.library import LiquidRecord, MaterialRecord, Records
-from ..theories.ask import ways_of
+from ..theories.ask import Evaluation, ways_of
 from ..theories.catalogue import FAMILIES
 from ..theories.statistics.roughness import Roughness
 
@@ -76,7 +76,9 @@ def listing(thing: Tabled) -> Listing:
     """What the table of a ``thing`` holds."""
     if isinstance(thing, Records):
         return records_listing(thing) if thing else Listing("Nothing", (), [])
-    return Listing("Roughness", (), list(_roughness(thing))) if isinstance(thing, Roughness) else _answer(thing)
+    if isinstance(thing, Roughness):
+        return Listing("Roughness", (), list(_roughness(thing)))
+    return _evaluated(thing) if isinstance(thing, Evaluation) else _answer(thing)
 
 
 def _roughness(rough: Roughness) -> Iterator[tuple[str, str]]:
@@ -119,7 +121,25 @@ def _answer(thing: Tabled) -> Listing:
             unit = f" ({' or '.join(item.unit for item in alike)})" if len(alike) > 1 else ""
             texts = [show(float(value), one) if one else f"{value:.4g}" for value in values.reshape(-1)]
             found.append((name.rpartition("normal.")[2].replace("_", " ") + unit, texts))
-    heading, points = type(thing).__name__, max((len(texts) for _, texts in found), default=0)
+    return _curve(type(thing).__name__, found)
+
+
+def _evaluated(found: Evaluation) -> Listing:
+    """The curve, or of one point or none what depends on the inputs alone beside it; where limits do not hold they are named."""
+    columns = [
+        (column.name.replace("_", " "), [show(float(value), column.unit) for value in values])
+        for column, values in found.columns
+    ]
+    left = [limit.criterion for limit in found.limits if not limit.holds.all()]
+    beyond = f"; beyond its limits in {', '.join(left)}" if left else ""
+    numbers = [(column.name.replace("_", " "), [show(value, column.unit)]) for column, value in found.numbers]
+    many = bool(columns) and len(columns[0][1]) > 1
+    return _curve(f"{found.theory.title}{beyond}", columns if many else [*numbers, *columns])
+
+
+def _curve(heading: str, found: list[tuple[str, list[str]]]) -> Listing:
+    """Names and texts of quantities, one row a point; of one point one row a quantity; of many points the first and the last."""
+    points = max((len(texts) for _, texts in found), default=0)
     if points < 2:
         return Listing(heading, (), [(name, texts[0]) for name, texts in found])
     rows = [tuple(texts[at % len(texts)] for _, texts in found) for at in range(points)]

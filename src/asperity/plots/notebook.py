@@ -42,7 +42,8 @@ def plot(thing: object, kind: str, ax: Axes | None, **options: Any) -> Axes:
         return chosen.draw(ax, **options)
     from matplotlib import pyplot
 
-    pyplot.draw_if_interactive()  # type: ignore[no-untyped-call]  # loads the backend, that of notebooks switches pyplot to interactive: inside the style that would be undone
+    # loads the backend: that of notebooks makes pyplot interactive, which the end of the style would undo
+    pyplot.draw_if_interactive()  # type: ignore[no-untyped-call]
     with style():
         figure = pyplot.figure(figsize=chosen.size, layout="constrained")  # labels stay inside however it is saved
         drawn = chosen.draw(figure.add_subplot(projection=chosen.projection), **options)

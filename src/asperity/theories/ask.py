@@ -117,8 +117,8 @@ def ways_of(theory: Described | type[Described]) -> tuple[Way, ...]:
     return tuple(way for way in COMMON if hasattr(theory, way.method)) if own is None else own
 
 
-@dataclass(frozen=True, eq=False)
-class Evaluation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Evaluation(Tabled):
     """Results of a theory for one kind of argument.
 
     Parameters

@@ -174,7 +174,9 @@ def test_lists_and_answers_of_theories_are_tables():
     assert "1 MPa" in curve._repr_html_()
     assert len(repr(two).splitlines()) == 4
     assert re.search(r"approach\s+383.2 nm", repr(one))
-    for thing in tables():
+    asked = asp.theories.evaluate(asp.theories.HertzPoint(1e11, 1e-3), load=[1.0, 2.0])
+    assert re.search(r"2 N\s+608.2 nm", repr(asked))
+    for thing in (*tables(), asked):
         html = thing._repr_html_()
         assert html.count("<td") == html.count("</td>") > 0
         assert max(map(len, repr(thing).splitlines())) <= 160

@@ -344,6 +344,11 @@ def material_from_text(text: str) -> dict[str, Any]:
 
 def _constants(text: str) -> list[str]:
     """``text`` at its commas, but for those within parentheses."""
+    if comma := re.search(r"=\s*\d+,\d[^,()=]*(?=,|$)", text):
+        number = comma[0].lstrip("= ")
+        raise InputError(
+            f" must have a point before decimals, such as {number.replace(',', '.')!r}, but has a comma: {number!r}."
+        )
     return [part for part in re.split(r",(?![^()]*\))", text) if part.strip()]
 
 

@@ -80,7 +80,10 @@ def fitted_law(ask: Moving, solved: Solved) -> ComplianceFit:
         if step.mean_pressure <= last[0] or step.approach <= last[1]:
             break
         last = (step.mean_pressure, step.approach)
-        path.append(step)
+        if (
+            np.count_nonzero(step.contact) >= FEWEST_PIXELS / WIDEST
+        ):  # as many as at the least load of a path of its own
+            path.append(step)
     if len(path) < ask.settings.points:
         loads = np.geomspace(pressure / WIDEST, pressure * WIDEST, ask.settings.points)
         path = list(steps(solved.problem, [MeanPressure(float(p)) for p in loads], on_failure="return"))
