@@ -16,7 +16,7 @@ import asperity as asp
 from asperity.cli.main import app
 from asperity.cli.options import option_words
 from asperity.contact.advice import AREAS, PRESSURES, STRESSES
-from asperity.core.doors import ACTIONS, field_of, in_words, label_of, speaking
+from asperity.core.words import ACTIONS, field_of, in_words, label_of, speaking
 from asperity.parts.registry import parts
 from asperity.physics.adhesion.work import ZONE
 from asperity.physics.dynamics.work_motion import SLIDING, VIBRATION
@@ -27,7 +27,7 @@ WITHOUT_FINDINGS = ("cli", "web", "report", "plots")
 """Folders of the doors, which show findings and make none."""
 
 NAMES_OPTIONS = {
-    "core.doors": "the table",
+    "core.words": "the table",
     "web.security": "options of the application itself, for whom has started it",
     "web.workers": "an option of the application itself",
     "web.server": "options of the application itself",

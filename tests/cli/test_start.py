@@ -30,9 +30,7 @@ def test_help_imports_nothing_heavy() -> None:
     assert json.loads(done.stderr) == []
 
 
-LIGHT = {"asperity.core"} | {
-    f"asperity.core.{name}" for name in ("doors", "errors", "hardness_numbers", "late", "text", "units")
-}
+LIGHT = {"asperity.core"} | {f"asperity.core.{name}" for name in ("errors", "late", "units", "words")}
 
 
 def test_help_imports_of_the_library_only_the_commands() -> None:

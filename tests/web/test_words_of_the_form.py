@@ -13,7 +13,7 @@ from architecture.test_words_of_doors import FIELDS
 
 pytest.importorskip("nicegui", reason="the extra web is not installed")
 
-from asperity.core.doors import ACTIONS, in_words
+from asperity.core.words import ACTIONS, in_words
 from asperity.io.schemas.surfaces import STEPS
 from asperity.run.document import document_model
 from asperity.web.forms import asked_of

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.progress import BarColumn, Progress, TextColumn
 
-from ..core.doors import speaking
+from ..core.words import speaking
 from ..io.schemas.study import DEFAULT_QUANTITIES
 from ..report.study import (
     axis_rows,

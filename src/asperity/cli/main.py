@@ -15,10 +15,9 @@ from typing import Annotated, Any, ClassVar
 import typer
 from typer.core import TyperGroup
 
-from ..core.doors import speaking
 from ..core.errors import AsperityError, ConvergenceError
-from ..core.text import printable
 from ..core.units import prefixed
+from ..core.words import printable, speaking
 from .interrupt import INTERRUPTED, SENTENCE
 
 OK = 0

@@ -23,8 +23,8 @@ from rich.text import Text
 
 from ..core.errors import InputError
 from ..core.status import NoProgress, Progress, compiling, share_done
-from ..core.text import printable
 from ..core.units import prefixed, show
+from ..core.words import printable
 
 if TYPE_CHECKING:
     from ..contact.result import ContactResult

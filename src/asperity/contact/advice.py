@@ -10,9 +10,8 @@ import numpy as np
 
 from ..core.status import Advice, free_memory, room_text
 from ..core.units import percent, show, times
-from ..solids.elastic import TABOR, Elastic
-from ..solids.layers import Layered, RigidBase, materials_of
-from ..solids.strength import strength_of, unknown_strengths, yield_pressure
+from ..solids.elastic import TABOR, Elastic, yield_pressure
+from ..solids.layers import Layered, RigidBase, materials_of, strength_of, unknown_strengths
 from ..surfaces.characterise.heights import rms_height
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from .doors import in_words
+from .words import in_words
 
 
 class AsperityError(Exception):
     """Base of every exception that asperity raises on purpose; ``subject`` where it does not stand before "must".
 
-    What can be done, as ``{fill}`` in the message, is said in the words of the door that speaks: see ``doors.ACTIONS``.
+    What can be done, as ``{fill}`` in the message, is said in the words of the door that speaks: see ``words.ACTIONS``.
     """
 
     def __init__(self, message: str, *, subject: str = "") -> None:

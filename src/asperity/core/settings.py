@@ -17,11 +17,10 @@ from typing import Annotated, Any, ClassVar, Literal, Optional, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model, model_validator
 from pydantic.fields import FieldInfo
 
-from .doors import key_in_words
 from .errors import InputError
 from .parameters import REQUIRED, Parameter, parameter, parameters, taken_apart, values_of
-from .text import alike
 from .values import Choice, Flag, Number, Several, Values, Whole, WrittenPair
+from .words import alike, key_in_words
 
 T = TypeVar("T", bound="Settings")
 

@@ -12,8 +12,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Literal, Protocol
 
-from .doors import in_words
 from .errors import InputError
+from .words import in_words
 
 
 class Outcome(StrEnum):
@@ -56,7 +56,7 @@ class Advice:
     fact
         One or two sentences with what was found.
     remedy
-        What to do about it, with the names of ``doors.ACTIONS`` in braces; empty where there is nothing to do.
+        What to do about it, with the names of ``words.ACTIONS`` in braces; empty where there is nothing to do.
     numbers
         What the criterion compares, by name, SI.
     concerns

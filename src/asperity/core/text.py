@@ -1,33 +1,13 @@
-"""Text from outside: read with a limit, shown without control characters."""
+"""Text from outside, read with a limit."""
 
 from __future__ import annotations
 
-import re
-import unicodedata
 from pathlib import Path
 
 from .errors import FileFormatError
 
 LARGEST = 4 * 2**20
 """Bytes of a document or materials file; the largest of this package have a few thousand."""
-
-_HIDDEN = ("Cc", "Cf", "Cn", "Co", "Cs", "Zl", "Zp")
-"""Categories of characters that move the cursor, hide or turn text, have no agreed shape, or cannot be written."""
-
-
-def alike(word: str) -> str:
-    """``word`` in the form in which capitals, spaces, hyphens and underscores make no difference."""
-    return re.sub(r"[\s_-]+", "_", word.strip().lower())
-
-
-def printable(text: str, *, keep: str = "") -> str:
-    """``text`` with control and format characters, but those to ``keep``, as escapes such as ``\\x1b``."""
-    if text.isprintable():
-        return text
-    return "".join(
-        repr(letter)[1:-1] if letter not in keep and unicodedata.category(letter) in _HIDDEN else letter
-        for letter in text
-    )
 
 
 def require_file(path: str | Path, what: str) -> Path:

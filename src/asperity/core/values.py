@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from . import units
 from .errors import InputError
-from .text import alike
+from .words import alike
 
 LEAST, LARGEST = 1e-41, 1e40
 """Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range of floating-point numbers."""

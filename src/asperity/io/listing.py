@@ -12,8 +12,8 @@ import numpy as np
 
 from ..core.late import Tabled
 from ..core.quantity import Quantity
-from ..core.text import printable
 from ..core.units import DIMENSIONS, show
+from ..core.words import printable
 from ..solids.library import LiquidRecord, MaterialRecord, Records
 from ..theories.ask import Evaluation, ways_of
 from ..theories.catalogue import FAMILIES

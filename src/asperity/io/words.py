@@ -18,11 +18,10 @@ from ..core.errors import InputError
 from ..core.late import Judged, Stored
 from ..core.quantity import Quantity
 from ..core.status import Advice, Verdict
-from ..core.text import printable
 from ..core.units import percent, show
-from ..solids.elastic import Elastic, Strength
+from ..core.words import printable
+from ..solids.elastic import Elastic, Strength, yield_pressure
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
-from ..solids.strength import yield_pressure
 from ..solids.viscoelastic import Viscoelastic
 from ..surfaces.characterise.heights import peak_to_valley, rms_height
 from ..surfaces.surface import Surface

@@ -13,7 +13,7 @@ from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
 from ..core import require
 from ..core.registry import DRAWN, MORE_FIGURES, PATH_FIGURES, home
-from ..core.text import printable
+from ..core.words import printable
 from ..io.description import kind_name
 from ..io.words import heading_and_rows
 from ..surfaces.characterise.summary import Characterisation

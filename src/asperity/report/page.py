@@ -13,7 +13,7 @@ from typing import Any
 from markupsafe import Markup, escape
 
 from ..core.citations import REFERENCES
-from ..core.text import printable
+from ..core.words import printable
 from ..io.atomic import atomic_file
 from ..io.words import Rows
 from ..plots.picture import Figure

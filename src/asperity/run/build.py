@@ -62,7 +62,7 @@ from ..io.schemas.relaxation import (
 from ..io.schemas.surfaces import AMPLITUDES, FileSurface, GeneratedSurface, SurfaceTable, prepared
 from ..parts.part import Part
 from ..parts.registry import parts
-from ..solids.elastic import Elastic, Hardening, Rigid, Strength
+from ..solids.elastic import Elastic, Hardening, Rigid, Strength, yield_pressure
 from ..solids.layers import (
     Body,
     Bonded,
@@ -77,11 +77,12 @@ from ..solids.layers import (
     RigidBase,
     graded,
     surface_material,
+    unknown_strengths,
 )
 from ..solids.library import material
 from ..solids.moduli_file import read_moduli
 from ..solids.plasticity import LinearHardening, Swift, Voce
-from ..solids.strength import flow_stress, unknown_strengths, yield_pressure
+from ..solids.strength import flow_stress
 from ..solids.viscoelastic import Arrhenius, TemperatureShift, Viscoelastic, WilliamsLandelFerry, fitted_solid
 from ..surfaces.formats import checked_size
 from ..surfaces.pair import on_common_grid, turned_over

@@ -17,7 +17,7 @@ from ..core.units import percent, show, times
 from ..io.words import area_text, headline_rows, limit_text
 from ..parts.part import Part, Reached, Words
 from ..solids.elastic import TABOR
-from ..solids.strength import strength_of
+from ..solids.layers import strength_of
 from .execute import Outcome, answered
 
 FIRST_YIELD = 1.6 / TABOR

@@ -128,3 +128,44 @@ class Rigid:
     """Body that does not deform."""
 
     name: str = "rigid"
+
+
+@dataclass(frozen=True)
+class YieldPressure:
+    """Contact pressure (mean, over the projected area) at which a material yields plastically.
+
+    Attributes
+    ----------
+    value
+        In Pa; None where neither hardness nor yield stress is known.
+    symbol
+        ``"H"`` where it is the hardness, ``"2.8 Y"`` where it follows from the yield stress (Tabor 1951), empty where it is not known.
+    """
+
+    value: float | None
+    symbol: str
+
+
+def yield_pressure(strength: Strength) -> YieldPressure:
+    """Pressure at which a material of this ``strength`` yields: its hardness, else 2.8 Y.
+
+    Examples
+    --------
+    >>> yield_pressure(Strength(yield_stress=200e6))
+    YieldPressure(value=560000000.0, symbol='2.8 Y')
+    """
+    if not math.isnan(strength.hardness):
+        return YieldPressure(strength.hardness, "H")
+    if not math.isnan(strength.yield_stress):
+        return YieldPressure(TABOR * strength.yield_stress, f"{TABOR:g} Y")
+    return YieldPressure(None, "")
+
+
+LEAST_OF_ELASTOMERS = 0.49
+"""Poisson's ratio from which on a solid of unknown strength is taken for an elastomer, which tears but does not yield; metals and glassy
+polymers have at most 0.46."""
+
+
+def never_yields(material: Elastic) -> bool:
+    """Whether ``material`` is an elastomer without a stated strength."""
+    return yield_pressure(material.strength).value is None and material.poisson_ratio >= LEAST_OF_ELASTOMERS

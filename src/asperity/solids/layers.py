@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import ClassVar, TypeAlias
+from typing import ClassVar, Literal, TypeAlias
 
 from ..core import require
 from ..core.errors import InputError
 from ..core.late import Shown
-from .elastic import Elastic, Rigid, Strength
+from .elastic import Elastic, Rigid, Strength, never_yields, yield_pressure
 from .viscoelastic import Viscoelastic
 
 
@@ -339,3 +339,52 @@ def _between(top: Elastic, bottom: Elastic, depth: float, grading: Grading) -> E
         ),
         name=f"graded {top.name} - {bottom.name}".strip(" -") if top.name or bottom.name else "",
     )
+
+
+def unknown_strengths(body: Body) -> tuple[str, ...]:
+    """What keeps the hardness of the layered ``body`` with its base from being known by depth: names of materials of unknown strength, a rigid base."""
+    parts = materials_of(body)
+    unknown = [part.name or "a material" for part in parts if yield_pressure(part.strength).value is None]
+    rigid = isinstance(body, Layered) and isinstance(body.reduced.base, RigidBase)
+    return (*dict.fromkeys(unknown), *(["the rigid base"] if rigid else []))
+
+
+@dataclass(frozen=True)
+class SurfaceStrength:
+    """Contact pressure at which a body of a contact yields plastically at its surface.
+
+    Attributes
+    ----------
+    body
+        Which of the two bodies of the problem it is.
+    material
+        Name of the material at its surface, of a coated body that of its top layer; ``"the body"`` or ``"the counter body"`` without a name.
+    pressure
+        Hardness, else 2.8 Y (Tabor 1951), in Pa; None where neither hardness nor yield stress is known.
+    known_as
+        How it is known, such as ``"H of DLC"`` or ``"2.8 Y of stainless steel"``; empty where it is not.
+    """
+
+    body: Literal["body", "counter_body"]
+    material: str
+    pressure: float | None
+    known_as: str
+
+    @property
+    def by_hardness(self) -> bool:
+        """Whether it is a stated hardness."""
+        return self.known_as.startswith("H ")
+
+
+def strength_of(body: Body, counter_body: Body) -> tuple[SurfaceStrength, ...]:
+    """Strength of the surfaces of two bodies in contact, those left out that never yield: rigid ones and elastomers without a known strength."""
+    found = (_surface("body", body), _surface("counter_body", counter_body))
+    return tuple(strength for strength in found if strength is not None)
+
+
+def _surface(which: Literal["body", "counter_body"], body: Body) -> SurfaceStrength | None:
+    solid = surface_material(body)
+    if solid is None or never_yields(solid):
+        return None
+    found, name = yield_pressure(solid.strength), solid.name or body.name or f"the {which.replace('_', ' ')}"
+    return SurfaceStrength(which, name, found.value, f"{found.symbol} of {name}" if found.symbol else "")

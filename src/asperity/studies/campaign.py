@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..core.errors import FileFormatError, OutputError
-from ..core.text import printable
+from ..core.words import printable
 
 if TYPE_CHECKING:
     import xarray

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..core.doors import in_words
+from ..core.words import in_words
 from ..io.description import software
 from ..io.words import CERTIFICATE
 from ..parts.registry import versions

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.doors import speaking
 from ..core.errors import InputError
+from ..core.words import speaking
 from ..io.description import software
 from ..run.build import Case, build
 from ..run.document import checked

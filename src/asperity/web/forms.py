@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any, Literal, Union, get_args, get_origin
 
 from ..core import units
-from ..core.doors import label_of
 from ..core.errors import AsperityError
 from ..core.parameters import Parameter, taken_apart
 from ..core.settings import Settings, declared
 from ..core.values import Choice, Flag, Interval, Number, Numbers, Several, Whole
+from ..core.words import label_of
 
 Shape = Literal["flag", "choice", "number", "text", "table", "kinds", "list"]
 

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..core.doors import speaking
 from ..core.errors import InputError
 from ..core.spectral import thread_count
+from ..core.words import speaking
 from .beginning import fill
 from .security import MIB, Guard, host_names, is_loopback
 from .session import Place

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from ..core.errors import FileFormatError, InputError, OutputError
-from ..core.text import printable
+from ..core.words import printable
 from ..io.atomic import atomic_file
 from .draft import Draft
 from .workers import Limits, Worker

@@ -16,11 +16,11 @@ from typing import Any, TypeAlias
 import numpy as np
 from pydantic import create_model
 
-from ..core.doors import speaking
 from ..core.errors import AsperityError
 from ..core.settings import Settings, validated
 from ..core.status import Progress, share_done
 from ..core.units import prefixed, show
+from ..core.words import speaking
 from ..io.atomic import atomic_folder
 from ..io.export import export_vtk
 from ..io.results import document_in

@@ -6,7 +6,7 @@ import numpy as np
 from contact_cases import elastic, rough, square_grid
 
 import asperity as asp
-from asperity.core.doors import in_words
+from asperity.core.words import in_words
 
 SMOOTH = asp.generate.gaussian(
     square_grid(64, 64e-6),

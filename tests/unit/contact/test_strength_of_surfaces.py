@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import asperity as asp
-from asperity.solids.strength import SurfaceStrength, strength_of
+from asperity.solids.layers import SurfaceStrength, strength_of
 
 
 def strengths(body: object, counter: object | None = None) -> tuple[SurfaceStrength, ...]:

@@ -8,8 +8,7 @@ import pytest
 from refusals import refused
 
 from asperity.core.errors import UnitError
-from asperity.core.hardness_numbers import KILOPOND, hardness_of
-from asperity.core.units import parse
+from asperity.core.units import KILOPOND, hardness_of, parse
 
 
 def pressure(text: str) -> float:

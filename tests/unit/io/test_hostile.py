@@ -19,7 +19,8 @@ from study_cases import PROBLEM, plan
 import asperity as asp
 from asperity.core import require, units
 from asperity.core.errors import AsperityError, FileFormatError, InputError, OutputError, UnitError
-from asperity.core.text import LARGEST, printable, read_text
+from asperity.core.text import LARGEST, read_text
+from asperity.core.words import printable
 from asperity.run.build import build
 from asperity.run.document import checked, read_table
 from asperity.run.stored import load_outcome, save_outcome

@@ -13,9 +13,8 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.units import show
-from ...solids.elastic import Elastic
+from ...solids.elastic import Elastic, yield_pressure
 from ...solids.layers import Layered
-from ...solids.strength import yield_pressure
 from ...theories.hardness.effective_hardness import EffectiveHardness, StackHardness
 
 _SHOWN = 1e-4

@@ -1,4 +1,4 @@
-"""Names of what a person can do, in the words of the door at which they stand: Python, the command line or the form of the application.
+"""Words that people read: what can be done, as it is named in Python, on the command line or in the form of the application; printable text, words alike.
 
 Findings and errors say ``{periodise}``; a reader in Python is told ``periodised(surface)``, one of the command line ``--periodise``, one of the form
 the page and the field. ``{friction.law=full stick}`` is the value of a key of documents, which is called by its key, its option or its field.
@@ -7,6 +7,7 @@ the page and the field. ``{friction.law=full stick}`` is the value of a key of d
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -162,3 +163,24 @@ def label_of(name: str) -> str:
     """What the key ``name`` of a table is called in a form."""
     text = name.replace("_", " ").replace("youngs ", "Young's ").replace("poisson ", "Poisson's ")
     return text[:1].upper() + text[1:]
+
+
+# How text is shown and compared.
+
+_HIDDEN = ("Cc", "Cf", "Cn", "Co", "Cs", "Zl", "Zp")
+"""Categories of characters that move the cursor, hide or turn text, have no agreed shape, or cannot be written."""
+
+
+def alike(word: str) -> str:
+    """``word`` in the form in which capitals, spaces, hyphens and underscores make no difference."""
+    return re.sub(r"[\s_-]+", "_", word.strip().lower())
+
+
+def printable(text: str, *, keep: str = "") -> str:
+    """``text`` with control and format characters, but those to ``keep``, as escapes such as ``\\x1b``."""
+    if text.isprintable():
+        return text
+    return "".join(
+        repr(letter)[1:-1] if letter not in keep and unicodedata.category(letter) in _HIDDEN else letter
+        for letter in text
+    )
