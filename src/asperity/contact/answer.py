@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from ..core.errors import InputError
-from ..core.registry import OUTCOMES, PHYSICS
-
 if TYPE_CHECKING:
     from ..core.arrays import RealArray
     from ..core.quantity import Labelled, Quantity
@@ -130,41 +127,3 @@ def outside(answers: Iterable[Answer], force: float) -> float:
     for answer in pulling:
         force = answer.outside(force, alone=len(pulling) == 1)
     return force
-
-
-class WithOutcomes:
-    """Attributes of a result by the names of its couplings, None where it has none; ``require_name()`` refuses None."""
-
-    couplings: Mapping[str, Any]
-
-    def __getattr__(self, name: str) -> Any:
-        found = vars(self).get("couplings", {})
-        if name in OUTCOMES or name in found:
-            return found.get(name)
-        if name.startswith("require_") and name.removeprefix("require_") in OUTCOMES:
-            return lambda: self.require(name.removeprefix("require_"))
-        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *OUTCOMES, *self.couplings]
-
-    def require(self, name: str) -> Any:
-        """What the coupling of that ``name`` has found.
-
-        Raises
-        ------
-        InputError
-            If the result has none.
-        """
-        found = self.couplings.get(name)
-        if found is None:
-            said = {key: sentence for known in PHYSICS.values() for key, sentence in known.absent.items()}
-            raise InputError(
-                said.get(name, f"couplings of the result must hold {name!r}, but hold {sorted(self.couplings)}.")
-            )
-        return found
-
-    @property
-    def answers(self) -> tuple[Answer, ...]:
-        """What the couplings have found."""
-        return tuple(item for item in self.couplings.values() if isinstance(item, Answer))

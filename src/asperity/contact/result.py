@@ -15,11 +15,12 @@ from ..core.engine import Engine
 from ..core.errors import InputError
 from ..core.late import Advised, Stored
 from ..core.quantity import Quantity
+from ..core.registry import OUTCOMES, PHYSICS
 from ..core.status import Status
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from . import measure
-from .answer import Answer, WithOutcomes, outside
+from .answer import Answer, outside
 from .certificate import Certificate
 from .controls import Control
 from .couplings.protocol import Contact, Deflections, Memory
@@ -100,6 +101,44 @@ class Late(Generic[Value]):
 
     def __set__(self, owner: Any, value: Value | Later) -> None:
         vars(owner)[self._name] = value
+
+
+class WithOutcomes:
+    """Attributes of a result by the names of its couplings, None where it has none; ``require_name()`` refuses None."""
+
+    couplings: Mapping[str, Any]
+
+    def __getattr__(self, name: str) -> Any:
+        found = vars(self).get("couplings", {})
+        if name in OUTCOMES or name in found:
+            return found.get(name)
+        if name.startswith("require_") and name.removeprefix("require_") in OUTCOMES:
+            return lambda: self.require(name.removeprefix("require_"))
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *OUTCOMES, *self.couplings]
+
+    def require(self, name: str) -> Any:
+        """What the coupling of that ``name`` has found.
+
+        Raises
+        ------
+        InputError
+            If the result has none.
+        """
+        found = self.couplings.get(name)
+        if found is None:
+            said = {key: sentence for known in PHYSICS.values() for key, sentence in known.absent.items()}
+            raise InputError(
+                said.get(name, f"couplings of the result must hold {name!r}, but hold {sorted(self.couplings)}.")
+            )
+        return found
+
+    @property
+    def answers(self) -> tuple[Answer, ...]:
+        """What the couplings have found."""
+        return tuple(item for item in self.couplings.values() if isinstance(item, Answer))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
