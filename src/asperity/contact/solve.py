@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from threading import Event
@@ -228,7 +229,7 @@ def _all_results(
 
     cuts = [len(numbered) * i // chains for i in range(chains + 1)]
     with ThreadPoolExecutor(min(chains, engine.threads)) as pool:
-        jobs = [pool.submit(chain, numbered[start:end]) for start, end in pairwise(cuts)]
+        jobs = [pool.submit(copy_context().run, chain, numbered[start:end]) for start, end in pairwise(cuts)]
         try:
             return tuple(result for job in jobs for result in job.result())
         finally:
