@@ -105,7 +105,8 @@ def path_node(
         children["start"] = Node(tuple(values), {}, memories_group([start]).children)
     # axes that may grow cost time for each variable of the group, 0.9 of 1.1 s for 41 steps of 64² points
     following = () if is_all else (node for node, _, _ in blocks)
-    return replace(first, values=(*lines, *first.values), children=children, rows=following)
+    lengths = {"step": len(steps)} if isinstance(steps, HistoryResult) else {}
+    return replace(first, values=(*lines, *first.values), children=children, rows=following, lengths=lengths)
 
 
 def _blocks(

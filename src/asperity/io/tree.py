@@ -10,6 +10,7 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass, field, replace
 from mmap import ACCESS_READ, mmap
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -61,6 +62,8 @@ class Node:
     rows
         Nodes that follow this one along the first axis of its arrays (but those of the grid), written one after the other, so that they need not be in
         memory together. Groups within follow as well. What only some of them have is zero in the others.
+    lengths
+        Lengths of axes of the first kind that are known before the last row; an axis that may grow costs time for each of its variables.
     packs
         Whether files hold arrays over grid and steps packed: their values that are not zero, and a bit for each point.
     """
@@ -69,6 +72,7 @@ class Node:
     attributes: Mapping[str, Any] = field(default_factory=dict)
     children: Mapping[str, Node] = field(default_factory=dict)
     rows: Iterable[Node] = ()
+    lengths: Mapping[str, int] = field(default_factory=dict)
     packs: bool = False
 
     def __getitem__(self, name: str) -> Any:
@@ -287,8 +291,10 @@ def _dataset(node: Node) -> xarray.Dataset:
 class _Writer:
     """A group that is being written, with the digest of each array so far; rows follow along the first axis of arrays."""
 
-    def __init__(self, group: h5netcdf.Group, sink: _Sink, *, grows: bool) -> None:
-        self._group, self._sink, self._grows = group, sink, grows
+    def __init__(
+        self, group: h5netcdf.Group, sink: _Sink, *, grows: bool, whole: Mapping[str, int] = MappingProxyType({})
+    ) -> None:
+        self._group, self._sink, self._grows, self._whole = group, sink, grows, whole
         self._lengths = dict[str, int]()
         self._digests = dict[str, _Digest]()
         self._children = dict[str, _Writer]()
@@ -305,14 +311,15 @@ class _Writer:
             if dim in leading and dim not in FIXED:
                 grown[dim] = known.get(dim, 0) + length
                 if dim not in self._lengths:
-                    self._group.dimensions[dim] = None
-                self._group.resize_dimension(dim, grown[dim])
+                    self._group.dimensions[dim] = self._whole.get(dim)
+                if dim not in self._whole:
+                    self._group.resize_dimension(dim, grown[dim])
             elif dim not in self._lengths:
                 self._group.dimensions[dim] = self._lengths[dim] = length
         for item in node.values:
             name, along = item.quantity.name, "".join(item.quantity.dims[:1])
             if name not in self._group.variables:
-                _create(item, self._group, grows=along in grown)
+                _create(item, self._group, grows=along in grown, whole=along in self._whole)
             elif along not in grown:
                 continue
             if along:
@@ -328,8 +335,8 @@ class _Writer:
                 self._group.attrs[name] = value
         for name, child in node.children.items():
             if name not in self._children:
-                group = self._group.create_group(name)
-                self._children[name] = _Writer(group, self._sink, grows=self._grows or _grows(child))
+                group, whole = self._group.create_group(name), {**self._whole, **child.lengths}
+                self._children[name] = _Writer(group, self._sink, grows=self._grows or _grows(child), whole=whole)
             self._children[name].add(child, begin)
             for row in child.rows:
                 self._children[name].add(row)
@@ -337,7 +344,8 @@ class _Writer:
     def close(self) -> None:
         """Write the digests."""
         for name, digest in self._digests.items():
-            self._group.variables[name].attrs[DIGEST] = digest.of(self._lengths[digest.along])
+            rows = self._whole.get(digest.along, self._lengths[digest.along])
+            self._group.variables[name].attrs[DIGEST] = digest.of(rows)
         for child in self._children.values():
             child.close()
 
@@ -436,14 +444,16 @@ def _unpacked(found: Mapping[str, Labelled], facts: Mapping[str, Mapping[str, An
             yield Labelled(replace(quantity, dims=dims), array.reshape(len(bits), *shape))
 
 
-def _create(item: Labelled, group: h5netcdf.Group, *, grows: bool) -> None:
+def _create(item: Labelled, group: h5netcdf.Group, *, grows: bool, whole: bool) -> None:
     """Declare the variable of ``item``; one without axes gets its value at once."""
     import h5py
 
     quantity, values = item.quantity, _stored(item.values)
     kind = h5py.string_dtype() if values.dtype.kind == "O" else values.dtype
     options: dict[str, Any] = {}
-    if grows:
+    if grows and whole:
+        pass  # all rows of a number or of bits lie together
+    elif grows:
         # rows of a path come in blocks of any length: chunks of half a megabyte
         inner = values.shape[1:]
         rows = max(1, min(max(len(values), 256), CHUNK // (values.dtype.itemsize * math.prod(inner) or 1)))

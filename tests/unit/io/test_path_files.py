@@ -134,6 +134,25 @@ def test_steps_are_written_while_they_are_solved(
     assert not (tmp_path / "none.nc").exists()
 
 
+@pytest.mark.parametrize("block", [1.0, 1e9])
+def test_what_some_steps_have_is_read_back(block: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Wherever they stand, and whether the steps are written one by one: what the others have no more, or not yet, is not made up."""
+    monkeypatch.setattr("asperity.io.paths.BLOCK", block)
+    heights = 1e-9 * np.random.default_rng(7).standard_normal((16, 12))
+    surface = asp.Surface(heights, 2e-8, 2e-8, periodic=True)
+    problem = asp.ContactProblem(surface, asp.Elastic(1e11, 0.3), friction=asp.friction.Coulomb(0.3))
+    sheared = asp.solve(problem, asp.Step(asp.MeanPressure(1e8), asp.Shift(1e-10)))
+    sliding, more = (asp.solve(problem, asp.MeanPressure(load)) for load in (2e8, 3e8))
+    for steps_of in ((sheared, sliding, more), (sliding, sheared, more), (sliding, more, sheared)):
+        path = asp.HistoryResult(steps_of)
+        asp.save(path, tmp_path / "path.nc", overwrite=True)
+        for found, result in zip(asp.load(tmp_path / "path.nc"), path, strict=True):
+            assert list(found.couplings) == list(result.couplings)
+            np.testing.assert_array_equal(found.pressure, result.pressure)
+            if result.stick_slip is not None:
+                np.testing.assert_array_equal(found.stick_slip.traction, result.stick_slip.traction)
+
+
 def test_the_table_has_a_row_for_each_step(path: asp.HistoryResult, tmp_path: Path) -> None:
     asp.files.export_csv(path, tmp_path / "path.csv")
     with (tmp_path / "path.csv").open(encoding="utf-8") as file:
