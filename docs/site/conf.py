@@ -10,6 +10,7 @@ sys.path.insert(0, str(HERE))
 
 from docstrings import marked_up  # noqa: E402
 from inventories import written  # noqa: E402
+from thumbnails import make_legible  # noqa: E402
 
 import asperity  # noqa: E402
 
@@ -75,6 +76,8 @@ pygments_dark_style = "monokai"
 def setup(app):
     """Read docstrings as plain text with numpydoc sections; build the gallery where there are examples."""
     app.connect("autodoc-process-docstring", marked_up, priority=100)
+    # after the gallery, which has the usual priority of 500
+    app.connect("builder-inited", lambda app: make_legible(Path(app.srcdir) / "gallery"), priority=900)
 
 
 examples = HERE.parents[1] / "build" / "docs" / "examples"

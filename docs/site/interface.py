@@ -63,7 +63,7 @@ def _first(item: object) -> str:
 def _page(name: str, module: ModuleType, top: list[str]) -> str:
     kinds = {one: _kind(getattr(module, one)) for one in sorted(module.__all__)}
     about, *more = (module.__doc__ or "").split("\n\n")
-    lines = [f"# {_title(module)}", "", f"`asperity.{name}`: {escaped(' '.join(about.split()).partition(': ')[2])}", ""]
+    lines = [f"# {_title(module)}: `asperity.{name}`", "", escaped(" ".join(about.split()).partition(": ")[2]), ""]
     lines += [text for part in more for text in (escaped(" ".join(part.split())), "")]
     lines += [SEE[name], ""] if name in SEE else []
     both = [f"`{one}`" for one in kinds if one in top]

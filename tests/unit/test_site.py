@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from fnmatch import fnmatch
 from pathlib import PurePosixPath
 
 import assemble
 import commands
 import formulas
+import numpy as np
 import pytest
+import thumbnails
+from matplotlib.figure import Figure
+from PIL import Image
 
 import asperity
 from asperity.core.citations import reference
@@ -58,6 +63,15 @@ def test_contents_reach_every_page_and_name_no_other(pages):
     assert sorted(names - reached) == []
 
 
+def test_every_page_has_a_title_of_its_own(pages):
+    """Search, contents and browser tabs show nothing but titles."""
+    titles = Counter()
+    for text in pages.values():
+        prose = re.sub(r"^[ ]*```.*?^[ ]*```", "", text, flags=re.DOTALL | re.MULTILINE)
+        titles.update(title.strip().casefold() for title in re.findall(r"^# (.+)$", prose, re.MULTILINE)[:1])
+    assert [title for title, count in titles.items() if count > 1] == []
+
+
 def test_links_between_pages_resolve(pages):
     lost = []
     for page, text in pages.items():
@@ -75,6 +89,29 @@ def test_links_between_pages_resolve(pages):
             if not (aim in pages or picture) or (not path and anchor not in anchors):
                 lost.append(f"{page}: {target}")
     assert lost == []
+
+
+def test_thumbnails_of_wide_figures_show_their_first_panel(tmp_path):
+    """Three panels in a row and one on its own, as the gallery stores them."""
+    for name, (columns, size) in {"wide": (3, (13.0, 3.8)), "plain": (1, (7.0, 4.5))}.items():
+        figure = Figure(size, layout="constrained", dpi=100)
+        for number, ax in enumerate(np.atleast_1d(figure.subplots(1, columns))):
+            ax.plot([0.0, 1.0], [0.0, number + 1.0])
+            ax.set(xlabel="pressure (GPa)", ylabel="area (%)")
+        images = tmp_path / "beginner" / "images"
+        (images / "thumb").mkdir(parents=True, exist_ok=True)
+        figure.savefig(images / f"sphx_glr_{name}_001.png")
+        Image.new("RGB", thumbnails.SIZE, "red").save(images / "thumb" / f"sphx_glr_{name}_thumb.png")
+    thumbnails.make_legible(tmp_path)
+    with Image.open(images / "sphx_glr_wide_001.png") as whole:
+        part = thumbnails.first_panel(whole)
+        assert part.width == pytest.approx(whole.width / 3.0, abs=0.02 * whole.width)
+    with Image.open(images / "thumb" / "sphx_glr_wide_thumb.png") as shown:
+        assert shown.size == thumbnails.SIZE
+        ink = np.asarray(shown.convert("L")) < 200
+        assert np.ptp(np.flatnonzero(ink.any(axis=1))) > 0.8 * thumbnails.SIZE[1]
+    with Image.open(images / "thumb" / "sphx_glr_plain_thumb.png") as left_alone:
+        assert left_alone.getpixel((0, 0)) == (255, 0, 0)
 
 
 def test_every_theory_has_formulas_limits_and_sources_on_its_page(pages):
