@@ -49,6 +49,7 @@ def test_names_of_options_are_whole_in_the_help(run: Runner, kind: str, monkeypa
     assert all(f"{option.name} " in text.replace("\n", " ").replace(",", " ") for option in options(kind))
     assert "…" not in "".join(line.partition("  ")[0] for line in text.splitlines() if line.startswith("  --"))
     assert max(map(len, text.splitlines())) <= 80
+    assert "``" not in run("generate", "--help").stdout
 
 
 def test_all_missing_options_are_named_at_once(run: Runner) -> None:

@@ -48,7 +48,10 @@ class Kinds(Listing):
     @staticmethod
     def lines() -> Mapping[str, str]:
         """Names of all kinds and what they are."""
-        return {kind: inspect.cleandoc(made.__doc__ or "").partition("\n")[0] for kind, made in SURFACE_TABLES.items()}
+        return {
+            kind: inspect.cleandoc(made.__doc__ or "").partition("\n")[0].replace("``", "")
+            for kind, made in SURFACE_TABLES.items()
+        }
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """Subcommand of one kind, with dashes or underscores; None if there is none of the name."""
