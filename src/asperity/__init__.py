@@ -41,7 +41,7 @@ __version__ = "0.1.0"
 
 _VIEWS = MappingProxyType(
     {
-        "contact.advice": ("findings",),
+        "parts.advice": ("findings",),
         "run.verdict": ("verdict",),
         "io.listing": ("lines", "table"),
         "io.results": ("to_xarray",),

@@ -36,6 +36,7 @@ from .contact.history import HistoryResult as HistoryResult
 from .contact.law import Hardness as Hardness
 from .contact.problem import ContactProblem as ContactProblem
 from .contact.result import ContactResult as ContactResult
+from .contact.roughness import roughness_of as roughness_of
 from .contact.solve import Keep as Keep
 from .contact.solve import solve as solve
 from .contact.tangential import Shift as Shift
@@ -76,7 +77,6 @@ from .surfaces.prepare.level import filled as filled
 from .surfaces.prepare.level import levelled as levelled
 from .surfaces.read import read as read
 from .surfaces.surface import Surface as Surface
-from .theories.statistics.measured import roughness_of as roughness_of
 
 __version__: str
 

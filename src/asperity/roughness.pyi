@@ -1,3 +1,4 @@
+from .contact.roughness import roughness_of
 from .core.quantity import Quantity
 from .surfaces.characterise.correlation import (
     DROP_1E,
@@ -87,7 +88,6 @@ from .surfaces.characterise.summits import (
     summits,
 )
 from .surfaces.characterise.texture import AngularSpectrum, TextureLengths, angular_spectrum, texture_lengths
-from .theories.statistics.measured import roughness_of
 from .theories.statistics.roughness import Roughness
 
 __all__ = [

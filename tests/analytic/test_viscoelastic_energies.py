@@ -10,7 +10,7 @@ import pytest
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.advice import review
+from asperity.parts.advice import review
 from asperity.physics.viscoelastic.energy import LARGEST_MISS
 from asperity.solids.layers import Body
 

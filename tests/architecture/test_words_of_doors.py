@@ -15,8 +15,8 @@ from architecture.source import Module, library
 import asperity as asp
 from asperity.cli.main import app
 from asperity.cli.options import option_words
-from asperity.contact.advice import AREAS, PRESSURES, STRESSES
 from asperity.core.words import ACTIONS, field_of, in_words, label_of, speaking
+from asperity.parts.advice import AREAS, PRESSURES, STRESSES
 from asperity.parts.registry import parts
 from asperity.physics.adhesion.work import ZONE
 from asperity.physics.dynamics.work_motion import SLIDING, VIBRATION

@@ -15,6 +15,7 @@ from cli.conftest import Runner
 from study_cases import InProcess, plan
 
 import asperity as asp
+from asperity.contact.roughness import roughness_of
 from asperity.core.errors import InputError
 from asperity.physics.viscoelastic.moments import COLUMNS
 from asperity.physics.viscoelastic.part import SCALARS, STEPS
@@ -26,7 +27,6 @@ from asperity.run.document import checked, dumps, loads
 from asperity.run.stored import load_outcome, save_outcome
 from asperity.studies.collect import dataset
 from asperity.studies.run import carry_out
-from asperity.theories.statistics.measured import roughness_of
 
 POLYMER = "E=0.5GPa+1.2GPa@0.1s+0.8GPa@5s,nu=0.38,bulk=elastic,name=polymer"
 BALL: dict[str, Any] = {

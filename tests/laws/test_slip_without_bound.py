@@ -8,7 +8,7 @@ from contact_cases import rough
 from refusals import refused
 
 import asperity as asp
-from asperity.contact.advice import review
+from asperity.parts.advice import review
 from asperity.physics.friction.fretting import loop_of, shear_numbers
 from asperity.physics.rolling.rolling import Creepage
 

@@ -14,6 +14,7 @@ import numpy as np
 import typer
 from rich.table import Table
 
+from ..contact.roughness import roughness_of
 from ..core.arrays import RealArray
 from ..core.citations import reference
 from ..core.errors import InputError
@@ -31,7 +32,6 @@ from ..theories.ask import Evaluation, evaluate, ways_of
 from ..theories.catalogue import FAMILIES, THEORIES
 from ..theories.catalogue import theory as theory_of
 from ..theories.protocol import Described
-from ..theories.statistics.measured import roughness_of
 from .declared import FILE, Given, Option, built, options_of
 from .main import Listing
 from .options import READING, body_options, levelled_as, read_surface, reading_options

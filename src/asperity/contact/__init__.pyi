@@ -1,5 +1,5 @@
 from ..core.status import Advice
-from .advice import advise, review
+from ..parts.advice import advise, review
 from .boundary import Boundary, Free, FreeLine, Periodic
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .history import EnergyBalance, History, HistoryResult, ramps

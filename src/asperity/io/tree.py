@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-import io
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import closing, contextmanager
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from mmap import ACCESS_READ, mmap
 from pathlib import Path
@@ -21,6 +20,7 @@ from ..core.quantity import Labelled, Quantity
 from ..core.status import require_memory
 from ..core.text import require_file
 from .atomic import atomic_file
+from .sink import Sink, writable
 
 if TYPE_CHECKING:
     import h5netcdf
@@ -143,7 +143,7 @@ def write_tree(tree: Node, path: str | Path, *, overwrite: bool = False) -> None
         raise OutputError(
             f"result file must end in .nc, but is {path}; scalars as CSV: export_csv, fields as VTK: export_vtk."
         )
-    with atomic_file(path, overwrite=overwrite) as partial, _writable(partial) as (file, sink):
+    with atomic_file(path, overwrite=overwrite) as partial, writable(partial) as (file, sink):
         file.attrs["asperity_format"] = FORMAT_VERSION
         writer = _Writer(file, sink, grows=False)
         writer.add(tree)
@@ -292,7 +292,7 @@ class _Writer:
     """A group that is being written, with the digest of each array so far; rows follow along the first axis of arrays."""
 
     def __init__(
-        self, group: h5netcdf.Group, sink: _Sink, *, grows: bool, whole: Mapping[str, int] = MappingProxyType({})
+        self, group: h5netcdf.Group, sink: Sink, *, grows: bool, whole: Mapping[str, int] = MappingProxyType({})
     ) -> None:
         self._group, self._sink, self._grows, self._whole = group, sink, grows, whole
         self._lengths = dict[str, int]()
@@ -344,7 +344,8 @@ class _Writer:
     def close(self) -> None:
         """Write the digests."""
         for name, digest in self._digests.items():
-            rows = self._whole.get(digest.along, self._lengths[digest.along])
+            known = self._lengths[digest.along]
+            rows = self._whole.get(digest.along, known) if self._grows else known
             self._group.variables[name].attrs[DIGEST] = digest.of(rows)
         for child in self._children.values():
             child.close()
@@ -530,76 +531,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray | np.generic) and value.ndim == 0:
         return value.item()
     return value
-
-
-class _Sink(io.RawIOBase):
-    """A file that keeps the first error of writing for ``check`` and goes on without raising it.
-
-    A full disk under an open HDF5 file otherwise ends the whole process when the library closes it.
-    """
-
-    def __init__(self, path: Path) -> None:
-        self._file = path.open("w+b", buffering=0)
-        self._failed: OSError | None = None
-
-    def check(self) -> None:
-        """Raise the error that writing has met."""
-        if self._failed is not None:
-            raise self._failed
-
-    def readable(self) -> bool:
-        return True
-
-    def writable(self) -> bool:
-        return True
-
-    def seekable(self) -> bool:
-        return True
-
-    def seek(self, offset: int, whence: int = 0, /) -> int:
-        return self._file.seek(offset, whence)
-
-    def tell(self) -> int:
-        return self._file.tell()
-
-    def readinto(self, buffer: Any, /) -> int:
-        return self._file.readinto(buffer) or 0
-
-    def truncate(self, size: int | None = None, /) -> int:
-        try:
-            return self._file.truncate(size)
-        except OSError as error:
-            self._failed = self._failed or error
-            return size or 0
-
-    def write(self, data: Any, /) -> int:
-        view = memoryview(data)
-        done = 0
-        while self._failed is None and done < len(view):
-            try:
-                done += self._file.write(view[done:])
-            except OSError as error:
-                self._failed = error
-        return len(view)
-
-    def close(self) -> None:
-        self._file.close()
-        super().close()
-
-
-@contextmanager
-def _writable(path: Path) -> Iterator[tuple[h5netcdf.File, _Sink]]:
-    """A new file at ``path`` to be written; an error of the disk is raised only after the library has closed it."""
-    import h5netcdf
-
-    sink = _Sink(path)
-    try:
-        with h5netcdf.File(sink, "w") as file:
-            yield file, sink
-    except Exception:
-        sink.check()  # an error of the disk comes before the errors that followed from it
-        raise
-    else:
-        sink.check()
-    finally:
-        sink.close()

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.advice import findings
 from ..contact.history import HistoryResult
 from ..contact.problem import ContactProblem
 from ..contact.result import PLASTIC_FRACTION, SCALARS, ContactResult
 from ..core.units import percent, show
 from ..plots.contact import PATH_PLOTS, PLASTIC_PLOTS
 from ..plots.picture import Figure, figures_by
+from .advice import findings
 from .contact import LoadPath
 from .part import Found, Rows, Solved, Table, Words, Work
 

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from ..contact.advice import DOUBT
 from ..core.quantity import Labelled, Quantity
 from ..core.units import percent, show
 from ..io.atomic import atomic_file
 from ..io.tables import cell
 from ..io.tree import node_of, write_tree
 from ..io.words import Rows
+from ..parts.advice import DOUBT
 from ..parts.part import Table
 from ..plots.campaign import (
     Curve,

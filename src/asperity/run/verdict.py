@@ -9,12 +9,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ..contact.advice import DOUBT, findings
 from ..contact.history import HistoryResult
 from ..contact.result import ContactResult
 from ..core.status import GRADES, Advice, Verdict
 from ..core.units import percent, show, times
 from ..io.words import area_text, headline_rows, limit_text
+from ..parts.advice import DOUBT, findings
 from ..parts.part import Part, Reached, Words
 from ..solids.elastic import TABOR
 from ..solids.layers import strength_of

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..contact.advice import advise, review
 from ..contact.boundary import Periodic
 from ..contact.controls import MeanPressure
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
+from ..contact.roughness import roughness_of
 from ..contact.solve import default_solver, steps
 from ..contact.solvers.protocol import Solver
 from ..core import require
@@ -22,12 +22,12 @@ from ..core.arrays import RealArray
 from ..core.engine import Engine
 from ..core.errors import AsperityError, InputError, NoSolutionError
 from ..core.status import Advice, Progress
+from ..parts.advice import advise, review
 from ..solids.elastic import Rigid
 from ..solids.layers import Body
 from ..surfaces.pair import composite
 from ..surfaces.surface import Surface
 from ..theories.protocol import QUANTITIES, Prediction, SurfaceTheory
-from ..theories.statistics.measured import roughness_of
 from ..theories.statistics.roughness import Roughness
 from .comparison import Comparison, NumericalCurve, TheoryCurve
 from .comparison_theories import LeftOut, check, chosen_theories, family, known_of_bodies, remarks

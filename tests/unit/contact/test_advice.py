@@ -102,7 +102,7 @@ def test_load_out_of_range():
 
 
 def test_memory(monkeypatch):
-    monkeypatch.setattr("asperity.contact.advice.free_memory", lambda: 1e4)
+    monkeypatch.setattr("asperity.parts.advice.free_memory", lambda: 1e4)
     assert "memory" in criteria(before(SMOOTH))
 
 

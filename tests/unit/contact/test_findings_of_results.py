@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 
 import asperity as asp
-from asperity.contact.advice import advise, review
+from asperity.parts.advice import advise, review
 from asperity.plots.notebook import card
 
 

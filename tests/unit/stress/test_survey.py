@@ -375,7 +375,7 @@ def test_progress_counts_down(coated: asp.ContactResult) -> None:
             StressRequest(friction=0.1),
             asp.Layered([asp.Layer(FILM, 2.0, asp.Frictionless())], BASE),
             "mean shear traction",
-            "Frictionless()",
+            "frictionless",
         ),
         (
             StressRequest(sections=(WantedSection("x", 25.0),)),

@@ -10,13 +10,13 @@ import numpy as np
 from ...contact.controls import Control, Step, as_step
 from ...contact.problem import ContactProblem
 from ...contact.result import ContactResult
+from ...contact.roughness import roughness_of
 from ...core.errors import InputError
 from ...core.status import Advice
 from ...core.units import percent, show
 from ...parts.part import Found, Rows, Solved, Table, Words, Work
 from ...plots.picture import Figure, figures_by
 from ...theories.adhesion.fuller_tabor import FullerTabor
-from ...theories.statistics.measured import roughness_of
 from .answer import PINNED, RESOLVED_RADIUS, method_of
 from .bound import energy_bound
 from .branch import Jump, adhesive_jumps

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...contact.result import ContactResult
+from ...contact.roughness import roughness_of
 from ...core.errors import InputError
 from ...surfaces.surface import Surface
 from ...theories.rough.greenwood_williamson import KotwalBhushan
-from ...theories.statistics.measured import roughness_of
 from ...theories.wet.meniscus import MeniscusGrowth, wetting_factor
 from ...theories.wet.summits import KineticMeniscus, StatisticalMeniscus
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...contact.roughness import roughness_of
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.status import Advice
@@ -19,7 +20,6 @@ from ...solids.elastic import Elastic
 from ...solids.layers import Body, Layered, materials_of
 from ...solids.plasticity import J2, LinearHardening
 from ...solids.strength import flow_stress, plastic_parts
-from ...theories.statistics.measured import roughness_of
 from .figures import Cut, PlasticPicture
 from .part_quantities import CUT, IMPRINT
 

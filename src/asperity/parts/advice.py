@@ -8,6 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..contact.certificate import LARGEST_DUALITY_GAP
+from ..contact.controls import Control, Force, MeanPressure, mean_pressure
+from ..contact.history import HistoryResult
+from ..contact.law import InterfaceLaw, LimitByDepth
+from ..contact.problem import ContactProblem
+from ..contact.result import ContactResult
 from ..core.status import Advice, free_memory, room_text
 from ..core.units import percent, show, times
 from ..solids.elastic import TABOR, Elastic, yield_pressure
@@ -15,12 +21,6 @@ from ..solids.layers import Layered, RigidBase, materials_of, strength_of, unkno
 from ..surfaces.characterise.heights import rms_height
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
 from ..surfaces.surface import Surface
-from .certificate import LARGEST_DUALITY_GAP
-from .controls import Control, Force, MeanPressure, mean_pressure
-from .history import HistoryResult
-from .law import InterfaceLaw, LimitByDepth
-from .problem import ContactProblem
-from .result import ContactResult
 
 LARGEST_SLOPE = 0.3
 """Half-space theory neglects slopes squared: 9 % at 0.3."""

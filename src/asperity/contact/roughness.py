@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 
-from ...core import require
-from ...core.errors import InputError
-from ...surfaces.characterise.correlation import DROP_1E, autocovariance, fractal_parameters
-from ...surfaces.characterise.heights import deviations, height_parameters
-from ...surfaces.characterise.moments import DifferenceMoments, SpectralMoments, difference_moments, spectral_moments
-from ...surfaces.characterise.spectrum import power_spectrum, radial_spectrum
-from ...surfaces.characterise.summits import summits
-from ...surfaces.prepare.level import filled
-from ...surfaces.surface import Surface
-from .roughness import Fractal, MomentTensor, Roughness, Spectrum, SummitList
+from ..core import require
+from ..core.errors import InputError
+from ..surfaces.characterise.correlation import DROP_1E, autocovariance, fractal_parameters
+from ..surfaces.characterise.heights import deviations, height_parameters
+from ..surfaces.characterise.moments import DifferenceMoments, SpectralMoments, difference_moments, spectral_moments
+from ..surfaces.characterise.spectrum import power_spectrum, radial_spectrum
+from ..surfaces.characterise.summits import summits
+from ..surfaces.prepare.level import filled
+from ..surfaces.surface import Surface
+from ..theories.statistics.roughness import Fractal, MomentTensor, Roughness, Spectrum, SummitList
 
 MOMENTS = ("auto", "spectrum", "differences")
 """Where the moments can come from."""
