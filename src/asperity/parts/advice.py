@@ -393,7 +393,7 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
             "note",
             "yielding",
             f"Yielding of {' and '.join(unknown)} is not checked: neither hardness nor yield stress is known.",
-            f"Give H or Y ({{strength}}), with which the maximum pressure, {show(result.max_pressure, 'Pa')}, is compared.",
+            f"Give H or Y ({{yield_stress}}), with which the maximum pressure, {show(result.max_pressure, 'Pa')}, is compared.",
             {"max_pressure": result.max_pressure},
         )
 
@@ -490,7 +490,7 @@ def _below(law: InterfaceLaw, body: Layered) -> Iterator[Advice]:
             "layers below",
             f"The pressure is limited to {show(limit, 'Pa')}, the hardness of the top layer; the strength of {' and '.join(missing)} below it is not "
             "known, and with it not whether contacts that press through the layer yield at more or at less.",
-            "Give H or Y of it ({strength}).",
+            "Give H or Y of it ({yield_stress}).",
             {"limit": limit},
             (*AREAS, *PRESSURES, "plastic_"),
         )
