@@ -336,7 +336,8 @@ class _Writer:
         for name, child in node.children.items():
             if name not in self._children:
                 group, whole = self._group.create_group(name), {**self._whole, **child.lengths}
-                self._children[name] = _Writer(group, self._sink, grows=self._grows or _grows(child), whole=whole)
+                grows = self._grows or not isinstance(child.rows, tuple) or bool(child.rows)  # rows may follow
+                self._children[name] = _Writer(group, self._sink, grows=grows, whole=whole)
             self._children[name].add(child, begin)
             for row in child.rows:
                 self._children[name].add(row)
@@ -373,11 +374,6 @@ class _Digest:
     def _fill(self, rows: int) -> None:
         self._hash.update(bytes((rows - self._rows) * self._size))
         self._rows = rows
-
-
-def _grows(node: Node) -> bool:
-    """Whether rows may follow ``node``."""
-    return not isinstance(node.rows, tuple) or bool(node.rows)
 
 
 def _bytes(values: np.ndarray[Any, Any]) -> Any:
@@ -452,14 +448,12 @@ def _create(item: Labelled, group: h5netcdf.Group, *, grows: bool, whole: bool) 
     quantity, values = item.quantity, _stored(item.values)
     kind = h5py.string_dtype() if values.dtype.kind == "O" else values.dtype
     options: dict[str, Any] = {}
-    if grows and whole:
-        pass  # all rows of a number or of bits lie together
-    elif grows:
+    if grows and not whole:
         # rows of a path come in blocks of any length: chunks of half a megabyte
         inner = values.shape[1:]
         rows = max(1, min(max(len(values), 256), CHUNK // (values.dtype.itemsize * math.prod(inner) or 1)))
         options["chunks"] = (rows, *inner)
-    elif values.ndim > 1 and values.dtype.kind != "O" and np.count_nonzero(values) < SPARSE * values.size:
+    elif not grows and values.ndim > 1 and values.dtype.kind != "O" and np.count_nonzero(values) < SPARSE * values.size:
         options |= {"compression": "gzip", "compression_opts": 1, "shuffle": True}
         options |= {"chunks": (1, *values.shape[1:])} if values.ndim == 3 else {}
     elif not values.ndim:
