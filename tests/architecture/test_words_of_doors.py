@@ -101,6 +101,20 @@ def test_texts_beside_the_command_line_name_no_options() -> None:
     assert not found
 
 
+def test_every_name_in_braces_is_an_action_or_a_key() -> None:
+    """One that is none would be shown with its braces."""
+    others = ("asperity.io.atomic",)  # patterns of names of files
+    found = [
+        f"{module.name}:{line} {name}"
+        for module in library()
+        if module.folder not in ("cli", "web", "core") and module.name not in others
+        for line, text in texts(module)
+        for name in PLACEHOLDER.findall(text)
+        if name not in ACTIONS and "." not in name
+    ]
+    assert not found
+
+
 def test_every_action_is_advised_somewhere() -> None:
     assert set(ACTIONS) - said() == set()
 
