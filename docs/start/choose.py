@@ -31,7 +31,7 @@ ROWS = (
 """Theories of rough surfaces, what they need, and the colour of what they are about."""
 
 KINDS = {"tab:blue": "elastic", "tab:orange": "elastic-plastic"}
-SPHERES = (("dmt", "short contacts of stiff bodies"), ("maugis-dugdale", "any"), ("jkr", "soft bodies, large radii"))
+SPHERES = (("dmt", "stiff bodies, small radii"), ("maugis-dugdale", "any"), ("jkr", "soft bodies, large radii"))
 
 
 def spans(name: str, roughness: asp.roughness.Roughness) -> tuple[np.ndarray, np.ndarray]:
