@@ -42,7 +42,7 @@ def test_parse(text, kind, value):
         ("5 bananas", "length", ["'bananas'"]),
         ("50mpa", "pressure", ["'mpa'", "MPa", "mPa"]),
         ("5 nm nm nm)", "length", ["'nm nm nm)'"]),
-        ("1,5 nm", "length", ["',5 nm'"]),
+        ("1,5 nm", "length", ["'1,5 nm'", "1.5 nm"]),
         ("nan nm", "length", ["'nan nm'"]),
     ],
 )

@@ -146,7 +146,7 @@ def test_flow_stress_is_known_inferred_or_asked_for() -> None:
     inferred = flow_stress(elastic("E=200GPa,nu=0.3,H=2.8GPa").strength)
     assert (inferred.value, inferred.inferred) == (pytest.approx(1e9), True)
     assert math.isnan(flow_stress(elastic("E=200GPa,nu=0.3").strength).value)
-    with refused(InputError, "yield stress of steel", "Y"):
+    with refused(InputError, "yield stress of steel", "Strength(yield_stress=...)"):
         asp.plasticity.plastic_solid(asp.material("steel"))
     with refused(InputError, "material of a plastic solid", "viscoelastic"):
         asp.plasticity.plastic_solid(asp.Viscoelastic.maxwell(1e9, 1.0, 0.3))
