@@ -93,6 +93,17 @@ def test_a_number_a_list_and_a_range(run: Runner) -> None:
     assert "[Sneddon1965]" in text
 
 
+def test_a_straight_body_has_an_infinite_radius(run: Runner) -> None:
+    """A drum on a plane, whose radii are infinite; the answer holds both semi-axes."""
+    drum = ("--radius-1x", "10mm", "--radius-1y", "20mm", "--radius-2x", "inf", "--radius-2y", "inf")
+    found = json.loads(run("theory", "hertz-bodies", "--E-star", "100GPa", *drum, "--load", "1N", "--json").stdout)
+    ellipse = asp.theories.HertzEllipse(100e9, 0.02, 0.01).at_load(1.0)
+    columns = {name: column["values"][0] for name, column in found["columns"].items()}
+    assert (columns["semi_x"], columns["semi_y"]) == pytest.approx(
+        (float(ellipse.semi_x), float(ellipse.semi_y)), rel=1e-12
+    )
+
+
 def test_rows_beyond_a_limit_are_marked(run: Runner) -> None:
     text = run("theory", "greenwood-williamson", *SUMMITS, "--pressure", "10MPa,10GPa").stdout
     (light,) = (line for line in text.splitlines() if " 10 MPa " in line)

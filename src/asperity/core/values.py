@@ -159,6 +159,8 @@ class Number(Values):
                     f"{what} must be text with a number and a unit, such as {self._example!r}, but is the bare number {value!r}."
                 )
             return self._checked(value, what, repr(value))
+        if self.infinite and value.strip() == "inf":
+            return Written(math.inf, value)
         kind, instead = self.quantity if self.quantity in units.DIMENSIONS else self.unit, self._or_words
         number = units.parse(value, kind, what, f",{instead}" if instead else "")
         self._checked(number, what, repr(value))

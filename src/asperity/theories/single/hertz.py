@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Annotated, ClassVar, TypeAlias
 
 import numpy as np
@@ -320,42 +320,28 @@ class HertzBodies(Theory):
         ),
     )
 
+    radius_x: float = field(init=False, repr=False)
+    radius_y: float = field(init=False, repr=False)
+    turn: float = field(init=False, repr=False)
+
     def __post_init__(self) -> None:
         super().__post_init__()
         radii = (self.radius_1x, self.radius_1y, self.radius_2x, self.radius_2y)
         if 0.0 in radii:
             raise InputError("principal radii (m) must not be zero, but one is. Write inf where a body is straight.")
-        flat, steep, _ = self._curvatures
+        first, second = 1.0 / self.radius_1x - 1.0 / self.radius_1y, 1.0 / self.radius_2x - 1.0 / self.radius_2y
+        along, across = first + second * math.cos(2.0 * self.angle), second * math.sin(2.0 * self.angle)
+        total, difference = sum(1.0 / radius for radius in radii), math.hypot(along, across)
+        flat, steep = 0.5 * (total - difference), 0.5 * (total + difference)
         # what rounding leaves of two equal curvatures is none
         if not flat > 1e-12 * sum(abs(1.0 / radius) for radius in radii):
             raise InputError(
                 "principal radii (m) must leave a gap that opens in all directions, but its curvatures are "
                 f"{flat:.4g} and {steep:.4g} 1/m. A line contact is that of HertzLine; a hollow body must be wider than the one in it."
             )
-
-    @property
-    def _curvatures(self) -> tuple[float, float, float]:
-        """Smaller and larger curvature of the gap in 1/m, and the angle of the plane of the smaller one."""
-        first, second = 1.0 / self.radius_1x - 1.0 / self.radius_1y, 1.0 / self.radius_2x - 1.0 / self.radius_2y
-        along, across = first + second * math.cos(2.0 * self.angle), second * math.sin(2.0 * self.angle)
-        total = 1.0 / self.radius_1x + 1.0 / self.radius_1y + 1.0 / self.radius_2x + 1.0 / self.radius_2y
-        difference = math.hypot(along, across)
-        return 0.5 * (total - difference), 0.5 * (total + difference), 0.5 * math.atan2(-across, -along)
-
-    @property
-    def radius_x(self) -> float:
-        """Larger relative radius in m."""
-        return 1.0 / self._curvatures[0]
-
-    @property
-    def radius_y(self) -> float:
-        """Smaller relative radius in m."""
-        return 1.0 / self._curvatures[1]
-
-    @property
-    def turn(self) -> float:
-        """Angle in rad, above -π/2 and up to π/2, from the plane x of the first body to the larger semi-axis."""
-        return self._curvatures[2]
+        made = {"radius_x": 1.0 / flat, "radius_y": 1.0 / steep, "turn": 0.5 * math.atan2(0.0 - across, -along)}
+        for name, value in made.items():
+            object.__setattr__(self, name, value)
 
     @property
     def ellipse(self) -> HertzEllipse:
