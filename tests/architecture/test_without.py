@@ -45,6 +45,10 @@ EVERY = 40
 """Of these files each physics has every fortieth, each another one to begin with: all take minutes for each physics."""
 
 
+OF_ALL = ("test_every_reference_is_named_by_the_code",)
+"""Tests of the whole package that no physics can be left out of: papers are listed whoever rests on them."""
+
+
 def left_out(physics: str) -> frozenset[str]:
     """The folder of ``physics`` and those that cannot be without it."""
     found = {physics}
@@ -201,7 +205,9 @@ def test_tests_that_do_not_concern_it_pass(physics: str, tmp_path: Path) -> None
     chosen = [str(path) for path in unconcerned(folders)][PHYSICS.index(physics) :: EVERY]
     assert chosen
     copy = copy_without(folders, tmp_path / "copy")
-    run_in(copy, "-m", "pytest", "-q", "-x", "-p", "no:randomly", "-p", "no:cacheprovider", "-m", "not slow", *chosen)
+    others = " and ".join(f"not {name}" for name in OF_ALL)
+    quiet = ("-q", "-x", "-p", "no:randomly", "-p", "no:cacheprovider")
+    run_in(copy, "-m", "pytest", *quiet, "-m", "not slow", "-k", others, *chosen)
 
 
 def unconcerned(folders: frozenset[str]) -> Iterator[Path]:
