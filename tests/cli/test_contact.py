@@ -112,7 +112,7 @@ def test_not_converged_is_exit_1_with_the_remedy_and_still_written(run: Runner, 
     out = tmp_path / "run"
     result = run("contact", matrix, *SCALE, *BODY, *LOAD, "--max-iterations", 1, "--out", out)
     assert result.exit_code == 1
-    assert "max_iterations" in result.stdout
+    assert "--max-iterations" in result.stdout
     assert not load(out / "result.nc").converged
 
 

@@ -133,7 +133,9 @@ def part_group(part: Part, outcome: Outcome, before: Node = Node()) -> Node:
     stored = part.at_work.stored(found)
     words = asdict(found.words or part.at_work.words(found, outcome.solved))
     attributes = {"words": json.dumps(words), "facts": json.dumps(dict(stored.facts))}
-    attributes |= {"title": part.title, "citation_keys": " ".join(found.citation_keys)}
+    attributes |= {"title": part.title}
+    if found.citation_keys or "citation_keys" not in before.attributes:  # those of the contact are its own
+        attributes |= {"citation_keys": " ".join(found.citation_keys)}
     fields = {name: kept_node(field, FIELD) for name, field in stored.fields.items()}
     return replace(
         before,
