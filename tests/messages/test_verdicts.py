@@ -148,3 +148,13 @@ def test_press_refuses_in_words_of_python(
     with refused(asp.InputError, subject, *shown) as caught:
         asp.press(tmp_path / "scan.bcr", **options)
     assert "--" not in str(caught.value)
+
+
+def test_stresses_under_prescribed_tractions_have_one_too() -> None:
+    patch = {"kind": "patch", "x": ["0.8 um", "1.6 um"], "y": ["0.5 um", "1 um"], "pressure": "1 GPa"}
+    loads = {"points": [24, 16], "size": "2.4 um x 1.6 um", "boundary": "free", "loads": [patch]}
+    outcome = asp.run({"version": 2, "body": "steel{Y=400MPa}", "tractions": loads, "stress": {"depths": ["0.1 um"]}})
+    assert outcome.verdict.fails
+    assert outcome.verdict.holds.startswith("The body yields: ")
+    assert outcome.verdict.holds in " ".join(repr(outcome).split())
+    assert "The body yields: " in outcome._repr_html_()

@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from html import escape
 from itertools import chain
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -75,6 +76,9 @@ class Outcome(Judged, Drawn):
             *given.headline,
             ("status", self.status.message),
         ]
+
+    def _repr_html_(self) -> str:
+        return super()._repr_html_() if isinstance(self.result, ContactResult) else f"<pre>{escape(repr(self))}</pre>"
 
     @property
     def drawn(self) -> ContactResult | HistoryResult:

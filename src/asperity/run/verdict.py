@@ -56,7 +56,10 @@ def verdict(thing: ContactResult | HistoryResult | Outcome | str | Path) -> Verd
         outcome = thing
     else:
         outcome = answered(thing.last, thing) if isinstance(thing, HistoryResult) else answered(thing, None)
-    reached, said, told = outcome.solved.at(), list(outcome.sections), told_of(outcome)
+    said = list(outcome.sections)
+    if not isinstance(outcome.result, ContactResult):
+        return _of_tractions(said)
+    reached, told = outcome.solved.at(), told_of(outcome)
     grade, trust = _trust(outcome, reached.result, told)
     holds, fails = _holds(outcome, reached, said, told)
     what = " ".join(
@@ -68,6 +71,17 @@ def verdict(thing: ContactResult | HistoryResult | Outcome | str | Path) -> Verd
     own = [row for part, words in said for row in words.headline]
     headline = [*headline_rows(reached.result, doubted(told, reached.result)), *own]
     return Verdict(what, holds, f"{GRADES[grade]}: {trust}", grade, fails, reached.number, reached.many, headline)
+
+
+def _of_tractions(said: Sequence[tuple[Part, Words]]) -> Verdict:
+    """On stresses under prescribed tractions, which need no solution."""
+    what, trust = (
+        "The stresses are those under the prescribed tractions.",
+        f"{GRADES['good']}: nothing had to be solved.",
+    )
+    holds = " ".join(words.holds for _, words in said if words.holds) or "Yielding not checked."
+    fails = any(words.alarming for _, words in said)
+    return Verdict(what, holds, trust, "good", fails, 1, 1, [row for _, words in said for row in words.headline])
 
 
 def told_of(outcome: Outcome) -> tuple[Advice, ...]:
