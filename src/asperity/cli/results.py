@@ -160,7 +160,7 @@ def stress(file: Loaded, given: Given, out: Out = None, force: Force = False) ->
     write_volume(outcome, files, force=force)
     print_problem(outcome, f"Stresses in {file}")
     print_words(outcome)
-    print_verdict(outcome)
+    print_verdict(outcome.verdict)
     print_files(written)
     raise typer.Exit(OK if result.converged else NOT_CONVERGED)
 

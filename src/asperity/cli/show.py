@@ -28,7 +28,7 @@ from ..core.words import printable
 
 if TYPE_CHECKING:
     from ..contact.result import ContactResult
-    from ..core.status import Advice
+    from ..core.status import Advice, Verdict
     from ..run.execute import Outcome
 
 
@@ -169,24 +169,21 @@ def print_problem(outcome: Outcome, title: str) -> None:
 
 def print_result(outcome: Outcome) -> None:
     """Print scalars and status of ``outcome``, with the words and findings of its parts."""
-    from ..run.verdict import doubted, told_of
+    from ..run.verdict import verdict
 
-    reached, told = outcome.solved.at(), told_of(outcome)
+    reached, given = outcome.solved.at(), verdict(outcome)
     heading = f"Result at {reached.where}" if reached.where else "Result"
-    console().print(table(heading, scalar_rows(reached.result, doubted(told, reached.result))))
+    console().print(table(heading, scalar_rows(reached.result, given.doubted)))
     print_words(outcome)
     say(outcome.status.message, "green" if outcome.converged else "bold red", warning=not outcome.converged)
     if outcome.status.remedy:
         say(outcome.status.remedy, "red", warning=True)
-    print_verdict(outcome)
+    print_verdict(given)
 
 
-def print_verdict(outcome: Outcome) -> None:
+def print_verdict(given: Verdict) -> None:
     """Print findings, then what was found, whether it holds, and whether it can be trusted."""
-    from ..run.verdict import others, told_of, verdict
-
-    given = verdict(outcome)
-    print_advice(others(told_of(outcome), given))
+    print_advice(given.others)
     styles = (
         "bold",
         "bold red" if given.fails else "green",

@@ -79,6 +79,9 @@ class Advice:
 GRADES = {"good": "Good", "doubtful": "Doubtful", "not": "Not to be trusted"}
 """Grades of trust, and what they are called."""
 
+SENTENCES = ("Result", "Strength", "Trust")
+"""What the sentences of a verdict are about."""
+
 
 @dataclass(frozen=True)
 class Verdict:
@@ -100,6 +103,10 @@ class Verdict:
         Number of the decisive step from 1, that of the largest load, and how many there are.
     headline
         Label and text of the numbers that people look for first, at that step.
+    findings
+        Everything that should be known before the numbers are used.
+    doubted
+        Beginnings of the names of all quantities that the findings put in doubt.
     """
 
     what: str
@@ -110,11 +117,18 @@ class Verdict:
     step: int
     steps: int
     headline: list[tuple[str, str]]
+    findings: tuple[Advice, ...] = ()
+    doubted: tuple[str, ...] = ()
 
     @property
     def rows(self) -> list[tuple[str, str]]:
         """The three sentences with what each is about."""
-        return [("Result", self.what), ("Strength", self.holds), ("Trust", self.trust)]
+        return list(zip(SENTENCES, (self.what, self.holds, self.trust), strict=True))
+
+    @property
+    def others(self) -> tuple[Advice, ...]:
+        """Findings that the sentence on trust does not tell itself."""
+        return tuple(item for item in self.findings if item.message not in self.trust)
 
 
 class Progress(Protocol):

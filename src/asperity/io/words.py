@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from itertools import groupby
 from textwrap import wrap
@@ -17,7 +17,7 @@ from ..contact.result import SCALARS, ContactResult
 from ..core.errors import InputError
 from ..core.late import Judged, Stored
 from ..core.quantity import Quantity
-from ..core.status import Advice, Verdict
+from ..core.status import SENTENCES, Verdict
 from ..core.units import percent, show
 from ..core.words import printable
 from ..solids.elastic import Elastic, Strength, yield_pressure
@@ -475,7 +475,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
         state, given = "converged" if thing.converged else "NOT CONVERGED", thing.verdict
         rows = [
             *given.rows,
-            *finding_rows(thing.advice, given),
+            *finding_rows(given),
             *problem_rows(thing.problem),
             (f"prescribed {thing.control.name}", show(thing.control.value, thing.control.unit)),
         ]
@@ -486,7 +486,7 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
         given = thing.verdict
         rows = [
             *given.rows,
-            *finding_rows(thing.advice, given),
+            *finding_rows(given),
             *problem_rows(thing.last.problem),
             ("steps", f"{len(thing.steps)}, {ended}"),
         ]
@@ -500,9 +500,9 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
     raise InputError(f"thing to put in words must be a surface, problem, result or stress field, but is {type(thing)}.")
 
 
-def finding_rows(told: Iterable[Advice], given: Verdict) -> Rows:
-    """Warnings and notes that the verdict ``given`` does not tell itself, the warnings first."""
-    made = sorted((item for item in told if item.message not in given.trust), key=lambda item: item.level != "warning")
+def finding_rows(given: Verdict) -> Rows:
+    """Warnings and notes that the sentences of the verdict ``given`` do not tell, the warnings first."""
+    made = sorted(given.others, key=lambda item: item.level != "warning")
     return [("WARNING" if item.level == "warning" else "note", item.message) for item in made]
 
 
@@ -512,11 +512,10 @@ def text(thing: object) -> str:
         return printable(f"<{_line(thing)}>")
     heading, rows = heading_and_rows(thing)
     wide = max(len(label) for label, _ in rows)
-    given = [text for _, text in thing.verdict.rows] if isinstance(thing, Judged) else []
     lines = [
         f"  {label if first else '':<{wide}}  {line}"
         for label, text in rows
-        for first, line in _lines(text, whole=text in given)
+        for first, line in _lines(text, whole=label in SENTENCES)
     ]
     return "\n".join([heading, *lines])
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from ..contact.result import ContactResult
@@ -21,7 +22,7 @@ from ..io.words import (
 from ..parts.registry import versions
 from ..plots.together import drawing
 from ..run.execute import Outcome, analysed
-from ..run.verdict import doubted, others, told_of, verdict
+from ..run.verdict import doubted, verdict
 from .page import shown, software_rows, write_page
 from .scene import scene_of
 
@@ -64,8 +65,8 @@ def write_report(
             raise InputError(f"advice of a report must hold Advice, but holds {type(item).__name__}.")
     outcome = answer if isinstance(answer, Outcome) else analysed(answer, {"plasticity": True})
     reached, given = outcome.solved.at(), verdict(outcome)
-    result, told = reached.result, tuple(dict.fromkeys((*told_of(outcome), *advice)))
-    names = doubted(told, result)
+    result, told = reached.result, tuple(dict.fromkeys((*given.findings, *advice)))
+    given = replace(given, findings=told, doubted=doubted(told, result))
     source = result.problem.surface.origin.source
     stored = json.loads(outcome.stored["provenance"]) if outcome.stored else provenance(result, versions())
     surfaces = [key for key in ("surface", "counter_surface") if key in stored]
@@ -90,11 +91,11 @@ def write_report(
         headline=given.headline,
         inputs=inputs,
         certificate=certificate_rows(result),
-        results=result_rows(result, names),
+        results=result_rows(result, given.doubted),
         figures=outcome.pictures,
         scene=maps,
         sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in outcome.sections],
-        advice=others(told, given),
+        advice=given.others,
         provenance=[
             ("written (UTC)", stored["created"]),
             *software_rows(stored["software"], **{key: stored[key]["digest"] for key in surfaces}),

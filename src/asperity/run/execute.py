@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
@@ -72,7 +72,7 @@ class Outcome(Judged, Drawn):
         title = self.stored.get("report_title") or "Outcome"
         return str(title), [
             *given.rows,
-            *finding_rows(self.findings, given),
+            *finding_rows(given),
             *given.headline,
             ("status", self.status.message),
         ]
@@ -111,14 +111,12 @@ class Outcome(Judged, Drawn):
         """Every scalar by the name of its quantity, SI."""
         return {item.quantity.name: item.values for item in self.scalars}
 
-    @property
-    def sections(self) -> Iterator[tuple[Part, Words]]:
+    @cached_property
+    def sections(self) -> tuple[tuple[Part, Words], ...]:
         """Every part with words, and these."""
-        for part in self.parts:
-            if part.name in self.found and (
-                words := self.found[part.name].words or part.at_work.words(self.found[part.name], self.solved)
-            ):
-                yield part, words
+        found = ((part, self.found[part.name]) for part in self.parts if part.name in self.found)
+        told = ((part, item.words or part.at_work.words(item, self.solved)) for part, item in found)
+        return tuple((part, words) for part, words in told if words)
 
     @cached_property
     def figures(self) -> dict[str, tuple[Figure, ...]]:

@@ -56,12 +56,13 @@ def verdict(thing: ContactResult | HistoryResult | Outcome | str | Path) -> Verd
         outcome = thing
     else:
         outcome = answered(thing.last, thing) if isinstance(thing, HistoryResult) else answered(thing, None)
-    said = list(outcome.sections)
+    said = outcome.sections
     if not isinstance(outcome.result, ContactResult):
         return _of_tractions(said)
-    reached, told = outcome.solved.at(), told_of(outcome)
+    reached, told = outcome.solved.at(), _told(outcome)
+    names = doubted(told, reached.result)
     grade, trust = _trust(outcome, reached.result, told)
-    holds, fails = _holds(outcome, reached, said, told)
+    holds, fails = _holds(outcome, reached.result, said, names)
     what = " ".join(
         [
             _contact(reached, outcome),
@@ -69,8 +70,9 @@ def verdict(thing: ContactResult | HistoryResult | Outcome | str | Path) -> Verd
         ]
     )
     own = [row for part, words in said for row in words.headline]
-    headline = [*headline_rows(reached.result, doubted(told, reached.result)), *own]
-    return Verdict(what, holds, f"{GRADES[grade]}: {trust}", grade, fails, reached.number, reached.many, headline)
+    headline = [*headline_rows(reached.result, names), *own]
+    trusted = f"{GRADES[grade]}: {trust}"
+    return Verdict(what, holds, trusted, grade, fails, reached.number, reached.many, headline, told, names)
 
 
 def _of_tractions(said: Sequence[tuple[Part, Words]]) -> Verdict:
@@ -84,15 +86,10 @@ def _of_tractions(said: Sequence[tuple[Part, Words]]) -> Verdict:
     return Verdict(what, holds, trust, "good", fails, 1, 1, [row for _, words in said for row in words.headline])
 
 
-def told_of(outcome: Outcome) -> tuple[Advice, ...]:
+def _told(outcome: Outcome) -> tuple[Advice, ...]:
     """All findings on an ``outcome``, each once, that on its energy first."""
     own = () if "contact" in outcome.found else findings(outcome.path or outcome.result)
     return tuple(sorted(dict.fromkeys((*outcome.findings, *own)), key=lambda item: item.criterion != DOUBT))
-
-
-def others(told: Iterable[Advice], given: Verdict) -> tuple[Advice, ...]:
-    """Findings that the verdict ``given`` does not tell itself."""
-    return tuple(item for item in told if item.message not in given.trust)
 
 
 def doubted(told: Iterable[Advice], result: ContactResult) -> tuple[str, ...]:
@@ -112,10 +109,10 @@ def _contact(reached: Reached, outcome: Outcome) -> str:
     if result.contact.any():
         under = f"under a mean pressure of {show(result.mean_pressure, 'Pa')} ({show(result.force, 'N')})"
         approach = f", approach {show(result.approach, 'm')}" if math.isfinite(result.approach) else ""
-        text = f"he bodies touch on {area_text(result)} of the nominal area, {show(result.contact_area, 'm**2')}, {under}{approach}."
+        text = f"bodies touch on {area_text(result)} of the nominal area, {show(result.contact_area, 'm**2')}, {under}{approach}."
     else:
-        text = f"he bodies do not touch; the mean gap is {show(result.mean_gap, 'm')}."
-    text = f"At step {reached.number} of {reached.many} t{text}" if reached.where else f"T{text}"
+        text = f"bodies do not touch; the mean gap is {show(result.mean_gap, 'm')}."
+    text = f"At step {reached.number} of {reached.many} the {text}" if reached.many > 1 else f"The {text}"
     if reached.number == reached.many:
         return text
     touch = f"touch on {percent(last.area_fraction_corrected)} of it" if last.contact.any() else "do not touch"
@@ -128,10 +125,10 @@ def _contact(reached: Reached, outcome: Outcome) -> str:
 
 
 def _holds(
-    outcome: Outcome, reached: Reached, said: Sequence[tuple[Part, Words]], told: Sequence[Advice]
+    outcome: Outcome, result: ContactResult, said: Sequence[tuple[Part, Words]], names: tuple[str, ...]
 ) -> tuple[str, bool]:
-    """What does not hold, by all that was computed, and whether there is any of it."""
-    result, texts, fails, names = reached.result, list[str](), False, doubted(told, reached.result)
+    """What does not hold, by all that was computed, and whether there is any of it; ``names`` begin those of doubted quantities."""
+    texts, fails = list[str](), False
     for part, words in said:
         if words.holds:
             doubtful = names and any(

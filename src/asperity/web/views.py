@@ -20,7 +20,7 @@ from ..plots.picture import Figure
 from ..report.comparison import comparison_sentence
 from ..report.scene import reduced, scene_of
 from ..run.execute import Outcome
-from ..run.verdict import doubted, others, told_of, verdict
+from ..run.verdict import verdict
 from ..studies.compare import compare
 
 SCENE, SHOWN, THEORIES = ".scene.json", ".shown.json", ".theories.json"
@@ -101,7 +101,7 @@ def _planes(outcome: Outcome) -> Iterator[Figure]:
 
 def _words(outcome: Outcome) -> dict[str, Any]:
     """Findings, headline, results, certificate, and the words of every part."""
-    reached, given, told = outcome.solved.at(), verdict(outcome), told_of(outcome)
+    reached, given = outcome.solved.at(), verdict(outcome)
     result = reached.result
     return {
         "verdict": [list(row) for row in given.rows],
@@ -109,9 +109,9 @@ def _words(outcome: Outcome) -> dict[str, Any]:
         "fails": given.fails,
         "at": reached.where,
         "status": [outcome.status.message, outcome.status.remedy, outcome.converged],
-        "findings": [[item.level, item.criterion, item.message] for item in others(told, given)],
+        "findings": [[item.level, item.criterion, item.message] for item in given.others],
         "headline": [list(row) for row in given.headline],
-        "results": [list(row) for row in result_rows(result, doubted(told, result))],
+        "results": [list(row) for row in result_rows(result, given.doubted)],
         "certificate": [list(row) for row in certificate_rows(result)],
         "parts": [
             {
