@@ -351,7 +351,9 @@ def stress_planes(
 
 
 def _with_edges(field: StressField, edges: AtEdges | None) -> StressField:
-    return field if edges is None else replace(field, at_edges=OfTensor(edges, field.tensor))
+    if edges is None:
+        return field
+    return replace(field, at_edges=OfTensor(edges.beside(field), field.tensor))
 
 
 def at_edges(result: Any, loads: Tractions, of: Of, residual: Residual | None, threads: int | None) -> AtEdges | None:

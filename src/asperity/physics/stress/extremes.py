@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from ...core.arrays import RealArray
 from ...core.grid import Grid
 from ...core.tensor import StressTensor
-from . import criteria as invariants
 from .boundaries import Reader, Rows
 from .criteria import Criterion
+from .largest import EXACT
 from .peaks import Peak, SurfaceMaxima
 from .regions import Plane, Region
 from .yielding import Gathered, YieldReport, equivalent_at
@@ -42,11 +42,8 @@ class InterfaceMaxima:
     peel: Peak
 
 
-_EXACT: dict[str, Callable[[StressTensor], RealArray]] = {
-    "von_mises": invariants.von_mises,
-    "tension": lambda s: np.asarray(invariants.principal_stresses(s)[0]),
-    "shear": invariants.max_shear,
-    "in_plane": invariants.principal_tensile,
+_EXACT = {
+    **EXACT,
     "shear_xz": lambda s: np.abs(s.xz),
     "shear_yz": lambda s: np.abs(s.yz),
     "traction": lambda s: np.asarray(np.hypot(s.xz, s.yz)),

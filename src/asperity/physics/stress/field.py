@@ -17,6 +17,7 @@ from ...core.tensor import Displacement, StressTensor
 from ...core.units import show
 from ...solids.library import full_name
 from . import criteria as invariants
+from .largest import largest
 from .peaks import MAXIMA, Peak, SurfaceMaxima, peak_text
 from .regions import Plane, Region
 
@@ -136,8 +137,11 @@ class StressField(Stored):
         """Largest ``tension`` (σ1), ``von_mises``, ``shear`` ((σ1 - σ3)/2) or ``in_plane`` principal stress with its place, of all planes or one; at the surface
         with its error."""
         require.one_of(name, MAXIMA, "largest stress")
-        values = {"tension": "max_principal", "shear": "max_shear", "in_plane": "principal_tensile"}.get(name, name)
-        peak = self.peak(getattr(self, values), plane)
+        first, part = (0, self.tensor) if plane is None else (plane, self.tensor.map(lambda c: c[plane : plane + 1]))
+        numbers, values = largest(name, part)
+        best = int(np.argmax(values))
+        number, *index = (int(k) for k in np.unravel_index(int(numbers[best]), part.xx.shape))
+        peak = self._peak(float(values[best]), number + first, index)
         at_surface = plane is None or self.planes[plane].side == "surface"
         edges = self.surface_maxima if at_surface else None
         return peak if edges is None else edges.joined(name, peak)
@@ -312,8 +316,11 @@ class StressField(Stored):
                 f"values of a peak must have the shape {self.tensor.xx.shape} of the field, but have {values.shape}."
             )
         first, searched = (0, values) if plane is None else (plane, values[plane : plane + 1])
-        number, *index = np.unravel_index(int(np.argmax(searched)), searched.shape)
-        place = (int(number) + first, *map(int, index))
-        section, at = self.planes[place[0]], dict(zip(self.dims[1:], place[1:], strict=True))
+        number, *index = (int(k) for k in np.unravel_index(int(np.argmax(searched)), searched.shape))
+        return self._peak(float(searched[number, *index]), number + first, index)
+
+    def _peak(self, value: float, plane: int, index: list[int]) -> Peak:
+        """A ``value`` at the point of a ``plane`` with this ``index``."""
+        section, at = self.planes[plane], dict(zip(self.dims[1:], index, strict=True))
         x, y = (float(line[at[axis]]) if axis in at else float(line) for axis, line in (("x", self.x), ("y", self.y)))
-        return Peak(float(values[place]), x, y, section.depth, section.region, section.side)
+        return Peak(value, x, y, section.depth, section.region, section.side)

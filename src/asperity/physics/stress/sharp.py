@@ -24,7 +24,8 @@ from ...core.grid import Grid
 from ...core.spectral import PaddedTransform, RealTransform, fast_length, wrapped
 from ...core.tensor import StressTensor
 from ...solids.compliance.halfspace import HalfSpace
-from . import criteria as invariants
+from .field import StressField
+from .largest import EXACT, largest
 from .peaks import Peak, SurfaceMaxima
 from .regions import Plane
 from .tractions import ShearTraction, Sliding, Tractions
@@ -61,11 +62,28 @@ _FOURTH = (8.0 / 12.0, -1.0 / 12.0)
 class AtEdges:
     """Largest stresses at the surface of a ``body`` of a contact ``result`` under ``loads``, its tractions on that body; found at the first call.
 
-    ``planes`` makes the planes of stress of a body under tractions, as ``compute.StressPlanes``.
+    ``planes`` makes the planes of stress of a body under tractions, as ``compute.StressPlanes``; ``known`` are the components xx, yy, xy (nx, ny) in Pa
+    of its surface under ``loads``, if somebody has computed them.
     """
 
-    def __init__(self, result: Any, loads: Tractions, body: object, planes: Callable[..., Any]) -> None:
-        self.result, self.loads, self.body, self.planes = result, loads, body, planes
+    def __init__(
+        self,
+        result: Any,
+        loads: Tractions,
+        body: object,
+        planes: Callable[..., Any],
+        known: tuple[RealArray, RealArray, RealArray] | None = None,
+    ) -> None:
+        self.result, self.loads, self.body, self.planes, self.known = result, loads, body, planes, known
+
+    def beside(self, field: StressField) -> AtEdges:
+        """The same, which takes the stresses at the surface from a ``field`` under the same loads if that holds them in double precision."""
+        numbers = [number for number, plane in enumerate(field.planes) if plane.side == "surface"]
+        s = field.tensor
+        if not numbers or field.dims != ("plane", "x", "y") or s.xx.dtype != np.float64:
+            return self
+        known = s.xx[numbers[0]], s.yy[numbers[0]], s.xy[numbers[0]]
+        return AtEdges(self.result, self.loads, self.body, self.planes, known)
 
     def __call__(self) -> SurfaceMaxima | None:
         """None where nothing is known of the edges: no contact, or attraction that holds them."""
@@ -79,7 +97,7 @@ class AtEdges:
             return None
         surface = _Surface.of(self)
         edge = _Edge.of(surface)
-        return SurfaceMaxima(*(surface.peak(edge, name) for name in _INVARIANTS))
+        return SurfaceMaxima(*(surface.peak(edge, name) for name in EXACT))
 
 
 class _Fields(NamedTuple):
@@ -106,22 +124,26 @@ class _Surface:
         """With the stresses computed and the errors of the slopes taken out of them in contact."""
         result, loads, grid, p = asked.result, asked.loads, asked.loads.grid, asked.loads.pressure
         bare = Tractions(grid, p, Sliding(0.0), loads.boundary, loads.datum)
-        normal = asked.planes(bare, asked.body, [0.0])
-        by_pressure = _in_plane(normal.whole().tensor)
+        normal = next(asked.planes(bare, asked.body, [0.0]).each())
+        by_pressure = _in_plane(normal.tensor)
         by_shear, wrong = np.zeros_like(by_pressure), np.zeros((2, *grid.shape))
-        touching = p > 0.0
         ratio = (np.zeros(grid.shape), np.zeros(grid.shape))
         plane = normal.planes[0]
         modulus = float(result.problem.contact_modulus)
         if loads.sheared:
-            alone = ShearTraction(np.asarray(loads.shear_x), np.asarray(loads.shear_y))
-            sheared = Tractions(grid, np.zeros(grid.shape), alone, loads.boundary, loads.datum)
-            by_shear = _in_plane(asked.planes(sheared, asked.body, [0.0]).whole().tensor)
-            ratio_x, ratio_y = (np.divide(q, p, out=np.zeros(grid.shape), where=touching) for q in (alone.x, alone.y))
-            ratio = ratio_x, ratio_y
-            wrong = np.where(touching, _slope_errors(result), 0.0)
-            nu, at = plane.region.material.poisson_ratio, np.flatnonzero(touching)
-            wrong_there, ratio_there = wrong.reshape(2, -1)[:, at], (ratio_x.ravel()[at], ratio_y.ravel()[at])
+            shear = np.asarray(loads.shear_x), np.asarray(loads.shear_y)
+            if asked.known is not None:
+                np.subtract(asked.known, by_pressure, out=by_shear)
+            else:
+                sheared = Tractions(grid, np.zeros(grid.shape), ShearTraction(*shear), loads.boundary, loads.datum)
+                by_shear = _in_plane(next(asked.planes(sheared, asked.body, [0.0]).each()).tensor)
+            at = np.flatnonzero(p > 0.0)
+            pressed = p.ravel()[at]
+            for of, q in zip(ratio, shear, strict=True):
+                of.ravel()[at] = q.ravel()[at] / pressed
+            wrong.reshape(2, -1)[:, at] = _slope_errors(result).reshape(2, -1)[:, at]
+            wrong_there, ratio_there = wrong.reshape(2, -1)[:, at], (ratio[0].ravel()[at], ratio[1].ravel()[at])
+            nu = plane.region.material.poisson_ratio
             by_shear.reshape(3, -1)[:, at] += _by_slopes(wrong_there, ratio_there, nu, modulus)
         return cls(result, loads, plane, modulus, _Fields(by_pressure, by_shear), wrong, ratio)
 
@@ -132,15 +154,11 @@ class _Surface:
 
     def peak(self, edge: _Edge, name: str) -> Peak:
         """The largest stress of this ``name``, at pixels or on the ``edge`` between them."""
-        points, doubts = self._points, self._doubt.ravel()
-        bound = np.abs(points.bound(name))
-        least = points.at(name, [int(np.argmax(points.bound(name)))])[0]
-        chosen = np.flatnonzero((1.0 + SHARE) * bound + doubts >= least)
-        inside = points.at(name, chosen)
-        inside_bars = doubts[chosen] + SHARE * np.abs(inside)
+        chosen, inside = largest(name, self._stress, SHARE, self._doubt.ravel())
+        inside_bars = self._doubt.ravel()[chosen] + SHARE * np.abs(inside)
         best = int(np.argmax(inside))
-        function = _INVARIANTS[name]
-        values = function(StressTensor(edge.stress[0], edge.stress[1], edge.none, edge.stress[2], edge.none, edge.none))
+        along = StressTensor(edge.stress[0], edge.stress[1], edge.none, edge.stress[2], edge.none, edge.none)
+        values = EXACT[name](along)
         bars = edge.bars
         more = SHEARED if getattr(self.result, "sliding", None) is not None else 0.0
         at_edge = int(np.argmax(values)) if values.size else -1
@@ -154,11 +172,7 @@ class _Surface:
             x, y = edge.place(at_edge)
         if doubt := doubt or edge.roughness_doubt():
             # the largest stress of the pixels as they are
-            points = self._raw_points
-            bound = points.bound(name)
-            least = points.at(name, [int(np.argmax(bound))])[0]
-            chosen = np.flatnonzero(bound >= least - 1e-9 * abs(least))
-            values = points.at(name, chosen)
+            chosen, values = largest(name, self._raw_stress)
             i, j = np.unravel_index(int(chosen[np.argmax(values)]), self.wrong.shape[1:])
             dx, dy = self.loads.grid.spacing
             value, x, y = float(values.max()), float(i * dx), float(j * dy)
@@ -171,56 +185,25 @@ class _Surface:
         return np.asarray(INSIDE * self.modulus * np.hypot(*self.ratio) * np.hypot(*self.wrong))
 
     @cached_property
-    def _points(self) -> _Points:
-        return _Points.of(self.fields.by_pressure + self.fields.by_shear, self.loads.pressure, self.ratio)
+    def _stress(self) -> StressTensor:
+        """Stress (n,) at all pixels, without the errors of the slopes."""
+        return self._under(self.fields.by_pressure + self.fields.by_shear)
 
     @cached_property
-    def _raw_points(self) -> _Points:
-        """The stresses of the pixels as they are."""
+    def _raw_stress(self) -> StressTensor:
+        """The same as the pixels give it."""
         found = self.fields.by_pressure + self.fields.by_shear
         at = np.flatnonzero(self.loads.pressure > 0.0)
         wrong, ratio = self.wrong.reshape(2, -1)[:, at], (self.ratio[0].ravel()[at], self.ratio[1].ravel()[at])
         found.reshape(3, -1)[:, at] -= _by_slopes(wrong, ratio, self.nu, self.modulus)
-        return _Points.of(found, self.loads.pressure, self.ratio)
+        return self._under(found)
 
-
-class _Points(NamedTuple):
-    """Six components of the stress (6, n) at all pixels, their mean normal stress and √J2 (n,), which bound what takes longer."""
-
-    components: tuple[RealArray, ...]
-    mean: RealArray
-    root: RealArray
-
-    @classmethod
-    def of(cls, plane: RealArray, p: RealArray, ratio: tuple[RealArray, RealArray]) -> _Points:
-        """Of xx, yy, xy (3, nx, ny) in the surface under a pressure and the ``ratio`` of shear traction to it."""
-        xx, yy, xy, flat = plane[0].ravel(), plane[1].ravel(), plane[2].ravel(), p.ravel()
-        xz, yz = (-(part * p).ravel() for part in ratio)
-        mean = (xx + yy - flat) / 3.0
-        squares = (xx - yy) ** 2 + (yy + flat) ** 2 + (flat + xx) ** 2
-        root = np.sqrt(squares / 6.0 + xy * xy + xz * xz + yz * yz)
-        return cls((xx, yy, -flat, xy, xz, yz), mean, root)
-
-    def bound(self, name: str) -> RealArray:
-        """What a stress is at most, (n,)."""
-        if name == "in_plane":
-            return self.at(name, slice(None))
-        if name == "tension":
-            return self.mean + 2.0 / math.sqrt(3.0) * self.root
-        return math.sqrt(3.0) * self.root if name == "von_mises" else self.root
-
-    def at(self, name: str, places: Any) -> RealArray:
-        """The stress at pixels by number."""
-        return np.asarray(_INVARIANTS[name](StressTensor(*(c[places] for c in self.components))))
-
-
-_INVARIANTS: dict[str, Any] = {
-    "tension": lambda s: np.asarray(invariants.principal_stresses(s)[0]),
-    "von_mises": invariants.von_mises,
-    "shear": invariants.max_shear,
-    "in_plane": invariants.principal_tensile,
-}
-"""Stresses of which the largest are sought, in the order of ``SurfaceMaxima``."""
+    def _under(self, plane: RealArray) -> StressTensor:
+        """All components, of xx, yy, xy (3, nx, ny) and of the tractions."""
+        xx, yy, xy = plane.reshape(3, -1)
+        p = np.asarray(self.loads.pressure, dtype=np.float64).ravel()
+        xz, yz = (-part.ravel() * p for part in self.ratio)
+        return StressTensor(xx, yy, -p, xy, xz, yz)
 
 
 class _Edge(NamedTuple):

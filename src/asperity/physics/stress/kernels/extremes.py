@@ -99,9 +99,8 @@ def _signed(a, sign, found):  # type: ignore[no-untyped-def]
 
 
 @_compiled
-def _bounds(quantity, rows, i, found):  # type: ignore[no-untyped-def]
-    """One of ``QUANTITIES`` at the points of row ``i``, of the principal stresses what they are at most."""
-    xx, yy, zz, xy, xz, yz = rows[0, i], rows[1, i], rows[2, i], rows[3, i], rows[4, i], rows[5, i]
+def bounds(quantity, xx, yy, zz, xy, xz, yz, found):  # type: ignore[no-untyped-def]
+    """One of ``QUANTITIES`` at points of these components, (n,) each; of the principal stresses what they are at most."""
     if quantity == 0:
         _invariant(xx, yy, zz, xy, xz, yz, 0.0, np.sqrt(3.0), found)
     elif quantity == 1:
@@ -153,13 +152,13 @@ def candidates(quantity, rows, least):  # type: ignore[no-untyped-def]
     Their places (n, 2), values (n,) and what these may be wrong by.
     """
     values, margins, places = np.empty(_MOST), np.empty(_MOST), np.empty((_MOST, 2), np.intp)
-    count, best, bounds = 0, least, np.empty(rows.shape[2])
+    count, best, most = 0, least, np.empty(rows.shape[2])
     principal = quantity == 1 or quantity == 2
     for i in range(rows.shape[1]):
-        _bounds(quantity, rows, i, bounds)
-        for k in range(bounds.size):
-            if bounds[k] > best:
-                value, margin = bounds[k], 0.0
+        bounds(quantity, rows[0, i], rows[1, i], rows[2, i], rows[3, i], rows[4, i], rows[5, i], most)
+        for k in range(most.size):
+            if most[k] > best:
+                value, margin = most[k], 0.0
                 if principal:
                     s = (
                         np.float64(rows[0, i, k]),
