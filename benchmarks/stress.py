@@ -1,4 +1,4 @@
-"""Cost of a stress plane against six bare inverse transforms of its size, in one interleaved run, and of its maxima.
+"""Cost of a stress plane against six bare inverse transforms of its size, in one interleaved run, and of its maxima, with the edges of a contact too.
 
 python benchmarks/stress.py --size 1024 --threads 2 --repeats 15
 """
@@ -111,6 +111,29 @@ def smooth(n: int) -> np.ndarray:
     return np.exp(-((30.0 * frequency) ** 2))
 
 
+def at_edges(n: int, repeats: int) -> None:
+    """Print the time of a solve, of its surface stress under sliding, and of the largest tension with the edges of the contact."""
+    spectrum = asp.generate.SelfAffine(
+        hurst=0.8,
+        rolloff_wavelength=n * DX / 8,
+        shortest_wavelength=10 * DX,
+        amplitude=asp.generate.RmsSlope(0.1),
+    )
+    surface = asp.generate.gaussian(asp.Grid((n, n), (DX, DX)), spectrum, seed=1)
+    problem, load = asp.ContactProblem(surface, SUBSTRATE), asp.MeanPressure(4e8)
+    rounds = []
+    for _ in range(repeats):
+        found: list[object] = []
+        solve = milliseconds(lambda found=found: found.append(asp.solve(problem, load)))
+        plane = milliseconds(lambda found=found: found.append(asp.stress(found[0], [0.0], friction=0.3)))
+        rounds.append((solve, plane, milliseconds(lambda found=found: found[1].largest_tension)))
+    solve, plane, largest = (statistics.median(column) for column in zip(*rounds, strict=True))
+    print(f"\nlargest tension with the edges of a sliding contact, {n}²: ms, medians of {repeats}")
+    print(
+        f"solve {solve:.1f}, surface plane {plane:.1f}, largest tension {largest:.1f} ({largest / solve:.2f} of a solve)"
+    )
+
+
 def free(n: int, threads: int) -> None:
     """Print the time of a plane with nothing outside the grid: influence coefficients, their transforms, the products."""
     grid, pressure = asp.Grid((n, n), (DX, DX)), np.random.default_rng(0).random((n, n))
@@ -132,5 +155,6 @@ if __name__ == "__main__":
     print(f"{options.size}², {options.threads} threads, transforms by {fft_library()}")
     periodic(options.size, options.threads, options.repeats)
     searched(options.size, options.threads, options.repeats)
+    at_edges(options.size, options.repeats)
     if not options.no_free:
         free(options.size, options.threads)
