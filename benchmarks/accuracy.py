@@ -1,6 +1,8 @@
-"""Pressure error of our solvers at the default tolerance of the benchmark, for every arithmetic they offer.
+"""Pressure error of our solvers at the default tolerance of the benchmark, for every arithmetic
+they offer.
 
-The reference is a solution at 1e-10 in double precision. Usage: python benchmarks/accuracy.py [--sizes 256 512]
+The reference is a solution at 1e-10 in double precision. Usage: python benchmarks/accuracy.py
+[--sizes 256 512]
 """
 
 from __future__ import annotations
@@ -49,7 +51,8 @@ def main() -> None:
             reference = solved(problem, load, tight)
             if not reference.converged:
                 print(
-                    f"{n:>5} {load:>5} reference {reference.status.outcome.value}: {reference.certificate.field_error:.1e}"
+                    f"{n:>5} {load:>5} reference {reference.status.outcome.value}: "
+                    f"{reference.certificate.field_error:.1e}"
                 )
             for arithmetic in ARITHMETICS:
                 try:

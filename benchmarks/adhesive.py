@@ -1,9 +1,11 @@
-"""Adhesive contact beside the package Adhesion 0.93 in one run: the same rough periodic map, exponential law and positions, values and processor time.
+"""Adhesive contact beside the package Adhesion 0.93 in one run: the same rough periodic map,
+exponential law and positions, values and processor time.
 
     python benchmarks/adhesive.py /path/to/an/environment/with/Adhesion/bin/python
 
-Adhesion minimises the energy by L-BFGS-B; its periodic half-space holds the mean displacement by a stiffness, here 3000 times that of the longest
-wave, so that forces agree to about 2e-4. Both start from the displacement of the position before.
+Adhesion minimises the energy by L-BFGS-B; its periodic half-space holds the mean displacement by a
+stiffness, here 3000 times that of the longest wave, so that forces agree to about 2e-4. Both start
+from the displacement of the position before.
 """
 
 from __future__ import annotations
@@ -84,10 +86,12 @@ def main(python: str) -> None:
     print("approach (nm)   asperity (uN, s, s again)        Adhesion (uN, s)      difference")
     for approach, (force, seconds), (other, took), (_, again) in zip(APPROACHES, first, peer, second, strict=True):
         print(
-            f"{approach * 1e9:10.0f}   {force * 1e6:12.5f} {seconds:8.3f} {again:8.3f}   {other * 1e6:12.5f} {took:8.3f}   {force / other - 1.0:+.1e}"
+            f"{approach * 1e9:10.0f}   {force * 1e6:12.5f} {seconds:8.3f} {again:8.3f}   {other * 1e6:12.5f} "
+            f"{took:8.3f}   {force / other - 1.0:+.1e}"
         )
     print(
-        f"processor time in all: {sum(t for _, t in first):.2f} and {sum(t for _, t in second):.2f} s against {sum(t for _, t in peer):.2f} s"
+        f"processor time in all: {sum(t for _, t in first):.2f} and {sum(t for _, t in second):.2f} s against "
+        f"{sum(t for _, t in peer):.2f} s"
     )
 
 

@@ -12,11 +12,13 @@ AREA_LIMIT = 1e-3
 """Largest difference of the numbers of contact pixels, relative to ours."""
 
 PRESSURE_LIMIT = 1e-4
-"""Largest relative L2 difference of the pressures; a field's error of 1e-6 leaves about a tenth of it."""
+"""Largest relative L2 difference of the pressures; a field's error of 1e-6 leaves about a tenth of
+it."""
 
 
 def field_error(heights: NDArray[np.float64], pressure: NDArray[np.float64]) -> float:
-    """Customary error of the field, sum of p (gap - min gap) over total load times rms height, for anyone's pressure."""
+    """Customary error of the field, sum of p (gap - min gap) over total load times rms height, for
+    anyone's pressure."""
     problem = asp.ContactProblem(asp.Surface(heights, 1.0, 1.0, periodic=True), BODY)
     operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary)
     r = operator.apply(pressure) - heights

@@ -1,4 +1,5 @@
-"""FFT pairs of the solver for other values of its constants: figures beside them in ``contact/solvers/active_set`` and ``couplings/position``.
+"""FFT pairs of the solver for other values of its constants: figures beside them in
+``contact/solvers/active_set`` and ``couplings/position``.
 
 Usage: python benchmarks/constants.py [NAME ...]
 """
@@ -139,7 +140,8 @@ def very_stiff_films() -> Iterator[Case]:
 
 
 def pairs(module: Any, name: str = "") -> str:
-    """Mean pairs of each kind of case on which the constant ``name`` of ``module`` bears, as one line; those without a solution do not count."""
+    """Mean pairs of each kind of case on which the constant ``name`` of ``module`` bears, as one
+    line; those without a solution do not count."""
     cases = very_stiff_films if name in FOR_VERY_STIFF_FILMS else positions if module is position else loads
     for models in (spline_model._fit, spline_model._levels):  # fitted with other constants
         models.cache_clear()

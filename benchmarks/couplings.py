@@ -1,7 +1,9 @@
-"""Normal solves and FFT pairs of every coupling alone and together, against loops around loops: ``python benchmarks/couplings.py``.
+"""Normal solves and FFT pairs of every coupling alone and together, against loops around loops:
+``python benchmarks/couplings.py``.
 
-Self-affine map of 96 x 96 pixels of 25 nm, 2 nm rms, E* about 100 GPa. *Nested* settles the menisci in an outer loop around solves of
-everything else (each of which is settled), and searches for a position, by secants, around solves at given loads.
+Self-affine map of 96 x 96 pixels of 25 nm, 2 nm rms, E* about 100 GPa. *Nested* settles the menisci
+in an outer loop around solves of everything else (each of which is settled), and searches for a
+position, by secants, around solves at given loads.
 """
 
 from __future__ import annotations
@@ -82,7 +84,8 @@ def main() -> None:
     bodies = {"": plain, "soft film": coated(0.7e9, 2e9), "hard film": coated(2e9, 1e9)}
     write = sys.stdout.write
     write(
-        "| physics | solves | pairs | nested solves | nested pairs | at a mean gap: solves | pairs | nested solves | nested pairs |\n"
+        "| physics | solves | pairs | nested solves | nested pairs | at a mean gap: solves | pairs | nested "
+        "solves | nested pairs |\n"
     )
     write("|---|---|---|---|---|---|---|---|---|\n")
     for (name, body), film, friction in itertools.product(bodies.items(), (None, FILM), (None, FRICTION)):

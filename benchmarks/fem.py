@@ -1,6 +1,8 @@
-"""Finite elements of plastic solids: ``python benchmarks/fem.py``: a sphere in 40 steps to 100 yield approaches, and one Newton iteration of 10⁴ elements.
+"""Finite elements of plastic solids: ``python benchmarks/fem.py``: a sphere in 40 steps to 100
+yield approaches, and one Newton iteration of 10⁴ elements.
 
-Processor time of one process, for a perfectly plastic half-space (hardening of 3e-4 E), and loads beside those of the reference.
+Processor time of one process, for a perfectly plastic half-space (hardening of 3e-4 E), and loads
+beside those of the reference.
 """
 
 from __future__ import annotations
@@ -21,7 +23,8 @@ PEAK = 1.6128 * YIELD
 APPROACH = RADIUS * (np.pi * PEAK / (2.0 * E_STAR)) ** 2
 LOAD = np.pi**3 * RADIUS**2 / (6.0 * E_STAR**2) * PEAK**3
 REFERENCE = {10.0: 25.3, 35.0: 124.6, 40.0: 147.2, 45.0: 170.0}
-"""Load over the load of first yield, at approaches over that of first yield (error 0.5 % at 10, 1 to 1.5 % beyond)."""
+"""Load over the load of first yield, at approaches over that of first yield (error 0.5 % at 10, 1
+to 1.5 % beyond)."""
 
 
 def sphere(across: int, steps: int) -> list[str]:
@@ -39,10 +42,16 @@ def sphere(across: int, steps: int) -> list[str]:
     iterations, cuts = sum(step.iterations for step in found.steps), sum(step.cuts for step in found.steps)
     cells = len(found.fields[steps - 1].mesh.cells)
     lines = [
-        f"{cells} elements, {steps} steps: {took:.1f} s, {iterations} iterations of {took / iterations:.2f} s, {cuts} cuts"
+        (
+            f"{cells} elements, {steps} steps: {took:.1f} s, {iterations} iterations of {took / iterations:.2f} s, "
+            f"{cuts} cuts"
+        )
     ]
     lines += [
-        f"  load at {x:g} yield approaches: {np.interp(x, found.approach / APPROACH, found.load / LOAD):.1f}, reference {load:g}"
+        (
+            f"  load at {x:g} yield approaches: {np.interp(x, found.approach / APPROACH, found.load / LOAD):.1f}, "
+            f"reference {load:g}"
+        )
         for x, load in REFERENCE.items()
     ]
     return lines

@@ -1,10 +1,13 @@
-"""Stick and slip in units of the cold normal solve of the same contact: ``python benchmarks/frictional.py --sizes 512 1024``.
+"""Stick and slip in units of the cold normal solve of the same contact:
+``python benchmarks/frictional.py --sizes 512 1024``.
 
-Self-affine surface of unit rms slope (``surfaces.self_affine``), load 0.05 E*, friction 0.3. *Step*: equal bodies, one step of half the
-friction limit, for the pressure found before. *History*: rigid on elastic (ν = 0.3) and on a layer four times as stiff as its base,
-20 coupled steps: four of pressing, then a cycle of shift. Times are those of processors, so that other work on the machine
-matters little; the least of several runs counts. FFT pairs do not depend on the machine. *Tamaas*, where installed: contact and one step
-of half the friction limit on an incompressible body, by both packages in the same process.
+Self-affine surface of unit rms slope (``surfaces.self_affine``), load 0.05 E*, friction 0.3.
+*Step*: equal bodies, one step of half the friction limit, for the pressure found before. *History*:
+rigid on elastic (ν = 0.3) and on a layer four times as stiff as its base, 20 coupled steps: four of
+pressing, then a cycle of shift. Times are those of processors, so that other work on the machine
+matters little; the least of several runs counts. FFT pairs do not depend on the machine. *Tamaas*,
+where installed: contact and one step of half the friction limit on an incompressible body, by both
+packages in the same process.
 """
 
 from __future__ import annotations
@@ -81,10 +84,12 @@ def history(n: int, name: str, body: asp.Elastic | asp.Layered, repeats: int) ->
 
 
 def beside_tamaas(n: int, repeats: int) -> str:
-    """Row of the contact and one step of half the friction limit, rigid on an incompressible body, by asperity and by Tamaas.
+    """Row of the contact and one step of half the friction limit, rigid on an incompressible body,
+    by asperity and by Tamaas.
 
-    There the bodies do not couple, and ``PolonskyKeerTan`` of Tamaas, which alternates as well, means the same contact. Both start from
-    heights; errors are duality gaps of the tangential problem for the pressure of each, by the same code.
+    There the bodies do not couple, and ``PolonskyKeerTan`` of Tamaas, which alternates as well,
+    means the same contact. Both start from heights; errors are duality gaps of the tangential
+    problem for the pressure of each, by the same code.
     """
     try:
         import tamaas
@@ -113,7 +118,10 @@ def beside_tamaas(n: int, repeats: int) -> str:
 
     errors = gap(ours.pressure, ours.stick_slip.traction), gap(found[..., 2], np.moveaxis(found[..., :2], -1, 0))
     apart = np.linalg.norm(found[..., 0] - ours.stick_slip.traction[0]) / np.linalg.norm(found[..., 0])
-    return f"| {n} | {seconds:.2f} | {theirs:.1f} | {theirs / seconds:.0f} | {errors[0]:.0e} | {errors[1]:.0e} | {apart:.0e} |"
+    return (
+        f"| {n} | {seconds:.2f} | {theirs:.1f} | {theirs / seconds:.0f} | {errors[0]:.0e} | "
+        f"{errors[1]:.0e} | {apart:.0e} |"
+    )
 
 
 def main() -> None:
@@ -127,7 +135,8 @@ def main() -> None:
     options = parser.parse_args()
     coated = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.3), 4.0)], base=asp.Elastic(1.0, 0.3))
     print(
-        "| case | n | cold normal solve (s) | its pairs | Newton steps | pairs (histories: normal + joint and tangential solves) | time in cold solves |"
+        "| case | n | cold normal solve (s) | its pairs | Newton steps | pairs (histories: normal + joint and "
+        "tangential solves) | time in cold solves |"
     )
     print("|---|---|---|---|---|---|---|")
     for n in options.sizes:

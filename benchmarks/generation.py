@@ -2,8 +2,9 @@
 
 Usage: python benchmarks/generation.py [--sizes 1024 4096] [--threads 2] [--repeats 3] [--all]
 
-Medians of the rounds; ``beyond`` is the time without the pair, ``pairs`` the time over it. Kinds that iterate (rank ordering) or
-add up particles are timed on the smallest size only, unless ``--all`` is given.
+Medians of the rounds; ``beyond`` is the time without the pair, ``pairs`` the time over it. Kinds
+that iterate (rank ordering) or add up particles are timed on the smallest size only, unless
+``--all`` is given.
 """
 
 from __future__ import annotations

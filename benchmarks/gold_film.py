@@ -1,7 +1,9 @@
-"""The gold film of examples/campaigns/gold_film_area.toml: what 1000 surfaces at 12 loads cost, ours and other packages'.
+"""The gold film of examples/campaigns/gold_film_area.toml: what 1000 surfaces at 12 loads cost,
+ours and other packages'.
 
-Usage: python benchmarks/gold_film.py [--surfaces 3] [--peers tamaas contactmechanics]. One thread each. Ours is the whole work
-of a worker on a surface (generated, solved along its loads, measured); of the others one solve at the middle load is timed.
+Usage: python benchmarks/gold_film.py [--surfaces 3] [--peers tamaas contactmechanics]. One thread
+each. Ours is the whole work of a worker on a surface (generated, solved along its loads, measured);
+of the others one solve at the middle load is timed.
 """
 
 from __future__ import annotations

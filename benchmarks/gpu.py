@@ -1,9 +1,11 @@
 """The engine of a GPU: agreement with the CPU to 1e-6, then seconds of a whole solve by grid size.
 
-Usage: python benchmarks/gpu.py [--sizes 1024 2048 4096 8192 16384] [--load 0.05] [--check-size 512] [--threads 2]
+Usage: python benchmarks/gpu.py [--sizes 1024 2048 4096 8192 16384] [--load 0.05] [--check-size 512]
+[--threads 2]
 
-``--arrays LIBRARY`` runs ``ArrayEngine(LIBRARY)`` instead, array operations of for example cupy. With array_api_strict that shows that this script works
-where there is no GPU; its times then mean nothing.
+``--arrays LIBRARY`` runs ``ArrayEngine(LIBRARY)`` instead, array operations of for example cupy.
+With array_api_strict that shows that this script works where there is no GPU; its times then mean
+nothing.
 """
 
 from __future__ import annotations
@@ -59,7 +61,8 @@ def agree(n: int, engine: Any, reference: Any) -> bool:
 
 
 def seconds(work: Callable[[], asp.ContactResult], repeats: int) -> tuple[float, float, asp.ContactResult]:
-    """Wall time (s) of the first call of ``work``, which ends with its arrays on the host, the median of more, and the last result."""
+    """Wall time (s) of the first call of ``work``, which ends with its arrays on the host, the
+    median of more, and the last result."""
     found = []
     for _ in range(repeats + 1):
         started = time.perf_counter()
@@ -69,7 +72,8 @@ def seconds(work: Callable[[], asp.ContactResult], repeats: int) -> tuple[float,
 
 
 def timed(problem: asp.ContactProblem, precision: str, given: argparse.Namespace, engine: Any, reference: Any) -> str:
-    """Row: FFT pairs, seconds of the first solve and of more; and on the CPU, where the grid is small enough for its patience, with the ratio."""
+    """Row: FFT pairs, seconds of the first solve and of more; and on the CPU, where the grid is
+    small enough for its patience, with the ratio."""
     n, tolerance = problem.grid.shape[0], 1e-5 if precision == "single" else 1e-6
     first, ours, result = seconds(lambda: solved(problem, given.load, engine, tolerance, precision), given.repeats)
     row = f"{n:>6} {precision:<7} {result.certificate.fft_pairs:>6.1f} {first:>9.3f} {ours:>9.3f}"

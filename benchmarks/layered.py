@@ -1,13 +1,17 @@
-"""Layered bodies against the homogeneous half-space: time, FFT pairs and set-up of the same solver on the same surface.
+"""Layered bodies against the homogeneous half-space: time, FFT pairs and set-up of the same solver
+on the same surface.
 
-Usage: python benchmarks/layered.py [--sizes 512 1024] [--load 0.05] [--threads 2] [--repeats 3] [--surfaces 3]
+Usage: python benchmarks/layered.py [--sizes 512 1024] [--load 0.05] [--threads 2] [--repeats 3]
+[--surfaces 3]
 
-All bodies are solved once in every round, so that all see the same disturbances; given are medians over the rounds, and their
-means over some surfaces, for a pair more or less on one of them is chance. ``cpu`` is processor time
-of all threads, the result's extras included, and less sensitive to other work. Loads are chosen for about equal contact areas,
-since the work on the contact set grows with it: a first solve of each body tells its area at the load of the homogeneous one,
-and area is nearly proportional to load. A layered kernel is an array of the grid like any other; what differs is the set-up and
-the number of pairs, which grows where a thin stiff film makes the problem ill-conditioned.
+All bodies are solved once in every round, so that all see the same disturbances; given are medians
+over the rounds, and their means over some surfaces, for a pair more or less on one of them is
+chance. ``cpu`` is processor time of all threads, the result's extras included, and less sensitive
+to other work. Loads are chosen for about equal contact areas, since the work on the contact set
+grows with it: a first solve of each body tells its area at the load of the homogeneous one, and
+area is nearly proportional to load. A layered kernel is an array of the grid like any other; what
+differs is the set-up and the number of pairs, which grows where a thin stiff film makes the problem
+ill-conditioned.
 """
 
 from __future__ import annotations
@@ -85,7 +89,8 @@ def once(row: Row, problem: asp.ContactProblem, load: float, tolerance: float, t
 
 @dataclass(frozen=True)
 class Cost:
-    """Medians of a row: seconds in all, of processors and of the set-up; FFT pairs; contact area over the nominal one."""
+    """Medians of a row: seconds in all, of processors and of the set-up; FFT pairs; contact area
+    over the nominal one."""
 
     total: float
     cpu: float
@@ -129,9 +134,9 @@ def show(n: int, found: list[dict[str, Cost]]) -> None:
     print("|---|---|---|---|---|---|---|---|---|")
     for name, cost in costs.items():
         print(
-            f"| {name} | {cost.total:.3f} | {cost.total / base.total:.2f} | {cost.cpu / base.cpu:.2f} | {cost.pairs:.1f} | "
-            f"{cost.pairs / base.pairs:.2f} | {1e3 * cost.setup:.1f} | {100.0 * cost.setup / base.total:.1f} % | "
-            f"{cost.area:.3f} |",
+            f"| {name} | {cost.total:.3f} | {cost.total / base.total:.2f} | {cost.cpu / base.cpu:.2f} | "
+            f"{cost.pairs:.1f} | {cost.pairs / base.pairs:.2f} | {1e3 * cost.setup:.1f} | "
+            f"{100.0 * cost.setup / base.total:.1f} % | {cost.area:.3f} |",
             flush=True,
         )
 

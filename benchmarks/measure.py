@@ -1,4 +1,5 @@
-"""Interleaved repeats: in each round every solver solves the same problem once, the FFT pair among them."""
+"""Interleaved repeats: in each round every solver solves the same problem once, the FFT pair among
+them."""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ class Row:
 
     @property
     def cost(self) -> float:
-        """Time in the solver over FFT pairs times the time of a pair; nan where pairs are not counted."""
+        """Time in the solver over FFT pairs times the time of a pair; nan where pairs are not
+        counted."""
         if "pairs" not in self.counts:
             return float("nan")
         return self.counts["solver_seconds"] / (self.counts["pairs"] * self.pair_seconds)
@@ -55,7 +57,8 @@ class Rounds:
 def problem_rows(
     workers: list[Worker], pair: Worker, heights: NDArray[np.float64], load: float, rounds: Rounds
 ) -> list[Row]:
-    """Rows of all ``workers`` on one problem, the first of them being the reference of the checks."""
+    """Rows of all ``workers`` on one problem, the first of them being the reference of the
+    checks."""
     n = heights.shape[0]
     rows = [Row(n, load, worker.name, worker.version, worker.threads) for worker in workers]
     answers: dict[str, list[Solved]] = {worker.name: [] for worker in workers}

@@ -1,8 +1,9 @@
 """Peak memory of an elastic periodic solve, in real float64 fields of the grid.
 
-Each size is solved in a fresh process that has loaded the heights and solved a small problem before. Counted is the
-rise of the largest resident set (ru_maxrss) over the resident set just before the solve: everything but the heights
-themselves, native buffers included. Linux only. Usage: python benchmarks/memory.py [--sizes 1024 2048]
+Each size is solved in a fresh process that has loaded the heights and solved a small problem
+before. Counted is the rise of the largest resident set (ru_maxrss) over the resident set just
+before the solve: everything but the heights themselves, native buffers included. Linux only. Usage:
+python benchmarks/memory.py [--sizes 1024 2048]
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ _KIB = 1024
 
 
 class Watch:
-    """Progress that notes the largest resident set (bytes) at every iteration: that of the solver alone."""
+    """Progress that notes the largest resident set (bytes) at every iteration: that of the solver
+    alone."""
 
     def __init__(self) -> None:
         self.largest = 0
@@ -55,7 +57,8 @@ def _solve(heights: np.ndarray, load: float, tolerance: float, watch: Watch) -> 
 
 
 def measured(file: str, load: float, tolerance: float) -> dict[str, float]:
-    """Fields in the solver (operator and first guess included) and in all of ``solve`` (result included)."""
+    """Fields in the solver (operator and first guess included) and in all of ``solve`` (result
+    included)."""
     _solve(np.array(self_affine(128).heights), load, tolerance, Watch())
     heights, watch = np.load(file), Watch()
     before, high = _resident(), _largest()

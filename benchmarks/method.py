@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """One solve: ``pressure`` (n, n) over E*, ``seconds`` from heights in memory to pressure, its own counts."""
+    """One solve: ``pressure`` (n, n) over E*, ``seconds`` from heights in memory to pressure, its
+    own counts."""
 
     pressure: NDArray[np.float64]
     seconds: float
@@ -19,7 +20,8 @@ class Solved:
 
 
 class Method(Protocol):
-    """A solver under test. Made in a process of its own, once; ``threads`` is what it really uses."""
+    """A solver under test. Made in a process of its own, once; ``threads`` is what it really
+    uses."""
 
     name: str
     version: str

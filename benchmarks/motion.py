@@ -1,6 +1,8 @@
-"""Sliding blocks: a sweep of many cases, and the energy of a long vibration: ``python benchmarks/motion.py --cases 1000 --workers 2``.
+"""Sliding blocks: a sweep of many cases, and the energy of a long vibration:
+``python benchmarks/motion.py --cases 1000 --workers 2``.
 
-Each case of the sweep is a flutter of 60 ms (some 350 periods) of a block at another speed, from just below sliding, in a pool of processes.
+Each case of the sweep is a flutter of 60 ms (some 350 periods) of a block at another speed, from
+just below sliding, in a pool of processes.
 """
 
 from __future__ import annotations
@@ -26,7 +28,10 @@ def sweep(cases: int, workers: int) -> str:
     with ProcessPoolExecutor(workers) as pool:
         found = dyn.sweep_block(BLOCK, "speed", list(speeds), duration=0.06, mapper=pool.map)
     took, lowest = time.perf_counter() - start, float(np.nanmin(found.numbers["friction_reduction"]))
-    return f"{cases} blocks of 60 ms: {took:.1f} s on {workers} processes, {len(found.failures)} failed; lowest mean friction / μ {lowest:.3f}"
+    return (
+        f"{cases} blocks of 60 ms: {took:.1f} s on {workers} processes, {len(found.failures)} failed; "
+        f"lowest mean friction / μ {lowest:.3f}"
+    )
 
 
 def vibration() -> str:

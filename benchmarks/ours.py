@@ -15,7 +15,8 @@ import asperity as asp
 from asperity.core.spectral import RealTransform, fft_library
 
 SOLVERS = {"asperity": asp.solvers.ActiveSet, "asperity cg": asp.solvers.ConjugateGradient}
-"""Our methods by their names in the tables: the default one and plain constrained conjugate gradients."""
+"""Our methods by their names in the tables: the default one and plain constrained conjugate
+gradients."""
 
 _WITHOUT_STIFFNESS = asp.Keep(stiffness=False)
 
@@ -34,7 +35,8 @@ class Ours:
         return n > 0
 
     def solve(self, heights: NDArray[np.float64], load: float, tolerance: float) -> Solved:
-        """Prepare the operator and solve. ``user_seconds`` adds what a user gets besides: gap, spots, area, certificate."""
+        """Prepare the operator and solve. ``user_seconds`` adds what a user gets besides: gap,
+        spots, area, certificate."""
         problem = asp.ContactProblem(asp.Surface(heights, 1.0, 1.0, periodic=True), BODY)
         started = time.perf_counter()
         engine = asp.engines.CpuEngine(self.threads)
@@ -59,7 +61,8 @@ class Ours:
 
 @dataclass
 class BarePair:
-    """One real transform and its inverse, float64, buffers made beforehand: the unit of cost. Ignores the load."""
+    """One real transform and its inverse, float64, buffers made beforehand: the unit of cost.
+    Ignores the load."""
 
     threads: int
     name: str = "fft pair"

@@ -1,9 +1,10 @@
-"""What a call of ``asp.solve`` takes beyond its solver, in bare FFT pairs, along paths, under caps and on stiff films.
+"""What a call of ``asp.solve`` takes beyond its solver, in bare FFT pairs, along paths, under caps
+and on stiff films.
 
 Usage: python benchmarks/overheads.py [--sizes 256 512 1024 2048] [--repeats 5]
 
-Processor seconds of one thread, the least of several interleaved runs, and only ratios of them: other work on the machine
-hardly changes them. FFT pairs do not depend on the machine at all.
+Processor seconds of one thread, the least of several interleaved runs, and only ratios of them:
+other work on the machine hardly changes them. FFT pairs do not depend on the machine at all.
 """
 
 from __future__ import annotations
@@ -27,7 +28,8 @@ DX = 10e-9
 
 
 class Watched:
-    """Progress that notes the processor time at the first and the last iteration of the fine grid."""
+    """Progress that notes the processor time at the first and the last iteration of the fine
+    grid."""
 
     def __init__(self) -> None:
         self.spent = 0.0
@@ -91,7 +93,8 @@ def path(n: int, steps: int, repeats: int) -> str:
 
 
 def ratios(n: int) -> list[tuple[str, float]]:
-    """FFT pairs of capped, layered-hard and filmed contacts over those of the elastic half-space, mean over two surfaces."""
+    """FFT pairs of capped, layered-hard and filmed contacts over those of the elastic half-space,
+    mean over two surfaces."""
     coated = [asp.Layered([asp.Layer(asp.Elastic(10.0, 0.3), h)], base=BASE) for h in (4.0, 20.0)]
     hard = asp.Layered(
         [asp.Layer(asp.Elastic(0.91, 0.3, asp.Strength(hardness=0.6)), 4.0)],
@@ -118,7 +121,8 @@ def ratios(n: int) -> list[tuple[str, float]]:
 
 
 def surveyed(n: int, repeats: int) -> str:
-    """Stress survey with three sections of a coated contact over the inverse transforms of the six components on its planes."""
+    """Stress survey with three sections of a coated contact over the inverse transforms of the six
+    components on its planes."""
     body = asp.Layered([asp.Layer(asp.Elastic(280e9, 0.25), 5 * DX)], asp.Elastic(70e9, 0.33))
     surface = asp.Surface(DX * self_affine(n).heights, DX, periodic=True)
     result = asp.solve(asp.ContactProblem(surface, body), asp.MeanPressure(2e9), engine=asp.engines.CpuEngine(1))

@@ -29,7 +29,8 @@ def timed(work: Callable[[], list[asp.ContactResult]]) -> tuple[float, list[asp.
 
 
 def compare_path(problem: asp.ContactProblem, steps: int, tolerance: float, threads: int) -> str:
-    """Row: path, cold solves, their ratio in time and in FFT pairs, largest difference of the pressures."""
+    """Row: path, cold solves, their ratio in time and in FFT pairs, largest difference of the
+    pressures."""
     controls = [asp.MeanPressure(float(load)) for load in np.linspace(_LEAST, _MOST, steps)]
     solver, engine = asp.solvers.ActiveSet(tolerance=tolerance), asp.engines.CpuEngine(threads)
 
@@ -44,8 +45,8 @@ def compare_path(problem: asp.ContactProblem, steps: int, tolerance: float, thre
     pairs, cold_pairs = (sum(result.certificate.fft_pairs for result in some) for some in (path, alone))
     apart = max(relative_l2(one.pressure, other.pressure) for one, other in zip(path, alone, strict=True))
     return (
-        f"{path_seconds:>9.2f} {cold_seconds:>9.2f} {path_seconds / cold_seconds:>6.2f} {pairs:>7.0f} {cold_pairs:>7.0f} "
-        f"{pairs / cold_pairs:>6.2f} {apart:>9.1e}"
+        f"{path_seconds:>9.2f} {cold_seconds:>9.2f} {path_seconds / cold_seconds:>6.2f} {pairs:>7.0f} "
+        f"{cold_pairs:>7.0f} {pairs / cold_pairs:>6.2f} {apart:>9.1e}"
     )
 
 
@@ -68,7 +69,8 @@ def compare_boundaries(surface: asp.Surface, load: float, tolerance: float, thre
 
 
 def compare_pruning(n: int, threads: int, repeats: int = 15) -> str:
-    """Row: medians of a pair on the padded grid with all rows and with those that hold data only (float32), ratio."""
+    """Row: medians of a pair on the padded grid with all rows and with those that hold data only
+    (float32), ratio."""
     padded = fast_length(2 * n - 1), fast_length(2 * n - 1)
     whole, pruned = RealTransform(padded, threads), PaddedTransform((n, n), padded, threads)
     spectrum = np.empty(whole.spectrum_shape, np.complex64)

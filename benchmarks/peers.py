@@ -1,7 +1,9 @@
-"""Other packages, each called as its documentation says, on the same heights with the same tolerance.
+"""Other packages, each called as its documentation says, on the same heights with the same
+tolerance.
 
-Pixels have unit size and every package gets the contact modulus 1, so pressures come in units of E*. Times include
-everything from heights in memory to pressure: models, operators and plans are made anew in each solve.
+Pixels have unit size and every package gets the contact modulus 1, so pressures come in units of
+E*. Times include everything from heights in memory to pressure: models, operators and plans are
+made anew in each solve.
 """
 
 from __future__ import annotations
@@ -21,7 +23,8 @@ _MANY = 100_000
 
 @dataclass
 class Tamaas:
-    """Polonsky & Keer's conjugate gradients in C++ with FFTW and OpenMP; its error is the one of the field."""
+    """Polonsky & Keer's conjugate gradients in C++ with FFTW and OpenMP; its error is the one of
+    the field."""
 
     threads: int
     name: str = "Tamaas"
@@ -54,7 +57,8 @@ class Tamaas:
 
 @dataclass
 class ContactMechanicsCG:
-    """Polonsky & Keer's constrained conjugate gradients in NumPy with the serial FFT of muGrid: one thread."""
+    """Polonsky & Keer's constrained conjugate gradients in NumPy with the serial FFT of muGrid: one
+    thread."""
 
     threads: int
     name: str = "ContactMechanics"
@@ -86,10 +90,11 @@ class ContactMechanicsCG:
 
 @dataclass
 class Aspher:
-    """Nested grids and preconditioned conjugate gradients in C++, periodic spectral operator, double precision.
+    """Nested grids and preconditioned conjugate gradients in C++, periodic spectral operator,
+    double precision.
 
-    Its tolerance is relative to the range of the heights, not to their rms; ``matched`` passes one that is smaller by
-    that ratio, so that the field's error is what is asked for.
+    Its tolerance is relative to the range of the heights, not to their rms; ``matched`` passes one
+    that is smaller by that ratio, so that the field's error is what is asked for.
     """
 
     threads: int

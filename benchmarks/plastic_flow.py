@@ -1,7 +1,9 @@
-"""Plastic flow in the volume: one application of its operators beside its bare transforms, and ten steps of a rough layered contact.
+"""Plastic flow in the volume: one application of its operators beside its bare transforms, and ten
+steps of a rough layered contact.
 
-``python benchmarks/plastic_flow.py [points] [steps]``; processor time of one thread and the largest memory of the process. With
-``--tamaas PYTHON`` a periodic sphere of hardening material beside Tamaas, which is installed under that interpreter.
+``python benchmarks/plastic_flow.py [points] [steps]``; processor time of one thread and the largest
+memory of the process. With ``--tamaas PYTHON`` a periodic sphere of hardening material beside
+Tamaas, which is installed under that interpreter.
 """
 
 from __future__ import annotations
@@ -44,7 +46,8 @@ def application(points: int, cells: int = 40) -> None:
     forward, sweeps, backward = np.min(times, axis=0)
     transforms = forward + backward
     print(
-        f"{points} x {points} x {operator.cells.count}: transforms {transforms:.3f} s, sweeps {sweeps:.3f} s, ratio {1 + sweeps / transforms:.2f}"
+        f"{points} x {points} x {operator.cells.count}: transforms {transforms:.3f} s, sweeps {sweeps:.3f} s, "
+        f"ratio {1 + sweeps / transforms:.2f}"
     )
 
 
@@ -67,8 +70,9 @@ def rough(points: int, count: int) -> None:
     for step in steps(problem, asp.History(loads), engine=asp.engines.CpuEngine(threads=1), on_failure="return"):
         flow = step.require_plastic_flow()
         print(
-            f"{step.mean_pressure / 1e6:6.0f} MPa, area {step.area_fraction:.4f}, {flow.depths.size} cells, {flow.flowed.points.size} points, "
-            f"strain {max(zone.largest_strain for zone in flow.zones):.3f}, {flow.iterations} iterates, {step.status.outcome}, {time.process_time() - begin:.0f} s",
+            f"{step.mean_pressure / 1e6:6.0f} MPa, area {step.area_fraction:.4f}, {flow.depths.size} cells, "
+            f"{flow.flowed.points.size} points, strain {max(zone.largest_strain for zone in flow.zones):.3f}, "
+            f"{flow.iterations} iterates, {step.status.outcome}, {time.process_time() - begin:.0f} s",
             flush=True,
         )
     print(f"{resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20:.2f} GiB")
@@ -105,7 +109,11 @@ begin = time.process_time()
 for load in case["loads"]:
     epic.acceleratedSolve(load)
     p, q = model.traction[..., 2], model["cumulated_plastic_strain"]
-    print(f"Tamaas   {load:g}: area {(p > 0).mean():.6f}, pressure {p.max():.6f}, strain {q.max():.6f}, {time.process_time() - begin:.2f} s", flush=True)
+    took = time.process_time() - begin
+    print(
+        f"Tamaas   {load:g}: area {(p > 0).mean():.6f}, pressure {p.max():.6f}, strain {q.max():.6f}, {took:.2f} s",
+        flush=True,
+    )
 """
 
 
@@ -124,8 +132,9 @@ def beside_tamaas(python: str, points: int = 32) -> None:
     for step in steps(problem, history, engine=asp.engines.CpuEngine(threads=1)):
         (zone,) = step.require_plastic_flow().zones
         print(
-            f"asperity {step.mean_pressure / unit:g}: area {step.area_fraction:.6f}, pressure {step.max_pressure / unit:.6f}, "
-            f"strain {zone.largest_strain:.6f}, {time.process_time() - begin:.2f} s",
+            f"asperity {step.mean_pressure / unit:g}: area {step.area_fraction:.6f}, pressure "
+            f"{step.max_pressure / unit:.6f}, strain {zone.largest_strain:.6f}, "
+            f"{time.process_time() - begin:.2f} s",
             flush=True,
         )
     subprocess.run([python, "-c", THEIRS, repr(case), str(points), str(3 * points // 4)], check=True)

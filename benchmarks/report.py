@@ -15,8 +15,8 @@ import numpy as np
 from measure import Row
 
 HEADER = (
-    f"{'n':>5} {'load':>5} {'solver':<17} {'thr':>3} {'runs':>4} {'median/s':>9} {'min–max/s':>17} {'cpu/s':>7} {'pairs':>6} "
-    f"{'cost':>5} {'× ours':>7} {'pixels':>8} {'error':>8} {'L2 to ours':>10}"
+    f"{'n':>5} {'load':>5} {'solver':<17} {'thr':>3} {'runs':>4} {'median/s':>9} {'min–max/s':>17} "
+    f"{'cpu/s':>7} {'pairs':>6} {'cost':>5} {'× ours':>7} {'pixels':>8} {'error':>8} {'L2 to ours':>10}"
 )
 
 
@@ -25,8 +25,9 @@ def line(row: Row) -> str:
     spread = f"{min(row.seconds):.3f}–{max(row.seconds):.3f}" if row.seconds else ""
     text = (
         f"{row.n:>5} {row.load:>5} {row.solver:<17} {row.threads:>3} {len(row.seconds):>4} {row.median:>9.3f} "
-        f"{spread:>17} {_number(row.counts.get('cpu_seconds'), 7, 2)} {_number(row.counts.get('pairs'), 6, 0)} {_number(row.cost, 5, 2)} "
-        f"{row.ratio_to_ours:>7.1f} {row.pixels:>8} {row.field_error:>8.1e} {row.distance:>10.1e}"
+        f"{spread:>17} {_number(row.counts.get('cpu_seconds'), 7, 2)} {_number(row.counts.get('pairs'), 6, 0)} "
+        f"{_number(row.cost, 5, 2)} {row.ratio_to_ours:>7.1f} {row.pixels:>8} {row.field_error:>8.1e} "
+        f"{row.distance:>10.1e}"
     )
     return f"{text}  {row.fault}" if row.fault else text
 

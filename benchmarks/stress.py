@@ -1,4 +1,5 @@
-"""Cost of a stress plane against six bare inverse transforms of its size, in one interleaved run, and of its maxima, with the edges of a contact too.
+"""Cost of a stress plane against six bare inverse transforms of its size, in one interleaved run,
+and of its maxima, with the edges of a contact too.
 
 python benchmarks/stress.py --size 1024 --threads 2 --repeats 15
 """
@@ -55,7 +56,8 @@ def periodic(n: int, threads: int, repeats: int) -> None:
     rng = np.random.default_rng(0)
     grid, pressure = asp.Grid((n, n), (DX, DX)), rng.random((n, n))
     print(
-        f"{'precision':9} {'body':11} {'load':13} {'6 inverse FFTs':>14} {'plane':>8} {'ratio':>6}   (ms, medians of {repeats})"
+        f"{'precision':9} {'body':11} {'load':13} {'6 inverse FFTs':>14} {'plane':>8} {'ratio':>6}   (ms, "
+        f"medians of {repeats})"
     )
     for dtype in ("float64", "float32"):
         transform = RealTransform((n, n), threads)
@@ -82,7 +84,8 @@ def periodic(n: int, threads: int, repeats: int) -> None:
 
 
 def searched(n: int, threads: int, repeats: int) -> None:
-    """Print the time of a plane that is kept, and of one that is read for its maxima, at several depths."""
+    """Print the time of a plane that is kept, and of one that is read for its maxima, at several
+    depths."""
     rough = np.fft.irfft2(np.fft.rfft2(np.random.default_rng(0).standard_normal((n, n))) * smooth(n), s=(n, n))
     pressure = np.maximum(rough / rough.std() - 1.0, 0.0)
     loads = Tractions(asp.Grid((n, n), (DX, DX)), pressure, asp.stresses.Sliding(0.3))
@@ -112,7 +115,8 @@ def smooth(n: int) -> np.ndarray:
 
 
 def at_edges(n: int, repeats: int) -> None:
-    """Print the time of a solve, of its surface stress under sliding, and of the largest tension with the edges of the contact."""
+    """Print the time of a solve, of its surface stress under sliding, and of the largest tension
+    with the edges of the contact."""
     spectrum = asp.generate.SelfAffine(
         hurst=0.8,
         rolloff_wavelength=n * DX / 8,
@@ -130,12 +134,14 @@ def at_edges(n: int, repeats: int) -> None:
     solve, plane, largest = (statistics.median(column) for column in zip(*rounds, strict=True))
     print(f"\nlargest tension with the edges of a sliding contact, {n}²: ms, medians of {repeats}")
     print(
-        f"solve {solve:.1f}, surface plane {plane:.1f}, largest tension {largest:.1f} ({largest / solve:.2f} of a solve)"
+        f"solve {solve:.1f}, surface plane {plane:.1f}, largest tension {largest:.1f} ({largest / solve:.2f} "
+        "of a solve)"
     )
 
 
 def free(n: int, threads: int) -> None:
-    """Print the time of a plane with nothing outside the grid: influence coefficients, their transforms, the products."""
+    """Print the time of a plane with nothing outside the grid: influence coefficients, their
+    transforms, the products."""
     grid, pressure = asp.Grid((n, n), (DX, DX)), np.random.default_rng(0).random((n, n))
     print(f"\nfree boundary, {n}²: seconds for one plane")
     for name, body in BODIES.items():

@@ -12,7 +12,8 @@ BODY = asp.Elastic(0.91, 0.3)
 
 
 def self_affine(n: int, seed: int = 1) -> asp.Surface:
-    """Periodic surface of n x n unit pixels: Hurst 0.8, roll-off L/4, cut-off 8 pixels, unit rms slope."""
+    """Periodic surface of n x n unit pixels: Hurst 0.8, roll-off L/4, cut-off 8 pixels, unit rms
+    slope."""
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=n / 4, shortest_wavelength=8.0
     )

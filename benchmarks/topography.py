@@ -2,8 +2,9 @@
 
 Usage: python benchmarks/topography.py [--sizes 512 1024 2048] [--threads 2] [--repeats 3]
 
-The surface is not periodic and has no missing points, the most work: spectra are windowed and the autocovariance padded.
-Medians of the rounds; ``pairs`` is the time over that of one real FFT pair of the same size on the same threads.
+The surface is not periodic and has no missing points, the most work: spectra are windowed and the
+autocovariance padded. Medians of the rounds; ``pairs`` is the time over that of one real FFT pair
+of the same size on the same threads.
 """
 
 from __future__ import annotations

@@ -1,10 +1,12 @@
-"""Cost of a step of time of a viscoelastic contact, in cold elastic solves of the same surface and tolerance.
+"""Cost of a step of time of a viscoelastic contact, in cold elastic solves of the same surface and
+tolerance.
 
 Usage: python benchmarks/viscoelastic.py [--size 512] [--load 0.05] [--threads 1] [--repeats 5]
 
-A load at once, then a hold, in equal steps and in steps by their error; rejected ones count. Every round solves the elastic contact of the moduli half-way
-through the relaxation and then every viscoelastic one, so that all see the same disturbances; given are medians of processor time. A first
-round, which compiles, does not count.
+A load at once, then a hold, in equal steps and in steps by their error; rejected ones count. Every
+round solves the elastic contact of the moduli half-way through the relaxation and then every
+viscoelastic one, so that all see the same disturbances; given are medians of processor time. A
+first round, which compiles, does not count.
 """
 
 from __future__ import annotations

@@ -1,9 +1,11 @@
-"""What a person waits for: start-up, reading, a whole command, its pictures, as processor time and by the clock, and the first compilation.
+"""What a person waits for: start-up, reading, a whole command, its pictures, as processor time and
+by the clock, and the first compilation.
 
-Every row is a fresh process, measured with all its children, in rounds that do all rows once; the smallest of the rounds counts, of
-processor time (user and system) and of the clock. Pictures are drawn by several processes, so that the clock shows less than the
-processors work. Python keeps its compiled modules in a folder of the run, whatever the environment says, so that they are compiled once, as in an
-installed package.
+Every row is a fresh process, measured with all its children, in rounds that do all rows once; the
+smallest of the rounds counts, of processor time (user and system) and of the clock. Pictures are
+drawn by several processes, so that the clock shows less than the processors work. Python keeps its
+compiled modules in a folder of the run, whatever the environment says, so that they are compiled
+once, as in an installed package.
 
 Usage: python benchmarks/whole_wait.py [SCAN] [--rounds 5] [--fresh 1] [--json FILE]
 """
@@ -131,7 +133,8 @@ def measured(scan: Path, rounds: int, modules: Path) -> dict[str, Wait]:
 
 
 def first_result(scan: Path, modules: Path) -> float:
-    """Time in s from the start to the end of a contact for which every kernel must be compiled, on two processes."""
+    """Time in s from the start to the end of a contact for which every kernel must be compiled, on
+    two processes."""
     command = [sys.executable, "-m", "asperity", "contact", str(scan), *CONTACT]
     # the second process may still write there when the contact has ended
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:

@@ -1,4 +1,5 @@
-"""Every solver in a process of its own, so that no library's threads or settings touch another's timing."""
+"""Every solver in a process of its own, so that no library's threads or settings touch another's
+timing."""
 
 from __future__ import annotations
 
@@ -76,7 +77,8 @@ class Worker:
 
 
 def start(kind: str, threads: int) -> Worker:
-    """Start the process of ``kind`` with ``threads`` threads for every library that listens to OMP_NUM_THREADS."""
+    """Start the process of ``kind`` with ``threads`` threads for every library that listens to
+    OMP_NUM_THREADS."""
     for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "ASPERITY_THREADS"):
         os.environ[variable] = str(threads)
     context = multiprocessing.get_context("spawn")

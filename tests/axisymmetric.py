@@ -1,7 +1,8 @@
-"""Fields under axisymmetric pressure p(r), and under the shear μ p(r) along x, by Hankel integrals over the transfer.
+"""Fields under axisymmetric pressure p(r), and under the shear μ p(r) along x, by Hankel integrals
+over the transfer.
 
-On the surface the integrals do not converge absolutely, so there the outermost layer's homogeneous part is put in by
-formulas in real space. Everything is for the half-plane y = 0.
+On the surface the integrals do not converge absolutely, so there the outermost layer's homogeneous
+part is put in by formulas in real space. Everything is for the half-plane y = 0.
 """
 
 from __future__ import annotations
@@ -116,7 +117,8 @@ class Hertz(Pressure):
 
 
 def _odd_integrals(slope: Callable[[np.ndarray], np.ndarray], a: float, r: float) -> tuple[float, float]:
-    """From p̂ = 2π ∫ g cos αt dt with g' = ``slope``: ∫ sin(αt) J_m(αr) dα = sin(m asin(t/r))/sqrt(r²-t²) for t < r."""
+    """From p̂ = 2π ∫ g cos αt dt with g' = ``slope``: ∫ sin(αt) J_m(αr) dα = sin(m
+    asin(t/r))/sqrt(r²-t²) for t < r."""
     if r == 0.0:
         return 0.0, 0.0
     angle, weight = panels(np.linspace(0.0, np.arcsin(min(1.0, a / r)), 4))
@@ -125,10 +127,11 @@ def _odd_integrals(slope: Callable[[np.ndarray], np.ndarray], a: float, r: float
 
 
 class SphereOnLayer(Pressure):
-    """Rigid paraboloid on one layer on a half-space of E2' = 1/(1-ν2²), Hertz radius a0 = p0 = 1 of the substrate alone.
+    """Rigid paraboloid on one layer on a half-space of E2' = 1/(1-ν2²), Hertz radius a0 = p0 = 1 of
+    the substrate alone.
 
-    Fredholm equation of the second kind (O'Sullivan & King 1988) for g(t), p̂ = 2π ∫ g cos αt dt, by 48
-    Gauss points; the contact radius is found for the load of a0 = 1.
+    Fredholm equation of the second kind (O'Sullivan & King 1988) for g(t), p̂ = 2π ∫ g cos αt dt,
+    by 48 Gauss points; the contact radius is found for the load of a0 = 1.
     """
 
     COUNT = 48
@@ -220,8 +223,9 @@ def fields(
 
 
 def _add_surface(displacement, stress, pressure, material, x, mu) -> None:
-    """Surface fields of a homogeneous half-space in real space: u_r = -(1-2ν) P(r)/4πGr and Hooke's law; shear by
-    the integrals of J1 and J3 (σ_xx = -(2+ν/2) H1 cos θ - ν/2 H3 cos 3θ and so on)."""
+    """Surface fields of a homogeneous half-space in real space: u_r = -(1-2ν) P(r)/4πGr and Hooke's
+    law; shear by the integrals of J1 and J3 (σ_xx = -(2+ν/2) H1 cos θ - ν/2 H3 cos 3θ and so
+    on)."""
     G, nu, r = material.shear_modulus, material.poisson_ratio, abs(x)
     side, p = (1.0 if x >= 0.0 else -1.0), pressure.value(r)
     k = (1.0 - 2.0 * nu) / (2.0 * G)

@@ -1,4 +1,5 @@
-"""Every contact solver and the cases each must solve, as data; suites are cross products of the two."""
+"""Every contact solver and the cases each must solve, as data; suites are cross products of the
+two."""
 
 from __future__ import annotations
 
@@ -109,7 +110,8 @@ def solved(case: Case, solver: Solver) -> tuple[ContactQP, Solution]:
 
 
 def feasible_start(qp: ContactQP) -> RealArray:
-    """Pressure (Pa) from which no solver can guess the contact: uniform, or none at prescribed position."""
+    """Pressure (Pa) from which no solver can guess the contact: uniform, or none at prescribed
+    position."""
     if isinstance(qp.constraint, FixedOffset):
         return np.zeros(qp.profile.shape)
     mean = qp.constraint.mean_pressure

@@ -1,7 +1,9 @@
-"""Compile the numerical kernels before worker processes begin, each of which would else compile all of them.
+"""Compile the numerical kernels before worker processes begin, each of which would else compile all
+of them.
 
-``python tests/compile_kernels.py mixed`` solves small problems that need the kernels of one share; others are ``double`` and
-``stress``. The compiled kernels are kept beside the sources (or in NUMBA_CACHE_DIR), so only the first run takes time.
+``python tests/compile_kernels.py mixed`` solves small problems that need the kernels of one share;
+others are ``double`` and ``stress``. The compiled kernels are kept beside the sources (or in
+NUMBA_CACHE_DIR), so only the first run takes time.
 """
 
 from __future__ import annotations

@@ -61,12 +61,14 @@ def shared_data() -> Path:
 
 @pytest.fixture(scope="session")
 def reference() -> Callable[[str], list[reference_data.Row]]:
-    """Reader of tests/reference/<name>.csv; ``from reference_data import reference`` serves in parametrisations."""
+    """Reader of tests/reference/<name>.csv; ``from reference_data import reference`` serves in
+    parametrisations."""
     return reference_data.reference
 
 
 def artists(artist: Artist) -> Iterator[Artist]:
-    """``artist`` and all within it but the ticks of axes, which are made only when they are asked for."""
+    """``artist`` and all within it but the ticks of axes, which are made only when they are asked
+    for."""
     yield artist
     for part in [artist.label] if isinstance(artist, Axis) else artist.get_children():
         yield from artists(part)
@@ -74,7 +76,8 @@ def artists(artist: Artist) -> Iterator[Artist]:
 
 @pytest.fixture(scope="module")
 def unrendered() -> Iterator[None]:
-    """Figures are composed, but their file is a few pixels that are a digest of what they hold: rendering takes most of the time."""
+    """Figures are composed, but their file is a few pixels that are a digest of what they hold:
+    rendering takes most of the time."""
 
     def digest(figure: matplotlib.figure.Figure) -> bytes:
         held = hashlib.sha256()
@@ -111,7 +114,8 @@ def make_pictures_by(png: Callable[..., bytes], patch: pytest.MonkeyPatch) -> No
 
 @pytest.fixture(scope="module")
 def undrawn(unrendered: None) -> Iterator[None]:
-    """Pictures are one pixel and not even composed: for tests that ask for no more than the names of their files."""
+    """Pictures are one pixel and not even composed: for tests that ask for no more than the names
+    of their files."""
 
     def pixel(draw: object, size: object, **_: Any) -> bytes:
         return PIXEL.getvalue()

@@ -1,4 +1,5 @@
-"""The kernels of the GPU compiled as C++, blocks of one thread one after the other: the engine of a GPU where there is none."""
+"""The kernels of the GPU compiled as C++, blocks of one thread one after the other: the engine of a
+GPU where there is none."""
 
 from __future__ import annotations
 
@@ -62,7 +63,8 @@ class _Transforms:
 
 
 class _Array(np.ndarray):
-    """Array in the memory of the device: NumPy's operations do not mix it with arrays of the host."""
+    """Array in the memory of the device: NumPy's operations do not mix it with arrays of the
+    host."""
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
         return _on_device(getattr(ufunc, method)(*_plain(inputs), **{k: _plain(value) for k, value in options.items()}))

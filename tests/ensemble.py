@@ -10,7 +10,8 @@ from reference_data import Row, reference
 from asperity.core.grid import Grid
 
 ROWS = reference("surfaces_ensemble_generation")
-"""Acceptance intervals of the generated surfaces beyond the three spectral cases of the Gaussian ones."""
+"""Acceptance intervals of the generated surfaces beyond the three spectral cases of the Gaussian
+ones."""
 
 
 def rows(case: str) -> list[Row]:
@@ -29,7 +30,8 @@ def average(statistics: Iterable[dict[str, float]]) -> dict[str, float]:
 
 
 def require_accepted(case: str, averages: dict[str, float]) -> None:
-    """Every row of ``case`` whose statistic was computed lies in its interval; none may be left out but the spectral ones."""
+    """Every row of ``case`` whose statistic was computed lies in its interval; none may be left out
+    but the spectral ones."""
     listed = {row["statistic"]: (row["lower"], row["upper"]) for row in rows(case)}
     assert set(averages) == {name for name in listed if "spec" not in name}
     outside = {name: (averages[name], listed[name]) for name in averages if not _inside(averages[name], listed[name])}
@@ -43,7 +45,8 @@ def _inside(value: float, interval: tuple[float, float]) -> bool:
 def periodic_statistics(
     heights: np.ndarray, spacing: tuple[float, float], lags: Iterable[tuple[int, int]] = ()
 ) -> dict:
-    """Moments about the realised mean, wrapped differences and autocovariances of a periodic map."""
+    """Moments about the realised mean, wrapped differences and autocovariances of a periodic
+    map."""
     z = heights - heights.mean()
     dx, dy = spacing
     m0 = np.mean(z**2)

@@ -1,10 +1,11 @@
-"""How large the package is, and through how many files one solve and one command pass: ``python tests/house_size.py``.
+"""How large the package is, and through how many files one solve and one command pass:
+``python tests/house_size.py``.
 
-Lines of a module are code, docstrings (of modules, classes and functions), comments and blank lines. The length of a
-function counts the lines after ``def`` without its docstring. A private function has one caller if its name is defined
-once and occurs once besides, in the whole package. Late imports are the import statements inside functions. What one
-call passes through is found with the profiler, in the second of two equal calls, so that imports and compilation do
-not count.
+Lines of a module are code, docstrings (of modules, classes and functions), comments and blank
+lines. The length of a function counts the lines after ``def`` without its docstring. A private
+function has one caller if its name is defined once and occurs once besides, in the whole package.
+Late imports are the import statements inside functions. What one call passes through is found with
+the profiler, in the second of two equal calls, so that imports and compilation do not count.
 """
 
 from __future__ import annotations
@@ -114,7 +115,8 @@ def passed_through(call: Callable[[], object]) -> tuple[int, int]:
 
 
 def reach() -> list[tuple[str, int]]:
-    """Figures by name: what ``asp.solve`` on a periodic elastic contact and ``asperity contact`` pass through."""
+    """Figures by name: what ``asp.solve`` on a periodic elastic contact and ``asperity contact``
+    pass through."""
     import numpy as np
 
     import asperity as asp

@@ -1,4 +1,5 @@
-"""Smooth rigid indenters on layered bodies in the units of the reference tables: a_0 = 1, base modulus 1, radius 100."""
+"""Smooth rigid indenters on layered bodies in the units of the reference tables: a_0 = 1, base
+modulus 1, radius 100."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ def _on_base(row: Row) -> HertzPoint:
 
 
 def sphere(row: Row, radius: float, n: int) -> asp.ContactResult:
-    """Paraboloid under the load that gives a_0 = 1 on the base alone, on n x n pixels over ``radius``."""
+    """Paraboloid under the load that gives a_0 = 1 on the base alone, on n x n pixels over
+    ``radius``."""
     layered = body(row)
     pixel = WIDTH * radius / n
     x, y = asp.Grid((n, n), (pixel, pixel)).centred_coordinates()
@@ -60,7 +62,8 @@ def cylinder_peak(row: Row) -> float:
 
 
 def pressure_at(result: asp.ContactResult, distance: float) -> float:
-    """Pressure (Pa) at ``distance`` (m) from the middle along x; its square, linear at the edge, is interpolated."""
+    """Pressure (Pa) at ``distance`` (m) from the middle along x; its square, linear at the edge, is
+    interpolated."""
     middle = tuple(n // 2 for n in result.problem.grid.shape)
     x = result.problem.grid.spacing[0] * np.arange(middle[0] + 1)
     return float(np.sqrt(np.interp(distance, x, result.pressure[middle[0] :, middle[1]] ** 2)))

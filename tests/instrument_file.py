@@ -10,7 +10,8 @@ from asperity.core.arrays import RealArray
 
 
 def bcr(path: Path) -> RealArray:
-    """Write a small map in a format of instruments (BCR-STM), the 26th that the library tries; its heights [x, y], y upwards."""
+    """Write a small map in a format of instruments (BCR-STM), the 26th that the library tries; its
+    heights [x, y], y upwards."""
     steps = np.random.default_rng(3).integers(-500, 500, (6, 9)).astype("<i2")  # top row first
     header = (
         "fileformat = bcrstm\nheadersize = 2048\nxpixels = 9\nypixels = 6\nxlength = 90\nylength = 60\nxunit = nm\n"

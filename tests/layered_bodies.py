@@ -26,7 +26,8 @@ def plane_of(row: Row, body: asp.Layered, depth: float) -> Plane:
 
 @st.composite
 def layered_bodies(draw: st.DrawFn, *, contrast: float = 1e3) -> asp.Layered:
-    """One to four layers of moduli within ``contrast`` of 1, any Poisson's ratio, thicknesses 0.05 to 3, any base."""
+    """One to four layers of moduli within ``contrast`` of 1, any Poisson's ratio, thicknesses 0.05
+    to 3, any base."""
     modulus = st.floats(-1.0, 1.0).map(lambda v: float(contrast**v))
     solid = st.builds(asp.Elastic, modulus, st.sampled_from([0.0, 0.1, 0.3, 0.45, 0.5]))
     layer = st.builds(asp.Layer, solid, st.floats(np.log(0.05), np.log(3.0)).map(lambda v: float(np.exp(v))))

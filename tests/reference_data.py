@@ -30,7 +30,8 @@ def _cell(text: str) -> float | str:
 def every_row(
     rows: Iterable[Row], label: Callable[[Row], str] = str
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Decorator: a test of one ``row`` becomes one test of all ``rows``, which lists those that fail by their ``label``.
+    """Decorator: a test of one ``row`` becomes one test of all ``rows``, which lists those that
+    fail by their ``label``.
 
     A thousand rows of a table are one law, and take less time than a thousand tests.
     """

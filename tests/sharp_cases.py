@@ -15,7 +15,8 @@ UNIT = SLOPE * E_STAR
 
 
 def rough_heights(points: int, row: Row, *, slope: float = SLOPE, hurst: float = 0.8) -> RealArray:
-    """Periodic heights (points, points) in m with waves ``q_low`` to ``q_high`` per side, the same surface on every grid."""
+    """Periodic heights (points, points) in m with waves ``q_low`` to ``q_high`` per side, the same
+    surface on every grid."""
     low, high = float(row["q_low"]), float(row["q_high"])
     rng, few = np.random.default_rng(int(float(row["seed"]))), 2 * int(high) + 2
     waves = np.fft.fftfreq(few, 1 / few)

@@ -1,4 +1,5 @@
-"""A sphere that is sheared, and the energy that a loop leaves over, for the tests of viscoelastic half-spaces and of layers."""
+"""A sphere that is sheared, and the energy that a loop leaves over, for the tests of viscoelastic
+half-spaces and of layers."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ def sphere(body: Body, points: int = 24, **more: object) -> asp.ContactProblem:
 
 
 def left_of_a_loop(problem: asp.ContactProblem, shift: float) -> tuple[list[float], float]:
-    """What the balance leaves (J) with 4 and with 12 steps of time a ramp, and the whole work (J); heat of bodies and slip never falls."""
+    """What the balance leaves (J) with 4 and with 12 steps of time a ramp, and the whole work (J);
+    heat of bodies and slip never falls."""
     steps = [
         asp.Step(LOAD, asp.Shift()),
         asp.Step(LOAD, asp.Shift(shift), duration=0.5),

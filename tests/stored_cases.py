@@ -1,4 +1,5 @@
-"""Small results of every type that files hold, and what they tell: every number to the bit, by name."""
+"""Small results of every type that files hold, and what they tell: every number to the bit, by
+name."""
 
 from __future__ import annotations
 
@@ -136,7 +137,8 @@ GO_ON = {"rolling": rolling, "indented": indented, "passed": passed, "moved": mo
 
 
 def goes_on(path: Any, name: str = "") -> Any:
-    """What follows a result of that ``name``; of a path the second step, solved again from the state of the first, without the products at hand that no file holds."""
+    """What follows a result of that ``name``; of a path the second step, solved again from the
+    state of the first, without the products at hand that no file holds."""
     if name in GO_ON:
         return GO_ON[name](path)
     if name == "single":
@@ -150,7 +152,8 @@ def goes_on(path: Any, name: str = "") -> Any:
 
 
 def told(value: Any, name: str = "") -> dict[str, str]:
-    """Every number and text in ``value`` by its place, arrays by the digest of type, shape and bytes."""
+    """Every number and text in ``value`` by its place, arrays by the digest of type, shape and
+    bytes."""
     return dict(_told(value, name))
 
 

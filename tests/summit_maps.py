@@ -1,4 +1,5 @@
-"""Periodic maps that are sums of a few waves, with their summits in tests/reference/summit_map_*.csv."""
+"""Periodic maps that are sums of a few waves, with their summits in
+tests/reference/summit_map_*.csv."""
 
 from __future__ import annotations
 

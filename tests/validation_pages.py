@@ -1,4 +1,5 @@
-"""What holds for every page of validation: the claims of a smaller run hold, and the written page is the script's."""
+"""What holds for every page of validation: the claims of a smaller run hold, and the written page
+is the script's."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ def written_page(name: str) -> str:
 
 
 def written_rows(name: str, after: str = "") -> list[list[str]]:
-    """Cells of the tables of the written page below the line ``after``, rules between head and body left out."""
+    """Cells of the tables of the written page below the line ``after``, rules between head and body
+    left out."""
     text = written_page(name)
     lines = text[text.index(after) :].splitlines()
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ")]
@@ -32,7 +34,8 @@ def assert_claims_hold(page: Page) -> None:
 
 
 def assert_written_by_script(page: Page, name: str) -> None:
-    """Title, words but for the numbers in them, claims in their order and published numbers; ours are those of a larger run."""
+    """Title, words but for the numbers in them, claims in their order and published numbers; ours
+    are those of a larger run."""
     written = written_page(name)
     assert written.startswith(f"# {page.title}\n")
     assert NUMBER.sub("#", page.about) in NUMBER.sub("#", written)

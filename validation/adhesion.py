@@ -1,4 +1,5 @@
-"""Adhesive contacts on the grid against independent solutions: Maugis' transition, Johnson's wave, JKR on coated spheres."""
+"""Adhesive contacts on the grid against independent solutions: Maugis' transition, Johnson's wave,
+JKR on coated spheres."""
 
 from __future__ import annotations
 
@@ -23,7 +24,9 @@ TRANSITION = (
     (3.0, 384, 5.0),
     (3.4713, 400, 4.0),
 )
-"""Maugis' λ, points along a side, and its least length in units of the contact radius; the last row takes two minutes on one core. Tabor's parameter of a Lennard-Jones surface of the same largest stress is λ/1.157."""
+"""Maugis' λ, points along a side, and its least length in units of the contact radius; the last row
+takes two minutes on one core. Tabor's parameter of a Lennard-Jones surface of the same largest
+stress is λ/1.157."""
 
 WAVES = (0.2, 0.4)
 COATED = ((0.25, 0.3, 0.3, 0.5, 2.4), (10.0, 0.25, 0.3, 0.1, 1.2))
@@ -32,9 +35,12 @@ COATED = ((0.25, 0.3, 0.3, 0.5, 2.4), (10.0, 0.25, 0.3, 0.1, 1.2))
 E_STAR, RADIUS, WORK = 1e6, 1e-4, 0.05
 
 ABOUT = (
-    "The reference is an independent solution on every row, by closed forms or one-dimensional equations of our own. Sphere: Dugdale's law, smoothed over a fifth of its range, on a free grid; pull-off is the most tensile force of a sphere "
-    "that is parted step by step, against Maugis' equations. Wave: exponential law whose cohesive length is six pixels, on a periodic line. Coated sphere: exponential law whose cohesive length is five pixels of the top layer. "
-    "The ranges of wave and coated sphere are chosen freely, as small as the grid resolves; both references have none."
+    "The reference is an independent solution on every row, by closed forms or one-dimensional equations of "
+    "our own. Sphere: Dugdale's law, smoothed over a fifth of its range, on a free grid; pull-off is the most "
+    "tensile force of a sphere that is parted step by step, against Maugis' equations. Wave: exponential law "
+    "whose cohesive length is six pixels, on a periodic line. Coated sphere: exponential law whose cohesive "
+    "length is five pixels of the top layer. The ranges of wave and coated sphere are chosen freely, as small "
+    "as the grid resolves; both references have none."
 )
 
 
@@ -97,13 +103,15 @@ def page(
 
 
 def pulled(problem: asp.ContactProblem, approaches: list[float]) -> tuple[float, asp.adhesion.AdhesiveContact]:
-    """Most tensile force (N) of grips at these ``approaches`` (m), one after the other, and the adhesion at the end."""
+    """Most tensile force (N) of grips at these ``approaches`` (m), one after the other, and the
+    adhesion at the end."""
     found = asp.solve(problem, asp.History([asp.FixedGrips(float(value)) for value in approaches]))
     return -float(min(found.external_force)), found.last.adhesion
 
 
 def sphere(transition: float, points: int, least: float) -> tuple[float, float, float]:
-    """Pull-off on the grid and of Maugis' equations over πwR, and pixels in the cohesive length, at λ = ``transition``; side ``least`` or more."""
+    """Pull-off on the grid and of Maugis' equations over πwR, and pixels in the cohesive length, at
+    λ = ``transition``; side ``least`` or more."""
     K = 4.0 / 3.0 * E_STAR
     length = np.cbrt(math.pi * WORK * RADIUS**2 / K)
     unit = length**2 / RADIUS

@@ -1,7 +1,8 @@
 """The wet contact that figs 39 to 42 of Bhushan (1998) share, as far as the text states it.
 
-A rigid smooth flat on a rough half-space: exponential autocorrelation that has dropped to 0.1 at β* = 0.5 µm, E* = 100 GPa, pixels of
-20 µm/256. Half the side of the published maps, several of them instead of one.
+A rigid smooth flat on a rough half-space: exponential autocorrelation that has dropped to 0.1 at
+β* = 0.5 µm, E* = 100 GPa, pixels of 20 µm/256. Half the side of the published maps, several of them
+instead of one.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ CORRELATION_LENGTH = 0.5e-6
 MODULUS = 100e9
 BODY = asp.Elastic(MODULUS * (1.0 - 0.3**2), 0.3)
 LOAD = 3.28e6
-"""Pa: a hundred times the 32.8 kPa of the dry figures; figs 39 to 42 do not state theirs in the text."""
+"""Pa: a hundred times the 32.8 kPa of the dry figures; figs 39 to 42 do not state theirs in the
+text."""
 
 WATER = 0.073
 """Surface tension in N/m."""
@@ -29,8 +31,9 @@ WATER_ANGLE = math.radians(60.0)
 
 @dataclass(frozen=True)
 class Found:
-    """Meniscus force over load in the first pass and when it is steady (infinite where it runs away), real area of contact
-    over nominal area under load and menisci, and the force over load of the theory of summits."""
+    """Meniscus force over load in the first pass and when it is steady (infinite where it runs
+    away), real area of contact over nominal area under load and menisci, and the force over load of
+    the theory of summits."""
 
     first: float
     steady: float
@@ -62,7 +65,8 @@ class Interface:
         self._dry: dict[float, asp.ContactResult] = {}
 
     def menisci(self, liquid: asp.LiquidFilm, load: float = LOAD, *, theory: bool = False) -> Found:
-        """Menisci of ``liquid`` under the ``load`` in Pa; the theory of summits only if asked for."""
+        """Menisci of ``liquid`` under the ``load`` in Pa; the theory of summits only if asked
+        for."""
         control = asp.MeanPressure(load)
         if load not in self._dry:
             keep = asp.Keep(stiffness=False)

@@ -1,4 +1,5 @@
-"""Nominally flat surfaces on a smooth flat, dry: figs 26 to 31 and 33 of Bhushan (1998), after Yu & Bhushan (1996)."""
+"""Nominally flat surfaces on a smooth flat, dry: figs 26 to 31 and 33 of Bhushan (1998), after Yu &
+Bhushan (1996)."""
 
 from __future__ import annotations
 
@@ -36,22 +37,28 @@ EVERY = (8, 4, 2, 1)
 """Sampling intervals of fig. 33 in pixels."""
 
 ABOUT = (
-    "Bhushan (1998, figs 26 to 31 and 33, after Yu & Bhushan 1996 and Poon & Bhushan 1996): computer-generated Gaussian surfaces with an exponential "
-    "autocorrelation, 256 × 256 points on 20 × 20 µm², on a rigid smooth flat, E* = 100 GPa, no parameter chosen freely but ν = 0.3 for the stresses. "
-    "Theirs: one surface, contact points and spots as printed. Ours: mean ± standard deviation over {count} surfaces, {pixels} × {pixels} pixels of 78 nm, "
-    "periodic boundary; points are pixels in contact, spots are connected regions of them."
+    "Bhushan (1998, figs 26 to 31 and 33, after Yu & Bhushan 1996 and Poon & Bhushan 1996): "
+    "computer-generated Gaussian surfaces with an exponential autocorrelation, 256 × 256 points on 20 × 20 "
+    "µm², on a rigid smooth flat, E* = 100 GPa, no parameter chosen freely but ν = 0.3 for the stresses. "
+    "Theirs: one surface, contact points and spots as printed. Ours: mean ± standard deviation over {count} "
+    "surfaces, {pixels} × {pixels} pixels of 78 nm, periodic boundary; points are pixels in contact, spots "
+    "are connected regions of them."
 )
 
-WORDS = """* Both printed counts, 6 spots and 1570 points, lie within the scatter of ours, without any fitted number; the mean of ours is 3 % above the second.
-* As published, area and number of contacts grow almost in proportion to the load while they are small, the largest pressure grows with the load, and the
-  rougher surface has the smaller area and the larger pressure. 'Contact area inversely proportional to σ/β*' holds within 11 % over a factor of four,
-  'pressure proportional to σ/β*' within 25 %: areas that are smaller contain fewer pixels.
-* Not confirmed: that the bearing area, the part of the surface above the plane that the flat has reached, greatly overestimates the real area of contact. It is 0 to
-  42 % larger here. On a smooth sphere it is twice the area of contact, but contacts of one pixel have no room for that.
-* The largest von Mises stress lies within a third of a pixel of the surface without friction and with µ = 0.25, on it with µ = 0.5: contacts are one pixel, and
-  place and size of this maximum are those of a pixel under uniform pressure. Friction raises it, and raises the largest tension more.
-* With a smaller sampling interval the real area falls and the largest pressure rises, as published, without a limit in this range: an exponential
-  autocorrelation has no shortest wavelength."""
+WORDS = """* Both printed counts, 6 spots and 1570 points, lie within the scatter of ours, without any fitted
+  number; the mean of ours is 3 % above the second.
+* As published, area and number of contacts grow almost in proportion to the load while they are small, the
+  largest pressure grows with the load, and the rougher surface has the smaller area and the larger pressure.
+  'Contact area inversely proportional to σ/β*' holds within 11 % over a factor of four, 'pressure
+  proportional to σ/β*' within 25 %: areas that are smaller contain fewer pixels.
+* Not confirmed: that the bearing area, the part of the surface above the plane that the flat has reached,
+  greatly overestimates the real area of contact. It is 0 to 42 % larger here. On a smooth sphere it is twice
+  the area of contact, but contacts of one pixel have no room for that.
+* The largest von Mises stress lies within a third of a pixel of the surface without friction and with µ =
+  0.25, on it with µ = 0.5: contacts are one pixel, and place and size of this maximum are those of a pixel
+  under uniform pressure. Friction raises it, and raises the largest tension more.
+* With a smaller sampling interval the real area falls and the largest pressure rises, as published, without a
+  limit in this range: an exponential autocorrelation has no shortest wavelength."""
 
 
 def surface(shape: tuple[float, float], seed: int, pixels: int = PIXELS) -> asp.Surface:
@@ -62,7 +69,8 @@ def surface(shape: tuple[float, float], seed: int, pixels: int = PIXELS) -> asp.
 
 @dataclass(frozen=True)
 class Dry:
-    """What is counted on one contact: points and spots, real and bearing area over the nominal one, largest pressure in Pa."""
+    """What is counted on one contact: points and spots, real and bearing area over the nominal one,
+    largest pressure in Pa."""
 
     points: int
     spots: int
@@ -77,7 +85,8 @@ def solved(heights: asp.Surface, pressure: float) -> asp.ContactResult:
 
 
 def seen(result: asp.ContactResult) -> Dry:
-    """What is counted on a ``result``; the bearing area lies above the highest point less the approach."""
+    """What is counted on a ``result``; the bearing area lies above the highest point less the
+    approach."""
     heights = result.problem.surface.heights
     bearing = float((heights >= heights.max() - result.approach).mean())
     return Dry(int(result.contact.sum()), result.n_spots, result.area_fraction, bearing, result.max_pressure)

@@ -1,4 +1,5 @@
-"""Meniscus force against the thickness of a water film and the roughness: figs 39 and 40b of Bhushan (1998)."""
+"""Meniscus force against the thickness of a water film and the roughness: figs 39 and 40b of
+Bhushan (1998)."""
 
 from __future__ import annotations
 
@@ -20,29 +21,36 @@ PUBLISHED = 3.0
 """Fig. 39: meniscus over normal force at σ = 1 nm and 1 nm of water."""
 
 ABOUT = (
-    "Bhushan (1998, figs 39 and 40b, after Tian & Bhushan 1996 and Poon & Bhushan 1996): generated Gaussian surfaces, β* = 0.5 µm, against a smooth "
-    "flat with a film of water, γ = 73 mN/m, θ = 60°, E* = 100 GPa, elastic; menisci as high as the film is thick. The load is not in the "
-    "text: ours is {load:g} MPa, a hundred times the 32.8 kPa of the dry figures. Mean ± standard deviation over {count} surfaces. *First "
-    "pass*: menisci in the gap of the contact under the load alone, as described in the review. *Steady*: their force added to the load and iterated. "
-    "*Theory*: the summits of the same surfaces by the statistical model (eqs 56 and 57, with the skewness and kurtosis of their heights)."
+    "Bhushan (1998, figs 39 and 40b, after Tian & Bhushan 1996 and Poon & Bhushan 1996): generated Gaussian "
+    "surfaces, β* = 0.5 µm, against a smooth flat with a film of water, γ = 73 mN/m, θ = 60°, E* = 100 GPa, "
+    "elastic; menisci as high as the film is thick. The load is not in the text: ours is {load:g} MPa, a "
+    "hundred times the 32.8 kPa of the dry figures. Mean ± standard deviation over {count} surfaces. *First "
+    "pass*: menisci in the gap of the contact under the load alone, as described in the review. *Steady*: "
+    "their force added to the load and iterated. *Theory*: the summits of the same surfaces by the "
+    "statistical model (eqs 56 and 57, with the skewness and kurtosis of their heights)."
 )
 
-WORDS = """* The published 3 W for fig. 39 is that of the first pass at this load, which was chosen freely: the agreement is one of size only. With feedback, the force on such a smooth surface is four times as large,
-  and at 32.8 kPa it ends near 1300 W: the real area is then determined by the meniscus force and hardly by the load. The review
-  introduces the film *over the deformed surfaces* and does not say that the contact is solved again; Peng (2001, fig. 3.12) does so.
-* The rougher the surface, the thicker the film needed for the same force, as published. There is no threshold in our curves, but a thickness above
-  which the force of the first pass rises faster than the film thickness: its exponent grows from 0.5 at σ/3 through one at 0.7 σ to 1.3 at 1.4 σ,
-  for σ = 2 nm and 3 nm alike. So the critical film thickness of the review, printed as "on the order of 3/4 of the liquid film thickness", is
+WORDS = """* The published 3 W for fig. 39 is that of the first pass at this load, which was chosen freely:
+  the agreement is one of size only. With feedback, the force on such a smooth surface is four times as large,
+  and at 32.8 kPa it ends near 1300 W: the real area is then determined by the meniscus force and hardly by
+  the load. The review introduces the film *over the deformed surfaces* and does not say that the contact is
+  solved again; Peng (2001, fig. 3.12) does so.
+* The rougher the surface, the thicker the film needed for the same force, as published. There is no threshold
+  in our curves, but a thickness above which the force of the first pass rises faster than the film thickness:
+  its exponent grows from 0.5 at σ/3 through one at 0.7 σ to 1.3 at 1.4 σ, for σ = 2 nm and 3 nm alike. So the
+  critical film thickness of the review, printed as "on the order of 3/4 of the liquid film thickness", is
   probably 3/4 of σ.
-* On the smoothest surface the force falls again where the film is thicker than 2σ: menisci fill the area, and the suction falls as 1/h.
-* The theory of summits lies within a factor of three of both, nearest to the steady force. It does not include flooding, because the force of each
-  summit is independent of the others."""
+* On the smoothest surface the force falls again where the film is thicker than 2σ: menisci fill the area, and
+  the suction falls as 1/h.
+* The theory of summits lies within a factor of three of both, nearest to the steady force. It does not
+  include flooding, because the force of each summit is independent of the others."""
 
 
 def compare(
     count: int = 6, roughnesses: Sequence[float] = ROUGHNESSES, thicknesses: Sequence[float] = THICKNESSES
 ) -> Page:
-    """Ours on ``count`` surfaces of each roughness in m, 1 nm first and 2 nm among them, for every thickness in m, 0.5, 1 and 2 nm among them."""
+    """Ours on ``count`` surfaces of each roughness in m, 1 nm first and 2 nm among them, for every
+    thickness in m, 0.5, 1 and 2 nm among them."""
     faces = {rms: _interfaces(rms, count) for rms in roughnesses}
     found = {
         (rms, h): [face.menisci(film(h), theory=True) for face in faces[rms]]
@@ -72,7 +80,10 @@ def _table(found: dict[tuple[float, float], list[Found]]) -> Table:
 
 
 def _light(light: list[Found]) -> Table:
-    about = f"The interface of fig. 39 (σ = 1 nm, 1 nm of water) at {1e-3 * LIGHT:g} kPa, where contact is five to ten pixels:"
+    about = (
+        f"The interface of fig. 39 (σ = 1 nm, 1 nm of water) at {1e-3 * LIGHT:g} kPa, where contact is "
+        "five to ten pixels:"
+    )
     row = (shown(column(light, "first")), shown(column(light, "steady"), ".4g"))
     return Table(about, ("first pass", "steady"), (row,))
 

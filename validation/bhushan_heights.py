@@ -1,4 +1,5 @@
-"""Contact area and meniscus force of surfaces with skewness and kurtosis: figs 41 and 42 of Bhushan (1998)."""
+"""Contact area and meniscus force of surfaces with skewness and kurtosis: figs 41 and 42 of Bhushan
+(1998)."""
 
 from __future__ import annotations
 
@@ -32,22 +33,25 @@ FILMS = (0.5, 1.0, 2.0)
 """Thickness over σ."""
 
 ABOUT = (
-    "Bhushan (1998, figs 41 and 42, after Bhushan & Chilamakuri 1996): surfaces with skewness Sk and kurtosis K by the two-dimensional "
-    "digital filter, against a smooth flat with a film of a perfluoropolyether, γ = 25 mN/m, θ = 10°. Roughness and loads are not in the text: "
-    "ours have σ = {rms:g} nm, β* = 0.5 µm, E* = 100 GPa, {pixels} × {pixels} pixels of 78 nm. Mean ± standard deviation over {count} surfaces of "
-    "the steady values; areas are counted in pixels."
+    "Bhushan (1998, figs 41 and 42, after Bhushan & Chilamakuri 1996): surfaces with skewness Sk and kurtosis "
+    "K by the two-dimensional digital filter, against a smooth flat with a film of a perfluoropolyether, γ = "
+    "25 mN/m, θ = 10°. Roughness and loads are not in the text: ours have σ = {rms:g} nm, β* = 0.5 µm, E* = "
+    "100 GPa, {pixels} × {pixels} pixels of 78 nm. Mean ± standard deviation over {count} surfaces of the "
+    "steady values; areas are counted in pixels."
 )
 
-WORDS = """* Area and force fall with the kurtosis, as published, and by orders of magnitude at low loads: a few high peaks carry the load and hold the rest of
-  the surface outside the film.
-* The published optimum of the skewness, 0 to 0.2 at low loads and about 0.2 at higher ones, is found at K = 3: area and force have a minimum near
-  0.2 and rise towards 0.5. (At 32.8 MPa, where summits interact, the area does so, but the force continues to fall.)
-* It is not a function of the two moments alone. The governing quantity is the height range of the highest hundredth of the surface: from the height
-  that 1 % exceeds to that of 0.01 % there are 0.75, 1.37, 1.50 and 1.42 σ at a skewness of -0.5, 0, 0.2 and 0.5 with K = 3, because at constant K a
-  larger skewness implies a shorter tail, and 3.4 σ at K = 5. There area and force continue to fall with the skewness.
+WORDS = """* Area and force fall with the kurtosis, as published, and by orders of magnitude at low loads: a
+  few high peaks carry the load and hold the rest of the surface outside the film.
+* The published optimum of the skewness, 0 to 0.2 at low loads and about 0.2 at higher ones, is found at K =
+  3: area and force have a minimum near 0.2 and rise towards 0.5. (At 32.8 MPa, where summits interact, the
+  area does so, but the force continues to fall.)
+* It is not a function of the two moments alone. The governing quantity is the height range of the highest
+  hundredth of the surface: from the height that 1 % exceeds to that of 0.01 % there are 0.75, 1.37, 1.50 and
+  1.42 σ at a skewness of -0.5, 0, 0.2 and 0.5 with K = 3, because at constant K a larger skewness implies a
+  shorter tail, and 3.4 σ at K = 5. There area and force continue to fall with the skewness.
 * With h/σ the force changes less the larger the skewness, and by far least at a kurtosis of five or more, as published.
-* A kurtosis below 2.42 is not possible with this filter on this grid. At 0.3 MPa and K ≥ 5 contact is a pixel or two. Maps are finite: those
-  of K = 10 have 8.4 on average."""
+* A kurtosis below 2.42 is not possible with this filter on this grid. At 0.3 MPa and K ≥ 5 contact is a pixel
+  or two. Maps are finite: those of K = 10 have 8.4 on average."""
 
 
 class Menisci:
@@ -59,7 +63,8 @@ class Menisci:
         self._found: dict[tuple[tuple[float, float], float, float], tuple[np.ndarray, np.ndarray]] = {}
 
     def of(self, shape: tuple[float, float], load: float, ratio: float) -> tuple[np.ndarray, np.ndarray]:
-        """Area fraction and steady force over load, by surface, of ``shape`` at ``load`` in Pa and h/σ = ``ratio``."""
+        """Area fraction and steady force over load, by surface, of ``shape`` at ``load`` in Pa and
+        h/σ = ``ratio``."""
         case = shape, load, ratio
         if case not in self._found:
             liquid = film(ratio * RMS, TENSION, ANGLE)
@@ -90,7 +95,8 @@ def compare(
     shapes: Sequence[tuple[float, float]] = SHAPES,
     loads: Sequence[float] = LOADS,
 ) -> Page:
-    """Ours on ``count`` surfaces of every one of ``shapes``, under all ``loads`` in Pa, which include ``LOAD``."""
+    """Ours on ``count`` surfaces of every one of ``shapes``, under all ``loads`` in Pa, which
+    include ``LOAD``."""
     menisci = Menisci(count, pixels)
     parts = (
         _made(menisci, shapes),

@@ -19,17 +19,21 @@ FLOODS = 0.9
 HUMIDITIES = (0.1, 0.3, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95)
 
 ABOUT = (
-    "Bhushan (1998, fig. 40a, after Tian & Bhushan 1996): a glass-ceramic disk against a smooth surface. The text gives the model – Kelvin "
-    "radius (eq. 66), film adsorbed on carbon (eq. 67) – and the trend, but no roughness, load or contact angle. Ours in character: σ = {rms:g} nm, "
-    "β* = 0.5 µm, E* = 100 GPa, {load:g} MPa, θ = 60° on both surfaces, {count} surfaces, mean ± standard deviation of Fₘ/W."
+    "Bhushan (1998, fig. 40a, after Tian & Bhushan 1996): a glass-ceramic disk against a smooth surface. The "
+    "text gives the model – Kelvin radius (eq. 66), film adsorbed on carbon (eq. 67) – and the trend, but no "
+    "roughness, load or contact angle. Ours in character: σ = {rms:g} nm, β* = 0.5 µm, E* = 100 GPa, {load:g} "
+    "MPa, θ = 60° on both surfaces, {count} surfaces, mean ± standard deviation of Fₘ/W."
 )
 
-WORDS = """* The force rises with the humidity, slowly at first and steeply above 70 %, as published, where the film grows from 0.03 to 0.34 nm and the
-  menisci from 0.2 to 5 nm.
-* At 95 % the menisci, 10 nm high, fill the whole area between such smooth surfaces, and the force falls with the suction. A rougher or wavy disk is
-  flooded at a higher humidity; the text does not mention such a decrease.
-* The rise is caused by the height of the menisci: the suction falls as its inverse, but the area within that height grows faster.
-* Below 50 % the radius of the menisci is a few molecular diameters, and the film is thinner than a monolayer: numbers there are formal."""
+WORDS = """* The force rises with the humidity, slowly at first and steeply above 70 %, as published, where
+  the film grows from 0.03 to 0.34 nm and the menisci from 0.2 to 5 nm.
+* At 95 % the menisci, 10 nm high, fill the whole area between such smooth surfaces, and the force falls with
+  the suction. A rougher or wavy disk is flooded at a higher humidity; the text does not mention such a
+  decrease.
+* The rise is caused by the height of the menisci: the suction falls as its inverse, but the area within that
+  height grows faster.
+* Below 50 % the radius of the menisci is a few molecular diameters, and the film is thinner than a monolayer:
+  numbers there are formal."""
 
 
 def compare(count: int = 8, humidities: Sequence[float] = HUMIDITIES) -> Page:

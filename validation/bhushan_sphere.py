@@ -1,4 +1,5 @@
-"""A single asperity, smooth and rough, with friction and a layer: figs 4 to 9 and 21 to 24 of Bhushan (1998)."""
+"""A single asperity, smooth and rough, with friction and a layer: figs 4 to 9 and 21 to 24 of
+Bhushan (1998)."""
 
 from __future__ import annotations
 
@@ -36,37 +37,49 @@ TABOR = 2.8
 """Hardness over Y, eq. 6."""
 
 STRAIN, KRAL_LOAD = 685.0, 300.0
-"""E/Y of the sphere of Kral et al. (1993), and its load over that at first yield where it is fully plastic."""
+"""E/Y of the sphere of Kral et al. (1993), and its load over that at first yield where it is fully
+plastic."""
 
 ROUGHNESS, CORRELATION_LENGTH = 4e-9, 0.15 * THICKNESS
-"""σ and 10 % length of the Gaussian autocorrelation of the rough sphere in m; theirs are not stated."""
+"""σ and 10 % length of the Gaussian autocorrelation of the rough sphere in m; theirs are not
+stated."""
 
 ABOUT = (
-    "Bhushan (1998, figs 4 to 9, after O'Sullivan & King 1988, and figs 21 to 24, after Lee & Ren 1994): rigid sphere on a half-space with a layer, a₀ = h = 1 µm, "
-    "R = 10 h, ν = 0.3, and a rough sphere on a half-space. The text prints few numbers and the figures have none that can be read here: what is printed is "
-    "compared, of the rest the trends. Ours: closed forms (Hamilton 1983) for the homogeneous body, the free boundary on {points} × {points} points over 3.6 a₀ "
-    "for the layers and the rough sphere, whose σ = 4 nm and 10 % length 0.15 a₀ are chosen freely."
+    "Bhushan (1998, figs 4 to 9, after O'Sullivan & King 1988, and figs 21 to 24, after Lee & Ren 1994): "
+    "rigid sphere on a half-space with a layer, a₀ = h = 1 µm, R = 10 h, ν = 0.3, and a rough sphere on a "
+    "half-space. The text prints few numbers and the figures have none that can be read here: what is printed "
+    "is compared, of the rest the trends. Ours: closed forms (Hamilton 1983) for the homogeneous body, the "
+    "free boundary on {points} × {points} points over 3.6 a₀ for the layers and the rough sphere, whose σ = 4 "
+    "nm and 10 % length 0.15 a₀ are chosen freely."
 )
 
-WORDS = """* First yield under a sphere at 2.8 k, a mean pressure of 1.07 Y, and yield at the surface beyond µ ≈ 0.3 are the closed forms to the digits that
-  are printed.
+WORDS = """* First yield under a sphere at 2.8 k, a mean pressure of 1.07 Y, and yield at the surface beyond
+  µ ≈ 0.3 are the closed forms to the digits that are printed.
 * So is the largest √J₂/p₀ of the smooth sphere under µ = 0.25, printed as 0.37.
-* The rule pₘ = H/3 for first yield is 13 % below 1.07 Y over 2.8 Y. At 300 times the load of first yield, mean pressure and contact radius of a perfectly plastic sphere, by
-  Jackson and Green's fits, are 11 and 8 % larger than those printed of finite elements with strain hardening; Tabor's 2.8 Y is the largest mean pressure of the fits.
-* A stiffer layer raises the largest pressure, √J₂, the tension at the trailing edge and σₓ in the layer at the interface, which becomes tensile; a more
-  compliant one lowers them and the largest τₓz on the interface, as published. Friction raises √J₂ and the tension. That a stiffer layer raises τₓz, too, is
-  found near the surface and, at the interface, without friction only: with µ = 0.25 the largest value there is that of the homogeneous body within 2 %.
-* Below the homogeneous contact σₓ has dropped below a hundredth of p₀ at 1.3 a₀, and σ_z is still a tenth of it at 3 a₀, as published.
-* Roughness multiplies pressures, √J₂ near the surface and tension; at half a contact radius and below √J₂ is nearly that of the smooth sphere."""
+* The rule pₘ = H/3 for first yield is 13 % below 1.07 Y over 2.8 Y. At 300 times the load of first yield,
+  mean pressure and contact radius of a perfectly plastic sphere, by Jackson and Green's fits, are 11 and 8 %
+  larger than those printed of finite elements with strain hardening; Tabor's 2.8 Y is the largest mean
+  pressure of the fits.
+* A stiffer layer raises the largest pressure, √J₂, the tension at the trailing edge and σₓ in the layer at
+  the interface, which becomes tensile; a more compliant one lowers them and the largest τₓz on the interface,
+  as published. Friction raises √J₂ and the tension. That a stiffer layer raises τₓz, too, is found near the
+  surface and, at the interface, without friction only: with µ = 0.25 the largest value there is that of the
+  homogeneous body within 2 %.
+* Below the homogeneous contact σₓ has dropped below a hundredth of p₀ at 1.3 a₀, and σ_z is still a tenth of
+  it at 3 a₀, as published.
+* Roughness multiplies pressures, √J₂ near the surface and tension; at half a contact radius and below √J₂ is
+  nearly that of the smooth sphere."""
 
 
 @dataclass(frozen=True)
 class Seen:
-    """Stresses over p₀ under one contact: on the axis at ``DEPTHS`` (of the layer at the interface), and largest ones.
+    """Stresses over p₀ under one contact: on the axis at ``DEPTHS`` (of the layer at the
+    interface), and largest ones.
 
-    ``xx``, ``zz``, ``xz`` (depths,) on the axis; ``root`` largest √J2 and ``root_by_depth`` that of every plane;
-    ``shear`` largest shear τₓz on the interface; ``tension`` largest σ₁ on the surface, at the distance ``place`` over the contact radius, behind negative;
-    ``peak`` largest pressure.
+    ``xx``, ``zz``, ``xz`` (depths,) on the axis; ``root`` largest √J2 and ``root_by_depth`` that of
+    every plane; ``shear`` largest shear τₓz on the interface; ``tension`` largest σ₁ on the
+    surface, at the distance ``place`` over the contact radius, behind negative; ``peak`` largest
+    pressure.
     """
 
     xx: np.ndarray
@@ -81,7 +94,8 @@ class Seen:
 
 
 def contact(ratio: float, points: int, roughness: float = 0.0, seed: int = 0) -> asp.ContactResult:
-    """Rigid sphere of ``roughness`` σ in m on a layer whose modulus is ``ratio`` times that of the base."""
+    """Rigid sphere of ``roughness`` σ in m on a layer whose modulus is ``ratio`` times that of the
+    base."""
     spacing = SIDE * THICKNESS / points
     grid = asp.Grid((points, points), (spacing, spacing))
     heights = asp.generate.sphere(grid, radius=RADIUS).heights
@@ -96,7 +110,8 @@ def contact(ratio: float, points: int, roughness: float = 0.0, seed: int = 0) ->
 
 
 def seen(result: asp.ContactResult, friction: float) -> Seen:
-    """Stresses under a contact that slides with a ``friction`` coefficient; the counter body moves toward +x."""
+    """Stresses under a contact that slides with a ``friction`` coefficient; the counter body moves
+    toward +x."""
     field = asp.stress(result, np.array(DEPTHS) * THICKNESS, friction=friction)
     layer = [int(np.flatnonzero(np.isclose(field.depth, z * THICKNESS))[0]) for z in DEPTHS]
     middle = result.pressure.shape[0] // 2
@@ -161,7 +176,8 @@ def _published(onsets: dict[float, YieldOnset]) -> tuple[Published, ...]:
 
 
 def _plastic(onset: float) -> Iterator[Published]:
-    """Beyond first yield, at the mean pressure ``onset`` over Y, by Jackson & Green's fits to finite elements."""
+    """Beyond first yield, at the mean pressure ``onset`` over Y, by Jackson & Green's fits to
+    finite elements."""
     review, fits = "Bhushan 1998", "ours: Jackson & Green's fits"
     law = JacksonGreenSphere(E_star=STRAIN / (1.0 - POISSON**2), radius=1.0, yield_stress=1.0, nu=POISSON)
     depth = np.geomspace(1.0, 300.0, 2001)
@@ -229,8 +245,9 @@ def _rough(smooth: Seen, rough: list[Seen]) -> Table:
     ]
     peak, tension = (np.mean([getattr(one, name) for one in rough]) for name in ("peak", "tension"))
     about = (
-        f"Rough sphere on the homogeneous body, µ = 0.25 (figs 21 to 24): pₘₐₓ/p₀ {peak:.2f} (smooth {smooth.peak:.2f}), largest σ₁/p₀ on the surface "
-        f"{tension:.2f} (smooth {smooth.tension:.2f}); largest √J₂/p₀ on planes:"
+        f"Rough sphere on the homogeneous body, µ = 0.25 (figs 21 to 24): pₘₐₓ/p₀ {peak:.2f} (smooth "
+        f"{smooth.peak:.2f}), largest σ₁/p₀ on the surface {tension:.2f} (smooth {smooth.tension:.2f}); "
+        "largest √J₂/p₀ on planes:"
     )
     return Table(about, ("z/a₀", "smooth", "rough"), tuple(rows))
 
@@ -300,7 +317,8 @@ def _claims(
 
 
 def _value(one: Seen, name: str, interface: int) -> float:
-    """A number of a contact; of what is given along the axis, that at the plane of number ``interface``."""
+    """A number of a contact; of what is given along the axis, that at the plane of number
+    ``interface``."""
     found = getattr(one, name)
     return float(found if np.ndim(found) == 0 else found[interface])
 

@@ -1,4 +1,5 @@
-"""Statistical contact: table 1, fig. 13, exponential heights, limits of the plasticity indices and skewed summits of Bhushan (1998)."""
+"""Statistical contact: table 1, fig. 13, exponential heights, limits of the plasticity indices and
+skewed summits of Bhushan (1998)."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ FITTED = (1e-6, 0.1)
 
 @dataclass(frozen=True)
 class Law:
-    """Published fit of a quantity: ``factor`` · P_a^``power``, and the linear approximation's ``factor``."""
+    """Published fit of a quantity: ``factor`` · P_a^``power``, and the linear approximation's
+    ``factor``."""
 
     name: str
     factor: float
@@ -45,7 +47,8 @@ LAWS = (
 SKEWNESS = (-0.5, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
 KURTOSIS = (3.0, 4.0, 5.0, 7.0, 10.0)
 SUMMITS = (100e9, 1e10, 10e-6, 4e-9)
-"""E* (Pa), density (1/m²), radius and standard deviation of the heights (m), as on the page on summits in a film."""
+"""E* (Pa), density (1/m²), radius and standard deviation of the heights (m), as on the page on
+summits in a film."""
 
 LOADS = (1e-4, 1e-3, 1e-2)
 """P_a at which the linear approximations are compared."""
@@ -54,30 +57,37 @@ PRESSURES = (10e3, 100e3, 1e6)
 FILMS = (1e-9, 4e-9)
 
 ABOUT = (
-    "Bhushan (1998): the fits of table 1 for Gaussian summits, the elastic and plastic areas of fig. 13, and the statement on the theory of Kotwal & "
-    "Bhushan (1996), that a skewness of 0.3 to 0.7 with a large kurtosis lowers area and meniscus force. Theirs: printed numbers. Ours: the "
-    "integrals themselves, to 11 digits. The interval of their fits is not stated; ours are least squares of logarithms on {low:g} < Pₐ < {high:g}, "
-    "chosen freely. Skewed summits: E* = 100 GPa, η = 0.01/µm², R = 10 µm, σₚ = 4 nm, water, γ = 73 mN/m, θ = 60°; "
-    "also chosen freely, as the review states none."
+    "Bhushan (1998): the fits of table 1 for Gaussian summits, the elastic and plastic areas of fig. 13, and "
+    "the statement on the theory of Kotwal & Bhushan (1996), that a skewness of 0.3 to 0.7 with a large "
+    "kurtosis lowers area and meniscus force. Theirs: printed numbers. Ours: the integrals themselves, to 11 "
+    "digits. The interval of their fits is not stated; ours are least squares of logarithms on {low:g} < Pₐ < "
+    "{high:g}, chosen freely. Skewed summits: E* = 100 GPa, η = 0.01/µm², R = 10 µm, σₚ = 4 nm, water, γ = 73 "
+    "mN/m, θ = 60°; also chosen freely, as the review states none."
 )
 
-WORDS = """* The printed powers are those of the integrals within 0.01, and the printed laws follow the integrals within a fifth: area and real pressure within 6 %,
-  number and area of the contacts within 20 %, where the number is too small by that much at the light end. The separation is within 0.16 standard
+WORDS = """* The printed powers are those of the integrals within 0.01, and the printed laws follow the
+  integrals within a fifth: area and real pressure within 6 %, number and area of the contacts within 20 %,
+  where the number is too small by that much at the light end. The separation is within 0.16 standard
   deviations, and within 0.03 below Pₐ = 0.001.
-* The approximations that are proportional to the load are exact somewhere between Pₐ = 0.002 and 0.012; at 0.001 the printed
-  number of contacts is a quarter too small.
-* Where the printed approximations meet the printed fits, near Pₐ = 0.001, those of pressure and area are the integrals within 5 %; that of the number
-  is a fifth too small and that of the area of a contact a fifth too large. The constants for exponential heights are exact.
-* Of Greenwood and Williamson's summits 2 % of the area flow at ψ = 0.6 under the heaviest load of table 1 (D = 0), which is the printed limit of elastic contact; at
-  ψ = 1 they do at {light:.0e} of that load. Onions and Archard's 0.45 is on the safe side of the same criterion, and so is their 0.25.
-* At light load the area has a minimum at a skewness of 0.4 to 0.6 for a kurtosis of 3 and 4 and the meniscus force at 0.5 to 0.6, which is the published
-  interval; with a kurtosis of 5 the minima lie at 0.6 and 0.7 to 0.8, and with a larger kurtosis they move beyond 0.7. Under larger
-  loads they vanish: area and force fall with the skewness up to the largest that we computed.
-* A kurtosis above 5 lowers the meniscus force at light load severalfold, and with it a force that grows with the film less."""
+* The approximations that are proportional to the load are exact somewhere between Pₐ = 0.002 and 0.012; at
+  0.001 the printed number of contacts is a quarter too small.
+* Where the printed approximations meet the printed fits, near Pₐ = 0.001, those of pressure and area are the
+  integrals within 5 %; that of the number is a fifth too small and that of the area of a contact a fifth too
+  large. The constants for exponential heights are exact.
+* Of Greenwood and Williamson's summits 2 % of the area flow at ψ = 0.6 under the heaviest load of table 1
+  (D = 0), which is the printed limit of elastic contact; at ψ = 1 they do at {light:.0e} of that load. Onions
+  and Archard's 0.45 is on the safe side of the same criterion, and so is their 0.25.
+* At light load the area has a minimum at a skewness of 0.4 to 0.6 for a kurtosis of 3 and 4 and the meniscus
+  force at 0.5 to 0.6, which is the published interval; with a kurtosis of 5 the minima lie at 0.6 and 0.7 to
+  0.8, and with a larger kurtosis they move beyond 0.7. Under larger loads they vanish: area and force fall
+  with the skewness up to the largest that we computed.
+* A kurtosis above 5 lowers the meniscus force at light load severalfold, and with it a force that grows with
+  the film less."""
 
 
 def compare(pressures: Sequence[float] = PRESSURES) -> Page:
-    """Ours beside theirs; skewed summits at ``pressures`` in Pa, of which the first is the light one."""
+    """Ours beside theirs; skewed summits at ``pressures`` in Pa, of which the first is the light
+    one."""
     curves = _integrals()
     fits = {law.name: _fit(curves["P"], curves[law.name]) for law in LAWS}
     skewed = {(p, K): _skewed(p, K) for p in pressures for K in KURTOSIS}
@@ -100,7 +110,8 @@ def compare(pressures: Sequence[float] = PRESSURES) -> Page:
 
 
 def _integrals() -> dict[str, np.ndarray]:
-    """The quantities of table 1 over the separations D, from the moments of the Gaussian tail (eqs 12 to 18)."""
+    """The quantities of table 1 over the separations D, from the moments of the Gaussian tail (eqs
+    12 to 18)."""
     D = np.linspace(0.0, 5.5, 221)
     F0, F1, F32 = (np.asarray(GaussianHeights().tail_moment(D, order)) for order in (0.0, 1.0, 1.5))
     names = [law.name for law in LAWS]
@@ -150,7 +161,8 @@ def _linear(curves: dict[str, np.ndarray]) -> Table:
 
 
 def _exact_at(curves: dict[str, np.ndarray], law: Law) -> float:
-    """P_a at which the integral has the value of the linear approximation; all four change steadily."""
+    """P_a at which the integral has the value of the linear approximation; all four change
+    steadily."""
     values = curves[law.name] / curves["P"] ** law.order
     order = np.argsort(values)
     return float(np.exp(np.interp(law.linear, values[order], np.log(curves["P"])[order])))
@@ -180,7 +192,8 @@ def _published(curves: dict[str, np.ndarray], fits: dict[str, tuple[float, float
 
 
 def _approximations(curves: dict[str, np.ndarray]) -> Iterator[Published]:
-    """Factors of the approximations of table 1, at the Pₐ where the printed law has the value of the printed approximation."""
+    """Factors of the approximations of table 1, at the Pₐ where the printed law has the value of
+    the printed approximation."""
     for law in LAWS:
         P = (law.linear / law.factor) ** (1.0 / (law.power - law.order))
         ours = _at(curves, law.name, P) / P**law.order
@@ -189,7 +202,8 @@ def _approximations(curves: dict[str, np.ndarray]) -> Iterator[Published]:
 
 
 def _exponential(D: float = 1.5) -> Iterator[Published]:
-    """The constants of eqs 20 for summits of exponential heights, from quadratures of eqs 11 at one separation ``D``."""
+    """The constants of eqs 20 for summits of exponential heights, from quadratures of eqs 11 at one
+    separation ``D``."""
     from scipy.integrate import quad
 
     number, area, load = (quad(lambda s, m=m: (s - D) ** m * math.exp(-s), D, np.inf)[0] for m in (0.0, 1.0, 1.5))
@@ -258,7 +272,8 @@ def _index(curves: dict[str, np.ndarray]) -> Table:
 
 @dataclass(frozen=True)
 class Skewed:
-    """Area over that of no skewness, meniscus force over load, by skewness (and film, (n, films))."""
+    """Area over that of no skewness, meniscus force over load, by skewness (and film, (n,
+    films))."""
 
     area: np.ndarray
     force: np.ndarray
@@ -322,7 +337,8 @@ def _claims(
             0.25,
         ),
         Claim(
-            "growth of the force from 1 to 4 nm at a skewness of 0.3 to 0.7 and K > 5 over that of Gaussian summits, largest",
+            "growth of the force from 1 to 4 nm at a skewness of 0.3 to 0.7 and K > 5 over that of Gaussian "
+            "summits, largest",
             float(max(growth[K][middle].max() for K in (7.0, 10.0)) / growth[3.0][zero]),
             0.0,
             1.0,

@@ -1,4 +1,5 @@
-"""Statistical meniscus force against film thickness, for summits of several heights, radii and numbers: fig. 37 of Bhushan (1998)."""
+"""Statistical meniscus force against film thickness, for summits of several heights, radii and
+numbers: fig. 37 of Bhushan (1998)."""
 
 from __future__ import annotations
 
@@ -54,14 +55,17 @@ VARIANTS = {
 }
 
 ABOUT = (
-    "Bhushan (1998, fig. 37, after Gao, Tian & Bhushan 1995): Gaussian summits of a head-disk interface against a film of water, eqs 56 to 58. The "
-    "text gives neither the numbers of the summits nor the load; ours are of the order of textured disks: E* = 100 GPa, γ = 73 mN/m, θ = 60°, "
-    "100 kPa, no meniscus below a layer of 0.28 nm. Fₘ/W, each row with one parameter changed."
+    "Bhushan (1998, fig. 37, after Gao, Tian & Bhushan 1995): Gaussian summits of a head-disk interface "
+    "against a film of water, eqs 56 to 58. The text gives neither the numbers of the summits nor the load; "
+    "ours are of the order of textured disks: E* = 100 GPa, γ = 73 mN/m, θ = 60°, 100 kPa, no meniscus below "
+    "a layer of 0.28 nm. Fₘ/W, each row with one parameter changed."
 )
 
-WORDS = """* As published, the force grows with the thickness of the film, falls with the standard deviation of the summit heights, and grows with
-  their radius and number. For thick films it tends to Fₘₐₓ (eq. 58), whatever the distribution of heights.
-* The same surfaces that the map model takes are compared with it on the page on [film thickness and roughness](bhushan_film.md)."""
+WORDS = """* As published, the force grows with the thickness of the film, falls with the standard deviation
+  of the summit heights, and grows with their radius and number. For thick films it tends to Fₘₐₓ (eq. 58),
+  whatever the distribution of heights.
+* The same surfaces that the map model takes are compared with it on the page on [film thickness and
+  roughness](bhushan_film.md)."""
 
 
 def compare() -> Page:

@@ -1,4 +1,5 @@
-"""Pictures after the figures of Martins, Oden and Simoes (1990): steady sliding, flutter, stick-slip and apparent friction of a sliding block.
+"""Pictures after the figures of Martins, Oden and Simoes (1990): steady sliding, flutter,
+stick-slip and apparent friction of a sliding block.
 
 The numbers and statements are on the page sliding_block; ``pictures.py`` writes the pictures.
 """
@@ -26,11 +27,13 @@ FRICTIONS = np.linspace(0.24, 0.5, 14)
 """Along which steady sliding loses its stability."""
 
 SLIDES, WINDOW, GROWS = 0.25, 0.1, 0.15
-"""Seconds that the block slides, the last of them that are averaged, and those in which a vibration grows."""
+"""Seconds that the block slides, the last of them that are averaged, and those in which a vibration
+grows."""
 
 
 def traces(figure: Figure) -> None:
-    """Spring force in time from rest: steady sliding, flutter on the plateau, stick-slip at low speed; below normal force and penetration of the flutter."""
+    """Spring force in time from rest: steady sliding, flutter on the plateau, stick-slip at low
+    speed; below normal force and penetration of the flutter."""
     axes = figure.subplots(2, 3)
     steady, flutter = (
         dyn.move_block(replace(sliding_block.BLOCK, law=sliding_block.law(friction, 4e19)), 0.25)
@@ -66,7 +69,8 @@ def traces(figure: Figure) -> None:
 
 
 def friction(figure: Figure) -> None:
-    """Mean spring force over μW against the speed of the belt, and extremes of the penetration along the coefficient of friction."""
+    """Mean spring force over μW against the speed of the belt, and extremes of the penetration
+    along the coefficient of friction."""
     left, right = figure.subplots(1, 2)
     for damping, colour in ((4e19, BLUE), (8e19, VERMILLION)):
         block = replace(sliding_block.BLOCK, law=sliding_block.law(0.5, damping))

@@ -1,4 +1,5 @@
-"""Spheres pressed and pulled: tractions, shift and loops of Cattaneo, Mindlin and Johnson by the numerical solution, with its order of convergence."""
+"""Spheres pressed and pulled: tractions, shift and loops of Cattaneo, Mindlin and Johnson by the
+numerical solution, with its order of convergence."""
 
 from __future__ import annotations
 
@@ -18,16 +19,20 @@ AMPLITUDES = (0.25, 0.5, 0.75, 0.95)
 GRIDS = (20, 28, 40, 56, 80, 112)
 
 ABOUT = (
-    "Two equal spheres of ν = 0, for which the theory is exact, are pressed by P and pulled by Q (Cattaneo 1938; Mindlin 1949), then to and fro between ±Q₀ (Mindlin & Deresiewicz 1953, measured by "
-    "Johnson 1955, whose loops stand in figures). Theirs: the printed formulas. Ours: `asp.solve` on grids of constant tractions on pixels. No parameter is chosen."
+    "Two equal spheres of ν = 0, for which the theory is exact, are pressed by P and pulled by Q (Cattaneo "
+    "1938; Mindlin 1949), then to and fro between ±Q₀ (Mindlin & Deresiewicz 1953, measured by Johnson 1955, "
+    "whose loops stand in figures). Theirs: the printed formulas. Ours: `asp.solve` on grids of constant "
+    "tractions on pixels. No parameter is chosen."
 )
 
-WORDS = """* Tractions converge with the first power of the pixel in the L2 norm, against means of the formula over pixels; single grids scatter by how their pixels lie to the rims.
+WORDS = """* Tractions converge with the first power of the pixel in the L2 norm, against means of the formula
+  over pixels; single grids scatter by how their pixels lie to the rims.
 * A leg from turning point to turning point is one step: tractions keep to one direction."""
 
 
 def page(grids: tuple[int, ...] = GRIDS, points: int = 80) -> Page:
-    """The page, with tractions on ``grids``, shift and loops on ``points`` pixels along the side."""
+    """The page, with tractions on ``grids``, shift and loops on ``points`` pixels along the
+    side."""
     errors = [traction_error(n) for n in grids]
     order = -float(np.polyfit(np.log(grids), np.log(errors), 1)[0])
     shifts = {s: shift(s, points) for s in SHARES}

@@ -1,4 +1,5 @@
-"""Area of a bi-sinusoidal wave between its limits of light load and full contact, as in the lectures of Yastrebov (2016)."""
+"""Area of a bi-sinusoidal wave between its limits of light load and full contact, as in the
+lectures of Yastrebov (2016)."""
 
 from __future__ import annotations
 
@@ -19,15 +20,18 @@ OFFSET = (0.37, 0.11)
 """Where the crest lies between the pixels, in pixels: off every symmetry of the grid."""
 
 ABOUT = (
-    "Yastrebov (2016, after Johnson, Greenwood & Higginson 1985): the wave Δ(2 − cos 2πx/λ − cos 2πy/λ) on a flat. The lectures print the areas of light load, π (3p̄/8πp*)^⅔, and "
-    "of nearly full contact, 1 − (3/2π)(1 − p̄/p*), and show numerical results between them as points of a figure. Theirs: the two printed formulas where they hold. Ours: "
-    "`asperity.solve` on one period, areas by the place of the edges between pixels, and the curve of the catalogue (`CrossedWaves.area_fraction`), which was tabulated from "
+    "Yastrebov (2016, after Johnson, Greenwood & Higginson 1985): the wave Δ(2 − cos 2πx/λ − cos 2πy/λ) on a "
+    "flat. The lectures print the areas of light load, π (3p̄/8πp*)^⅔, and of nearly full contact, 1 − "
+    "(3/2π)(1 − p̄/p*), and show numerical results between them as points of a figure. Theirs: the two "
+    "printed formulas where they hold. Ours: `asperity.solve` on one period, areas by the place of the edges "
+    "between pixels, and the curve of the catalogue (`CrossedWaves.area_fraction`), which was tabulated from "
     "seven grids of 160² to 256² points with a stated error of {error:g}. No parameter is chosen."
 )
 
-WORDS = """* Both limits are those of the solver. The first loses 3 % at p̄/p* = 0.01 and a quarter at 0.2, where the separate contacts are about to join; the second holds within
-  1 % from 0.8 on.
-* The contacts of neighbouring crests join at p̄/p* between 0.22 and 0.24, at an area of 0.4; the curve is steepest there."""
+WORDS = """* Both limits are those of the solver. The first loses 3 % at p̄/p* = 0.01 and a quarter at 0.2,
+  where the separate contacts are about to join; the second holds within 1 % from 0.8 on.
+* The contacts of neighbouring crests join at p̄/p* between 0.22 and 0.24, at an area of 0.4; the curve is
+  steepest there."""
 
 
 def page(points: int = 200) -> Page:

@@ -1,6 +1,8 @@
-"""Rigid cylinder on a coated half-space in plane strain: the problem of Cole & Sayles (1992), fig. 2.6 of Peng (2001).
+"""Rigid cylinder on a coated half-space in plane strain: the problem of Cole & Sayles (1992), fig.
+2.6 of Peng (2001).
 
-Poisson's ratio 0.3. a_0 and p_0 are Hertz's half-width and peak pressure under the same load on the base alone.
+Poisson's ratio 0.3. a_0 and p_0 are Hertz's half-width and peak pressure under the same load on the
+base alone.
 """
 
 from __future__ import annotations
@@ -21,7 +23,8 @@ INDEPENDENT = {
     5.0: ((1.93362, 1.39792, 0.71055, 0.50298), (0.51792, 0.71554, 1.40732, 1.98810)),
     20.0: ((1.99506, 1.41311, 0.70732, 0.50019), (0.50124, 0.70766, 1.41378, 1.99926)),
 }
-"""h/a_0 -> a/a_0 and p_max/p_0 for each of ``RATIOS``: the mixed problem reduced to a Fredholm equation, 6 digits."""
+"""h/a_0 -> a/a_0 and p_max/p_0 for each of ``RATIOS``: the mixed problem reduced to a Fredholm
+equation, 6 digits."""
 
 WIDTH = 2.3
 BASE = asp.Elastic(200e9, 0.3)
@@ -40,10 +43,11 @@ def compare(pixels: int = 4097) -> Comparison:
     return Comparison(
         title="Rigid cylinder on a coated half-space, plane strain",
         about=(
-            "Cole & Sayles (1992) in the form of Peng (2001, fig. 2.6): ν₁ = ν₂ = 0.3, no friction. Independent solution of our own: Fredholm equation of "
-            "the second kind for the same problem, six digits. Ours: `asperity.solve` with the boundary `FreeLine()` on "
-            f"{pixels} strips over {WIDTH:g} half-widths of the contact. The half-width comes from counting strips; "
-            "the far field, a logarithm, is that of the base."
+            "Cole & Sayles (1992) in the form of Peng (2001, fig. 2.6): ν₁ = ν₂ = 0.3, no friction. "
+            "Independent solution of our own: Fredholm equation of the second kind for the same problem, six "
+            f"digits. Ours: `asperity.solve` with the boundary `FreeLine()` on {pixels} strips over {WIDTH:g} "
+            "half-widths of the contact. The half-width comes from counting strips; the far field, a "
+            "logarithm, is that of the base."
         ),
         cases=("h/a₀", "E₁/E₂"),
         quantities=("a/a₀", "pₘₐₓ/p₀"),

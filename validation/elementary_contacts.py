@@ -1,4 +1,5 @@
-"""Constants of elementary contacts that lectures, review and dissertation print, found by the numerical solution alone."""
+"""Constants of elementary contacts that lectures, review and dissertation print, found by the
+numerical solution alone."""
 
 from __future__ import annotations
 
@@ -28,13 +29,17 @@ SHARES = (0.1, 0.5, 0.9)
 """p̄/p* at which the sinusoid is compared."""
 
 PIXEL_ERROR = 0.07
-"""Error of a contact radius from counted pixels, in pixels; it enters the constant 64/15 five times."""
+"""Error of a contact radius from counted pixels, in pixels; it enters the constant 64/15 five
+times."""
 
 ABOUT = (
-    "Constants that the texts print in formulas: Yastrebov's lectures (2016: Hertz, Westergaard), the review chapter on rough contact (eqs 19 and 20: the contact of "
-    "a profile A₁r² + A₂r⁴), Bhushan (1998: eqs 1 and 3) and Peng (2001: sec. 3.2.1, app. C). Ours: `asperity.solve` on the bare shape, on {points} × {points} pixels over 2.3 "
-    "contact radii with nothing around them (free boundary), {strips} strips (line contact) or one period of {waves} points; neither a closed form nor its area enters. "
-    "Contact radii come from counted pixels. Where two texts print the same fact in another form (pₘ = 2p₀/3, δ = a²/R, 8/3 A₁, 2A₁) it stands here once. No parameter is chosen."
+    "Constants that the texts print in formulas: Yastrebov's lectures (2016: Hertz, Westergaard), the review "
+    "chapter on rough contact (eqs 19 and 20: the contact of a profile A₁r² + A₂r⁴), Bhushan (1998: eqs 1 and "
+    "3) and Peng (2001: sec. 3.2.1, app. C). Ours: `asperity.solve` on the bare shape, on {points} × {points} "
+    "pixels over 2.3 contact radii with nothing around them (free boundary), {strips} strips (line contact) "
+    "or one period of {waves} points; neither a closed form nor its area enters. Contact radii come from "
+    "counted pixels. Where two texts print the same fact in another form (pₘ = 2p₀/3, δ = a²/R, 8/3 A₁, 2A₁) "
+    "it stands here once. No parameter is chosen."
 )
 
 WORDS = """* Every printed constant is that of the numerical solution within the error of counting pixels.
@@ -44,7 +49,8 @@ WORDS = """* Every printed constant is that of the numerical solution within the
 
 @dataclass(frozen=True)
 class Seen:
-    """One contact of an indenter: load, counted contact radius, approach, largest pressure, stiffness in N/m."""
+    """One contact of an indenter: load, counted contact radius, approach, largest pressure,
+    stiffness in N/m."""
 
     load: float
     radius: float
@@ -124,7 +130,8 @@ def _points(points: int) -> Iterator[Published]:
 
 
 def _in_layers() -> asp.Layered:
-    """The half-space as a layer on a base of the same material: its kernels are quadratures, not Love's closed form."""
+    """The half-space as a layer on a base of the same material: its kernels are quadratures, not
+    Love's closed form."""
     return asp.Layered([asp.Layer(BODY, 0.3)], BODY)
 
 

@@ -1,8 +1,11 @@
-"""Fig. 10 of a review chapter on rough contact: area against load by four theories and boundary elements on a gold film.
+"""Fig. 10 of a review chapter on rough contact: area against load by four theories and boundary
+elements on a gold film.
 
-Reported: slopes of 1.36 (Greenwood-Williamson on the summits of the map), 1.60 (the same with interacting sinusoidal asperities), 2.5
-(Bush-Gibson-Thomas, asymptote); Persson's areas the smallest; boundary elements by transforms close to the interacting asperities; theory of
-Greenwood and Williamson accurate below 20 % of the area. The text at its equation 35 names the profile moment m2, by which we make slopes dimensionless.
+Reported: slopes of 1.36 (Greenwood-Williamson on the summits of the map), 1.60 (the same with
+interacting sinusoidal asperities), 2.5 (Bush-Gibson-Thomas, asymptote); Persson's areas the
+smallest; boundary elements by transforms close to the interacting asperities; theory of Greenwood
+and Williamson accurate below 20 % of the area. The text at its equation 35 names the profile moment
+m2, by which we make slopes dimensionless.
 """
 
 from __future__ import annotations
@@ -29,37 +32,46 @@ BODY = asp.Elastic(100e9 * (1.0 - 0.3**2), 0.3)
 """E* = 100 GPa; the curves do not depend on it."""
 
 SELF = "interacting-crests, printed self-term"
-"""Interacting crests with the chapter's own equations, which count the displacement by a crest's own load twice."""
+"""Interacting crests with the chapter's own equations, which count the displacement by a crest's
+own load twice."""
 
 ABOUT = (
-    "A review chapter on rough contact compares four theories with boundary elements on a generated surface of a sputtered gold film, 512² points, and "
-    "reports slopes of the area against the load: 1.36 for Greenwood and Williamson on the summits of the map, 1.60 with interacting sinusoidal asperities, "
-    "2.5 for Bush, Gibson and Thomas, Persson below the asperity theories. Here all of them, and the boundary-element solution, on surfaces generated from the "
-    "same printed spectrum ([gold_film](gold_film.md)). Slopes are κ' = (A/A₀) E* √m₂/p with the profile moment m₂ that the chapter names at its equation 35; the "
-    "rms gradient of an isotropic surface is h' = √(2 m₂), so that κ = A E* h'/(A₀ p) is √2 times as large."
+    "A review chapter on rough contact compares four theories with boundary elements on a generated surface "
+    "of a sputtered gold film, 512² points, and reports slopes of the area against the load: 1.36 for "
+    "Greenwood and Williamson on the summits of the map, 1.60 with interacting sinusoidal asperities, 2.5 for "
+    "Bush, Gibson and Thomas, Persson below the asperity theories. Here all of them, and the boundary-element "
+    "solution, on surfaces generated from the same printed spectrum ([gold_film](gold_film.md)). Slopes are "
+    "κ' = (A/A₀) E* √m₂/p with the profile moment m₂ that the chapter names at its equation 35; the rms "
+    "gradient of an isotropic surface is h' = √(2 m₂), so that κ = A E* h'/(A₀ p) is √2 times as large."
 )
 
 READING = (
-    "**Which surface, which normalisation.** The chapter reports a Nayak parameter of 2.2, that of its spectrum cut at 50 nm, and names the profile moment. On that "
-    "reading its numbers are reproduced: the mean of κ' over the loads of the figure (1 to 20 % of the area) is close to 1.36 for the summits of the map, and with "
-    "the chapter's equations for interacting crests, whose self-term counts the displacement by a crest's own load twice ([interacting_crests]"
-    "(interacting_crests.md)), close to 1.60. Boundary elements are as close to that as the chapter says, Persson's areas are the smallest at every load, and "
-    "Greenwood and Williamson's area is 7 % below the boundary elements at 1 % of the area and 13 % at 7 %: accurate in the sense of the chapter. On the whole spectrum (α = 20) "
-    "the theory of summits is 25 to 35 % low.",
-    "**Uncertainty.** κ' of every asperity theory falls by a quarter to a third over the loads of the figure, so that a single slope depends on where it is read; the chapter does not say "
-    "where. From surface to surface κ' scatters by a few per cent. Which spectrum was generated is inferred from the Nayak parameter, the normalisation from one equation.",
-    "**What remains.** (1) 2.5 = √(2π) is the asymptote of Bush, Gibson and Thomas normalised by the rms gradient; with √m₂ it is √π = 1.77. Beside the other slopes it "
-    "is in another unit. (2) Without the double count, interaction lowers load and area together: at equal load it changes the area by 4 % at most, not by the 18 % between 1.36 "
-    "and 1.60. (3) None of the slopes is a limit; Bush, Gibson and Thomas's own curve reaches its asymptote only at loads far below those of the figure.",
-    "Interacting crests are paraboloids here, with the curvatures of the map: a map does not determine depth and wavelength of a crest. "
-    "Loads with more than a thousand "
-    "touching crests are left out for them.",
+    "**Which surface, which normalisation.** The chapter reports a Nayak parameter of 2.2, that of its "
+    "spectrum cut at 50 nm, and names the profile moment. On that reading its numbers are reproduced: the "
+    "mean of κ' over the loads of the figure (1 to 20 % of the area) is close to 1.36 for the summits of the "
+    "map, and with the chapter's equations for interacting crests, whose self-term counts the displacement by "
+    "a crest's own load twice ([interacting_crests](interacting_crests.md)), close to 1.60. Boundary elements "
+    "are as close to that as the chapter says, Persson's areas are the smallest at every load, and Greenwood "
+    "and Williamson's area is 7 % below the boundary elements at 1 % of the area and 13 % at 7 %: accurate in "
+    "the sense of the chapter. On the whole spectrum (α = 20) the theory of summits is 25 to 35 % low.",
+    "**Uncertainty.** κ' of every asperity theory falls by a quarter to a third over the loads of the figure, "
+    "so that a single slope depends on where it is read; the chapter does not say where. From surface to "
+    "surface κ' scatters by a few per cent. Which spectrum was generated is inferred from the Nayak "
+    "parameter, the normalisation from one equation.",
+    "**What remains.** (1) 2.5 = √(2π) is the asymptote of Bush, Gibson and Thomas normalised by the rms "
+    "gradient; with √m₂ it is √π = 1.77. Beside the other slopes it is in another unit. (2) Without the "
+    "double count, interaction lowers load and area together: at equal load it changes the area by 4 % at "
+    "most, not by the 18 % between 1.36 and 1.60. (3) None of the slopes is a limit; Bush, Gibson and "
+    "Thomas's own curve reaches its asymptote only at loads far below those of the figure.",
+    "Interacting crests are paraboloids here, with the curvatures of the map: a map does not determine depth "
+    "and wavelength of a crest. Loads with more than a thousand touching crests are left out for them.",
 )
 
 
 @dataclass(frozen=True)
 class Slopes:
-    """κ' (surfaces, loads) of the numerical solution and each theory, and the mean area fraction (loads,) of the former."""
+    """κ' (surfaces, loads) of the numerical solution and each theory, and the mean area fraction
+    (loads,) of the former."""
 
     kappas: dict[str, np.ndarray]
     area: np.ndarray
@@ -116,7 +128,8 @@ def slopes(count: int, loads: tuple[float, ...], *, cut: bool) -> Slopes:
 
 
 def _printed_crests(roughness: asp.roughness.Roughness, pressures: np.ndarray) -> np.ndarray:
-    """Area fractions by the chapter's own equations, NaN where their solution is not found (neighbours too close)."""
+    """Area fractions by the chapter's own equations, NaN where their solution is not found
+    (neighbours too close)."""
     theory = PublishedCrests.from_roughness(roughness, BODY.plane_strain_modulus)
     found = []
     for pressure in pressures:
@@ -130,7 +143,10 @@ def _printed_crests(roughness: asp.roughness.Roughness, pressures: np.ndarray) -
 def page(realisations: int = 3, loads: tuple[float, ...] = LOADS) -> Page:
     """The page, from so many generated surfaces; ``loads`` hold at least 0.008, 0.03 and 0.1."""
     cut, whole = slopes(realisations, loads, cut=True), slopes(1, loads, cut=False)
-    took = f"Computed in {whole.seconds + cut.seconds:.0f} s of one core: {realisations + 1} surfaces of 512² points at {len(loads)} loads, numerical solutions included."
+    took = (
+        f"Computed in {whole.seconds + cut.seconds:.0f} s of one core: {realisations + 1} surfaces of 512² "
+        f"points at {len(loads)} loads, numerical solutions included."
+    )
     return Page(
         title="Fig. 10 of the review chapter on the gold film",
         about=ABOUT,
@@ -164,7 +180,8 @@ def _published(cut: Slopes) -> tuple[Published, ...]:
 
 
 def _persson_share(cut: Slopes) -> float:
-    """Largest ratio of Persson's κ' to the smallest of the summits and boundary elements at any load."""
+    """Largest ratio of Persson's κ' to the smallest of the summits and boundary elements at any
+    load."""
     others = np.min([over_surfaces(cut.kappas[name]) for name in (GW, SELF, "numerical")], axis=0)
     return float((cut.kappas[PERSSON].mean(axis=0) / others).max())
 

@@ -1,6 +1,8 @@
-"""A gallery of measured surfaces: every file of a folder characterised, with a page for each and one for all.
+"""A gallery of measured surfaces: every file of a folder characterised, with a page for each and
+one for all.
 
-Usage: python validation/gallery.py [FOLDER] [--out gallery] [--level plane]; the folder is ../shared/data if none is named.
+Usage: python validation/gallery.py [FOLDER] [--out gallery] [--level plane]; the folder is
+../shared/data if none is named.
 
 The pages hold pictures of the data and are not part of this repository.
 """
@@ -36,9 +38,11 @@ COLUMNS = (
 
 STYLE = (
     "body{font:16px/1.5 system-ui,sans-serif;max-width:72rem;margin:0 auto;padding:1.5rem;color:#1b1f24}"
-    "table{border-collapse:collapse;width:100%;font-size:.9rem}th,td{text-align:left;padding:.3rem .8rem .3rem 0;"
-    "border-bottom:1px solid #d5dae0}.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(18rem,1fr));gap:1rem}"
-    "img{max-width:100%;max-height:18rem}h2{border-bottom:2px solid #d5dae0;overflow-wrap:anywhere}p{color:#55606c}"
+    "table{border-collapse:collapse;width:100%;font-size:.9rem}"
+    "th,td{text-align:left;padding:.3rem .8rem .3rem 0;border-bottom:1px solid #d5dae0}"
+    ".pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(18rem,1fr));gap:1rem}"
+    "img{max-width:100%;max-height:18rem}"
+    "h2{border-bottom:2px solid #d5dae0;overflow-wrap:anywhere}p{color:#55606c}"
 )
 
 
@@ -58,7 +62,8 @@ def entries(folder: Path, level: str = "plane") -> list[Entry]:
 
 
 def write_gallery(folder: Path, out: Path, level: str = "plane") -> list[Entry]:
-    """Write ``index.html`` and a page for each file of ``folder`` into ``out`` (made if missing)."""
+    """Write ``index.html`` and a page for each file of ``folder`` into ``out`` (made if
+    missing)."""
     out.mkdir(parents=True, exist_ok=True)
     made = entries(folder, level)
     for entry in made:
@@ -90,7 +95,8 @@ def _index(made: list[Entry], level: str) -> str:
         rows.append(f"<tr><td>{link}</td>{cells}</tr>")
         sections.append(_section(entry.name, entry.found))
     return (
-        f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Measured surfaces</title><style>{STYLE}</style></head><body>'
+        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Measured surfaces</title>'
+        f"<style>{STYLE}</style></head><body>"
         f"<h1>Measured surfaces</h1><p>After {escape(level)} levelling.</p>"
         f"<table><thead><tr><th>file</th>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>{''.join(sections)}</body></html>\n"
     )
@@ -104,8 +110,9 @@ def _text(quantity: asp.roughness.Quantity, found: asp.roughness.Characterisatio
 def _section(name: str, found: asp.roughness.Characterisation) -> str:
     pictures = [plot for plot in SURFACE_PLOTS if plot.name in SHOWN]
     shown = "".join(
-        f'<figure><img alt="{escape(plot.title)}" src="data:image/png;base64,'
-        f'{base64.b64encode(render(plot, found)).decode("ascii")}"><figcaption>{escape(plot.title)}</figcaption></figure>'
+        f'<figure><img alt="{escape(plot.title)}" '
+        f'src="data:image/png;base64,{base64.b64encode(render(plot, found)).decode("ascii")}">'
+        f"<figcaption>{escape(plot.title)}</figcaption></figure>"
         for plot in pictures
     )
     remarks = "".join(f"<p>{escape(remark)}</p>" for remark in found.remarks)

@@ -1,7 +1,9 @@
-"""The sputtered gold film: AFM map, fitted spectrum and generated surfaces of the review chapter on rough contact.
+"""The sputtered gold film: AFM map, fitted spectrum and generated surfaces of the review chapter on
+rough contact.
 
-Reported: rms height 2.7 nm, skewness -0.08, kurtosis 2.7, Nayak's parameter about 2.2; spectrum with the plateau 380 nm⁴ (convention
-<h²> = ∫ C d²q), roll-off at 90 nm, change of slope at 50 nm, exponents -6.5 and -4.6; scan of 1.5 µm with 512 x 512 points.
+Reported: rms height 2.7 nm, skewness -0.08, kurtosis 2.7, Nayak's parameter about 2.2; spectrum
+with the plateau 380 nm⁴ (convention <h²> = ∫ C d²q), roll-off at 90 nm, change of slope at 50 nm,
+exponents -6.5 and -4.6; scan of 1.5 µm with 512 x 512 points.
 """
 
 from __future__ import annotations
@@ -27,18 +29,21 @@ MODEL = roughness.SpectralModel(
 """The fitted spectrum as printed."""
 
 ABOUT = (
-    "A review chapter on the contact of rough surfaces fits the spectrum of an AFM map of a sputtered gold film and generates surfaces "
-    "from it. Reported of the measured film and of the generated surfaces alike: rms height 2.7 nm and a Nayak parameter of about 2.2; of the "
-    "film also skewness −0.08 and kurtosis 2.7. Here the printed spectrum is integrated in closed form, and surfaces are generated from it and "
+    "A review chapter on the contact of rough surfaces fits the spectrum of an AFM map of a sputtered gold "
+    "film and generates surfaces from it. Reported of the measured film and of the generated surfaces alike: "
+    "rms height 2.7 nm and a Nayak parameter of about 2.2; of the film also skewness −0.08 and kurtosis 2.7. "
+    "Here the printed spectrum is integrated in closed form, and surfaces are generated from it and "
     "characterised as if they had been measured."
 )
 
 READING = (
-    "The printed numbers are not all consistent. The plateau of 380 nm⁴ gives 2.92 nm, 8 % more than the reported rms height; 325 nm⁴ would give "
-    "2.7 nm. The Nayak parameter of 2.2 is that of the spectrum **cut at 50 nm**; with the −4.6 branch, which the generated surfaces contain, it is "
-    "17 to 19, or 12 as finite differences on the 512² points see it, and the radius of the summits is four times smaller. The exponents mean "
-    "H = 2.25 and 1.3: below the roll-off the film is smooth, not self-affine. A branch close to −5 is what a blunt tip produces on any surface. "
-    "Gaussian surfaces have kurtosis 3, not 2.7; rank ordering gives both the spectrum and the measured moments."
+    "The printed numbers are not all consistent. The plateau of 380 nm⁴ gives 2.92 nm, 8 % more than the "
+    "reported rms height; 325 nm⁴ would give 2.7 nm. The Nayak parameter of 2.2 is that of the spectrum **cut "
+    "at 50 nm**; with the −4.6 branch, which the generated surfaces contain, it is 17 to 19, or 12 as finite "
+    "differences on the 512² points see it, and the radius of the summits is four times smaller. The "
+    "exponents mean H = 2.25 and 1.3: below the roll-off the film is smooth, not self-affine. A branch close "
+    "to −5 is what a blunt tip produces on any surface. Gaussian surfaces have kurtosis 3, not 2.7; rank "
+    "ordering gives both the spectrum and the measured moments."
 )
 
 
@@ -155,12 +160,13 @@ def page(realisations: int = 20) -> Page:
                 tuple(item.row for item in moments),
             ),
             Table(
-                f"{realisations} generated surfaces of that shape at σ = 2.7 nm, 512² points, characterised as measured maps:",
+                f"{realisations} generated surfaces of that shape at σ = 2.7 nm, 512² points, characterised as "
+                "measured maps:",
                 ("quantity", "theirs", "ours", "deviation of one map"),
                 rows,
             ),
-            f"Rank-ordered with the measured marginal: skewness {heights.Ssk:.3f}, kurtosis {heights.Sku:.3f}, rms height "
-            f"{1e9 * heights.Sq:.3f} nm.",
+            f"Rank-ordered with the measured marginal: skewness {heights.Ssk:.3f}, kurtosis {heights.Sku:.3f}, "
+            f"rms height {1e9 * heights.Sq:.3f} nm.",
             READING,
         ),
         claims=_claims(moments, found, heights, realisations),
@@ -169,7 +175,8 @@ def page(realisations: int = 20) -> Page:
 
 
 def _published(moments: tuple[Moments, ...], found: dict[str, np.ndarray]) -> tuple[Published, ...]:
-    """What is printed of the generated surfaces, and of the film where Gaussian surfaces may be expected to share it."""
+    """What is printed of the generated surfaces, and of the film where Gaussian surfaces may be
+    expected to share it."""
     source, film = "review chapter, sec. 3", "the film's; Gaussian surfaces have 0 and 3"
     cut, whole = moments[0], moments[2]
 

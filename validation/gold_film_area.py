@@ -1,7 +1,8 @@
-"""Area against pressure of many generated gold films: mean and scatter, as in fig. 11 of the review chapter on rough contact.
+"""Area against pressure of many generated gold films: mean and scatter, as in fig. 11 of the review
+chapter on rough contact.
 
-Usage: python validation/gold_film_area.py [SAMPLES] [FOLDER]. FOLDER keeps the results of the study: what it holds already
-is not computed again.
+Usage: python validation/gold_film_area.py [SAMPLES] [FOLDER]. FOLDER keeps the results of the
+study: what it holds already is not computed again.
 """
 
 from __future__ import annotations
@@ -35,22 +36,27 @@ REPORTED_EXCESS = 0.09
 """How far the area of the measured film lies above the mean of the generated ones, at most."""
 
 ABOUT = (
-    "A review chapter on the contact of rough surfaces presses 1000 surfaces, generated from the spectrum of a sputtered gold film, against a "
-    "flat (its fig. 11: 512² points, area against pressure, mean of all) and finds the measured film at most 9 % above the mean. Its curves are "
-    "not tabulated; printed beside them are slopes of 1.36 to 1.60 of the area over pressure, 2.5 of Bush, Gibson & Thomas, and that "
-    "Persson's areas are the smallest. Here the ready study `examples/campaigns/gold_film_area.toml` does the same."
+    "A review chapter on the contact of rough surfaces presses 1000 surfaces, generated from the spectrum of "
+    "a sputtered gold film, against a flat (its fig. 11: 512² points, area against pressure, mean of all) and "
+    "finds the measured film at most 9 % above the mean. Its curves are not tabulated; printed beside them "
+    "are slopes of 1.36 to 1.60 of the area over pressure, 2.5 of Bush, Gibson & Thomas, and that Persson's "
+    "areas are the smallest. Here the ready study `examples/campaigns/gold_film_area.toml` does the same."
 )
 
 READING = (
-    "**What agrees**: nearly proportional curves that bend down, a power of the load a little below one; all between Persson's theory, the lowest, and "
-    "the line of Bush, Gibson & Thomas. **The film above the mean**: one surface scatters by 3 % of the mean at the lowest load and by 1 % at the "
-    "highest, so a film with an area up to 9 % larger is not a random member of the 1000. The chapter names three possible causes. Heights of the measured "
-    "skewness −0.08 and kurtosis 2.7 in place of Gaussian ones, with the same spectrum and the same gradient, raise the area at every load, the more the "
-    "lower it is (last column), and from a tenth of the area on by no more than the reported 9 %: the first of the causes is sufficient by itself. "
-    "**Slopes**: the chapter names the profile moment m₂ and reports the Nayak parameter of its spectrum cut at 50 nm. On that surface and by √m₂ its slopes of 1.36 to "
-    "1.60 are reproduced ([figure_10](figure_10.md)). Here, with all waves, slopes by √m₂ are κ/√2, 1.6 at the lowest and 1.4 at the highest load, of the same size; with which "
-    "waves the 1000 surfaces of the chapter were generated is not stated, and leaves these slopes uncertain by a quarter. Its areas are counted pixels; their mean is given beside "
-    "that corrected for pixel bias (Yastrebov et al. 2017)."
+    "**What agrees**: nearly proportional curves that bend down, a power of the load a little below one; all "
+    "between Persson's theory, the lowest, and the line of Bush, Gibson & Thomas. **The film above the "
+    "mean**: one surface scatters by 3 % of the mean at the lowest load and by 1 % at the highest, so a film "
+    "with an area up to 9 % larger is not a random member of the 1000. The chapter names three possible "
+    "causes. Heights of the measured skewness −0.08 and kurtosis 2.7 in place of Gaussian ones, with the same "
+    "spectrum and the same gradient, raise the area at every load, the more the lower it is (last column), "
+    "and from a tenth of the area on by no more than the reported 9 %: the first of the causes is sufficient "
+    "by itself. **Slopes**: the chapter names the profile moment m₂ and reports the Nayak parameter of its "
+    "spectrum cut at 50 nm. On that surface and by √m₂ its slopes of 1.36 to 1.60 are reproduced "
+    "([figure_10](figure_10.md)). Here, with all waves, slopes by √m₂ are κ/√2, 1.6 at the lowest and 1.4 at "
+    "the highest load, of the same size; with which waves the 1000 surfaces of the chapter were generated is "
+    "not stated, and leaves these slopes uncertain by a quarter. Its areas are counted pixels; their mean is "
+    "given beside that corrected for pixel bias (Yastrebov et al. 2017)."
 )
 
 
@@ -107,7 +113,8 @@ def gradient(points: int) -> float:
 
 
 def processor_seconds(table: dict[str, Any], load: np.ndarray, count: int) -> float:
-    """Of one surface with all its loads on one thread, the least of ``count``; one before them is not counted."""
+    """Of one surface with all its loads on one thread, the least of ``count``; one before them is
+    not counted."""
     spent = []
     for seed in range(count + 1):
         started = time.process_time()
@@ -120,7 +127,8 @@ def processor_seconds(table: dict[str, Any], load: np.ndarray, count: int) -> fl
 
 
 def page(surfaces: int = SURFACES, films: int = FILMS, points: int = 512, folder: str | Path | None = None) -> Page:
-    """The page from so many generated surfaces and rank-ordered films; results stay in ``folder`` if there is one."""
+    """The page from so many generated surfaces and rank-ordered films; results stay in ``folder``
+    if there is one."""
     with tempfile.TemporaryDirectory() as temporary:
         place = Path(folder or temporary)
         found = curves(study(surfaces, points), place / "gaussian")
@@ -143,9 +151,10 @@ def page(surfaces: int = SURFACES, films: int = FILMS, points: int = 512, folder
 def _what_was_run(found: Curves, films: int, points: int, cost: float) -> str:
     count, loads = found.corrected.shape
     return (
-        f"**Run here**: the first {count} of the 1000 surfaces, {points}² points, {loads} loads each, and {films} with the skewness and kurtosis of the "
-        f"measured heights. All 1000 are run by `asperity run examples/campaigns/gold_film_area.toml`, which can be stopped "
-        f"at any moment and goes on where it was. One surface with all its loads took {cost:.2f} s of one core of the machine that wrote this "
+        f"**Run here**: the first {count} of the 1000 surfaces, {points}² points, {loads} loads each, and "
+        f"{films} with the skewness and kurtosis of the measured heights. All 1000 are run by `asperity run "
+        "examples/campaigns/gold_film_area.toml`, which can be stopped at any moment and goes on where it "
+        f"was. One surface with all its loads took {cost:.2f} s of one core of the machine that wrote this "
         f"page, so 1000 take {1000.0 * cost / 120.0:.0f} minutes on two."
     )
 
@@ -203,9 +212,9 @@ def _slopes(found: Curves, slope: float) -> str:
     kappa = found.mean * smooth / found.load
     local = float(np.diff(found.mean)[-1] / np.diff(found.load)[-1])
     return (
-        f"Over all loads A ∝ p^{_power(found):.3f}. With the gradient h' = {smooth:.3f} of the waves down to 50 nm alone κ falls from {kappa[0]:.2f} to "
-        f"{kappa[-1]:.2f}; the local slope dA/dp at the largest load is {local * smooth:.2f} with that gradient and {local * slope:.2f} with "
-        f"that of all waves."
+        f"Over all loads A ∝ p^{_power(found):.3f}. With the gradient h' = {smooth:.3f} of the waves down to "
+        f"50 nm alone κ falls from {kappa[0]:.2f} to {kappa[-1]:.2f}; the local slope dA/dp at the largest "
+        f"load is {local * smooth:.2f} with that gradient and {local * slope:.2f} with that of all waves."
     )
 
 

@@ -1,6 +1,8 @@
-"""Area of one gold film on finer and finer grids, as in fig. 9 of the review chapter on rough contact, with observed orders.
+"""Area of one gold film on finer and finer grids, as in fig. 9 of the review chapter on rough
+contact, with observed orders.
 
-Usage: python validation/gold_film_grid.py [FINEST] [FOLDER]. FOLDER keeps the results of the studies.
+Usage: python validation/gold_film_grid.py [FINEST] [FOLDER]. FOLDER keeps the results of the
+studies.
 """
 
 from __future__ import annotations
@@ -24,19 +26,22 @@ STUDY = Path(__file__).parents[1] / "examples" / "campaigns" / "gold_film_grid.t
 E_STAR = 100e9
 FINEST, FINEST_CUT = 1024, 1024
 HEIGHT_ORDER = EXPONENTS[1] - 2.0
-"""Order of the rms height: waves C ~ q^-a beyond those of a grid of pixel h have the mean square height ~ h^(a - 2)."""
+"""Order of the rms height: waves C ~ q^-a beyond those of a grid of pixel h have the mean square
+height ~ h^(a - 2)."""
 
 ABOUT = (
-    "A review chapter on the contact of rough surfaces generates a gold film on grids from 4² to 8192² points and presses it against a flat (its "
-    "fig. 9). Coarse grids have too large an area; the curves are called converged from 64² points (non-negative least squares) and from 256² points "
-    "(FFT). Here the ready study `examples/campaigns/gold_film_grid.toml` takes one surface from 4² points upwards: finer grids keep its waves "
-    "and add shorter ones."
+    "A review chapter on the contact of rough surfaces generates a gold film on grids from 4² to 8192² points "
+    "and presses it against a flat (its fig. 9). Coarse grids have too large an area; the curves are called "
+    "converged from 64² points (non-negative least squares) and from 256² points (FFT). Here the ready study "
+    "`examples/campaigns/gold_film_grid.toml` takes one surface from 4² points upwards: finer grids keep its "
+    "waves and add shorter ones."
 )
 
 
 @dataclass(frozen=True, eq=False)
 class Levels:
-    """What a study of the grid found, by load (p/E*) and level (points along each side); ``gap`` and ``rms`` in m."""
+    """What a study of the grid found, by load (p/E*) and level (points along each side); ``gap``
+    and ``rms`` in m."""
 
     points: np.ndarray
     load: np.ndarray
@@ -51,7 +56,8 @@ class Levels:
 
 
 def study(finest: int, *, cut: bool = False) -> dict[str, Any]:
-    """The ready study up to the ``finest`` grid; ``cut`` leaves out waves below 50 nm, and grids that cannot show them."""
+    """The ready study up to the ``finest`` grid; ``cut`` leaves out waves below 50 nm, and grids
+    that cannot show them."""
     table = tomllib.loads(STUDY.read_text(encoding="utf-8"))
     least = 2.0 * SIDE / CROSSOVER if cut else 0.0
     table["convergence"]["levels"] = [n for n in table["convergence"]["levels"] if least <= n <= finest]
@@ -78,8 +84,9 @@ def page(finest: int = FINEST, folder: str | Path | None = None) -> Page:
         title="The gold film on finer and finer grids",
         about=ABOUT,
         parts=(
-            f"**Run here**: up to {finest}² points, of 4096² in the study, which `asperity run examples/campaigns/gold_film_grid.toml` runs; "
-            "`python validation/gold_film_grid.py 4096` makes this page of all of it (minutes on two cores, 3 GB of memory).",
+            f"**Run here**: up to {finest}² points, of 4096² in the study, which `asperity run "
+            "examples/campaigns/gold_film_grid.toml` runs; `python validation/gold_film_grid.py 4096` makes "
+            "this page of all of it (minutes on two cores, 3 GB of memory).",
             _areas(
                 "All waves that each grid shows; area A/A₀ (%) without pixel bias, counted pixels in brackets:", whole
             ),
@@ -121,19 +128,21 @@ def _limit(name: str, load: str, unit: float, found: Convergence) -> tuple[str, 
 
 
 READING = (
-    "**What agrees**: up to 32² points the grid cannot show the waves at the roll-off of 90 nm; the surface is too flat and the area too "
-    "large, on 4² points the contact is complete. From 64² points on (two pixels are 47 nm) the rms height changes by 1 % and the mean gap "
-    "by less than 10 %, and from 256² "
-    "on curves of the area on a linear scale come close to each other. On the spectrum cut at 50 nm, whose Nayak parameter is the reported one (last tables), areas "
-    "corrected for pixel bias are within 2.5 % of those of the finest grid from 64² points on (9 % at the lightest load) and within 1.5 % from 256² on: there the chapter's "
-    "convergence is confirmed. **What does not**, with all waves: the area is not converged there. Below 50 nm the spectrum falls "
-    "as q^−4.6, and each finer grid adds waves that are low but steep: the missing part of the mean square gradient falls only as h^0.6, "
-    "and the area, inversely proportional to the gradient, converges as slowly, on the finest grids with an order of about one half. "
-    "Counted pixels add an error of "
-    "first order, because those on the edge of a spot are counted fully; the correction (Yastrebov et al. 2017) removes most of it. The rms height has the order "
-    "a − 2 = 2.6 of the same exponent. Where the spectrum ends at 50 nm nothing is added beyond 64²: the last tables show the error of the grid alone, "
-    "far smaller from 256² points on, and the first order of the counted pixels. Areas of one surface without the bias then change by tenths of a "
-    "per cent, too unevenly for an order."
+    "**What agrees**: up to 32² points the grid cannot show the waves at the roll-off of 90 nm; the surface "
+    "is too flat and the area too large, on 4² points the contact is complete. From 64² points on (two pixels "
+    "are 47 nm) the rms height changes by 1 % and the mean gap by less than 10 %, and from 256² on curves of "
+    "the area on a linear scale come close to each other. On the spectrum cut at 50 nm, whose Nayak parameter "
+    "is the reported one (last tables), areas corrected for pixel bias are within 2.5 % of those of the "
+    "finest grid from 64² points on (9 % at the lightest load) and within 1.5 % from 256² on: there the "
+    "chapter's convergence is confirmed. **What does not**, with all waves: the area is not converged there. "
+    "Below 50 nm the spectrum falls as q^−4.6, and each finer grid adds waves that are low but steep: the "
+    "missing part of the mean square gradient falls only as h^0.6, and the area, inversely proportional to "
+    "the gradient, converges as slowly, on the finest grids with an order of about one half. Counted pixels "
+    "add an error of first order, because those on the edge of a spot are counted fully; the correction "
+    "(Yastrebov et al. 2017) removes most of it. The rms height has the order a − 2 = 2.6 of the same "
+    "exponent. Where the spectrum ends at 50 nm nothing is added beyond 64²: the last tables show the error "
+    "of the grid alone, far smaller from 256² points on, and the first order of the counted pixels. Areas of "
+    "one surface without the bias then change by tenths of a per cent, too unevenly for an order."
 )
 
 

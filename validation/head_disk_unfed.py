@@ -1,7 +1,9 @@
-"""The head-disk interface of chapter 4 of Peng (2001) with menisci that do not press the surfaces together.
+"""The head-disk interface of chapter 4 of Peng (2001) with menisci that do not press the surfaces
+together.
 
-His flow chart feeds the meniscus force back into the load, but the sizes that he prints are those of contacts under the external load alone. Such a contact is
-some ten pixels: many surfaces are needed, and as it is solved once, each takes a fiftieth of a second.
+His flow chart feeds the meniscus force back into the load, but the sizes that he prints are those
+of contacts under the external load alone. Such a contact is some ten pixels: many surfaces are
+needed, and as it is solved once, each takes a fiftieth of a second.
 """
 
 from __future__ import annotations
@@ -60,7 +62,8 @@ def hardness(ratio: float, thickness: float) -> float:
 
 
 def solved(seeds: int, points: int, count: int, ratios: Sequence[float] = RATIOS) -> xarray.Dataset:
-    """Area, largest displacement and pressure under the load alone, and the force of menisci in that gap over the load."""
+    """Area, largest displacement and pressure under the load alone, and the force of menisci in
+    that gap over the load."""
     import xarray
 
     names = ("area_fraction", "max_displacement", "max_pressure", "relative_meniscus_force")

@@ -1,4 +1,5 @@
-"""Centre of a uniformly loaded square patch on a coated half-space against layer thickness: fig. 3.9 of Peng (2001)."""
+"""Centre of a uniformly loaded square patch on a coated half-space against layer thickness: fig.
+3.9 of Peng (2001)."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ INDEPENDENT = {
     0.5: (1.00866, 1.08163, 1.16275, 1.41969, 1.65957, 1.82139, 1.92753, 1.97163, 1.99637),
     2.0: (0.99374, 0.95193, 0.90508, 0.76364, 0.65053, 0.57830, 0.53169, 0.51240, 0.50159),
 }
-"""E1/E2 -> u_z/u_z0 for each of ``THICKNESSES``: polar Fourier quadrature of the layered response, 6 digits."""
+"""E1/E2 -> u_z/u_z0 for each of ``THICKNESSES``: polar Fourier quadrature of the layered response,
+6 digits."""
 
 BASE = asp.Elastic(200e9, 0.3)
 SIDE = 1e-7
@@ -29,8 +31,9 @@ def compare() -> Comparison:
     return Comparison(
         title="Influence coefficient of a square patch on a coated half-space",
         about=(
-            "Displacement at the centre of a uniformly loaded square of side Δ over that on the base alone, ν₁ = ν₂ = 0.3 "
-            "(Peng 2001, fig. 3.9). Independent solution of our own: polar Fourier quadrature, six digits. Ours: what the free boundary uses."
+            "Displacement at the centre of a uniformly loaded square of side Δ over that on the base alone, "
+            "ν₁ = ν₂ = 0.3 (Peng 2001, fig. 3.9). Independent solution of our own: polar Fourier quadrature, "
+            "six digits. Ours: what the free boundary uses."
         ),
         cases=("h/Δ",),
         quantities=tuple(f"E₁/E₂ = {ratio:g}" for ratio in INDEPENDENT),

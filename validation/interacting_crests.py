@@ -1,4 +1,5 @@
-"""The published system of interacting sinusoidal crests, which counts the displacement by a crest's own load twice."""
+"""The published system of interacting sinusoidal crests, which counts the displacement by a crest's
+own load twice."""
 
 from __future__ import annotations
 
@@ -18,10 +19,12 @@ HEIGHTS = np.array([0.0, -1e-9, -2e-9, -5e-10])
 AREA = (POINTS * PIXEL) ** 2
 
 ABOUT = (
-    "Greenwood and Williamson's contact with sinusoidal crests that press each other down is published as a system in which the approach of every crest "
-    "is its Hertzian approach ω_i plus the displacements F_j/(π E* r_ij) by the loads on all crests, its own with the contact radius as distance. The Hertzian "
-    "approach is the displacement of the centre of the contact by its own load already. Here both systems, and boundary elements, for four smooth bumps five contact "
-    "radii apart, all of radius 1 µm on a body of E* = 100 GPa, at an approach of 8 nm."
+    "Greenwood and Williamson's contact with sinusoidal crests that press each other down is published as a "
+    "system in which the approach of every crest is its Hertzian approach ω_i plus the displacements F_j/(π "
+    "E* r_ij) by the loads on all crests, its own with the contact radius as distance. The Hertzian approach "
+    "is the displacement of the centre of the contact by its own load already. Here both systems, and "
+    "boundary elements, for four smooth bumps five contact radii apart, all of radius 1 µm on a body of E* = "
+    "100 GPa, at an approach of 8 nm."
 )
 
 
@@ -86,8 +89,9 @@ def page() -> Page:
             claims.append(Claim(f"load of {shape} crests, {name}, over boundary elements", load, low, high))
     head = ("shape", "equations", "load / boundary elements", "area / boundary elements")
     reading = (
-        "**Reading.** Point forces between crests reproduce the boundary elements; the term of the own load makes each crest more compliant than it is, "
-        "and the load a third too small. The package offers the first two."
+        "**Reading.** Point forces between crests reproduce the boundary elements; the term of the own load "
+        "makes each crest more compliant than it is, and the load a third too small. The package offers the "
+        "first two."
     )
     return Page(
         title="Interacting crests: the published system against boundary elements",

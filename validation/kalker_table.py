@@ -1,4 +1,5 @@
-"""Kalker's linear coefficients of rolling, found by rolling without slip at small creepages on five grids each."""
+"""Kalker's linear coefficients of rolling, found by rolling without slip at small creepages on five
+grids each."""
 
 from __future__ import annotations
 
@@ -16,26 +17,34 @@ PUBLISHED = {
     (2.0, 0.25): (5.10, 4.90, 2.62, 0.819),
     (5.0, 0.5): (8.82, 9.79, 7.89, 0.341),
 }
-"""C11, C22, C23 and C33 by half-axis along the rolling direction over that across, and Poisson's ratio (Kalker 1967, 1990)."""
+"""C11, C22, C23 and C33 by half-axis along the rolling direction over that across, and Poisson's
+ratio (Kalker 1967, 1990)."""
 
 NAMES = ("C11", "C22", "C23", "C33")
 SMALL = 1e-6
 GRIDS = (40, 56, 80, 112, 160)
 
 ABOUT = (
-    "Two equal bodies touch on an ellipse of half-axes a along and b across the rolling direction, and roll with a creepage so small that nothing slips. Forces on the other body are "
-    "-abG C11 ξx, -abG C22 ξy - (ab)^(3/2) G C23 φ, the torque (ab)^(3/2) G C23 ξy - (ab)² G C33 φ. Theirs: the table of Kalker (1967; 1990), three digits. Ours: `asp.roll` with `FullStick` on a flat "
-    "punch of that shape, which has the same coefficients, with as many pixels along as across, and a parabola in the pixel taken to zero. No parameter is chosen."
+    "Two equal bodies touch on an ellipse of half-axes a along and b across the rolling direction, and roll "
+    "with a creepage so small that nothing slips. Forces on the other body are -abG C11 ξx, -abG C22 ξy - "
+    "(ab)^(3/2) G C23 φ, the torque (ab)^(3/2) G C23 ξy - (ab)² G C33 φ. Theirs: the table of Kalker (1967; "
+    "1990), three digits. Ours: `asp.roll` with `FullStick` on a flat punch of that shape, which has the same "
+    "coefficients, with as many pixels along as across, and a parabola in the pixel taken to zero. No "
+    "parameter is chosen."
 )
 
-WORDS = """* Both the series of Kalker and our pixels are approximations. The parabola through five grids and the line through the last three differ by 0.2 % at most in the rows above (by 1.5 % in C33 at a/b = 10).
-* Over all 34 rows of Kalker's that were at hand (a/b from 0.1 to 10) C11, C22 and C23 differ from his by 0.2 % on the average and by 1 % at most, at a/b = 10; C33 by 0.4 % and 0.9 %.
+WORDS = """* Both the series of Kalker and our pixels are approximations. The parabola through five grids and
+  the line through the last three differ by 0.2 % at most in the rows above (by 1.5 % in C33 at a/b = 10).
+* Over all 34 rows of Kalker's that were at hand (a/b from 0.1 to 10) C11, C22 and C23 differ from his by
+  0.2 % on the average and by 1 % at most, at a/b = 10; C33 by 0.4 % and 0.9 %.
 * One number differs from its neighbours in his table: C11 at a/b = ν = 0.5 is printed as 4.83, and is 4.87 here.
-* The 23 other rows of `asp.theories.kalker_coefficients` are ours, by this script (`python validation/kalker_table.py computed`); they are no published numbers."""
+* The 23 other rows of `asp.theories.kalker_coefficients` are ours, by this script (`python
+  validation/kalker_table.py computed`); they are no published numbers."""
 
 
 def page(grids: tuple[int, ...] = GRIDS) -> Page:
-    """The page, with so many pixels over either axis of the ellipse on the ``grids``, at least three."""
+    """The page, with so many pixels over either axis of the ellipse on the ``grids``, at least
+    three."""
     rows, numbers, off, fits = [], [], [], []
     for (ratio, nu), theirs in PUBLISHED.items():
         ours, line, found = extrapolated(ratio, nu, grids)
@@ -53,7 +62,8 @@ def page(grids: tuple[int, ...] = GRIDS) -> Page:
         ABOUT,
         (
             Table(
-                f"Coefficients on the coarsest and the finest of grids with {', '.join(map(str, grids))} pixels over either axis, and extrapolated:",
+                f"Coefficients on the coarsest and the finest of grids with {', '.join(map(str, grids))} "
+                "pixels over either axis, and extrapolated:",
                 ("a/b", "ν", "", "table", f"{grids[0]}", f"{grids[-1]}", "extrapolated"),
                 tuple(rows),
             ),
@@ -68,7 +78,8 @@ def page(grids: tuple[int, ...] = GRIDS) -> Page:
 
 
 def extrapolated(ratio: float, nu: float, grids: tuple[int, ...] = GRIDS) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """C11, C22, C23, C33 at no pixel size by a parabola, by a line through the last three, and on each of the ``grids``."""
+    """C11, C22, C23, C33 at no pixel size by a parabola, by a line through the last three, and on
+    each of the ``grids``."""
     found = np.array([coefficients(ratio, nu, n) for n in grids])
     size = 1.0 / np.array(grids, dtype=float)
     parabola, line = np.polyfit(size, found, 2)[-1], np.polyfit(size[-3:], found[-3:], 1)[-1]

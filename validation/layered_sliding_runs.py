@@ -1,6 +1,8 @@
-"""Runs of the sphere that slides over a layered half-space at 100 times the load of first yield, for the page ``layered_sliding`` and its pictures.
+"""Runs of the sphere that slides over a layered half-space at 100 times the load of first yield,
+for the page ``layered_sliding`` and its pictures.
 
-Lengths are in a_y, loads in P_y, stresses and strains in Y and Y/E: contact radius, load and yield of the homogeneous base.
+Lengths are in a_y, loads in P_y, stresses and strains in Y and Y/E: contact radius, load and yield
+of the homogeneous base.
 """
 
 from __future__ import annotations
@@ -36,7 +38,9 @@ LIFTED = (0.7, 0.4, 0.15, 0.03)
 
 @dataclass(frozen=True)
 class Case:
-    """One history: ratio E1/E2 = Y1/Y2, friction, load in P_y; contact radius in a_y that the mesh expects, its elements across it, passes, how far and in which steps the sphere slides, in a_y."""
+    """One history: ratio E1/E2 = Y1/Y2, friction, load in P_y; contact radius in a_y that the mesh
+    expects, its elements across it, passes, how far and in which steps the sphere slides, in
+    a_y."""
 
     ratio: float
     friction: float
@@ -60,24 +64,29 @@ class Case:
 
 @dataclass(frozen=True, eq=False)
 class Snapshots:
-    """What is kept of one case. Columns are the layer and the base; times are the sliding distances of the case and lifted, of each pass.
+    """What is kept of one case. Columns are the layer and the base; times are the sliding distances
+    of the case and lifted, of each pass.
 
     Attributes
     ----------
     centre
         (times,) of the sphere in a_y.
     flow, flow_place, zone, depth
-        (times, 2) largest equivalent plastic strain in Y/E, its place (…, 3) in a_y, volume in a_y³ and lower end in a_y of what has flowed.
+        (times, 2) largest equivalent plastic strain in Y/E, its place (…, 3) in a_y, volume in a_y³
+        and lower end in a_y of what has flowed.
     tension, tension_place
         (times, 2) largest principal stress in Y, and its place (…, 3).
     surface
-        (times, 2) largest σ_xx in Y of the upper Gauss points of the layer behind and before the centre of the sphere.
+        (times, 2) largest σ_xx in Y of the upper Gauss points of the layer behind and before the
+        centre of the sphere.
     shear, peel
         (times,) largest shear and normal tension in Y on the interface.
     radius, approach, work, lost
-        (times,) contact radius in a_y from the area, approach in δ_y, work and plastic work in P_y δ_y.
+        (times,) contact radius in a_y from the area, approach in δ_y, work and plastic work in P_y
+        δ_y.
     strain, along
-        (times, n_x, n_z) means over the elements beside the plane of symmetry of the equivalent plastic strain in Y/E and of σ_xx in Y.
+        (times, n_x, n_z) means over the elements beside the plane of symmetry of the equivalent
+        plastic strain in Y/E and of σ_xx in Y.
     x, z
         Lines of the mesh in a_y.
     """

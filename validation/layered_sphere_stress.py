@@ -1,4 +1,5 @@
-"""Largest √J2 under a sphere that slides on a coated half-space: the nine numbers of fig. 2.5 of Peng (2001)."""
+"""Largest √J2 under a sphere that slides on a coated half-space: the nine numbers of fig. 2.5 of
+Peng (2001)."""
 
 from __future__ import annotations
 
@@ -14,11 +15,13 @@ PRINTED = {
     1.0: ("0.36", "0.37", "0.55"),
     2.0: ("0.50", "0.53", "0.80"),
 }
-"""E1/E2 -> largest √J2/p0 at μ = 0, 0.25 and 0.5, as printed beside the contours of fig. 2.5 of Peng (2001)."""
+"""E1/E2 -> largest √J2/p0 at μ = 0, 0.25 and 0.5, as printed beside the contours of fig. 2.5 of
+Peng (2001)."""
 
 FRICTIONS = (0.0, 0.25, 0.5)
 WITHIN = 0.05
-"""What counts as agreement: his values are read off his own grid and rounded to two digits, 2 % of the smallest."""
+"""What counts as agreement: his values are read off his own grid and rounded to two digits, 2 % of
+the smallest."""
 
 DEPTHS = (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.8, 0.9, 1.0, 1.1)
 """Over a0, which is the thickness of the layer."""
@@ -26,16 +29,19 @@ DEPTHS = (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55
 WIDTH = 2.4
 
 ABOUT = (
-    "Peng (2001, fig. 2.5; also O'Sullivan & King 1988, and Bhushan 1998, fig. 7): rigid sphere, R = 10 h, on a layer of h = a₀, ν = 0.3, with the shear "
-    "traction μp; contours of √J2/p₀ in the plane y = 0 with the largest value printed beside each. Theirs: these nine published numbers. Ours: `asperity.solve` "
-    "and `asperity.stress` with the free boundary on {pixels} × {pixels} pixels over {width:g} contact radii, {planes} planes from the surface to 1.1 a₀, "
-    "both sides of the interface, pressure unaltered by friction as in the original."
+    "Peng (2001, fig. 2.5; also O'Sullivan & King 1988, and Bhushan 1998, fig. 7): rigid sphere, R = 10 h, on "
+    "a layer of h = a₀, ν = 0.3, with the shear traction μp; contours of √J2/p₀ in the plane y = 0 with the "
+    "largest value printed beside each. Theirs: these nine published numbers. Ours: `asperity.solve` and "
+    "`asperity.stress` with the free boundary on {pixels} × {pixels} pixels over {width:g} contact radii, "
+    "{planes} planes from the surface to 1.1 a₀, both sides of the interface, pressure unaltered by friction "
+    "as in the original."
 )
 
-WORDS = """* All nine agree within 5 %, eight within 2.5 %. The stiff layer raises the largest √J2, friction raises it and brings it to the surface, as
-  printed.
-* At μ = 0.5 the largest value lies at the edge of the contact on the surface, between the pixels, whose own values, 0.530 and 0.785 for E₁/E₂ = 1 and 2, are low by
-  4 and 5 %. On the edge it is 0.551 (closed form 0.5523) and 0.826: the printed 0.80 of the stiff layer is 3 % low, as values at the points of a grid are."""
+WORDS = """* All nine agree within 5 %, eight within 2.5 %. The stiff layer raises the largest √J2, friction
+  raises it and brings it to the surface, as printed.
+* At μ = 0.5 the largest value lies at the edge of the contact on the surface, between the pixels, whose own
+  values, 0.530 and 0.785 for E₁/E₂ = 1 and 2, are low by 4 and 5 %. On the edge it is 0.551 (closed form
+  0.5523) and 0.826: the printed 0.80 of the stiff layer is 3 % low, as values at the points of a grid are."""
 
 
 def compare(pixels: int = 129) -> Page:
@@ -67,7 +73,8 @@ def compare(pixels: int = 129) -> Page:
 
 
 def _contact(ratio: float, pixels: int) -> tuple[asp.ContactResult, float]:
-    """The contact under the load at which Hertz's radius on the base is the thickness, and Hertz's pressure."""
+    """The contact under the load at which Hertz's radius on the base is the thickness, and Hertz's
+    pressure."""
     modulus = BASE.plane_strain_modulus
     pixel = WIDTH * INDEPENDENT[ratio][0] * THICKNESS / pixels
     surface = asp.generate.sphere(asp.Grid((pixels, pixels), (pixel, pixel)), radius=RADIUS)

@@ -98,7 +98,8 @@ class Published:
 
     @property
     def agrees(self) -> bool:
-        """Whether ours lies within the bound, within two standard deviations, or rounds to theirs."""
+        """Whether ours lies within the bound, within two standard deviations, or rounds to
+        theirs."""
         digits = len(self.theirs.partition(".")[2])
         near = abs(self.ours - self.value) <= max(2.0 * self.spread, 0.5001 * 10.0**-digits * ("e" not in self.theirs))
         return near or abs(self.deviation) <= self.within
@@ -113,7 +114,8 @@ class Published:
 
 @dataclass(frozen=True)
 class Stated:
-    """What a publication states in words beside what is found here; ``why``: where they differ, or what the agreement hangs on."""
+    """What a publication states in words beside what is found here; ``why``: where they differ, or
+    what the agreement hangs on."""
 
     text: str
     ours: str
@@ -137,7 +139,8 @@ PUBLISHED_HEAD = ("source", "number", "theirs", "ours", "deviation", "verdict")
 
 @dataclass(frozen=True)
 class Page:
-    """A published result: text and tables in order, what is claimed of them, and the published numbers beside ours."""
+    """A published result: text and tables in order, what is claimed of them, and the published
+    numbers beside ours."""
 
     title: str
     about: str

@@ -1,7 +1,7 @@
 """The rough contact of chapter 3 of Peng (2001) that its table, scaling laws and figures share.
 
-A rigid nominally flat rough surface on one layer: exponential autocorrelation exp(-2.3 r/β*), 20 x 20 µm², ν = 0.3,
-E2 = 100 GPa, hardness 0.05 E1, h = 1 µm unless something else is said.
+A rigid nominally flat rough surface on one layer: exponential autocorrelation exp(-2.3 r/β*), 20 x
+20 µm², ν = 0.3, E2 = 100 GPa, hardness 0.05 E1, h = 1 µm unless something else is said.
 """
 
 from __future__ import annotations
@@ -76,7 +76,8 @@ def contacts(
     boundary: asp.Periodic | asp.Free = asp.Periodic(),
     capped: bool = True,
 ) -> Iterator[asp.ContactResult]:
-    """Contact of ``case`` on every one of ``shapes``, whose heights are in units of σ; one operator serves them all."""
+    """Contact of ``case`` on every one of ``shapes``, whose heights are in units of σ; one operator
+    serves them all."""
     solid = body or coated(case.ratio)
     law = asp.Hardness(case.cap * BASE.youngs_modulus) if capped else asp.plasticity.HardWall()
     operator = None

@@ -1,4 +1,5 @@
-"""Head-disk interface and coated silicon: chapter 4 of Peng (2001), from the ready studies of examples/campaigns."""
+"""Head-disk interface and coated silicon: chapter 4 of Peng (2001), from the ready studies of
+examples/campaigns."""
 
 from __future__ import annotations
 
@@ -30,13 +31,15 @@ UNITS = {"area_fraction": (100.0, " %"), "max_displacement": (1e9, " nm"), "max_
 """Factor from SI and the unit shown."""
 
 ABOUT_FIVE = (1.5, 15.0)
-"""Within a factor of about three of the published floor, nm: read from curves by eye, and those of four surfaces scatter by pixels."""
+"""Within a factor of about three of the published floor, nm: read from curves by eye, and those of
+four surfaces scatter by pixels."""
 
 ABOUT_THREE = (2.0, 5.0)
 """Floors in nm of contacts without fed-back menisci, means over many surfaces."""
 
 ALIKE = 0.02
-"""Silicon and disk have different X at the same load, which changes the ratios this much (from the pₘₐₓ law X^m)."""
+"""Silicon and disk have different X at the same load, which changes the ratios this much (from the
+pₘₐₓ law X^m)."""
 
 SMOOTH = ("max_displacement", "max_pressure", "relative_meniscus_force")
 """Quantities that do not change by whole pixels."""
@@ -51,11 +54,13 @@ OVERCOATS = ("150 GPa", "350 GPa")
 """Moduli of the carbon on the disk; the others are extreme cases."""
 
 ABOUT = (
-    "Peng (2001, ch. 4, fig. 4.3; also Peng & Bhushan 2000b): a slider of Al₂O₃-TiC (450 GPa) on a magnetic disk (E₂ = 200 GPa) under "
-    "diamond-like carbon of the thickness h with E₁/E₂ = 0.1, 0.75, 1.75 and 10 and hardness 0.1 E₁; σ = 1 nm, β* = 0.5 µm, film and "
-    "menisci 2σ high, γ = 25 mN/m, θ = 10°, pₙ = 50 kPa. Ours: `examples/campaigns/head_disk_interface.toml` on {points} × {points} pixels of "
-    "{pixel:.0f} nm, means over {seeds} surfaces (first table: {unfed}); critical thicknesses are those of the means. The figure itself is not in the text at hand: "
-    "published here are the critical thicknesses and what the text says of the curves."
+    "Peng (2001, ch. 4, fig. 4.3; also Peng & Bhushan 2000b): a slider of Al₂O₃-TiC (450 GPa) on a magnetic "
+    "disk (E₂ = 200 GPa) under diamond-like carbon of the thickness h with E₁/E₂ = 0.1, 0.75, 1.75 and 10 and "
+    "hardness 0.1 E₁; σ = 1 nm, β* = 0.5 µm, film and menisci 2σ high, γ = 25 mN/m, θ = 10°, pₙ = 50 kPa. "
+    "Ours: `examples/campaigns/head_disk_interface.toml` on {points} × {points} pixels of {pixel:.0f} nm, "
+    "means over {seeds} surfaces (first table: {unfed}); critical thicknesses are those of the means. The "
+    "figure itself is not in the text at hand: published here are the critical thicknesses and what the text "
+    "says of the curves."
 )
 
 
@@ -87,14 +92,17 @@ class Curves:
 
     @property
     def pixels(self) -> tuple[float, float]:
-        """Mean and deviation of the area without the layer, in pixels; the cell has ``points`` a side."""
+        """Mean and deviation of the area without the layer, in pixels; the cell has ``points`` a
+        side."""
         area = np.asarray(self.data["area_fraction"].isel(modulus=0, thickness=0)) * self.points**2
         return float(area.mean()), float(area.std(ddof=1))
 
     def scattered(self, quantities: Sequence[str], name: str, draws: int = 200) -> tuple[float, float]:
-        """Geometric mean in nm of a critical thickness ("floor" or "ceiling") over ``quantities`` and moduli of the overcoat.
+        """Geometric mean in nm of a critical thickness ("floor" or "ceiling") over ``quantities``
+        and moduli of the overcoat.
 
-        And how much it scatters: the deviation over samples of as many surfaces, drawn from them with replacement.
+        And how much it scatters: the deviation over samples of as many surfaces, drawn from them
+        with replacement.
         """
         count, draw = self.data["surface"].size, np.random.default_rng(0)
         rows = [self._rows(quantity, ratio) for quantity in quantities for ratio in (0.75, 1.75)]
@@ -106,7 +114,8 @@ class Curves:
         return middle(np.arange(count)), float(np.nanstd(samples, ddof=1))
 
     def each(self, quantity: str, name: str) -> np.ndarray:
-        """A critical thickness in nm on every surface and modulus of the overcoat; NaN where there is none."""
+        """A critical thickness in nm on every surface and modulus of the overcoat; NaN where there
+        is none."""
         single = [Curves(self.data.isel(surface=[number]), self.base) for number in range(self.data["surface"].size)]
         return np.array([[1e9 * getattr(one.critical(quantity, r), name) for r in (0.75, 1.75)] for one in single])
 
@@ -138,7 +147,8 @@ class Curves:
 
 @dataclass(frozen=True, eq=False)
 class Studies:
-    """The contact with menisci that are not fed back, with steady ones as in the ready study, and with something changed."""
+    """The contact with menisci that are not fed back, with steady ones as in the ready study, and
+    with something changed."""
 
     unfed: Curves
     disk: Curves
@@ -149,7 +159,8 @@ class Studies:
 
 
 def compare(seeds: int = 4, points: int = 256, count: int = 16, unfed: int = 64, unfed_points: int = 256) -> Page:
-    """Ours on ``seeds`` surfaces of ``points`` a side for ``count`` thicknesses; the free boundary on half as many.
+    """Ours on ``seeds`` surfaces of ``points`` a side for ``count`` thicknesses; the free boundary
+    on half as many.
 
     The contact with menisci that are not fed back on ``unfed`` surfaces of ``unfed_points`` a side.
     """
@@ -174,14 +185,16 @@ def compare(seeds: int = 4, points: int = 256, count: int = 16, unfed: int = 64,
 
 def _headline(unfed: Curves, surfaces: int) -> Table:
     about = (
-        f"**As published: menisci in the gap of the contact under the external load, not fed back**; means over {surfaces} surfaces, of which every one "
-        f"has {unfed.pixels[0]:.1f} ± {unfed.pixels[1]:.1f} pixels of contact without carbon:"
+        "**As published: menisci in the gap of the contact under the external load, not fed back**; means "
+        f"over {surfaces} surfaces, of which every one has {unfed.pixels[0]:.1f} ± {unfed.pixels[1]:.1f} "
+        "pixels of contact without carbon:"
     )
     return _critical_table(about, unfed)
 
 
 def _published(unfed: Curves, approaches: np.ndarray) -> Iterable[Published]:
-    """The printed critical thicknesses beside those of unfed menisci, and the one printed approach."""
+    """The printed critical thicknesses beside those of unfed menisci, and the one printed
+    approach."""
     source, digits = "Peng 2001, sec. 4.1.3", "read off curves as a power of ten"
     for text, theirs, quantities, name in (
         ("floor (nm), geometric mean of u_z, pₘₐₓ and Fₘ/W", "5", SMOOTH, "floor"),
@@ -192,7 +205,10 @@ def _published(unfed: Curves, approaches: np.ndarray) -> Iterable[Published]:
         ours, spread = unfed.scattered(quantities, name)
         what = f"{text}, E₁/E₂ = 0.75 and 1.75"
         yield Published(source, what, theirs, ours, spread=spread, reason="" if name == "floor" else digits)
-    rough = f"rigid approach (nm), σ = {1e9 * head_disk_unfed.ROUGH:g} nm, E₁/E₂ = {head_disk_unfed.SOFT:g}, h = {1e9 * head_disk_unfed.THIN:g} nm"
+    rough = (
+        f"rigid approach (nm), σ = {1e9 * head_disk_unfed.ROUGH:g} nm, E₁/E₂ = {head_disk_unfed.SOFT:g}, h "
+        f"= {1e9 * head_disk_unfed.THIN:g} nm"
+    )
     spread = float(approaches.std(ddof=1))
     yield Published(
         source, rough, "3", float(approaches.mean()), spread=spread, reason="two or three pixels touch: a weak check"
@@ -270,28 +286,38 @@ def _reading(found: Studies) -> str:
     sticking = disk.data["thickness"].size * disk.data["surface"].size - disk.answered(0.1)
     return f"""## Reading the tables
 
-* **Which menisci.** Those of the first table are what the printed sizes speak for: a largest displacement below 0.3 h = 1.5 nm at h = 5 nm (ours is {alone:.2g} nm), and
-  curves for all four E₁/E₂, where steady menisci run away with the softest carbon. They pull with {pull:.0f} times the external force.
-* **Floor.** Published about 5 nm for every quantity: below it the carbon has no effect. Ours are 2 to 6 nm; of displacement, pressure and force of the first
-  table it is {floor:.2f} ± {known:.2f} nm (geometric mean for E₁/E₂ = 0.75 and 1.75, scatter of the mean of all surfaces), that of the area is known to a factor for want of pixels.
-* **Ten pixels.** Without fed-back menisci {unfed.pixels[0]:.0f} pixels touch on a surface like the published one. Its area changes by whole pixels, so that its ceiling is the thickness at
-  which the last of them joins or leaves: on single surfaces of ours (E₁/E₂ = 0.75 and 1.75) anywhere between {sizes[0]} nm. A ceiling of 10⁴ nm of the area is within
-  reach of one surface, then, and says nothing of another. Those of the meniscus force lie between {sizes[1]} nm, those of the largest pressure between
-  {sizes[2]} nm: neither 10⁴ nor 10² nm is found there.
-* **Ceiling.** Published are 10⁴ nm for area and meniscus force and 10² nm for the largest pressure, ours are between {_range(disk)} nm
-  for all of them; that of the pressure is the lowest in ours, too. Waves of the surface of length λ reach about λ/2π down, and the longest with much
-  power have some β* = 500 nm: on a periodic cell a depth of 10⁴ nm has no influence. On an isolated cell (free boundary) the load makes a dent as
-  wide as the cell; then the largest displacement has its ceiling beyond 10⁴ nm ({_ceilings(free, "max_displacement")} nm) and the largest pressure
-  one of {_ceilings(free, "max_pressure")} nm. The published split by two powers of ten is characteristic of a finite patch, but area and meniscus
-  force have their ceilings at {_ceilings(free, "area_fraction")} and {_ceilings(free, "relative_meniscus_force")} nm there, too.
-* **No floor.** With E₁/E₂ = 0.1 the hardness of the carbon, 2 GPa, limits the pressure however thin it is. Without liquid the contact is
-  some ten pixels, and its area changes by whole ones.
-* **Stiffness.** A stiff overcoat lowers area, displacement and meniscus force and raises the pressure, a compliant one does the
-  opposite, as published.
-* **Menisci.** They pull with {steady:.0f} times the external force: films of 2σ cover much of the area, and closing the gap enlarges the menisci
-  further. With E₁/E₂ = 0.1 they run away in {sticking} cases, all with thick layers: such a disk sticks. The published largest displacement stays
-  below 0.3 h, 1.5 nm at h = 5 nm; ours at that h and E₁/E₂ = 0.75 is {wet_depth:.1f} nm with the menisci and {dry_depth:.1f} nm without. This and
-  fig. 3.20 (see [peng_menisci](peng_menisci.md)) speak for menisci that were not, or not fully, fed back into the published loads."""
+* **Which menisci.** Those of the first table are what the printed sizes speak for: a largest displacement
+  below 0.3 h = 1.5 nm at h = 5 nm (ours is {alone:.2g} nm), and curves for all four E₁/E₂, where steady
+  menisci run away with the softest carbon. They pull with {pull:.0f} times the external force.
+* **Floor.** Published about 5 nm for every quantity: below it the carbon has no effect. Ours are 2 to 6 nm;
+  of displacement, pressure and force of the first table it is {floor:.2f} ± {known:.2f} nm (geometric mean
+  for E₁/E₂ = 0.75 and 1.75, scatter of the mean of all surfaces), that of the area is known to a factor for
+  want of pixels.
+* **Ten pixels.** Without fed-back menisci {unfed.pixels[0]:.0f} pixels touch on a surface like the published
+  one. Its area changes by whole pixels, so that its ceiling is the thickness at which the last of them joins
+  or leaves: on single surfaces of ours (E₁/E₂ = 0.75 and 1.75) anywhere between {sizes[0]} nm. A ceiling of
+  10⁴ nm of the area is within reach of one surface, then, and says nothing of another. Those of the meniscus
+  force lie between {sizes[1]} nm, those of the largest pressure between {sizes[2]} nm: neither 10⁴ nor 10² nm
+  is found there.
+* **Ceiling.** Published are 10⁴ nm for area and meniscus force and 10² nm for the largest pressure, ours are
+  between {_range(disk)} nm for all of them; that of the pressure is the lowest in ours, too. Waves of the
+  surface of length λ reach about λ/2π down, and the longest with much power have some β* = 500 nm: on a
+  periodic cell a depth of 10⁴ nm has no influence. On an isolated cell (free boundary) the load makes a dent
+  as wide as the cell; then the largest displacement has its ceiling beyond 10⁴ nm
+  ({_ceilings(free, "max_displacement")} nm) and the largest pressure one of {_ceilings(free, "max_pressure")}
+  nm. The published split by two powers of ten is characteristic of a finite patch, but area and meniscus
+  force have their ceilings at {_ceilings(free, "area_fraction")} and
+  {_ceilings(free, "relative_meniscus_force")} nm there, too.
+* **No floor.** With E₁/E₂ = 0.1 the hardness of the carbon, 2 GPa, limits the pressure however thin it is.
+  Without liquid the contact is some ten pixels, and its area changes by whole ones.
+* **Stiffness.** A stiff overcoat lowers area, displacement and meniscus force and raises the pressure, a
+  compliant one does the opposite, as published.
+* **Menisci.** They pull with {steady:.0f} times the external force: films of 2σ cover much of the area, and
+  closing the gap enlarges the menisci further. With E₁/E₂ = 0.1 they run away in {sticking} cases, all with
+  thick layers: such a disk sticks. The published largest displacement stays below 0.3 h, 1.5 nm at h = 5 nm;
+  ours at that h and E₁/E₂ = 0.75 is {wet_depth:.1f} nm with the menisci and {dry_depth:.1f} nm without. This
+  and fig. 3.20 (see [peng_menisci](peng_menisci.md)) speak for menisci that were not, or not fully, fed back
+  into the published loads."""
 
 
 def _range(curves: Curves) -> str:
@@ -303,9 +329,9 @@ def _ceilings(curves: Curves, quantity: str) -> str:
     return " and ".join(_nanometres(curves.critical(quantity, ratio).ceiling) for ratio in curves.ratios)
 
 
-MEMS = """Peng gives no computed values for silicon (E₂ = 170 GPa, counter face rigid, E₁/E₂ = 0.82 and 1.65), but infers that it lies between the two
-disks. It does so: relative to no carbon, each quantity changes less than with E₁/E₂ = 0.75 and 1.75 on the disk under the same
-counter face."""
+MEMS = """Peng gives no computed values for silicon (E₂ = 170 GPa, counter face rigid, E₁/E₂ = 0.82 and 1.65),
+but infers that it lies between the two disks. It does so: relative to no carbon, each quantity changes less
+than with E₁/E₂ = 0.75 and 1.75 on the disk under the same counter face."""
 
 
 def _claims(found: Studies) -> Iterable[Claim]:

@@ -1,4 +1,5 @@
-"""Contact area and largest pressure of a rough surface against the thickness of the layer: figs 3.19 and 3.20 of Peng (2001)."""
+"""Contact area and largest pressure of a rough surface against the thickness of the layer: figs
+3.19 and 3.20 of Peng (2001)."""
 
 from __future__ import annotations
 
@@ -21,14 +22,16 @@ RMS = 1e-9
 LOAD = 4e-6
 
 ABOUT = (
-    "Peng (2001, fig. 3.20): X = pₙβ*/E₂σ = 2·10⁻³, hardness 0.05 E₁. Aᵣ₀ and p₀ are area and largest pressure of the same surface on the "
-    "base alone. Ours: mean ± standard deviation over {count} surfaces of the ratio on each. Published are the limits (with E₁/E₂ = 2 "
-    "the area is approximately halved, with 0.5 doubled) and, in table 3.1, the values at h/β* = 2, of one surface."
+    "Peng (2001, fig. 3.20): X = pₙβ*/E₂σ = 2·10⁻³, hardness 0.05 E₁. Aᵣ₀ and p₀ are area and largest "
+    "pressure of the same surface on the base alone. Ours: mean ± standard deviation over {count} surfaces of "
+    "the ratio on each. Published are the limits (with E₁/E₂ = 2 the area is approximately halved, with 0.5 "
+    "doubled) and, in table 3.1, the values at h/β* = 2, of one surface."
 )
 
 
 def compare(count: int = 20, thicknesses: Sequence[float] = THICKNESSES) -> Page:
-    """Ours on ``count`` surfaces for every thickness, which includes 2 and ends with one far beyond the cell."""
+    """Ours on ``count`` surfaces for every thickness, which includes 2 and ends with one far beyond
+    the cell."""
     shapes = surfaces(count, grid())
     bare = ensemble(contacts(Case(1.0, LOAD, RMS), shapes))
     tables: list[Table] = []
@@ -47,7 +50,8 @@ def compare(count: int = 20, thicknesses: Sequence[float] = THICKNESSES) -> Page
 
 
 def _published(ratio: float, found: tuple[np.ndarray, np.ndarray]) -> Iterator[Published]:
-    """The printed law that the area is inversely and the largest pressure directly proportional to E₁/E₂, at h/β* = 2."""
+    """The printed law that the area is inversely and the largest pressure directly proportional to
+    E₁/E₂, at h/β* = 2."""
     source, reason = "Peng 2001, sec. 3.2.6.1", "the printed rows give 0.574 and 1.609 themselves"
     area, peak = found
     for what, theirs, ours, why in (("Aᵣ/Aᵣ₀", 1.0 / ratio, area, ""), ("pₘₐₓ/p₀", ratio, peak, reason)):
@@ -73,9 +77,11 @@ def _table(ratio: float, thicknesses: Sequence[float], found: Sequence[Found], b
     return Table(f"E₁/E₂ = {ratio:g}:", head, tuple(rows))
 
 
-WORDS = f"""* The limits are those of elasticity: the base for h → 0 and the material of the layer for h → ∞. (Sec. 3.2.6.2 states the reverse, a slip.)
-* Nearly all of the change happens between 0.01 and 1 β*: contacts are about as wide as a pixel, {SIDE / PIXELS * 1e9:.0f} nm or 0.16 β*. At the
-  h/β* = 2 of table 3.1 the layer is all but infinitely thick."""
+WORDS = f"""* The limits are those of elasticity: the base for h → 0 and the material of the layer for h → ∞.
+  (Sec. 3.2.6.2 states the reverse, a slip.)
+* Nearly all of the change happens between 0.01 and 1 β*: contacts are about as wide as a pixel,
+  {SIDE / PIXELS * 1e9:.0f} nm or 0.16 β*. At the h/β* = 2 of table 3.1 the layer is all but infinitely
+  thick."""
 
 
 def _claims(

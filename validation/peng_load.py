@@ -1,4 +1,5 @@
-"""Area, largest pressure and meniscus force against the load: fig. 3.14 of Peng (2001), from the ready study of it."""
+"""Area, largest pressure and meniscus force against the load: fig. 3.14 of Peng (2001), from the
+ready study of it."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ ROWS = ("40 kPa", "100 kPa", "400 kPa", "1 MPa", "4 MPa")
 """Loads of the rows of table 3.1."""
 
 LINEAR = (0.9, 1.1)
-"""Exponents that pass for linear: from a contact of 0.05 % to one of 6 %, where the summits begin to be used up."""
+"""Exponents that pass for linear: from a contact of 0.05 % to one of 6 %, where the summits begin
+to be used up."""
 
 TOP = 10.0
 """End of the printed axis of the area, per cent; that of Fm/W runs from 0.01 to 1."""
@@ -34,22 +36,26 @@ AREA = 20e-6**2
 """Published nominal area in m²."""
 
 ABOUT = (
-    "Peng (2001, fig. 3.14; also Peng & Bhushan 2001a): σ = 10 nm, β* = 0.5 µm, h = 0.5 µm, E₂ = 100 GPa, hardness 0.05 E₁, water (72.75 mN/m, "
-    "60° on both sides) with film and menisci of the height σ. Ours: `examples/campaigns/load_dependence.toml` on {points} × {points} pixels of "
-    "{pixel:.0f} nm, mean ± standard deviation over {seeds} surfaces, dry {dry}. The curves are not in the text at hand; published here are the ends of the "
-    "axes, that the area is linear in the load, that the pressure ends at the hardness, and the rows of table 3.1 with σ = 10 nm, which are "
-    "dry and of h = 1 µm."
+    "Peng (2001, fig. 3.14; also Peng & Bhushan 2001a): σ = 10 nm, β* = 0.5 µm, h = 0.5 µm, E₂ = 100 GPa, "
+    "hardness 0.05 E₁, water (72.75 mN/m, 60° on both sides) with film and menisci of the height σ. Ours: "
+    "`examples/campaigns/load_dependence.toml` on {points} × {points} pixels of {pixel:.0f} nm, mean ± "
+    "standard deviation over {seeds} surfaces, dry {dry}. The curves are not in the text at hand; published "
+    "here are the ends of the axes, that the area is linear in the load, that the pressure ends at the "
+    "hardness, and the rows of table 3.1 with σ = 10 nm, which are dry and of h = 1 µm."
 )
 
-WORDS = """* The area is linear in the load over four decades, plastic or not. Below about 10⁻⁶ E₂ it is only a few pixels.
+WORDS = """* The area is linear in the load over four decades, plastic or not. Below about 10⁻⁶ E₂ it is only
+  a few pixels.
 * The pressure reaches the hardness at a load that rises with E₁/E₂, as in the figure.
-* Fₘ/W falls with the load. At small loads it is the force of one summit, independent of the load; at large loads it falls slowly, as the meniscus
-  area grows less than the contact area. As in the figure it falls from about 1 to 10⁻², and is smaller under a stiffer layer.
+* Fₘ/W falls with the load. At small loads it is the force of one summit, independent of the load; at large
+  loads it falls slowly, as the meniscus area grows less than the contact area. As in the figure it falls from
+  about 1 to 10⁻², and is smaller under a stiffer layer.
 * With σ = 10 nm the force that the menisci add to the load matters only where the load is smallest."""
 
 
 def compare(seeds: int = 4, points: int = 256, loads: tuple[str, ...] = LOADS, dry_seeds: int = 20) -> Page:
-    """Ours on ``seeds`` surfaces of ``points`` a side under ``loads``, which rise from 1e-7 to 1e-3 of E2, and on more dry."""
+    """Ours on ``seeds`` surfaces of ``points`` a side under ``loads``, which rise from 1e-7 to 1e-3
+    of E2, and on more dry."""
     wet = results(_under(ready("load_dependence", points=points, seeds=seeds), loads))
     dry = results(without(_under(ready("load_dependence", points=points, seeds=dry_seeds), ROWS), "film"))
     about = ABOUT.format(points=points, pixel=1e9 * PIXEL, seeds=seeds, dry=dry_seeds)
@@ -113,8 +119,9 @@ def _rows(dry: xarray.Dataset) -> Table:
         rows.append((f"{ratio:g}", f"{load:.0e}", shown[0], f"{area:.4f}", shown[1], f"{peak:.4f}"))
     head = ("E₁/E₂", "pₙ/E₂", "Aᵣ/Aₙ (%): ours", "theirs", "pₘₐₓ/E₂: ours", "theirs")
     about = (
-        "Without liquid, beside the rows of table 3.1. All of his are of one surface, and in his the rows of X = 2·10⁻⁴ (pₙ/E₂ = 4·10⁻⁶) do not "
-        "gain area by the hardness, see [peng_table_3_1](peng_table_3_1.md):"
+        "Without liquid, beside the rows of table 3.1. All of his are of one surface, and in his the rows of "
+        "X = 2·10⁻⁴ (pₙ/E₂ = 4·10⁻⁶) do not gain area by the hardness, see "
+        "[peng_table_3_1](peng_table_3_1.md):"
     )
     return Table(about, head, tuple(rows))
 

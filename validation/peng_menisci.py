@@ -1,4 +1,5 @@
-"""Meniscus force of coated rough surfaces: its similarity, its law, and the thickness of the layer (Peng 2001)."""
+"""Meniscus force of coated rough surfaces: its similarity, its law, and the thickness of the layer
+(Peng 2001)."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ X = (1e-3, 2e-3, 4e-3)
 """p_n β*/(E2 σ)."""
 
 ORDINATE = 2000.0
-"""Tick of (Fm/W)/X of fig. 3.20 beside which Fm/Fm0 = 1 stands; the next ones are 0 and 4000 beside 0 and 2."""
+"""Tick of (Fm/W)/X of fig. 3.20 beside which Fm/Fm0 = 1 stands; the next ones are 0 and 4000 beside
+0 and 2."""
 
 TRIALS = (
     ("heights, film and pₙ × 0.1, γ × 0.01", Factors(height=0.1)),
@@ -36,16 +38,19 @@ TRIALS = (
 )
 
 ABOUT = (
-    "Peng (2001, sec. 3.2.6.1, figs 3.18 and 3.20): the meniscus force with film and menisci of the height σ, water (72.75 mN/m, 60° on both "
-    "sides), β* = 0.5 µm, E₂ = 100 GPa, hardness 0.05 E₁. With X = pₙβ*/E₂σ his law is Fₘ ∝ γAₙX/σ. Area and pressure are on the pages "
-    "[peng_scaling](peng_scaling.md) and [peng_layer_effect](peng_layer_effect.md). Two forces are distinguished: that of the menisci in the contact "
-    "under the external load W alone, and the steady one, for which the contact bears W and the menisci."
+    "Peng (2001, sec. 3.2.6.1, figs 3.18 and 3.20): the meniscus force with film and menisci of the height σ, "
+    "water (72.75 mN/m, 60° on both sides), β* = 0.5 µm, E₂ = 100 GPa, hardness 0.05 E₁. With X = pₙβ*/E₂σ "
+    "his law is Fₘ ∝ γAₙX/σ. Area and pressure are on the pages [peng_scaling](peng_scaling.md) and "
+    "[peng_layer_effect](peng_layer_effect.md). Two forces are distinguished: that of the menisci in the "
+    "contact under the external load W alone, and the steady one, for which the contact bears W and the "
+    "menisci."
 )
 
 
 @dataclass(frozen=True)
 class Forces:
-    """Fm/W of one contact under the load alone and steady (NaN where it runs away), and the menisci of the first, pixels."""
+    """Fm/W of one contact under the load alone and steady (NaN where it runs away), and the menisci
+    of the first, pixels."""
 
     alone: float
     steady: float
@@ -66,7 +71,8 @@ def compare(seeds: int = 3, points: int = 192, count: int = 13) -> Page:
 
 
 def forces(surface: asp.Surface, ratio: float, x: float, *, rms: float, factors: Factors = Factors()) -> Forces:
-    """Forces at E1/E2 = ``ratio`` on ``surface``, heights over σ, with everything multiplied by ``factors``."""
+    """Forces at E1/E2 = ``ratio`` on ``surface``, heights over σ, with everything multiplied by
+    ``factors``."""
     modulus, height = factors.modulus * BASE.youngs_modulus, factors.height * rms
     spacing = [factors.length * step for step in surface.grid.spacing]
     body = coated(ratio, factors.length * 1e-6)
@@ -101,8 +107,9 @@ def _exact(points: int) -> tuple[Table, tuple[Claim, ...]]:
         rows.append((name, f"{numbers[0]}", *(f"{number:.1e}" for number in numbers[1:])))
         worst = max(worst, *numbers[1:])
     about = (
-        f"Exact similarity: a contact with X = 2·10⁻³, E₁/E₂ = 2, σ = 2 nm, whose menisci pull with {base.alone:.3g} W and {base.steady:.3g} W, and the "
-        "same with other sizes. Fₘ/W depends on X, on γβ*/E₂σ², and on h/β*, hf/σ and hm/σ:"
+        "Exact similarity: a contact with X = 2·10⁻³, E₁/E₂ = 2, σ = 2 nm, whose menisci pull with "
+        f"{base.alone:.3g} W and {base.steady:.3g} W, and the same with other sizes. Fₘ/W depends on X, on "
+        "γβ*/E₂σ², and on h/β*, hf/σ and hm/σ:"
     )
     head = ("scaled", "menisci: pixels more", "Fₘ/W under W: deviation", "steady: deviation")
     # a pixel at the rim may be counted or not, where rounding moves the gap: a few of thousands
@@ -132,11 +139,12 @@ def _law(shapes: Sequence[asp.Surface]) -> tuple[Table, tuple[Claim, ...]]:
     return Table(about, head, tuple(rows)), tuple(claims)
 
 
-LAW = """* Under the external load alone Fₘ rises more slowly than X. Menisci form around summits that nearly touch, which are relatively more numerous at
-  small load. Peng takes the force as proportional to the area "for the sake of simplification".
-* The steady force depends on γβ*/E₂σ² as well. At σ = 10 nm it is nearly that under W; at σ = 1 nm it is many times as large, because
-  there the menisci press the surfaces together more than the load does, and hardly depends on the load (Fₘ/W ∝ 1/X). So a law in X alone holds for
-  weak menisci, or without feedback."""
+LAW = """* Under the external load alone Fₘ rises more slowly than X. Menisci form around summits that nearly
+  touch, which are relatively more numerous at small load. Peng takes the force as proportional to the area
+  "for the sake of simplification".
+* The steady force depends on γβ*/E₂σ² as well. At σ = 10 nm it is nearly that under W; at σ = 1 nm it is many
+  times as large, because there the menisci press the surfaces together more than the load does, and hardly
+  depends on the load (Fₘ/W ∝ 1/X). So a law in X alone holds for weak menisci, or without feedback."""
 
 
 def _layer(data: xarray.Dataset) -> tuple[Table, tuple[Claim, ...]]:
@@ -156,8 +164,9 @@ def _layer(data: xarray.Dataset) -> tuple[Table, tuple[Claim, ...]]:
     x = 4e5 * CORRELATION_LENGTH / (BASE.youngs_modulus * 1e-9)
     bare = {name: float(one[0, 0]) for name, one in means.items()}
     about = (
-        "Layer thickness (fig. 3.20), `examples/campaigns/layer_thickness.toml`: Fₘ/Fₘ₀ over that of the base alone, X = 2·10⁻³, σ = 1 nm. On the base "
-        f"alone (Fₘ/W)/X is {bare['under W'] / x:.0f} under W and {bare['steady'] / x:.0f} steady; the figure has {ORDINATE:.0f} beside Fₘ/Fₘ₀ = 1."
+        "Layer thickness (fig. 3.20), `examples/campaigns/layer_thickness.toml`: Fₘ/Fₘ₀ over that of the base "
+        f"alone, X = 2·10⁻³, σ = 1 nm. On the base alone (Fₘ/W)/X is {bare['under W'] / x:.0f} under W and "
+        f"{bare['steady'] / x:.0f} steady; the figure has {ORDINATE:.0f} beside Fₘ/Fₘ₀ = 1."
     )
     return Table(about, head, tuple(rows)), tuple(_layer_claims(means, bare["under W"] / x, bare["steady"] / x))
 
@@ -170,9 +179,9 @@ def _layer_claims(means: dict[str, np.ndarray], alone: float, steady: float) -> 
         yield Claim(f"{name}: endless stiff layer over no layer", float(stiff[-1] / stiff[0]), 0.4, 0.9)
 
 
-LAYER = """* The ordinate of the figure is that of menisci under the external load alone, though the flow chart of Peng includes the feedback. Table 3.1 is also
-  dry: its rows of one pixel carry pₙ alone. With σ = 1 nm and water the steady force is some ten times as large, and the interface far from the
-  published one.
+LAYER = """* The ordinate of the figure is that of menisci under the external load alone, though the flow
+  chart of Peng includes the feedback. Table 3.1 is also dry: its rows of one pixel carry pₙ alone. With σ = 1
+  nm and water the steady force is some ten times as large, and the interface far from the published one.
 * A compliant layer raises the force and a stiff one lowers it, most of it between 0.02 and 1 β*, as in the figure."""
 
 

@@ -1,4 +1,5 @@
-"""von Mises stress under a uniformly loaded patch on a layered body, with friction: fig. 3.10 of Peng (2001)."""
+"""von Mises stress under a uniformly loaded patch on a layered body, with friction: fig. 3.10 of
+Peng (2001)."""
 
 from __future__ import annotations
 
@@ -13,7 +14,8 @@ import asperity as asp
 RATIOS = (0.5, 1.0, 2.0)
 FRICTIONS = (0.0, 0.25, 0.5)
 SIDE = 0.078
-"""Side of the patch; lengths are in units of the thickness of the layer, forces in units of the load."""
+"""Side of the patch; lengths are in units of the thickness of the layer, forces in units of the
+load."""
 
 POINTS = 41
 PLACES = (-16, -8, -4, -2, 0, 2, 4, 8, 16)
@@ -25,14 +27,18 @@ BESIDE = 4
 DEPTHS = (0.0, 0.1, 0.2, 0.4, 0.6, 1.0, 1.5, 2.0)
 
 ABOUT = (
-    "Peng (2001, fig. 3.10; also Peng & Bhushan 2002): a unit force on a square patch of the side 0.078 on a layer of unit thickness with E₁/E₂ = 0.5, 1 and 2, shear "
-    "traction μp along x; profiles of √J2 on the surface (y = z = 0) and down from x = 0.3, y = 0. Published are the curves, of which the text at hand has only the axes "
-    "(10⁻² to 10³ on the surface, 0 to 2 below), and what the text says of them. Ours: `asperity.stress` under prescribed tractions "
-    "(`LoadedBody` with a `PatchLoad`), free boundary, ν = 0.3 chosen freely."
+    "Peng (2001, fig. 3.10; also Peng & Bhushan 2002): a unit force on a square patch of the side 0.078 on a "
+    "layer of unit thickness with E₁/E₂ = 0.5, 1 and 2, shear traction μp along x; profiles of √J2 on the "
+    "surface (y = z = 0) and down from x = 0.3, y = 0. Published are the curves, of which the text at hand "
+    "has only the axes (10⁻² to 10³ on the surface, 0 to 2 below), and what the text says of them. Ours: "
+    "`asperity.stress` under prescribed tractions (`LoadedBody` with a `PatchLoad`), free boundary, ν = 0.3 "
+    "chosen freely."
 )
 
-WORDS = """* As published: at μ = 0 the profiles are symmetric and the largest value on the surface lies under the patch; friction makes them asymmetric and larger, most of all below the
-  patch near the surface. Along z the layer hardly changes the shape of the profile but for a jump at the interface, where the materials differ.
+WORDS = """* As published: at μ = 0 the profiles are symmetric and the largest value on the surface lies under
+  the patch; friction makes them asymmetric and larger, most of all below the patch near the surface. Along z
+  the layer hardly changes the shape of the profile but for a jump at the interface, where the materials
+  differ.
 * For E₁ = E₂ the stress is that of Love's closed form for the homogeneous half-space.
 * All values lie within the printed axes."""
 
@@ -59,7 +65,8 @@ def compare(points: int = POINTS) -> Page:
 
 
 def profiles(ratio: float, friction: float, points: int) -> tuple[np.ndarray, np.ndarray]:
-    """√J2 along x on the surface (points,), and below x = 0.3 at ``DEPTHS``, both sides of the interface."""
+    """√J2 along x on the surface (points,), and below x = 0.3 at ``DEPTHS``, both sides of the
+    interface."""
     grid = asp.Grid((points, points), (SIDE, SIDE))
     middle = points // 2 * SIDE
     ends = (middle - 0.5 * SIDE, middle + 0.5 * SIDE)
@@ -105,7 +112,8 @@ def _claims(found: dict[tuple[float, float], tuple[np.ndarray, np.ndarray]], mid
 
 
 def love(poisson: float = 0.3) -> float:
-    """√J2 on the surface in the middle of a square under unit force: σxx = σyy = -(1/2 + ν) p, σzz = -p, for which √J2 = |1/2 - ν| p/√3."""
+    """√J2 on the surface in the middle of a square under unit force: σxx = σyy = -(1/2 + ν) p,
+    σzz = -p, for which √J2 = |1/2 - ν| p/√3."""
     return abs(0.5 - poisson) / math.sqrt(3.0) / SIDE**2
 
 

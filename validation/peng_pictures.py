@@ -1,4 +1,5 @@
-"""Pictures after figs 3.1 to 3.22 of Peng (2001), drawn from the cases of the other pages; ``pictures.py`` writes them.
+"""Pictures after figs 3.1 to 3.22 of Peng (2001), drawn from the cases of the other pages;
+``pictures.py`` writes them.
 
 The numbers and trends are on the pages peng_scaling, peng_stress, rough_cylinder and rough_sphere.
 """
@@ -46,7 +47,8 @@ COLOURS = {0.5: BLUE, 1.0: BLACK, 2.0: VERMILLION}
 
 
 def cylinder(figure: Figure) -> None:
-    """Profile of the rough cylinder, pressures on the base, and on the layers with and without friction (figs 3.1, 3.2)."""
+    """Profile of the rough cylinder, pressures on the base, and on the layers with and without
+    friction (figs 3.1, 3.2)."""
     axes = figure.subplots(3, 2, sharex=True)
     roughness = rough_cylinder.profile(0)
     cases = [(rough_cylinder.LAYERS[0], (0.0,)), *((layer, (0.0, 0.5)) for layer in rough_cylinder.LAYERS[1:])]
@@ -71,7 +73,8 @@ def cylinder(figure: Figure) -> None:
 
 
 def sphere(figure: Figure) -> None:
-    """Profile, pressure and displacement of the rough sphere, and √J2 below it without and with the layer (figs 3.3, 3.4)."""
+    """Profile, pressure and displacement of the rough sphere, and √J2 below it without and with the
+    layer (figs 3.3, 3.4)."""
     left, right = np.asarray(figure.subfigures(1, 2), dtype=object)
     roughness = rough_sphere.ALIKE * rough_sphere.unit_roughness(0, POINTS)
     results = {name: rough_sphere.contact(name, roughness) for name in rough_sphere.BODIES}
@@ -147,7 +150,8 @@ def layers(figure: Figure) -> None:
 
 
 def stresses(figure: Figure, ratio: float) -> None:
-    """√J2 on the surface, and √J2, σt and σxz on the plane through the largest pressure, logarithmic (figs 3.21, 3.22)."""
+    """√J2 on the surface, and √J2, σt and σxz on the plane through the largest pressure,
+    logarithmic (figs 3.21, 3.22)."""
     cases = [(thickness, friction) for friction in (0.0, 0.5) for thickness in (250e-9, 1e-6)]
     shape = peng.surfaces(1, peng.grid())[0]
     results = {thickness: _contact(shape, ratio, thickness) for thickness, _ in cases}
@@ -198,7 +202,8 @@ def _contact(shape: asp.Surface, ratio: float, thickness: float) -> asp.ContactR
 
 
 def _middle(result: asp.ContactResult) -> tuple[float, float]:
-    """Middle (m) of the pixel of the largest pressure, moved so that the window of ``REACH`` lies inside the cell."""
+    """Middle (m) of the pixel of the largest pressure, moved so that the window of ``REACH`` lies
+    inside the cell."""
     i, j = np.unravel_index(int(np.argmax(result.pressure)), result.pressure.shape)
     dx, dy = result.problem.grid.spacing
     low, high = 1e-6 * REACH, peng.SIDE - 1e-6 * REACH

@@ -1,4 +1,5 @@
-"""Scaling laws of section 3.2.6.1 of Peng (2001): which are exact, and how good the fitted ones are."""
+"""Scaling laws of section 3.2.6.1 of Peng (2001): which are exact, and how good the fitted ones
+are."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ RMS = 1e-9
 LOAD = 4e-6
 FRICTION = 0.3
 CAP = 0.01
-"""Hardness over E2 of the surface on which the exact laws are tried, so low that part of the contact is plastic."""
+"""Hardness over E2 of the surface on which the exact laws are tried, so low that part of the
+contact is plastic."""
 
 DEPTHS = (0.0, 0.05, 0.2, 1.0, 2.0)
 """Depths over h, the interface among them."""
@@ -35,19 +37,21 @@ RATIOS = (0.5, 1.0, 2.0)
 FOUND = "printed as found by trial and error; that of the rows of table 3.1 is 0.245"
 
 EXACT = 1e-7
-"""Bound of the deviation from an exact law: the solves take the same steps up to rounding, so they agree far better than
-any of them is solved (1e-10 of the energy)."""
+"""Bound of the deviation from an exact law: the solves take the same steps up to rounding, so they
+agree far better than any of them is solved (1e-10 of the energy)."""
 
 ABOUT = (
-    "Peng (2001, sec. 3.2.6.1; also Peng & Bhushan 2002). With X = pₙβ*/E₂σ the laws that follow from linear elasticity alone are "
-    "Aᵣ/Aₙ = f(X), pₘₐₓβ*/E₂σ = g(X) and the same for every stress, at given h/β*, E₁/E₂, ν and shape of the surface. The fitted "
-    "ones are Aᵣ/Aₙ ∝ X, pₘₐₓ and all stresses ∝ X^(1/3), Aᵣ ∝ E₂/E₁, pₘₐₓ ∝ E₁/E₂."
+    "Peng (2001, sec. 3.2.6.1; also Peng & Bhushan 2002). With X = pₙβ*/E₂σ the laws that follow from linear "
+    "elasticity alone are Aᵣ/Aₙ = f(X), pₘₐₓβ*/E₂σ = g(X) and the same for every stress, at given h/β*, "
+    "E₁/E₂, ν and shape of the surface. The fitted ones are Aᵣ/Aₙ ∝ X, pₘₐₓ and all stresses ∝ X^(1/3), Aᵣ ∝ "
+    "E₂/E₁, pₘₐₓ ∝ E₁/E₂."
 )
 
 
 @dataclass(frozen=True)
 class Factors:
-    """What everything is multiplied with: moduli, lengths along the surface and into it, heights."""
+    """What everything is multiplied with: moduli, lengths along the surface and into it,
+    heights."""
 
     modulus: float = 1.0
     length: float = 1.0
@@ -69,7 +73,8 @@ TRIALS = (
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Area fraction, largest pressure and largest √J2 over E2σ/β* for one E1/E2, arrays (surfaces, X)."""
+    """Area fraction, largest pressure and largest √J2 over E2σ/β* for one E1/E2, arrays (surfaces,
+    X)."""
 
     ratio: float
     x: np.ndarray
@@ -78,7 +83,8 @@ class Curve:
     root: np.ndarray
 
     def at_common(self, name: str) -> np.ndarray:
-        """Values at the X of ``COMMON``, (surfaces, 3); rows of table 3.1 with equal X are averaged."""
+        """Values at the X of ``COMMON``, (surfaces, 3); rows of table 3.1 with equal X are
+        averaged."""
         values = getattr(self, name)
         return np.stack([values[:, np.isclose(self.x, x)].mean(axis=1) for x in COMMON], axis=1)
 
@@ -95,7 +101,8 @@ class Curve:
 
 
 def compare(count: int = 30, stressed: int = 6, pixels: int = PIXELS) -> Page:
-    """Exact laws on a surface of ``pixels`` a side; fitted ones on ``count`` surfaces, stresses on the first ``stressed``."""
+    """Exact laws on a surface of ``pixels`` a side; fitted ones on ``count`` surfaces, stresses on
+    the first ``stressed``."""
     exact, exact_claims = _exact(pixels)
     curves = [curve(ratio, count, stressed) for ratio in RATIOS]
     theirs = [published(ratio) for ratio in RATIOS]
@@ -138,9 +145,10 @@ def _exact(pixels: int) -> tuple[Table, tuple[Claim, ...]]:
         rows.append((name, f"{numbers[0]}", *(f"{number:.1e}" for number in numbers[1:])))
         worst = np.maximum(worst, numbers)
     about = (
-        f"Exact laws. One surface with E₁/E₂ = 2, X = 2·10⁻³, a hardness that {contact.plastic.sum()} of {contact.contact.sum()} contact "
-        f"pixels reach, and friction {FRICTION:g}; all six stresses on planes at 0, 0.05, 0.2, 1 (both sides of the interface) and 2 h. "
-        "Deviation from the law, over the largest pressure and the largest √J2:"
+        f"Exact laws. One surface with E₁/E₂ = 2, X = 2·10⁻³, a hardness that {contact.plastic.sum()} of "
+        f"{contact.contact.sum()} contact pixels reach, and friction {FRICTION:g}; all six stresses on planes "
+        "at 0, 0.05, 0.2, 1 (both sides of the interface) and 2 h. Deviation from the law, over the largest "
+        "pressure and the largest √J2:"
     )
     head = ("scaled", "pixels that differ", "pressure", "stresses")
     claims = (
@@ -223,8 +231,9 @@ def _exponents(curves: Sequence[Curve], theirs: Sequence[Curve]) -> Table:
         rows.append(tuple(row))
     head = ("E₁/E₂", "area: ours", "theirs", "pₘₐₓ: ours", "theirs", "√J2ₘₐₓ: ours", "mean Aᵣ/AₙX: ours", "theirs")
     about = (
-        f"Exponents of X from 10⁻³ to 4·10⁻³, where the table has {FEWEST} pixels or more: ours as mean ± standard deviation over the "
-        "surfaces, theirs from his rows below the hardness. The laws say 1 for the area and 1/3 for the stresses:"
+        f"Exponents of X from 10⁻³ to 4·10⁻³, where the table has {FEWEST} pixels or more: ours as mean ± "
+        "standard deviation over the surfaces, theirs from his rows below the hardness. The laws say 1 for "
+        "the area and 1/3 for the stresses:"
     )
     return Table(about, head, tuple(rows))
 
@@ -239,12 +248,14 @@ def _of_ratio(curves: Sequence[Curve], name: str) -> np.ndarray:
 def _words(curves: Sequence[Curve], theirs: Sequence[Curve], count: int, stressed: int) -> str:
     return f"""Ours are {count} surfaces (stresses: {stressed}), without hardness.
 
-* The area is nearly proportional to X. At small X there are few contact pixels, and the highest summit of a finite surface has an influence.
+* The area is nearly proportional to X. At small X there are few contact pixels, and the highest summit of a
+  finite surface has an influence.
 * The largest pressure and √J2 have the same exponent, which is below 1/3, in his results as in ours.
-* At X = 2·10⁻³ the area goes as E₁/E₂ to the power {_spread(_of_ratio(curves, "area"))} (theirs {_of_ratio(theirs, "area")[0]:.2f}), and pₘₐₓ to
-  {_spread(_of_ratio(curves, "peak"))} (theirs {_of_ratio(theirs, "peak")[0]:.2f}), where the laws say −1 and 1. The second is at odds with the
-  others: contacts of one pixel are governed by the layer alone, for which X and the unit of stress contain E₁, so that pₘₐₓ ∝ X^m at given E₁/E₂
-  entails pₘₐₓ ∝ (E₁/E₂)^(1−m), the power found.
+* At X = 2·10⁻³ the area goes as E₁/E₂ to the power {_spread(_of_ratio(curves, "area"))} (theirs
+  {_of_ratio(theirs, "area")[0]:.2f}), and pₘₐₓ to {_spread(_of_ratio(curves, "peak"))} (theirs
+  {_of_ratio(theirs, "peak")[0]:.2f}), where the laws say −1 and 1. The second is at odds with the others:
+  contacts of one pixel are governed by the layer alone, for which X and the unit of stress contain E₁, so
+  that pₘₐₓ ∝ X^m at given E₁/E₂ entails pₘₐₓ ∝ (E₁/E₂)^(1−m), the power found.
 * The coefficient Aᵣ/AₙX holds for his pixel size of 78 nm (see [peng_table_3_1](peng_table_3_1.md))."""
 
 

@@ -1,4 +1,5 @@
-"""Stresses under a rough surface on a layer, with friction: the trends of figs 3.21 and 3.22 of Peng (2001).
+"""Stresses under a rough surface on a layer, with friction: the trends of figs 3.21 and 3.22 of
+Peng (2001).
 
 ``peng_pictures.py`` draws the figures.
 """
@@ -29,16 +30,19 @@ UNIT = BASE.youngs_modulus * RMS / CORRELATION_LENGTH
 NAMES = {"sqrt_J2": "√J2", "principal_tensile": "σt", "shear_xz": "σxz"}
 
 ABOUT = (
-    "Peng (2001, figs 3.21 and 3.22; also Peng & Bhushan 2001b, 2002): σ = 1 nm, β* = 0.5 µm, pₙ/E₂ = 4·10⁻⁶, layers with E₁/E₂ = 2 and 0.5, "
-    "μ = 0 and 0.5. Published are pictures for one surface, and the trends told in the text. Ours: largest values in the whole body, "
-    "means over {count} surfaces, on planes from the surface to 4 pixels below it and on both sides of the interface; depths in nm. "
-    "The shear traction is μp along x. σt is the larger principal stress within planes parallel to the surface (his eq. 3.34), σxz taken as a magnitude."
+    "Peng (2001, figs 3.21 and 3.22; also Peng & Bhushan 2001b, 2002): σ = 1 nm, β* = 0.5 µm, pₙ/E₂ = 4·10⁻⁶, "
+    "layers with E₁/E₂ = 2 and 0.5, μ = 0 and 0.5. Published are pictures for one surface, and the trends "
+    "told in the text. Ours: largest values in the whole body, means over {count} surfaces, on planes from "
+    "the surface to 4 pixels below it and on both sides of the interface; depths in nm. The shear traction is "
+    "μp along x. σt is the larger principal stress within planes parallel to the surface (his eq. 3.34), σxz "
+    "taken as a magnitude."
 )
 
 
 @dataclass(frozen=True)
 class Largest:
-    """Largest value of a stress over E2σ/β*, its depth in m, and the largest value on the surface."""
+    """Largest value of a stress over E2σ/β*, its depth in m, and the largest value on the
+    surface."""
 
     value: float
     depth: float
@@ -47,7 +51,8 @@ class Largest:
 
 @dataclass(frozen=True)
 class Seen:
-    """One contact: largest pressure and largest interface shear over E2σ/β*, and the largest of each stress."""
+    """One contact: largest pressure and largest interface shear over E2σ/β*, and the largest of
+    each stress."""
 
     peak: float
     interface: float
@@ -82,7 +87,8 @@ def compare(count: int = 6) -> Page:
 
 
 def _constant_on_pixels(shapes: Sequence[asp.Surface]) -> Contacts:
-    """The layers of middle thickness on the free boundary, where every pixel carries a constant traction."""
+    """The layers of middle thickness on the free boundary, where every pixel carries a constant
+    traction."""
     found: Contacts = {}
     for ratio, thickness in MIDDLE:
         body = coated(ratio, thickness)
@@ -105,7 +111,8 @@ def seen(result: asp.ContactResult, friction: float, thickness: float) -> Seen:
 
 
 def _coupled(result: asp.ContactResult) -> tuple[float, float]:
-    """Relative changes of contact area and largest pressure by the displacement that the largest friction causes."""
+    """Relative changes of contact area and largest pressure by the displacement that the largest
+    friction causes."""
     sliding = asp.solve(
         replace(result.problem, friction=asp.Coulomb(FRICTIONS[-1])),
         result.control,
@@ -138,18 +145,21 @@ def _table(found: Contacts, coatings: Sequence[Coating], frictions: Sequence[flo
 
 LEAD = "Stresses over E₂σ/β*, each with its mean depth in nm:"
 
-TRENDS = """* μ raises the largest √J2, σt and σxz, and moves the maxima of the first and the last from 0.3 pixels and more below the surface to the surface.
+TRENDS = """* μ raises the largest √J2, σt and σxz, and moves the maxima of the first and the last from 0.3
+  pixels and more below the surface to the surface.
 * The stiff layer has the higher stresses throughout, the compliant one the lower ones.
 * A thin layer (50 nm, less than a pixel) carries a high shear stress at its interface.
-* Peng states that the largest σt and σxz are always at the surface. For σxz this is impossible without friction, since it vanishes there (its
-  maximum is 0.4 to 0.7 pixels below). For σt it holds except for the thin stiff layer at μ = 0, which bends under the contacts: its largest tension
-  is at its lower side.
-* Pressures do not depend on friction unless the displacement that the shear traction causes is included. Even then, with a rigid counter body
-  and ν = 0.3, where it is large, area and largest pressure change by less than 1 % (`asperity.Coulomb`; see the claims)."""
+* Peng states that the largest σt and σxz are always at the surface. For σxz this is impossible without
+  friction, since it vanishes there (its maximum is 0.4 to 0.7 pixels below). For σt it holds except for the
+  thin stiff layer at μ = 0, which bends under the contacts: its largest tension is at its lower side.
+* Pressures do not depend on friction unless the displacement that the shear traction causes is included. Even
+  then, with a rigid counter body and ν = 0.3, where it is large, area and largest pressure change by less
+  than 1 % (`asperity.Coulomb`; see the claims)."""
 
-PIXELS_LEAD = """The contacts are about one pixel wide, so the values depend on the assumed interpolation between the points: above, the
-trigonometric interpolation of the pressure, as in his influence coefficients. With constant tractions on the pixels (free boundary, fewer
-surfaces) √J2 is about a tenth higher without friction, and the tension at the edges about half as high with it. The trends are the same:"""
+PIXELS_LEAD = """The contacts are about one pixel wide, so the values depend on the assumed interpolation
+between the points: above, the trigonometric interpolation of the pressure, as in his influence coefficients.
+With constant tractions on the pixels (free boundary, fewer surfaces) √J2 is about a tenth higher without
+friction, and the tension at the edges about half as high with it. The trends are the same:"""
 
 
 def _claims(found: Contacts) -> tuple[Claim, ...]:

@@ -1,4 +1,5 @@
-"""Table 3.1 of Peng (2001): contact area and largest pressure of rough surfaces on a coated half-space, 34 cases.
+"""Table 3.1 of Peng (2001): contact area and largest pressure of rough surfaces on a coated
+half-space, 34 cases.
 
 His numbers come from one generated surface, ours from many of the same statistics.
 """
@@ -59,23 +60,27 @@ MANY = 30
 """Contact pixels from which on an area is more than a few pixels."""
 
 ABOUT = (
-    "Peng (2001, table 3.1; also Peng & Bhushan 2001a, 2002): a rigid rough surface on one layer, β* = 0.5 µm (10 % length of an "
-    "exponential autocorrelation), h = 1 µm, E₂ = 100 GPa, pressure limited by the hardness 0.05 E₁. Theirs: one surface, "
-    "quasi-Newton minimisation. Ours: mean ± standard deviation over {count} Gaussian surfaces (seeds 0 to {last}), "
-    "`asperity.solve` with `Hardness(0.05 E₁)`. z is (theirs − mean)/standard deviation."
+    "Peng (2001, table 3.1; also Peng & Bhushan 2001a, 2002): a rigid rough surface on one layer, β* = 0.5 µm "
+    "(10 % length of an exponential autocorrelation), h = 1 µm, E₂ = 100 GPa, pressure limited by the "
+    "hardness 0.05 E₁. Theirs: one surface, quasi-Newton minimisation. Ours: mean ± standard deviation over "
+    "{count} Gaussian surfaces (seeds 0 to {last}), `asperity.solve` with `Hardness(0.05 E₁)`. z is (theirs − "
+    "mean)/standard deviation."
 )
 
 ASSUMPTIONS = f"""## Assumptions
 
 * Poisson's ratio 0.3 in layer and base, frictionless, rigid counter body.
-* {PIXELS} × {PIXELS} points on 20 × 20 µm²: all 34 printed areas are whole multiples of 1/{PIXELS}², though the text says 256.
-* Periodic boundary, pressure and displacement trigonometric (`Periodic()`): his influence coefficients come from an inverse discrete
-  Fourier transform of the response to a load on one patch, which is the same discretisation but for the wavevectors next to zero.
-* Surfaces periodic, autocovariance exact at every lag, σ that of the ensemble; his digital filter (Hu & Tønder 1992) has the same
-  expectation.
+* {PIXELS} × {PIXELS} points on 20 × 20 µm²: all 34 printed areas are whole multiples of 1/{PIXELS}², though
+  the text says 256.
+* Periodic boundary, pressure and displacement trigonometric (`Periodic()`): his influence coefficients come
+  from an inverse discrete Fourier transform of the response to a load on one patch, which is the same
+  discretisation but for the wavevectors next to zero.
+* Surfaces periodic, autocovariance exact at every lag, σ that of the ensemble; his digital filter (Hu &
+  Tønder 1992) has the same expectation.
 
-The last table below shows what other choices change: less than the scatter, except for the size of the pixel. An exponential
-autocorrelation has no finest wavelength, its slopes grow without limit as pixels shrink, and with them all values of the table; they hold for pixels of 78 nm."""
+The last table below shows what other choices change: less than the scatter, except for the size of the pixel.
+An exponential autocorrelation has no finest wavelength, its slopes grow without limit as pixels shrink, and
+with them all values of the table; they hold for pixels of 78 nm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +119,8 @@ class Row:
 
 
 def score(published: float, values: np.ndarray) -> float:
-    """Distance of a published number from the mean in standard deviations; zero where rounding explains it."""
+    """Distance of a published number from the mean in standard deviations; zero where rounding
+    explains it."""
     distance = published - float(values.mean())
     spread = float(values.std(ddof=1))
     if abs(distance) <= ROUNDING or spread == 0.0:
@@ -195,15 +201,17 @@ def _reading(rows: list[Row]) -> str:
     alike = float(np.corrcoef(marks)[np.triu_indices(len(elastic), 1)].mean())
     return f"""## Reading the table
 
-* **One surface.** Rows of equal E₁/E₂ and X = pₙβ*/E₂σ have the same contact pixels (79 in three rows of E₁/E₂ = 1, 41 in three of
-  E₁/E₂ = 2), so all of his rows are from one surface and their deviations are correlated. On ours the largest pressures of the {len(elastic)} elastic rows of
-  {MANY} pixels or more have a mean correlation of {alike:.2f}: they are hardly more than one independent number. His surface is one
-  whose highest summits are somewhat blunter than most (mean z = {theirs:.1f}; {blunter} of our {count} are blunter still), which is
-  why his pressures lie on one side in all of these rows. That all values are within two standard deviations therefore amounts to a
-  few independent checks, not {2 * len(rows)}.
-* **His accuracy.** The three rows of X = 2·10⁻³ and E₁/E₂ = 0.5 must have the same pixels, too, but have 147, 151 and 151: 3 %.
-* **Few pixels.** One pixel is 0.0015 %. The rows of one pixel carry {PIXELS}² pₙ there, whatever the surface: 0.02601 and 0.06503
-  against the printed 0.0260 and 0.0650."""
+* **One surface.** Rows of equal E₁/E₂ and X = pₙβ*/E₂σ have the same contact pixels (79 in three rows of
+  E₁/E₂ = 1, 41 in three of E₁/E₂ = 2), so all of his rows are from one surface and their deviations are
+  correlated. On ours the largest pressures of the {len(elastic)} elastic rows of {MANY} pixels or more have a
+  mean correlation of {alike:.2f}: they are hardly more than one independent number. His surface is one whose
+  highest summits are somewhat blunter than most (mean z = {theirs:.1f}; {blunter} of our {count} are blunter
+  still), which is why his pressures lie on one side in all of these rows. That all values are within two
+  standard deviations therefore amounts to a few independent checks, not {2 * len(rows)}.
+* **His accuracy.** The three rows of X = 2·10⁻³ and E₁/E₂ = 0.5 must have the same pixels, too, but have 147,
+  151 and 151: 3 %.
+* **Few pixels.** One pixel is 0.0015 %. The rows of one pixel carry {PIXELS}² pₙ there, whatever the surface:
+  0.02601 and 0.06503 against the printed 0.0260 and 0.0650."""
 
 
 def _capped(rows: list[Row], shapes: list[asp.Surface]) -> Table:
@@ -214,8 +222,9 @@ def _capped(rows: list[Row], shapes: list[asp.Surface]) -> Table:
         numbers = (f"{row.published_pixels}", f"{row.found.pixels.mean():.1f}", f"{elastic.mean():.1f}")
         lines.append((f"{row.case.ratio:g}", f"{row.case.x:.0e}", *numbers))
     about = (
-        "Contact pixels of the rows at the hardness. Limiting the pressure enlarges the contact. In his rows of X = 2·10⁻⁴ it does "
-        "not: they have 16, 13 and 7 pixels, as the elastic rows of the same X, and the 16 is farthest of all from our mean."
+        "Contact pixels of the rows at the hardness. Limiting the pressure enlarges the contact. In his rows "
+        "of X = 2·10⁻⁴ it does not: they have 16, 13 and 7 pixels, as the elastic rows of the same X, and the "
+        "16 is farthest of all from our mean."
     )
     head = ("E₁/E₂", "X", "printed, in pixels", "our pixels", "without hardness")
     return Table(about, head, tuple(lines))

@@ -1,4 +1,5 @@
-"""A ball on plastic and on coated plastic solids: the loading to 300 times first yield of Bhushan (1998, fig. 10), and tables of independent finite elements."""
+"""A ball on plastic and on coated plastic solids: the loading to 300 times first yield of Bhushan
+(1998, fig. 10), and tables of independent finite elements."""
 
 from __future__ import annotations
 
@@ -15,10 +16,12 @@ ONSET = 1.6128
 """Largest Hertz pressure over the yield stress at first yield, ν = 0.3."""
 
 SPHERE = {1.5: (1.828, 1.234), 2.0: (2.776, 1.438), 3.0: (4.938, 1.80), 4.0: (7.37, 2.12), 6.0: (12.82, 2.68)}
-"""δ/δ_y -> P/P_y and a/a_y of an elastic-perfectly plastic half-space: other axisymmetric finite elements, error 0.5 % and 1 %."""
+"""δ/δ_y -> P/P_y and a/a_y of an elastic-perfectly plastic half-space: other axisymmetric finite
+elements, error 0.5 % and 1 %."""
 
 LAYERED = {(2.0, 3.0): 5.72, (2.0, 5.0): 11.06, (4.0, 3.0): 6.472, (4.0, 5.0): 12.05, (0.5, 3.0): 3.79}
-"""E1/E2 = Y1/Y2 and δ/δ_y -> P/P_y with a layer of the thickness a_y: the same elements, error 1 %."""
+"""E1/E2 = Y1/Y2 and δ/δ_y -> P/P_y with a layer of the thickness a_y: the same elements, error 1
+%."""
 
 BOTH = {2.0: 5.0, 4.0: 5.0, 0.5: 4.0}
 """E1/E2 = Y1/Y2 and δ/δ_y of the cases that both methods solve."""
@@ -31,7 +34,8 @@ LOADS = (15.5, 100.6, 200.0, 300.0)
 
 
 def yield_scales(Y: float) -> tuple[float, float, float]:
-    """Approach (m), contact radius (m) and force (N) at first yield of a half-space with the yield stress ``Y`` in Pa."""
+    """Approach (m), contact radius (m) and force (N) at first yield of a half-space with the yield
+    stress ``Y`` in Pa."""
     p, modulus = ONSET * Y, E / (1.0 - NU**2)
     return (
         R * (math.pi * p / (2.0 * modulus)) ** 2,
@@ -66,7 +70,8 @@ def sphere(across: int) -> tuple[Table, tuple[Claim, ...]]:
 
 
 def layered(across: int) -> tuple[Table, tuple[Claim, ...]]:
-    """One layer of the thickness a_y beside the table; stiffer and harder layers bear more and protect the base."""
+    """One layer of the thickness a_y beside the table; stiffer and harder layers bear more and
+    protect the base."""
     Y = 1e-3 * E
     depth, radius, force = yield_scales(Y)
     rows, errors, flowed = [], [], {}
@@ -108,7 +113,8 @@ def layered(across: int) -> tuple[Table, tuple[Claim, ...]]:
 
 
 def both_methods(across: int) -> tuple[Table, tuple[Claim, ...]]:
-    """The same coated solids by finite elements and by the volume method of a rough contact, on a free grid."""
+    """The same coated solids by finite elements and by the volume method of a rough contact, on a
+    free grid."""
     Y = 1e-3 * E
     depth, radius, force = yield_scales(Y)
     pixel = radius / max(0.25 * across, 2.0)
@@ -140,18 +146,30 @@ def both_methods(across: int) -> tuple[Table, tuple[Claim, ...]]:
                     f"{element.load / force:.3f}",
                     f"{volume.force / force:.3f}",
                     name,
-                    *(f"{each.top / radius:.2f} to {each.bottom / radius:.2f}" if each.volume else "–" for each in (one, two)),
+                    *(
+                        f"{each.top / radius:.2f} to {each.bottom / radius:.2f}" if each.volume else "–"
+                        for each in (one, two)
+                    ),
                     *(f"{each.volume / radius**3:.3g}" for each in (one, two)),
                 )
-            )  # fmt: skip
+            )
     head = (
-        "E₁/E₂ = Y₁/Y₂", "δ/δ_y", "P/P_y: elements", "volume method", "part",
-        "depths that flowed / a_y: elements", "volume method", "volume / a_y³: elements", "volume method",
-    )  # fmt: skip
+        "E₁/E₂ = Y₁/Y₂",
+        "δ/δ_y",
+        "P/P_y: elements",
+        "volume method",
+        "part",
+        "depths that flowed / a_y: elements",
+        "volume method",
+        "volume / a_y³: elements",
+        "volume method",
+    )
     about = (
-        "## Finite elements and volume method\n\nThe coated solids of the last table; the volume method (`asp.PlasticFlow`) takes plastic strain as eigenstrain "
-        f"in {across} depth cells of a grid with {radius / pixel:.3g} pixels to a_y, eight contact radii wide: the load is too large by what the images of a padded grid add, "
-        "with the inverse cube of the width (1.8 % at three radii, 0.2 % at eight)."
+        "## Finite elements and volume method\n\nThe coated solids of the last table; the volume method "
+        f"(`asp.PlasticFlow`) takes plastic strain as eigenstrain in {across} depth cells of a grid with "
+        f"{radius / pixel:.3g} pixels to a_y, eight contact radii wide: the load is too large by what the "
+        "images of a padded grid add, with the inverse cube of the width (1.8 % at three radii, 0.2 % at "
+        "eight)."
     )
     coarse = 1.0 + 20.0 / across
     claims = (
@@ -194,8 +212,8 @@ def to_full_plasticity(across: int) -> tuple[Table, tuple[Claim, ...], tuple[Pub
             last[name, ratio] = (a, mean, zone.bottom / step.contact_radius, zone.top / step.contact_radius)
     head = ("solid", "W/W_y", "a/a_y", "p_m/Y", "depth of the plastic zone / a", "top of the plastic zone / a")
     about = (
-        "## To full plasticity\n\nLoads of fig. 10 (E/Y = 685). Strains are small and the ball is a paraboloid here; theirs are finite. "
-        "The zone is all that has flowed."
+        "## To full plasticity\n\nLoads of fig. 10 (E/Y = 685). Strains are small and the ball is a "
+        "paraboloid here; theirs are finite. The zone is all that has flowed."
     )
     perfect, hard = last["perfectly plastic", LOADS[3]], last["n = 0.3", LOADS[3]]
     claims = (
@@ -216,7 +234,8 @@ def to_full_plasticity(across: int) -> tuple[Table, tuple[Claim, ...], tuple[Pub
             "p_m/Y at full plasticity, W/W_y about 300",
             "2.5",
             perfect[1],
-            reason=f"of the perfectly plastic solid in small strains; {hard[1]:.2f} of the initial yield stress of the one that hardens",
+            reason=f"of the perfectly plastic solid in small strains; {hard[1]:.2f} of the initial yield "
+            "stress of the one that hardens",
         ),
         Published(source, "contact radius over that at first yield, W/W_y = 300, about", "10", hard[0], reason=HARDENS),
         Published(source, "depth of the plastic zone over the contact radius, about", "2", hard[2], reason=HARDENS),
@@ -233,8 +252,9 @@ def compare(across: int = 30) -> Page:
     return Page(
         title="Rigid ball on plastic and on coated plastic solids",
         about=(
-            "Axisymmetric finite elements of `asperity.fem`, and the volume method beside them, frictionless, ν = 0.3. Independent: other axisymmetric finite elements with other meshes and contact. "
-            f"{across} elements across the largest contact radius."
+            "Axisymmetric finite elements of `asperity.fem`, and the volume method beside them, frictionless, "
+            f"ν = 0.3. Independent: other axisymmetric finite elements with other meshes and contact. {across} "
+            "elements across the largest contact radius."
         ),
         parts=(one, two, both, three),
         claims=(*first, *second, *agreement, *third),

@@ -1,4 +1,5 @@
-"""Indentation with friction: the stick radius of a rigid sphere against the coefficient of friction (Spence 1975) by the numerical solution."""
+"""Indentation with friction: the stick radius of a rigid sphere against the coefficient of friction
+(Spence 1975) by the numerical solution."""
 
 from __future__ import annotations
 
@@ -17,13 +18,18 @@ CASES = ((0.0, 0.2), (0.0, 0.35), (0.0, 0.5), (0.3, 0.1), (0.3, 0.15), (0.3, 0.2
 GRIDS = (24, 48, 96)
 
 ABOUT = (
-    "A rigid sphere is pressed on a half-space with Coulomb's friction: an inner circle sticks, an annulus slips inwards, and their ratio depends on friction and Poisson's ratio alone (Spence 1975). Reference: an "
-    "independent solution of our own, collocation of two coupled equations (`FrictionalPunch`; the same for all profiles), for numbers of Spence were not at hand. Ours: a history of loads that grow with the cube of their number, half as many as pixels along the side, "
-    "so that the contact grows evenly, pressure and shear balanced at each. No parameter is chosen."
+    "A rigid sphere is pressed on a half-space with Coulomb's friction: an inner circle sticks, an annulus "
+    "slips inwards, and their ratio depends on friction and Poisson's ratio alone (Spence 1975). Reference: "
+    "an independent solution of our own, collocation of two coupled equations (`FrictionalPunch`; the same "
+    "for all profiles), for numbers of Spence were not at hand. Ours: a history of loads that grow with the "
+    "cube of their number, half as many as pixels along the side, so that the contact grows evenly, pressure "
+    "and shear balanced at each. No parameter is chosen."
 )
 
-WORDS = """* The stick radius is that of a circle of the area that sticks. Pixels and steps of the history both limit it, and it comes nearer as both are refined together.
-* Pressure and shear change each other here. The plane formula of Goodman (1962) leaves that out and, taken for spheres, asks for up to a half more friction."""
+WORDS = """* The stick radius is that of a circle of the area that sticks. Pixels and steps of the history
+  both limit it, and it comes nearer as both are refined together.
+* Pressure and shear change each other here. The plane formula of Goodman (1962) leaves that out and, taken
+  for spheres, asks for up to a half more friction."""
 
 
 def page(grids: tuple[int, ...] = GRIDS) -> Page:

@@ -1,4 +1,5 @@
-"""The ready studies of examples/campaigns on several surfaces: the pages that compare them with what is published."""
+"""The ready studies of examples/campaigns on several surfaces: the pages that compare them with
+what is published."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ PIXEL = 10e-6 / 128
 
 
 def ready(name: str, *, points: int, seeds: int) -> dict[str, Any]:
-    """Content of the study ``name`` on ``points`` a side at the same pixel, for the surfaces of the seeds 1, 2, …"""
+    """Content of the study ``name`` on ``points`` a side at the same pixel, for the surfaces of the
+    seeds 1, 2, …"""
     table = tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
     surface = table["problem"]["surface"]
     surface["points"], surface["size"] = [points, points], f"{points * PIXEL!r} m"
@@ -30,7 +32,8 @@ def ready(name: str, *, points: int, seeds: int) -> dict[str, Any]:
 
 
 def without(table: Mapping[str, Any], key: str) -> dict[str, Any]:
-    """``table`` without the table ``key`` of its problem; quantities of menisci go with the film."""
+    """``table`` without the table ``key`` of its problem; quantities of menisci go with the
+    film."""
     problem = {name: value for name, value in table["problem"].items() if name != key}
     kept = [
         name for name in table["quantities"] if key != "film" or name not in ("relative_meniscus_force", "feedback")

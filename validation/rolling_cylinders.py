@@ -1,4 +1,5 @@
-"""Rolling cylinders of Carter and twisted spheres of Lubkin by the numerical solution: creepage, stick zone, torque, with the order of convergence."""
+"""Rolling cylinders of Carter and twisted spheres of Lubkin by the numerical solution: creepage,
+stick zone, torque, with the order of convergence."""
 
 from __future__ import annotations
 
@@ -18,17 +19,22 @@ TWISTS = (0.9, 0.7, 0.5)
 GRIDS = (32, 128, 512)
 
 ABOUT = (
-    "Equal cylinders roll under a tractive force (Carter 1926), and a sphere is twisted under its load (Lubkin 1951). Theirs: the printed formulas. Ours: `asp.roll` by the direct method on lines, "
-    "and a twist by `asp.solve`, on pixels of constant tractions. No parameter is chosen. Layered rollers, for which there are no published numbers, stand beside."
+    "Equal cylinders roll under a tractive force (Carter 1926), and a sphere is twisted under its load "
+    "(Lubkin 1951). Theirs: the printed formulas. Ours: `asp.roll` by the direct method on lines, and a twist "
+    "by `asp.solve`, on pixels of constant tractions. No parameter is chosen. Layered rollers, for which "
+    "there are no published numbers, stand beside."
 )
 
-WORDS = """* The stick zone reaches the leading edge, and the creepage at a given force, found between two creepages of the grid, is Carter's. The error of the force falls with the first power of the pixel on grids whose
-  pixels lie alike at the rims.
-* Rollers with a layer half a half-width thick and a third as stiff transmit less at the same creepage, for the layer yields to shear; those with a stiffer layer transmit more."""
+WORDS = """* The stick zone reaches the leading edge, and the creepage at a given force, found between two
+  creepages of the grid, is Carter's. The error of the force falls with the first power of the pixel on grids
+  whose pixels lie alike at the rims.
+* Rollers with a layer half a half-width thick and a third as stiff transmit less at the same creepage, for
+  the layer yields to shear; those with a stiffer layer transmit more."""
 
 
 def page(grids: tuple[int, ...] = GRIDS, points: int = 64) -> Page:
-    """The page, with rollers on lines of ``grids`` pixels and the sphere on ``points`` pixels along the side."""
+    """The page, with rollers on lines of ``grids`` pixels and the sphere on ``points`` pixels along
+    the side."""
     errors = [force_error(n) for n in grids]
     order = -float(np.polyfit(np.log(grids), np.log(errors), 1)[0])
     finest = grids[-1]
@@ -72,7 +78,8 @@ def page(grids: tuple[int, ...] = GRIDS, points: int = 64) -> Page:
                 tuple((f"{n}", f"{error:.5f}") for n, error in zip(grids, errors, strict=True)),
             ),
             Table(
-                "Force over the friction limit of plain rollers, and of such with a layer of half the Hertz half-width of the plain ones, under the same load:",
+                "Force over the friction limit of plain rollers, and of such with a layer of half the Hertz "
+                "half-width of the plain ones, under the same load:",
                 ("creepage over μa/R", "plain", "layer of a third of E", "layer of three times E"),
                 rows,
             ),
@@ -115,7 +122,8 @@ def force_error(points: int) -> float:
 
 
 def creepage_at(s: float, points: int) -> float:
-    """Creepage over μa/R at which the force is the share ``s`` of the limit, between two of the curve."""
+    """Creepage over μa/R at which the force is the share ``s`` of the limit, between two of the
+    curve."""
     exact = 1.0 - np.sqrt(1.0 - s)
     at = exact * np.array([0.97, 1.0, 1.03])
     return float(np.interp(s, curve(STEEL, at, points), at))
@@ -128,7 +136,8 @@ def stick_at(s: float, points: int) -> float:
 
 
 def lubkin(c: float) -> tuple[float, float]:
-    """Twist in rad, and torque over the largest, that leave the share ``c`` of the radius sticking."""
+    """Twist in rad, and torque over the largest, that leave the share ``c`` of the radius
+    sticking."""
     ball = LubkinSphere(asp.solids.contact_modulus(STEEL, STEEL), RADIUS, 0.5 * STEEL.shear_modulus, FRICTION)
     load = float(4.0 / 3.0 * asp.solids.contact_modulus(STEEL, STEEL) * A**3 / RADIUS)
     answer = ball.at_stick_radius(load, c)

@@ -1,6 +1,8 @@
-"""Sliding contact of a rough cylinder on a coated half-space: figs 3.1 and 3.2 of Peng (2001), after Mao et al. (1996).
+"""Sliding contact of a rough cylinder on a coated half-space: figs 3.1 and 3.2 of Peng (2001),
+after Mao et al. (1996).
 
-Neither profile nor loads are published, so this compares the character: a Gaussian profile on a rigid cylinder, plane strain.
+Neither profile nor loads are published, so this compares the character: a Gaussian profile on a
+rigid cylinder, plane strain.
 """
 
 from __future__ import annotations
@@ -41,20 +43,22 @@ LAYERS = ((1.0, 0.0), (SOFT, 0.5), (SOFT, 2.0), (STIFF, 0.5), (STIFF, 2.0))
 FRICTIONS = (0.0, 0.25, 0.5)
 
 ABOUT = (
-    "Peng (2001, figs 3.1 and 3.2), after Mao et al. (1996): a cylinder with a rough profile slides on a coated half-space. Ours: a "
-    "rigid cylinder, Gaussian profile with σ = 50 nm and a 10 % length of 0.1 a₀ (Gaussian autocorrelation), R = 100 a₀, ν = 0.3, "
-    "`asperity.solve` with `Coulomb` friction on a periodic line of 128 a₀; mean ± standard deviation over {count} profiles. a₀ and p₀ are "
-    "Hertz's for the smooth cylinder on the base. The captions give E₁/E₂ = 3.2 for the layer that the text calls compliant and 0.17 for "
-    "the stiff one, so we take them for E₂/E₁."
+    "Peng (2001, figs 3.1 and 3.2), after Mao et al. (1996): a cylinder with a rough profile slides on a "
+    "coated half-space. Ours: a rigid cylinder, Gaussian profile with σ = 50 nm and a 10 % length of 0.1 a₀ "
+    "(Gaussian autocorrelation), R = 100 a₀, ν = 0.3, `asperity.solve` with `Coulomb` friction on a periodic "
+    "line of 128 a₀; mean ± standard deviation over {count} profiles. a₀ and p₀ are Hertz's for the smooth "
+    "cylinder on the base. The captions give E₁/E₂ = 3.2 for the layer that the text calls compliant and 0.17 "
+    "for the stiff one, so we take them for E₂/E₁."
 )
 
 
 @dataclass(frozen=True)
 class Seen:
-    """One contact: width and zone of contact and offset of the pressure over a0, largest pressure over p0.
+    """One contact: width and zone of contact and offset of the pressure over a0, largest pressure
+    over p0.
 
-    ``width`` is the sum of all contacts, ``zone`` the distance from the first to the last over 2a0; ``offset`` is the centroid of
-    the pressure; ``left`` the share of the load at x < 0.
+    ``width`` is the sum of all contacts, ``zone`` the distance from the first to the last over 2a0;
+    ``offset`` is the centroid of the pressure; ``left`` the share of the load at x < 0.
     """
 
     width: float
@@ -135,14 +139,15 @@ def _closed_form(smooth: Contacts, pixel: float) -> tuple[Table, tuple[Claim, ..
         rows.append((f"{friction:g}", f"{found.width:.4f}", f"{width:.4f}", f"{found.offset:.4f}", f"{offset:.4f}"))
         deviations.append((abs(found.width - width), abs(found.offset - offset)))
     about = (
-        "The smooth cylinder on the base against the closed form, p ∝ (a−t)^(½+ε)(a+t)^(½−ε) with tan πε = μ(1−2ν)/2(1−ν), the contact "
-        "being off centre by −2εa (Johnson 1985, secs 2.8 and 8.2):"
+        "The smooth cylinder on the base against the closed form, p ∝ (a−t)^(½+ε)(a+t)^(½−ε) with tan πε = "
+        "μ(1−2ν)/2(1−ν), the contact being off centre by −2εa (Johnson 1985, secs 2.8 and 8.2):"
     )
     head = ("μ", "a/a₀: ours", "closed form", "centroid of p over a₀: ours", "closed form")
     worst = np.max(deviations, axis=0)
     claims = (
         Claim("smooth, base alone: deviation of a/a₀ from the closed form", float(worst[0]), 0, pixel),
-        # the mean displacement under the shear is missing in a periodic cell: a tilt that moves the cylinder by about 1/L
+        # the mean displacement under the shear is missing in a periodic cell: a tilt that moves the
+        # cylinder by about 1/L
         Claim("smooth, base alone: deviation of the centroid", float(worst[1]), 0, 0.5 / PERIOD),
     )
     return Table(about, head, tuple(rows)), claims
@@ -182,18 +187,24 @@ def _table(rough: Contacts, smooth: Contacts) -> Table:
         "pₘₐₓ/p₀, smooth",
     )
     about = (
-        "Width is the sum of all contacts, zone reaches from the first to the last; the shift of the centroid and of the load "
-        "is that against μ = 0 of the same profile. The traction on the half-space points to +x, the cylinder moves there:"
+        "Width is the sum of all contacts, zone reaches from the first to the last; the shift of the centroid "
+        "and of the load is that against μ = 0 of the same profile. The traction on the half-space points to "
+        "+x, the cylinder moves there:"
     )
     return Table(about, head, tuple(rows))
 
 
-WORDS = """* On the base alone roughness raises the largest pressure to several times the Hertzian one, on a smaller width.
-* The compliant layer enlarges the contact and lowers the pressure, the stiff one does the reverse, the more the thicker it is.
-* Friction shifts zone and load in the direction of the friction force on the cylinder, in proportion to μ: pressures decrease on one side and
-  increase on the other. (Behind a tangential force the surface rises, before it the surface sinks, by reciprocity with a normal force that draws the
-  surface towards itself. An elastic cylinder on a rigid half-space moves the other way.) On thick layers the shift is larger on the compliant one.
-* Friction neither enlarges the contact nor lowers the pressure noticeably, in agreement with Peng's objection to Mao et al."""
+WORDS = """* On the base alone roughness raises the largest pressure to several times the Hertzian one, on a
+  smaller width.
+* The compliant layer enlarges the contact and lowers the pressure, the stiff one does the reverse, the more
+  the thicker it is.
+* Friction shifts zone and load in the direction of the friction force on the cylinder, in proportion to μ:
+  pressures decrease on one side and increase on the other. (Behind a tangential force the surface rises,
+  before it the surface sinks, by reciprocity with a normal force that draws the surface towards itself. An
+  elastic cylinder on a rigid half-space moves the other way.) On thick layers the shift is larger on the
+  compliant one.
+* Friction neither enlarges the contact nor lowers the pressure noticeably, in agreement with Peng's objection
+  to Mao et al."""
 
 
 def _claims(rough: Contacts) -> tuple[Claim, ...]:

@@ -1,4 +1,5 @@
-"""Heat of fretting cycles against their amplitude: the cube of a sphere against rough, self-affine surfaces, by the numerical solution and by the reduced theorem."""
+"""Heat of fretting cycles against their amplitude: the cube of a sphere against rough, self-affine
+surfaces, by the numerical solution and by the reduced theorem."""
 
 from __future__ import annotations
 
@@ -24,15 +25,22 @@ FITTED = 4
 """Amplitudes from the smallest on through which a line is laid."""
 
 ABOUT = (
-    "Equal bodies of ν = 0 are pressed and moved to and fro between ±Q₀ at constant load, a sphere and self-affine surfaces on a periodic square, with the Hurst exponents {hurst}, {seeds} surfaces each on {points} × {points} points. "
-    "Theirs: a sphere dissipates (4/27)(Q₀/μP)³ μPδ for small Q₀ (Mindlin & Deresiewicz 1953). That the exponent of rough, fractal surfaces should be lower, down to one, is sometimes supposed; this page says what is found. Independent solution: the "
-    "reduced theorem (Ciavarella 1998; Jäger 1998), by which the heat follows from the approach under load alone. No parameter is chosen."
+    "Equal bodies of ν = 0 are pressed and moved to and fro between ±Q₀ at constant load, a sphere and "
+    "self-affine surfaces on a periodic square, with the Hurst exponents {hurst}, {seeds} surfaces each on "
+    "{points} × {points} points. Theirs: a sphere dissipates (4/27)(Q₀/μP)³ μPδ for small Q₀ (Mindlin & "
+    "Deresiewicz 1953). That the exponent of rough, fractal surfaces should be lower, down to one, is "
+    "sometimes supposed; this page says what is found. Independent solution: the reduced theorem (Ciavarella "
+    "1998; Jäger 1998), by which the heat follows from the approach under load alone. No parameter is chosen."
 )
 
-WORDS = """* **What is found**: the heat of small cycles on rough surfaces goes with the cube of the amplitude, too, within the scatter, and not linearly. By the reduced theorem slip needs the second derivative of the approach by
-  the load: where that exists, W = (2/3)(κ/μ)|δ_z''(P)| Q₀³ for any shape. Of surfaces whose pressure grows exponentially with the approach, δ_z = u₀ ln P + const., it is W/μPκμu₀ = (2/3)(Q₀/μP)³.
-* At amplitudes that are not small the exponent is larger than three, not smaller, for sphere and rough surfaces alike: the loop opens as sliding comes near. Exponents below three ask for what is not in Coulomb's law under constant load,
-  such as a bound that does not fall to zero at the rims of contact spots.
+WORDS = """* **What is found**: the heat of small cycles on rough surfaces goes with the cube of the
+  amplitude, too, within the scatter, and not linearly. By the reduced theorem slip needs the second
+  derivative of the approach by the load: where that exists, W = (2/3)(κ/μ)|δ_z''(P)| Q₀³ for any shape. Of
+  surfaces whose pressure grows exponentially with the approach, δ_z = u₀ ln P + const., it is W/μPκμu₀ =
+  (2/3)(Q₀/μP)³.
+* At amplitudes that are not small the exponent is larger than three, not smaller, for sphere and rough
+  surfaces alike: the loop opens as sliding comes near. Exponents below three ask for what is not in Coulomb's
+  law under constant load, such as a bound that does not fall to zero at the rims of contact spots.
 * The cube needs amplitudes at which many pixels slip; below, the heat of a grid is zero as soon as no pixel slips."""
 
 
@@ -69,12 +77,14 @@ def page(points: int = 256, seeds: int = 5, sphere_points: int = 120) -> Page:
         ABOUT.format(hurst=" and ".join(map(str, HURST)), seeds=seeds, points=points),
         (
             Table(
-                "Heat of a cycle over μPδ, δ the shift at the onset of sliding of the sphere and that of all of the rough surface, mean and standard deviation of the surfaces:",
+                "Heat of a cycle over μPδ, δ the shift at the onset of sliding of the sphere and that of all "
+                "of the rough surface, mean and standard deviation of the surfaces:",
                 ("Q₀/μP", "sphere, printed", *columns),
                 tuple(rows),
             ),
             Table(
-                f"Exponent of the heat over the amplitude, a line through {AMPLITUDES[0]:g} to {AMPLITUDES[FITTED - 1]:g} μP in logarithms:",
+                f"Exponent of the heat over the amplitude, a line through {AMPLITUDES[0]:g} to "
+                f"{AMPLITUDES[FITTED - 1]:g} μP in logarithms:",
                 ("", "exponent"),
                 fits,
             ),
@@ -106,7 +116,8 @@ def slope(heats: np.ndarray) -> float:
 
 
 def rough(hurst: float, seed: int, points: int) -> tuple[asp.ContactProblem, asp.MeanPressure]:
-    """Pair with a surface of rms slope 0.1, roll-off at half the period, shortest waves of ``SHORTEST`` pixels, and its load."""
+    """Pair with a surface of rms slope 0.1, roll-off at half the period, shortest waves of
+    ``SHORTEST`` pixels, and its load."""
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(0.1), hurst=hurst, rolloff_wavelength=points / 2.0, shortest_wavelength=SHORTEST
     )
@@ -143,7 +154,8 @@ def loop(problem: asp.ContactProblem, load: asp.MeanPressure | asp.Force, limit:
 
 
 def reduced(hurst: float, seed: int, points: int, s: float = AMPLITUDES[FITTED - 1]) -> float:
-    """Heat over μPδ of the cycle of amplitude ``s``, from approaches under loads between P - Q₀/μ and P alone."""
+    """Heat over μPδ of the cycle of amplitude ``s``, from approaches under loads between P - Q₀/μ
+    and P alone."""
     problem, load = rough(hurst, seed, points)
     node, weight = np.polynomial.legendre.leggauss(8)
     share = 0.5 * s * (node + 1.0)

@@ -72,9 +72,11 @@ DEPTHS = (
 """Depths over a0, the interface among them."""
 
 ABOUT = (
-    "Peng (2001, figs 3.3 and 3.4), after Nogi & Kato (1997): rigid rough sphere, R = 13.7 mm (the caption says µm), W = 14.7 N, on a layer of "
+    "Peng (2001, figs 3.3 and 3.4), after Nogi & Kato (1997): rigid rough sphere, R = 13.7 mm (the caption "
+    "says µm), W = 14.7 N, on a layer of "
     "h = 6 µm with G₁ = 100 GPa, k₁ = 4.11 GPa on a base with G₂ = 79.2 GPa, k₂ = 0.929 GPa. Their largest pressure is "
-    f"{PUBLISHED} times Hertz's. Ours: ν = 0.3, roughness with a Gaussian autocorrelation and a 10 % length of 0.1 a₀, of several σ for "
+    f"{PUBLISHED} times Hertz's. Ours: ν = 0.3, roughness with a Gaussian autocorrelation and a 10 % length of "
+    "0.1 a₀, of several σ for "
     "want of theirs; free boundary, {points} × {points} points over 3 a₀; means over {count} surfaces. "
     f"On the base a₀ = {CONTACT_RADIUS * 1e6:.1f} µm, p₀ = {HERTZ * 1e-9:.3f} GPa."
 )
@@ -84,9 +86,10 @@ ABOUT = (
 class Seen:
     """One contact; lengths over a0, stresses over p0.
 
-    ``area`` over πa0²; ``root`` the largest √J2, at ``depth``; ``by_depth`` the largest √J2 of each of ``DEPTHS`` (the smaller of the two
-    at the interface); ``yielded`` the volume beyond the shear strength over a0³; ``outside`` the displacement on the ring
-    of 1.25 to 1.45 a0 over Hertz's approach.
+    ``area`` over πa0²; ``root`` the largest √J2, at ``depth``; ``by_depth`` the largest √J2 of each
+    of ``DEPTHS`` (the smaller of the two at the interface); ``yielded`` the volume beyond the shear
+    strength over a0³; ``outside`` the displacement on the ring of 1.25 to 1.45 a0 over Hertz's
+    approach.
     """
 
     peak: float
@@ -167,7 +170,10 @@ def _table(found: dict[tuple[str, float], list[Seen]]) -> Table:
         texts = (f"{number:.{places}f}" for number, places in zip(numbers, digits, strict=True))
         rows.append((body, f"{sigma * 1e9:g}", *texts))
     head = ("body", "σ (nm)", "pₘₐₓ/p₀", "area/πa₀²", "max √J2/p₀", "at z/a₀", "yielded/a₀³", "u_z outside/δ₀")
-    about = "Yielded is the volume where √J2 exceeds k; the last column is the mean displacement on the ring 1.25 a₀ < r < 1.45 a₀:"
+    about = (
+        "Yielded is the volume where √J2 exceeds k; the last column is the mean displacement on the ring "
+        "1.25 a₀ < r < 1.45 a₀:"
+    )
     return Table(about, head, tuple(rows))
 
 
@@ -182,12 +188,16 @@ def _depths(found: dict[tuple[str, float], list[Seen]], roughness: Sequence[floa
     )
 
 
-WORDS = f"""* The largest pressure is several times the Hertzian one and grows with the roughness; the published one is about that of σ =
-  {ALIKE * 1e9:g} nm. That σ was chosen freely to be so, as theirs is not stated: this agreement proves nothing.
-* Outside the contact the displacement hardly differs from that under the smooth sphere: the deformation is Hertzian on the large scale. The rougher
-  the sphere, the wider the load is distributed, so both the displacement outside and the stresses far below deviate with σ.
-* The largest √J2 lies just below the surface, under the asperities; at depths of half a contact radius and more it is nearly that under the smooth sphere.
-* With G₁/G₂ = 1.26 the layer changes the stresses little, but since its yield stress is 4.4 times as large, much less of the body yields."""
+WORDS = f"""* The largest pressure is several times the Hertzian one and grows with the roughness; the
+  published one is about that of σ = {ALIKE * 1e9:g} nm. That σ was chosen freely to be so, as theirs is not
+  stated: this agreement proves nothing.
+* Outside the contact the displacement hardly differs from that under the smooth sphere: the deformation is
+  Hertzian on the large scale. The rougher the sphere, the wider the load is distributed, so both the
+  displacement outside and the stresses far below deviate with σ.
+* The largest √J2 lies just below the surface, under the asperities; at depths of half a contact radius and
+  more it is nearly that under the smooth sphere.
+* With G₁/G₂ = 1.26 the layer changes the stresses little, but since its yield stress is 4.4 times as large,
+  much less of the body yields."""
 
 
 def _claims(found: dict[tuple[str, float], list[Seen]], roughness: Sequence[float]) -> tuple[Claim, ...]:

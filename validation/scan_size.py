@@ -1,7 +1,9 @@
-"""How rms height and correlation length grow with the size of the scan: figure 32 of Bhushan (1998) (Poon & Bhushan 1995).
+"""How rms height and correlation length grow with the size of the scan: figure 32 of Bhushan (1998)
+(Poon & Bhushan 1995).
 
-Disk substrates were scanned by AFM on squares of 0.1 to 64 µm with 256 x 256 points each. Here the same is done to a random surface of known
-spectrum: plateau beyond 16 µm, Hurst exponent 0.8 below, shortest wave 50 nm.
+Disk substrates were scanned by AFM on squares of 0.1 to 64 µm with 256 x 256 points each. Here the
+same is done to a random surface of known spectrum: plateau beyond 16 µm, Hurst exponent 0.8 below,
+shortest wave 50 nm.
 """
 
 from __future__ import annotations
@@ -27,31 +29,37 @@ SIDES = (4e-6, 8e-6, 16e-6, 32e-6, 64e-6, 128e-6)
 VARIANCE, SLOPE, _ = MODEL.moments()
 
 ABOUT = (
-    "Poon & Bhushan (1995), in Bhushan (1998, fig. 32), scanned disk substrates by AFM on squares of different size with 256 × 256 points "
-    "each. The rms height grows with "
-    "the size of the scan and is constant beyond 16 µm, from which they infer a longest wavelength of 16 µm; the correlation length keeps "
-    "growing, which they attribute to the sampling interval that grows with the scan. Here windows of a random surface of known spectrum "
-    "are scanned in the same way: "
-    "roll-off at 16 µm, Hurst exponent 0.8, shortest wave 50 nm; heights in units of the rms height of the infinite surface. Expected "
-    "values are integrals over the spectrum."
+    "Poon & Bhushan (1995), in Bhushan (1998, fig. 32), scanned disk substrates by AFM on squares of "
+    "different size with 256 × 256 points each. The rms height grows with the size of the scan and is "
+    "constant beyond 16 µm, from which they infer a longest wavelength of 16 µm; the correlation length keeps "
+    "growing, which they attribute to the sampling interval that grows with the scan. Here windows of a "
+    "random surface of known spectrum are scanned in the same way: roll-off at 16 µm, Hurst exponent 0.8, "
+    "shortest wave 50 nm; heights in units of the rms height of the infinite surface. Expected values are "
+    "integrals over the spectrum."
 )
 
 READING: tuple[str, ...] = (
-    "The rms height saturates at one to two roll-off wavelengths: what was interpreted as the longest wavelength of the surface is its "
-    "roll-off. Well below the roll-off the correlation "
-    "length is a fifth of the scan **for every sampling interval of these scans**: a levelled window of a self-affine surface has no other length. At 16 µm it is still "
-    "a fifth to a third below its limit, which needs three roll-off wavelengths; that is the growth which was observed. The sampling "
-    "interval is not the cause here: it is far below the correlation length throughout. Slopes do depend on it: with the number of points kept, "
+    "The rms height saturates at one to two roll-off wavelengths: what was interpreted as the longest "
+    "wavelength of the surface is its roll-off. Well below the roll-off the correlation length is a fifth of "
+    "the scan **for every sampling interval of these scans**: a levelled window of a self-affine surface has "
+    "no other length. At 16 µm it is still a fifth to a third below its limit, which needs three roll-off "
+    "wavelengths; that is the growth which was observed. The sampling interval is not the cause here: it is "
+    "far below the correlation length throughout. Slopes do depend on it: with the number of points kept, "
     "they fall as the scan grows.",
-    "**How far this goes.** It holds for the spectrum assumed, whose height is in its long waves. In scans of one size (second table) the rms height does not depend on the sampling interval for "
-    "any surface, since points of a surface have its variance (but for the plane, which takes more from few points). The correlation length does not, either, for a Hurst exponent of 0.8, up to intervals of a quarter of it. Where short waves carry "
-    "much of the height, as with an exponent of 0.1, it is short and grows with the interval once that is no longer far below it: on such surfaces the sampling interval is a cause, as Poon and Bhushan say.",
+    "**How far this goes.** It holds for the spectrum assumed, whose height is in its long waves. In scans of "
+    "one size (second table) the rms height does not depend on the sampling interval for any surface, since "
+    "points of a surface have its variance (but for the plane, which takes more from few points). The "
+    "correlation length does not, either, for a Hurst exponent of 0.8, up to intervals of a quarter of it. "
+    "Where short waves carry much of the height, as with an exponent of 0.1, it is short and grows with the "
+    "interval once that is no longer far below it: on such surfaces the sampling interval is a cause, as Poon "
+    "and Bhushan say.",
 )
 
 
 @dataclass(frozen=True)
 class Sampled:
-    """The spectrum on the modes of one grid, shorter waves than it holds folded back, of unit variance over all waves."""
+    """The spectrum on the modes of one grid, shorter waves than it holds folded back, of unit
+    variance over all waves."""
 
     psd: np.ndarray
 
@@ -77,8 +85,8 @@ def sampled(grid: asp.Grid, model: roughness.SpectralModel = MODEL) -> Sampled:
 def scans(side: float, count: int) -> list[dict[str, float]]:
     """Quantities of ``count`` scans of size ``side`` (m) after removal of a plane.
 
-    A periodic map is larger than the scan by two roll-off wavelengths at least; where it is five times as large, its four
-    quarters give a scan each.
+    A periodic map is larger than the scan by two roll-off wavelengths at least; where it is five
+    times as large, its four quarters give a scan each.
     """
     pixel = side / POINTS
     nodes = POINTS * math.ceil((side + 2.0 * MODEL.rolloff_wavelength) / side)
@@ -97,7 +105,8 @@ def scans(side: float, count: int) -> list[dict[str, float]]:
 
 
 def samplings(model: roughness.SpectralModel, count: int) -> dict[int, list[dict[str, float]]]:
-    """Quantities of ``count`` scans of the size ``FIXED`` at every step of ``STEPS``, the same surfaces at each."""
+    """Quantities of ``count`` scans of the size ``FIXED`` at every step of ``STEPS``, the same
+    surfaces at each."""
     nodes, pixel = 3 * POINTS, FIXED / POINTS
     grid = asp.Grid((nodes, nodes), (pixel, pixel))
     spectrum = sampled(grid, model)
@@ -170,8 +179,8 @@ def page(count: int = 20, sides: tuple[float, ...] = SIDES) -> Page:
         about=ABOUT,
         parts=(
             Table(
-                f"{count} scans of each size, plane removed; β_e is the 1/e length along x, mean and deviation of one scan; slopes over "
-                "those of the continuous surface:",
+                f"{count} scans of each size, plane removed; β_e is the 1/e length along x, mean and deviation "
+                "of one scan; slopes over those of the continuous surface:",
                 ("scan (µm)", "pixel (nm)", "σ expected", "σ", "β_e (µm)", "β_e / scan", "peak to valley", "rms slope"),
                 tuple(rows),
             ),

@@ -1,4 +1,5 @@
-"""Tables of our numbers beside those of an independent solution of the same problem, as Markdown."""
+"""Tables of our numbers beside those of an independent solution of the same problem, as
+Markdown."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ class Pair:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Rows of a table: texts that say the case, then pairs of numbers; ``agreement`` is the relative bound on each column."""
+    """Rows of a table: texts that say the case, then pairs of numbers; ``agreement`` is the
+    relative bound on each column."""
 
     title: str
     about: str

@@ -1,4 +1,5 @@
-"""A sliding block on a rough interface with one constant coefficient of friction: steady sliding, flutter, apparent friction, stick-slip."""
+"""A sliding block on a rough interface with one constant coefficient of friction: steady sliding,
+flutter, apparent friction, stick-slip."""
 
 from __future__ import annotations
 
@@ -26,13 +27,19 @@ BLOCK = dyn.SlidingBlock(
 )
 
 ABOUT = (
-    "A block on a moving belt is held by a spring; the interface is a power law of the approach with damping, the friction coefficient one constant. Martins, Oden and Simoes (1990) found by computation that such a block shows what is "
-    "measured of friction: a static coefficient above the kinetic one, stick-slip at low speed, and self-excited normal vibration as the cause of both. Theirs are figures without numbers, so that what is compared are the statements. "
-    "Ours: `asp.dynamics`. No parameter is chosen: block and interface are the same in all rows but for what the row names."
+    "A block on a moving belt is held by a spring; the interface is a power law of the approach with damping, "
+    "the friction coefficient one constant. Martins, Oden and Simoes (1990) found by computation that such a "
+    "block shows what is measured of friction: a static coefficient above the kinetic one, stick-slip at low "
+    "speed, and self-excited normal vibration as the cause of both. Theirs are figures without numbers, so "
+    "that what is compared are the statements. Ours: `asp.dynamics`. No parameter is chosen: block and "
+    "interface are the same in all rows but for what the row names."
 )
 
-WORDS = """* The coefficient between the surfaces is the same at rest and in motion. What is lower in motion is the mean force on the spring: the base catches up with the belt and moves with it for a sixth of each period of the vibration, and friction is then less than μ times the normal force.
-* How long the block waits on the plateau before it flutters hangs on the logarithm of the disturbance, here the error of the integration; peaks, valleys and means do not."""
+WORDS = """* The coefficient between the surfaces is the same at rest and in motion. What is lower in motion
+  is the mean force on the spring: the base catches up with the belt and moves with it for a sixth of each
+  period of the vibration, and friction is then less than μ times the normal force.
+* How long the block waits on the plateau before it flutters hangs on the logarithm of the disturbance, here
+  the error of the integration; peaks, valleys and means do not."""
 
 
 def law(friction: float, damping: float) -> dyn.NormalCompliance:
@@ -41,14 +48,16 @@ def law(friction: float, damping: float) -> dyn.NormalCompliance:
 
 
 def slides(friction: float, damping: float, speed: float) -> dict[str, float]:
-    """Numbers of the block that slides, from just below sliding for 0.25 s, with the mean over the last 0.1 s."""
+    """Numbers of the block that slides, from just below sliding for 0.25 s, with the mean over the
+    last 0.1 s."""
     block = replace(BLOCK, law=law(friction, damping), speed=speed)
     start = (0.95 * block.steady.displacement, block.rest, 0.0, 0.0, 0.0, 0.0)
     return dyn.move_block(block, 0.25, start=start).numbers(0.15)
 
 
 def slow(friction: float, damping: float, speed: float) -> dyn.BlockRun:
-    """The block on a stiffer spring without a dashpot, from rest over three loadings of the spring."""
+    """The block on a stiffer spring without a dashpot, from rest over three loadings of the
+    spring."""
     block = replace(BLOCK, law=law(friction, damping), speed=speed, stiffness=1e6, damping=0.0)
     duration = 3.0 * block.reference_displacement / speed
     return dyn.move_block(block, duration, smoothing_speed=2e-5)
@@ -61,15 +70,29 @@ def page() -> Page:
     cases = [(0.2, 4e19, 1e-3), (0.35, 4e19, 1e-3), (0.5, 8e19, 1e-3), (0.5, 8e19, 1e-2), (0.4, 1.6e20, 1e-3)]
     runs = [slides(*case) for case in cases]
     rows = tuple(
-        (f"{mu:g}", f"{b:.1e}", f"{1e3 * U:g}", f"{run['friction_reduction']:.2f}", f"{run['smallest_normal_force']:.1f} to {run['largest_normal_force']:.1f}")
+        (
+            f"{mu:g}",
+            f"{b:.1e}",
+            f"{1e3 * U:g}",
+            f"{run['friction_reduction']:.2f}",
+            f"{run['smallest_normal_force']:.1f} to {run['largest_normal_force']:.1f}",
+        )
         for (mu, b, U), run in zip(cases, runs, strict=True)
-    )  # fmt: skip
+    )
     slowly = [(0.5, 3e19, 4e-4), (0.5, 1.6e20, 4e-4), (0.2, 3e19, 4e-4)]
     traces = [slow(*case).numbers() for case in slowly]
     cycles = tuple(
-        (f"{mu:g}", f"{b:.1e}", *(("none", "") if np.isnan(run["stick_slip_valley"]) else (f"{run['stick_slip_peak']:.2f}", f"{run['stick_slip_valley']:.2f}")))
+        (
+            f"{mu:g}",
+            f"{b:.1e}",
+            *(
+                ("none", "")
+                if np.isnan(run["stick_slip_valley"])
+                else (f"{run['stick_slip_peak']:.2f}", f"{run['stick_slip_valley']:.2f}")
+            ),
+        )
         for (mu, b, _), run in zip(slowly, traces, strict=True)
-    )  # fmt: skip
+    )
     peak = max(run["peak_friction"] / case[0] for run, case in zip(runs[:3], cases[:3], strict=True))
     return Page(
         "A sliding block with constant friction",

@@ -1,4 +1,5 @@
-"""Pictures after fig. 2.8 of Peng (2001): plastic strain and σ_xx below a sphere that slides over a layer; ``pictures.py`` writes them.
+"""Pictures after fig. 2.8 of Peng (2001): plastic strain and σ_xx below a sphere that slides over a
+layer; ``pictures.py`` writes them.
 
 The numbers and statements are on the page layered_sliding.
 """
@@ -27,7 +28,8 @@ def sliding() -> Snapshots:
 
 
 def plastic_strain(figure: Figure) -> None:
-    """Equivalent plastic strain in Y/E beside the plane of symmetry, indented and at the four distances."""
+    """Equivalent plastic strain in Y/E beside the plane of symmetry, indented and at the four
+    distances."""
     _sections(figure, "strain", "plastic strain / (Y/E)", "viridis", symmetric=False)
 
 

@@ -1,7 +1,9 @@
-"""Rigid sphere on a coated half-space: the problem of O'Sullivan & King (1988), table 2.3 and figs 2.3 of Peng (2001).
+"""Rigid sphere on a coated half-space: the problem of O'Sullivan & King (1988), table 2.3 and figs
+2.3 of Peng (2001).
 
-Layer and base with Poisson's ratio 0.3, R = 10 h, and the load under which Hertz's radius on the base alone, a_0, is the
-thickness of the layer. p_0 and delta_0 are Hertz's peak pressure and approach under that load.
+Layer and base with Poisson's ratio 0.3, R = 10 h, and the load under which Hertz's radius on the
+base alone, a_0, is the thickness of the layer. p_0 and delta_0 are Hertz's peak pressure and
+approach under that load.
 """
 
 from __future__ import annotations
@@ -18,7 +20,8 @@ INDEPENDENT = {
     2.0: (0.818477539647, 1.475436898863, 0.826869969166, 1.287694859733),
     4.0: (0.658087883353, 2.283465979044, 0.682063997775, 1.992005577513),
 }
-"""E1/E2 -> a/a_0, p_max/p_0, delta/delta_0, p(a/2)/p_0: the mixed problem reduced to a Fredholm equation, 12 digits."""
+"""E1/E2 -> a/a_0, p_max/p_0, delta/delta_0, p(a/2)/p_0: the mixed problem reduced to a Fredholm
+equation, 12 digits."""
 
 WIDTH = 2.3
 """Side of the grid over the contact radius."""
@@ -29,16 +32,18 @@ RADIUS = 10.0 * THICKNESS
 
 
 def compare(pixels: int = 257) -> Comparison:
-    """Ours on ``pixels`` x ``pixels`` with the free boundary; constant pressure on pixels errs by their square."""
+    """Ours on ``pixels`` x ``pixels`` with the free boundary; constant pressure on pixels errs by
+    their square."""
     rows = tuple(((f"{ratio:g}",), _row(ratio, expected, pixels)) for ratio, expected in INDEPENDENT.items())
     size = WIDTH / pixels
     return Comparison(
         title="Rigid sphere on a coated half-space",
         about=(
-            "O'Sullivan & King (1988) in the form of Peng (2001, fig. 2.3): ν₁ = ν₂ = 0.3, h = a₀, R = 10 h, no friction. "
-            "Independent solution of our own: Fredholm equation of the second kind for the same problem, 12 digits. Ours: `asperity.solve` with the free "
-            f"boundary on {pixels} x {pixels} pixels over {WIDTH:g} contact radii. The radius comes from the counted contact "
-            "area, the pressure at a/2 from a linear interpolation."
+            "O'Sullivan & King (1988) in the form of Peng (2001, fig. 2.3): ν₁ = ν₂ = 0.3, h = a₀, R = 10 h, "
+            "no friction. Independent solution of our own: Fredholm equation of the second kind for the same "
+            f"problem, 12 digits. Ours: `asperity.solve` with the free boundary on {pixels} x {pixels} pixels "
+            f"over {WIDTH:g} contact radii. The radius comes from the counted contact area, the pressure at "
+            "a/2 from a linear interpolation."
         ),
         cases=("E₁/E₂",),
         quantities=("a/a₀", "pₘₐₓ/p₀", "δ/δ₀", "p(a/2)/p₀"),

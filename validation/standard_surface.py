@@ -1,6 +1,8 @@
-"""The computer-generated standard surface of layered-contact studies: σ = 1 nm, β* = 0.5 µm on 20 x 20 µm², 256 x 256 points.
+"""The computer-generated standard surface of layered-contact studies: σ = 1 nm, β* = 0.5 µm on 20 x
+20 µm², 256 x 256 points.
 
-Gaussian heights and the autocorrelation exp(-2.3 r/β*): the surface of Peng (2001) and of Bhushan (1998), figs. 25 to 31.
+Gaussian heights and the autocorrelation exp(-2.3 r/β*): the surface of Peng (2001) and of Bhushan
+(1998), figs. 25 to 31.
 """
 
 from __future__ import annotations
@@ -19,17 +21,19 @@ SIDE, POINTS, SIGMA, BETA = 20e-6, 256, 1e-9, 0.5e-6
 PIXEL = SIDE / POINTS
 
 ABOUT = (
-    "Rough surfaces in the studies of Peng (2001) and Bhushan (1998) are generated with an rms height of 1 nm and a correlation length of 0.5 µm at which "
-    "the autocorrelation has fallen to 0.1, on 20 µm × 20 µm with 256 × 256 points. The expected roughness parameters of such a surface "
-    "follow from the autocorrelation at "
+    "Rough surfaces in the studies of Peng (2001) and Bhushan (1998) are generated with an rms height of 1 nm "
+    "and a correlation length of 0.5 µm at which the autocorrelation has fallen to 0.1, on 20 µm × 20 µm with "
+    "256 × 256 points. The expected roughness parameters of such a surface follow from the autocorrelation at "
     "lags of a few pixels; here surfaces are generated and characterised as measured maps."
 )
 
 READING = (
-    "β* is the 0.1 length: β_e = β*/ln 10 = 0.217 µm. Bhushan (1998) writes C = exp(−τ/β*) in eq. 22, the 1/e definition, with the same symbol; taking one "
-    "for the other doubles the mean square slope. The exponential autocorrelation has no second derivative at the origin: slopes, curvatures and summits exist only "
-    "at the sampling interval, and generating it from its spectrum cut at the Nyquist wavenumber loses 10 % of the variance and 36 % of the mean square slope. "
-    "Scaled to 2 nm and 1 µm everything follows by similarity."
+    "β* is the 0.1 length: β_e = β*/ln 10 = 0.217 µm. Bhushan (1998) writes C = exp(−τ/β*) in eq. 22, the 1/e "
+    "definition, with the same symbol; taking one for the other doubles the mean square slope. The "
+    "exponential autocorrelation has no second derivative at the origin: slopes, curvatures and summits exist "
+    "only at the sampling interval, and generating it from its spectrum cut at the Nyquist wavenumber loses "
+    "10 % of the variance and 36 % of the mean square slope. Scaled to 2 nm and 1 µm everything follows by "
+    "similarity."
 )
 
 
@@ -39,7 +43,8 @@ def correlation(lag: float) -> float:
 
 
 def expected() -> dict[str, float]:
-    """Closed forms at the sampling interval, in SI; summits from 8·10⁶ sampled neighbourhoods of the exact covariance."""
+    """Closed forms at the sampling interval, in SI; summits from 8·10⁶ sampled neighbourhoods of
+    the exact covariance."""
     m2 = 2.0 * SIGMA**2 * (1.0 - correlation(1)) / PIXEL**2
     m4 = 2.0 * SIGMA**2 * (3.0 - 4.0 * correlation(1) + correlation(2)) / PIXEL**4
     peaks = SampledPeaks(correlation(1), correlation(2))
@@ -91,7 +96,8 @@ TOLERANCE = {
     "highest peak": 0.03,
     "peak to valley": 0.02,
 }
-"""Share by which the expected value itself is uncertain: interpolation between lags, finite windows, two or three digits."""
+"""Share by which the expected value itself is uncertain: interpolation between lags, finite
+windows, two or three digits."""
 
 
 def page(realisations: int = 40) -> Page:
@@ -110,7 +116,8 @@ def page(realisations: int = 40) -> Page:
         about=ABOUT,
         parts=(
             Table(
-                f"{realisations} generated surfaces, SI units; m2 and m4 are the mean square slope and curvature of profiles by differences:",
+                f"{realisations} generated surfaces, SI units; m2 and m4 are the mean square slope and "
+                "curvature of profiles by differences:",
                 ("quantity", "expected", "mean", "scatter of one map"),
                 rows,
             ),
@@ -122,7 +129,8 @@ def page(realisations: int = 40) -> Page:
 
 
 def _published(ratio: np.ndarray) -> tuple[Published, ...]:
-    """The lag of 0.1 over that of 1/e, by map, and the least Nayak parameter, that of waves of one length."""
+    """The lag of 0.1 over that of 1/e, by map, and the least Nayak parameter, that of waves of one
+    length."""
     return (
         Published(
             "Bhushan 1998, eq. 22",
@@ -136,7 +144,8 @@ def _published(ratio: np.ndarray) -> tuple[Published, ...]:
 
 
 def least_alpha(points: int = 512, length: float = 8.0) -> float:
-    """Nayak's parameter, from the measured spectrum, of a Gaussian surface all of whose waves are within 2 % ``length`` pixels long."""
+    """Nayak's parameter, from the measured spectrum, of a Gaussian surface all of whose waves are
+    within 2 % ``length`` pixels long."""
     frequency = np.hypot(np.fft.fftfreq(points)[:, None], np.fft.rfftfreq(points)[None, :])
     ring = np.abs(frequency * length - 1.0) < 0.02
     noise = np.fft.rfft2(np.random.default_rng(1).standard_normal((points, points)))

@@ -1,4 +1,5 @@
-"""Flat punch without slip, named in the lectures of Yastrebov (2016): the gain of Mossakovskii and Spence from kernels of displacement alone."""
+"""Flat punch without slip, named in the lectures of Yastrebov (2016): the gain of Mossakovskii and
+Spence from kernels of displacement alone."""
 
 from __future__ import annotations
 
@@ -13,15 +14,18 @@ from asperity.theories import StickingPunch
 POISSON = (0.0, 0.3, 0.4)
 
 ABOUT = (
-    "The lectures (Yastrebov 2016) name frictional indentation, circular punches with full stick among it, after Mossakovskii (1954) and Spence (1968, 1975), without numbers. "
-    "Theirs: their closed form P = 4Gaδ ln(3 − 4ν)/(1 − 2ν) over that without friction, 4Gaδ/(1 − ν). Ours: the three tractions on the pixels of a circle, {points} along its diameter, "
-    "that displace all of them by δ downwards and not sideways, found with nothing but displacements of `asperity.stress` under prescribed tractions, over the same "
-    "with pressure alone. No parameter is chosen. Finite friction (Spence 1975) is the theory `frictional-punch`."
+    "The lectures (Yastrebov 2016) name frictional indentation, circular punches with full stick among it, "
+    "after Mossakovskii (1954) and Spence (1968, 1975), without numbers. Theirs: their closed form P = 4Gaδ "
+    "ln(3 − 4ν)/(1 − 2ν) over that without friction, 4Gaδ/(1 − ν). Ours: the three tractions on the pixels of "
+    "a circle, {points} along its diameter, that displace all of them by δ downwards and not sideways, found "
+    "with nothing but displacements of `asperity.stress` under prescribed tractions, over the same with "
+    "pressure alone. No parameter is chosen. Finite friction (Spence 1975) is the theory `frictional-punch`."
 )
 
-WORDS = """* The gain of the closed form, which is that of the theory `sticking-punch`, is found within the error of the pixels at the edge, where tractions are singular; it falls
-  with their size.
-* On an incompressible body (ν = 0.5) shear and pressure do not act upon each other, and there is no gain: the note of the lectures on (1 − 2ν)/G."""
+WORDS = """* The gain of the closed form, which is that of the theory `sticking-punch`, is found within the
+  error of the pixels at the edge, where tractions are singular; it falls with their size.
+* On an incompressible body (ν = 0.5) shear and pressure do not act upon each other, and there is no gain: the
+  note of the lectures on (1 − 2ν)/G."""
 
 
 def compare(points: int = 96) -> Page:
@@ -55,7 +59,8 @@ def beta(nu: float) -> float:
 
 
 def gain(nu: float, points: int) -> float:
-    """Load of the punch that sticks over that of the one that slides freely, ``points`` pixels along the diameter."""
+    """Load of the punch that sticks over that of the one that slides freely, ``points`` pixels
+    along the diameter."""
     width = 2.04 / points
     grid = asp.Grid((points, points), (width, width))
     under = np.hypot(*grid.centred_coordinates()) < 1.0
@@ -64,7 +69,8 @@ def gain(nu: float, points: int) -> float:
 
 
 def _load(body: asp.Elastic, grid: asp.Grid, under: np.ndarray, *, sticks: bool) -> float:
-    """Sum of the pressures that displace the pixels ``under`` the punch by one, sideways by nothing if it ``sticks``."""
+    """Sum of the pressures that displace the pixels ``under`` the punch by one, sideways by nothing
+    if it ``sticks``."""
     from scipy.sparse.linalg import LinearOperator, gmres
 
     count, parts = int(under.sum()), 3 if sticks else 1

@@ -1,7 +1,10 @@
-"""Writes README.md of this folder: the pages, and all published numbers in them beside ours with deviation and verdict.
+"""Writes README.md of this folder: the pages, and all published numbers in them beside ours with
+deviation and verdict.
 
-The numbers are those of the tables of the pages: a column called "theirs" and the column of ours beside it. Where a page has none, those of its claims
-that a published number lies within two standard deviations of ours. Pages whose reference is an independent solution of our own say so and are not read.
+The numbers are those of the tables of the pages: a column called "theirs" and the column of ours
+beside it. Where a page has none, those of its claims that a published number lies within two
+standard deviations of ours. Pages whose reference is an independent solution of our own say so and
+are not read.
 """
 
 from __future__ import annotations
@@ -28,24 +31,31 @@ SCATTER = "within two standard deviations of ours"
 
 HEAD = """# Comparison with published results
 
-Made by `python validation/summary.py`, the last step of `make validate`. One script for each published result writes a page of the same name:
+Made by `python validation/summary.py`, the last step of `make validate`. One script for each published result
+writes a page of the same name:
 
 ```sh
 python validation/sphere_on_layer.py     # writes validation/sphere_on_layer.md
-make validate                            # all pages (half an hour of one core), this page, and pictures in validation-pictures/
+make validate                 # all pages (half an hour of one core), this page, validation-pictures/
 ```
 
-Each page states what was computed, the source of the published values ("theirs"), whether a parameter was chosen freely, and the deviations found and allowed. Where the
-reference is an independent solution of our own, the page says "independent solution". `tests/validation` runs every script on a smaller grid and checks the bounds.
+Each page states what was computed, the source of the published values ("theirs"), whether a parameter was
+chosen freely, and the deviations found and allowed. Where the reference is an independent solution of our
+own, the page says "independent solution". `tests/validation` runs every script on a smaller grid and checks
+the bounds.
 """
 
-TAIL = """`python validation/gold_film_area.py 1000 FOLDER` and `python validation/gold_film_grid.py 4096 FOLDER` write their pages from the whole studies, `python validation/layered_sliding.py FOLDER` its own, and keep the results in
-the folder; stored results are not computed again. `python validation/pictures.py FOLDER` draws rough cylinder, rough sphere, scaling laws, layers and stresses as in
-chapter 3 of Peng (2001), the layered solid of its fig. 2.8 under a sliding sphere, and the motions of the sliding block. `python validation/gallery.py FOLDER` characterises every surface file of a folder and writes a gallery of pages; its output is not part
-of the repository.
+TAIL = """`python validation/gold_film_area.py 1000 FOLDER` and `python validation/gold_film_grid.py 4096
+FOLDER` write their pages from the whole studies, `python validation/layered_sliding.py FOLDER` its own, and
+keep the results in the folder; stored results are not computed again. `python validation/pictures.py FOLDER`
+draws rough cylinder, rough sphere, scaling laws, layers and stresses as in chapter 3 of Peng (2001), the
+layered solid of its fig. 2.8 under a sliding sphere, and the motions of the sliding block. `python
+validation/gallery.py FOLDER` characterises every surface file of a folder and writes a gallery of pages; its
+output is not part of the repository.
 
-To add a page: a script with a function `compare` that returns a `Comparison` of numbers (see `side_by_side.py`) or a `Page` of tables and
-claims (see `page.py`), its page, and a test; the first sentence of its docstring stands here.
+To add a page: a script with a function `compare` that returns a `Comparison` of numbers (see
+`side_by_side.py`) or a `Page` of tables and claims (see `page.py`), its page, and a test; the first sentence
+of its docstring stands here.
 """
 
 
@@ -130,7 +140,8 @@ def _pairs(name: str, head: list[str], rows: Iterable[list[str]]) -> Iterator[Nu
 
 
 def _beside(head: list[str], at: int) -> int | None:
-    """Column of ours for the column ``at`` of theirs: the next after "X: theirs", else the one before or after; None without."""
+    """Column of ours for the column ``at`` of theirs: the next after "X: theirs", else the one
+    before or after; None without."""
     ours = [word.endswith("ours") for word in head]
     order = (at + 1, at - 1) if ": theirs" in head[at] else (at - 1, at + 1)
     return next((column for column in order if 0 <= column < len(head) and ours[column]), None)
@@ -161,9 +172,10 @@ def readme() -> str:
     near = sum(number.verdict == "near" for number in counted)
     lines = [
         HEAD,
-        f"**{len(counted)} published numbers**: {agree} agree (within the scatter of one surface that the page states, the last printed digit, or {100 * NEAR:.0f} %), {near} are within "
-        f"{100 * APART:.0f} %, {len(counted) - agree - near} differ more, for reasons that their pages give. Numbers of one page may come "
-        "from one surface of theirs, as all of table 3.1 do, and are then no independent checks.",
+        f"**{len(counted)} published numbers**: {agree} agree (within the scatter of one surface that the page "
+        f"states, the last printed digit, or {100 * NEAR:.0f} %), {near} are within {100 * APART:.0f} %, "
+        f"{len(counted) - agree - near} differ more, for reasons that their pages give. Numbers of one page "
+        "may come from one surface of theirs, as all of table 3.1 do, and are then no independent checks.",
         "",
         "| page | problem | numbers | agree |",
         "|---|---|---|---|",

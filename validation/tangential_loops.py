@@ -1,4 +1,5 @@
-"""Spheres and cylinders under tangential force, torque and traction: printed formulas of Mindlin, Deresiewicz, Lubkin and Carter, from other equations."""
+"""Spheres and cylinders under tangential force, torque and traction: printed formulas of Mindlin,
+Deresiewicz, Lubkin and Carter, from other equations."""
 
 from __future__ import annotations
 
@@ -17,13 +18,18 @@ BALL = MindlinPoint(E_star=1.0, radius=1.0, G_star=1.0, friction=FRICTION)
 ROLLER = CarterRolling(E_star=1.0, radius=1.0, friction=FRICTION)
 
 ABOUT = (
-    "A sphere is pressed by P and pulled by Q between ±Q₀ (Mindlin & Deresiewicz 1953), twisted (Lubkin 1951), and a cylinder rolls under a tractive force (Carter 1926). Theirs: the "
-    "printed formulas. Ours, by two ways that do not use them: the memory of the contact, `PartialSlip`, which follows any path of loading and counts the work of friction on the way; "
-    "and the fields, traction times slip over the annulus that slips. No parameter is chosen. The loops that Johnson (1955) measured are not compared: the numbers are in figures."
+    "A sphere is pressed by P and pulled by Q between ±Q₀ (Mindlin & Deresiewicz 1953), twisted (Lubkin "
+    "1951), and a cylinder rolls under a tractive force (Carter 1926). Theirs: the printed formulas. Ours, by "
+    "two ways that do not use them: the memory of the contact, `PartialSlip`, which follows any path of "
+    "loading and counts the work of friction on the way; and the fields, traction times slip over the annulus "
+    "that slips. No parameter is chosen. The loops that Johnson (1955) measured are not compared: the numbers "
+    "are in figures."
 )
 
-WORDS = """* Work of friction of small cycles goes as the cube of the amplitude: that of Q₀ = 0.05 μP is within 5 % of (4/27)(Q₀/μP)³.
-* Slip needs the gap of the normal contact under P − Q₀/μ and nothing else; its product with the traction, integrated over the annulus, is the loop."""
+WORDS = """* Work of friction of small cycles goes as the cube of the amplitude: that of Q₀ = 0.05 μP is
+  within 5 % of (4/27)(Q₀/μP)³.
+* Slip needs the gap of the normal contact under P − Q₀/μ and nothing else; its product with the traction,
+  integrated over the annulus, is the loop."""
 
 
 def page() -> Page:

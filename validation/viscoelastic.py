@@ -1,4 +1,5 @@
-"""Viscoelastic contacts against independent solutions: Lee & Radok, Ting, a punch on a coating, a sliding wave, Persson's rubber friction."""
+"""Viscoelastic contacts against independent solutions: Lee & Radok, Ting, a punch on a coating, a
+sliding wave, Persson's rubber friction."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ SOLIDS = {
     "Prony, three terms": (1.0, ((2.0, 10.0), (5.0, 1.0), (20.0, 0.01))),
     "Maxwell": (0.0, ((1.0, 1.0),)),
 }
-"""Contact modulus (Pa) and terms (Pa, s); as Young's modulus of a solid whose Poisson's ratio is zero."""
+"""Contact modulus (Pa) and terms (Pa, s); as Young's modulus of a solid whose Poisson's ratio is
+zero."""
 
 TIMES = (0.1, 1.0, 10.0)
 WAVES = (
@@ -27,7 +29,8 @@ WAVES = (
     (0.3, 0.3, 0.00359368, 0.111404, 0.0081373, 3.45641),
     (1.0, 0.3, 0.00108127, 0.110924, 0.0024842, 3.46342),
 )
-"""Speed over λ/τ, mean pressure over p*; friction, contact fraction, shift over λ and largest pressure over p* by a dense active set."""
+"""Speed over λ/τ, mean pressure over p*; friction, contact fraction, shift over λ and largest
+pressure over p* by a dense active set."""
 
 RUBBER = (
     (0.01, 0.04460254126, 0.3226091927, 1.3e6, 1.3e9, 1e-6),
@@ -37,14 +40,20 @@ RUBBER = (
 """Speed (m/s), friction and area by quadrature, relaxed modulus and step (Pa), time (s)."""
 
 ABOUT = (
-    "The reference is an independent solution on every row, by closed forms, roots and quadratures of our own. Held and relaxing sphere: Lee and Radok (1960), a³ = 3/4 RP J(t) and P = 4/3 √R δ^(3/2) E(t). Triangle: a sphere that approaches and withdraws at one speed, "
-    "Ting (1966). Punch: a square punch on a coating of elastic bulk, pressed in at once and held; its load is found from elastic contacts with moduli at real values of the Laplace variable, inverted by Stehfest's (1970) formula. Sliding wave: steady sliding of a "
-    "wave of amplitude 0.01 λ over the standard solid, against a dense active set on 1024 points. Rubber: Persson's (2001) friction of a self-affine spectrum against quadrature. Grids and steps of time are chosen freely."
+    "The reference is an independent solution on every row, by closed forms, roots and quadratures of our "
+    "own. Held and relaxing sphere: Lee and Radok (1960), a³ = 3/4 RP J(t) and P = 4/3 √R δ^(3/2) E(t). "
+    "Triangle: a sphere that approaches and withdraws at one speed, Ting (1966). Punch: a square punch on a "
+    "coating of elastic bulk, pressed in at once and held; its load is found from elastic contacts with "
+    "moduli at real values of the Laplace variable, inverted by Stehfest's (1970) formula. Sliding wave: "
+    "steady sliding of a wave of amplitude 0.01 λ over the standard solid, against a dense active set on 1024 "
+    "points. Rubber: Persson's (2001) friction of a self-affine spectrum against quadrature. Grids and steps "
+    "of time are chosen freely."
 )
 
 
 def page(points: int = 64, waves: int = 512, tolerance: float = 1e-3) -> Page:
-    """The page, for spheres on ``points``² and waves on ``waves`` points, with this ``tolerance`` of the steps of time."""
+    """The page, for spheres on ``points``² and waves on ``waves`` points, with this ``tolerance``
+    of the steps of time."""
     settings = asp.TimeSteps(tolerance)
     held = [(name, t, *row) for name in SOLIDS for t, *row in creeping(name, points, settings)]
     relaxing = [(name, t, *row) for name in SOLIDS for t, *row in relaxed(name, points, settings)]
@@ -56,17 +65,43 @@ def page(points: int = 64, waves: int = 512, tolerance: float = 1e-3) -> Page:
         "Viscoelasticity",
         ABOUT,
         (
-            Table("Approach of a held sphere over that at once.", ("solid", "t", "grid's", "exact", "deviation"), tuple(map(_row, held))),
-            Table("Load of a relaxing sphere over that at once.", ("solid", "t", "grid's", "exact", "deviation"), tuple(map(_row, relaxing))),
             Table(
-                "Triangle of approach: largest error of the load over its peak, and time at which the load is gone over that of the peak.",
-                ("solid", "error of the load", "grid's, between", "exact"),
-                tuple((name, f"{error:.1e}", f"{low:.4f} and {high:.4f}", f"{exact:.4f}") for name, error, low, high, exact in triangles),
+                "Approach of a held sphere over that at once.",
+                ("solid", "t", "grid's", "exact", "deviation"),
+                tuple(map(_row, held)),
             ),
-            Table("Load of a punch on a coating over that at once.", ("t", "grid's", "exact", "deviation"), tuple(_row(("", *row))[1:] for row in punches)),
+            Table(
+                "Load of a relaxing sphere over that at once.",
+                ("solid", "t", "grid's", "exact", "deviation"),
+                tuple(map(_row, relaxing)),
+            ),
+            Table(
+                "Triangle of approach: largest error of the load over its peak, and time at which the load is "
+                "gone over that of the peak.",
+                ("solid", "error of the load", "grid's, between", "exact"),
+                tuple(
+                    (name, f"{error:.1e}", f"{low:.4f} and {high:.4f}", f"{exact:.4f}")
+                    for name, error, low, high, exact in triangles
+                ),
+            ),
+            Table(
+                "Load of a punch on a coating over that at once.",
+                ("t", "grid's", "exact", "deviation"),
+                tuple(_row(("", *row))[1:] for row in punches),
+            ),
             Table(
                 "Sliding wave.",
-                ("v τ/λ", "friction: grid's", "exact", "contact fraction: grid's", "exact", "shift: grid's", "exact", "largest pressure over p*: grid's", "exact"),
+                (
+                    "v τ/λ",
+                    "friction: grid's",
+                    "exact",
+                    "contact fraction: grid's",
+                    "exact",
+                    "shift: grid's",
+                    "exact",
+                    "largest pressure over p*: grid's",
+                    "exact",
+                ),
                 tuple(
                     (f"{row[0]:g}", *(f"{value:.4g}" for pair in zip(found, row[2:], strict=True) for value in pair))
                     for row, found in sliding
@@ -75,21 +110,49 @@ def page(points: int = 64, waves: int = 512, tolerance: float = 1e-3) -> Page:
             Table(
                 "Persson's friction.",
                 ("v (m/s)", "friction", "exact", "area", "exact"),
-                tuple((f"{row[0]:g}", f"{mu:.6f}", f"{row[1]:.6f}", f"{area:.6f}", f"{row[2]:.6f}") for row, (mu, area) in rubber),
+                tuple(
+                    (f"{row[0]:g}", f"{mu:.6f}", f"{row[1]:.6f}", f"{area:.6f}", f"{row[2]:.6f}")
+                    for row, (mu, area) in rubber
+                ),
             ),
         ),
         (
             Claim("largest deviation of the held sphere", max(abs(f / e - 1.0) for *_, f, e in held), high=0.005),
-            Claim("largest error of the relaxing sphere over its first load", max(abs(f - e) for *_, f, e in relaxing), high=0.002),
+            Claim(
+                "largest error of the relaxing sphere over its first load",
+                max(abs(f - e) for *_, f, e in relaxing),
+                high=0.002,
+            ),
             Claim("largest error of the triangle over its peak", max(row[1] for row in triangles), high=0.005),
-            Claim("separations within their brackets", float(all(low <= e <= high for _, _, low, high, e in triangles)), 1.0, 1.0),
+            Claim(
+                "separations within their brackets",
+                float(all(low <= e <= high for _, _, low, high, e in triangles)),
+                1.0,
+                1.0,
+            ),
             Claim("largest deviation of the punch", max(abs(f / e - 1.0) for _, f, e in punches), high=0.005),
-            Claim("largest difference of the friction of the wave", max(abs(f[0] - row[2]) for row, f in sliding), high=1e-4),
-            Claim("largest difference of its contact fraction", max(abs(f[1] - row[3]) for row, f in sliding), high=4.0 / waves + 0.0043),
-            Claim("largest difference of its shift", max(abs(f[2] - row[4]) for row, f in sliding), high=2.0 / waves + 0.0043),
-            Claim("largest deviation of Persson's friction", max(abs(mu / row[1] - 1.0) for row, (mu, _) in rubber), high=1e-6),
+            Claim(
+                "largest difference of the friction of the wave",
+                max(abs(f[0] - row[2]) for row, f in sliding),
+                high=1e-4,
+            ),
+            Claim(
+                "largest difference of its contact fraction",
+                max(abs(f[1] - row[3]) for row, f in sliding),
+                high=4.0 / waves + 0.0043,
+            ),
+            Claim(
+                "largest difference of its shift",
+                max(abs(f[2] - row[4]) for row, f in sliding),
+                high=2.0 / waves + 0.0043,
+            ),
+            Claim(
+                "largest deviation of Persson's friction",
+                max(abs(mu / row[1] - 1.0) for row, (mu, _) in rubber),
+                high=1e-6,
+            ),
         ),
-    )  # fmt: skip
+    )
 
 
 def _row(row: tuple[str, float, float, float]) -> tuple[str, ...]:
@@ -137,7 +200,8 @@ def relaxed(name: str, points: int, settings: asp.TimeSteps) -> list[tuple[float
 
 
 def triangle(name: str, points: int, settings: asp.TimeSteps) -> tuple[float, float, float, float]:
-    """Largest error of the load over its peak; times with and without load, and of separation, over that of the peak."""
+    """Largest error of the load over its peak; times with and without load, and of separation, over
+    that of the peak."""
     speed, peak = 1e-3, 1.0
     body = solid(name)
     end = separation(body, peak)
@@ -179,12 +243,19 @@ def separation(body: asp.Viscoelastic, peak: float) -> float:
 def pressed(body: asp.Viscoelastic, speed: float, peak: float, t: float) -> float:
     """Load of the triangle at ``t``: 4/3 ∫ E(t - s) dδ^(3/2) from 0 to t1."""
     E = body.contact_relaxation
-    found, _ = quad(lambda s: float(E.at(t - s)) * 1.5 * speed**1.5 * math.sqrt(s), 0.0, same_radius(body, peak, t), epsabs=0.0, epsrel=1e-9)  # fmt: skip
+    found, _ = quad(
+        lambda s: float(E.at(t - s)) * 1.5 * speed**1.5 * math.sqrt(s),
+        0.0,
+        same_radius(body, peak, t),
+        epsabs=0.0,
+        epsrel=1e-9,
+    )
     return 4.0 / 3.0 * found
 
 
 def punch(points: int, settings: asp.TimeSteps) -> list[tuple[float, float, float]]:
-    """Load of a held punch on a coating over that at once, in time and by Stehfest's inversion of elastic contacts."""
+    """Load of a held punch on a coating over that at once, in time and by Stehfest's inversion of
+    elastic contacts."""
     top = asp.Viscoelastic.standard_linear(1.0, 10.0, 1.0, 0.4, elastic_bulk=True)
     height = np.full((points, points), -1.0)
     quarter = points // 4
@@ -203,11 +274,15 @@ def punch(points: int, settings: asp.TimeSteps) -> list[tuple[float, float, floa
         return float(asp.solve(coated(material), approach, solver=asp.solvers.ActiveSet(tolerance=1e-13)).force)
 
     exact = [stehfest(lambda s: elastic(s) / s, t) for t in TIMES]
-    return [(t, float(p / found.force[0]), e / found.force[0]) for t, p, e in zip(TIMES, found.force[1:], exact, strict=True)]  # fmt: skip
+    return [
+        (t, float(p / found.force[0]), e / found.force[0])
+        for t, p, e in zip(TIMES, found.force[1:], exact, strict=True)
+    ]
 
 
 def stehfest(transform: Callable[[float], float], t: float, terms: int = 10) -> float:
-    """Value at ``t`` of the function with this Laplace ``transform`` of a real variable (Stehfest 1970)."""
+    """Value at ``t`` of the function with this Laplace ``transform`` of a real variable (Stehfest
+    1970)."""
     half, total = terms // 2, 0.0
     for k in range(1, terms + 1):
         weight = sum(

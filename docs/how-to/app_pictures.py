@@ -1,6 +1,7 @@
 """Takes the pictures of ``app.md``: the application on the demonstration, in the system's chromium.
 
-``python docs/how-to/app_pictures.py`` takes a minute or two; it needs the group ``test`` and chromium.
+``python docs/how-to/app_pictures.py`` takes a minute or two; it needs the group ``test`` and
+chromium.
 """
 
 from __future__ import annotations

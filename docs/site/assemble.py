@@ -1,6 +1,8 @@
-"""Gathers the pages of the site: those of docs/, validation/ and benchmarks/, and those made from declarations.
+"""Gathers the pages of the site: those of docs/, validation/ and benchmarks/, and those made from
+declarations.
 
-``python docs/site/assemble.py FOLDER`` writes them. Links between files of the repository become links between pages.
+``python docs/site/assemble.py FOLDER`` writes them. Links between files of the repository become
+links between pages.
 """
 
 from __future__ import annotations
@@ -81,7 +83,8 @@ def gallery() -> str:
 
 
 def pages() -> Texts:
-    """Every page of the site, its path and text, links between pages included; the gallery makes its own."""
+    """Every page of the site, its path and text, links between pages included; the gallery makes
+    its own."""
     known = homes()
     found = {home: linked((ROOT / path).read_text(encoding="utf-8"), path, known) for path, home in known.items()}
     found["validation/index.md"] += CONTENTS
@@ -131,11 +134,13 @@ MADE = (
     "reference/api/index.md",
     "gallery/index.md",
 )
-"""Pages that hand-written ones may link to although no file of the repository holds them, as below ``docs/``."""
+"""Pages that hand-written ones may link to although no file of the repository holds them, as below
+``docs/``."""
 
 
 def assemble(folder: Path) -> None:
-    """Write pages to ``folder``/source, and scripts of the gallery to ``folder``/examples; what is unchanged is left alone."""
+    """Write pages to ``folder``/source, and scripts of the gallery to ``folder``/examples; what is
+    unchanged is left alone."""
     for place, texts in (("source", pages()), ("examples", examples())):
         home = folder / place
         for path, text in texts.items():

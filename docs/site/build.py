@@ -1,4 +1,5 @@
-"""Builds the site in build/docs/html; `make docs` calls it. Warnings are errors; no network is used."""
+"""Builds the site in build/docs/html; `make docs` calls it. Warnings are errors; no network is
+used."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Configuration of Sphinx; `make docs` gathers the pages first (``build.py``) and then runs it on them."""
+"""Configuration of Sphinx; `make docs` gathers the pages first (``build.py``) and then runs it on
+them."""
 
 from __future__ import annotations
 
@@ -53,7 +54,8 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_ivar = True
 
-# Names of other libraries are found without the network: the few that signatures use are kept in inventories.toml.
+# Names of other libraries are found without the network: the few that signatures use are kept in
+# inventories.toml.
 intersphinx_mapping = written(HERE / "inventories.toml")
 intersphinx_disabled_reftypes = ["*"]
 
@@ -74,7 +76,8 @@ pygments_dark_style = "monokai"
 
 
 def setup(app):
-    """Read docstrings as plain text with numpydoc sections; build the gallery where there are examples."""
+    """Read docstrings as plain text with numpydoc sections; build the gallery where there are
+    examples."""
     app.connect("autodoc-process-docstring", marked_up, priority=100)
     # after the gallery, which has the usual priority of 500
     app.connect("builder-inited", lambda app: make_legible(Path(app.srcdir) / "gallery"), priority=900)

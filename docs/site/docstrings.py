@@ -1,4 +1,5 @@
-"""Docstrings as they stand in the code, plain text with numpydoc sections, made readable for Sphinx."""
+"""Docstrings as they stand in the code, plain text with numpydoc sections, made readable for
+Sphinx."""
 
 from __future__ import annotations
 
@@ -9,7 +10,8 @@ from formulas import is_formula, tex
 
 
 def marked_up(app: Any, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
-    """Escape what reStructuredText would read as markup, and set displayed formulas as such; changes ``lines``."""
+    """Escape what reStructuredText would read as markup, and set displayed formulas as such;
+    changes ``lines``."""
     made: list[str] = []
     literal = False  # within an example or a block of code
     for number, line in enumerate(lines):

@@ -13,16 +13,17 @@ Schema = dict[str, Any]
 
 HEAD = """# Problem document
 
-Every table and key of the document that `asperity contact --from`, `asperity run` and `asp.run` read, from its schema; how to
-write one: [problem documents](../how-to/problem-document.md). Quantities are text with [units](units.md). Keys without a
-default must be given.
+Every table and key of the document that `asperity contact --from`, `asperity run` and `asp.run` read, from
+its schema; how to write one: [problem documents](../how-to/problem-document.md). Quantities are text with
+[units](units.md). Keys without a default must be given.
 """
 
 UNITS = """# Units
 
-Quantities in text are a number and a unit, "50 kPa" or "5nm"; lengths of two sides are "20 um x 20 um". A missing unit is an
-error and is never guessed. Prefixes (n, u or µ, m, k, M, G) and powers (`um**2`, `1/mm**2`) may be used with every unit. In
-Python every number is in SI units, and arrays and results are SI as well.
+Quantities in text are a number and a unit, "50 kPa" or "5nm"; lengths of two sides are "20 um x 20 um". A
+missing unit is an error and is never guessed. Prefixes (n, u or µ, m, k, M, G) and powers (`um**2`,
+`1/mm**2`) may be used with every unit. In Python every number is in SI units, and arrays and results are SI
+as well.
 
 | kind | in SI | example |
 |---|---|---|
@@ -132,12 +133,22 @@ def _meaning(key: Schema) -> str:
     return _escaped(" ".join(str(key.get("description", "")).split())) + (f" (`{option}`)" if option else "")
 
 
+_KINDS = {
+    "string": "text",
+    "boolean": "`true` or `false`",
+    "integer": "integer",
+    "number": "number",
+    "object": "table",
+}
+
+
 def _value(key: Schema, kinds: dict[str, Schema]) -> str:
     """What a key takes, in words and links."""
     if "$ref" in key:
         name = key["$ref"].rpartition("/")[2]
         selector = _selector(kinds[name])
-        return f"[{_title(name, kinds[name]) if selector is None else selector.split(' = ')[1].strip(chr(34))}](#{_anchor(name)})"
+        text = _title(name, kinds[name]) if selector is None else selector.split(" = ")[1].strip('"')
+        return f"[{text}](#{_anchor(name)})"
     if "discriminator" in key and len(key["discriminator"]["mapping"]) > 6:
         word = key["discriminator"]["propertyName"]
         return f"a table of {'[surfaces](#surfaces)' if word == 'kind' else '[steps](#steps-of-preparation)'}"
@@ -156,7 +167,7 @@ def _value(key: Schema, kinds: dict[str, Schema]) -> str:
         return f"list of {_value(items, kinds)}" if items else "list"
     if "quantity" in key:
         return f"{key['quantity']}{_range(key)}"
-    return f"{ {'string': 'text', 'boolean': '`true` or `false`', 'integer': 'integer', 'number': 'number', 'object': 'table'}.get(str(key.get('type')), 'value') }{_range(key)}"
+    return f"{_KINDS.get(str(key.get('type')), 'value')}{_range(key)}"
 
 
 def _range(key: Schema) -> str:

@@ -24,8 +24,8 @@ TEXT = ("if", "or", "of", "in", "at", "on", "is", "to")
 def tex(formula: str) -> str:
     """TeX of one formula such as ``"p = (4/3) η E* R^(1/2) σ_s^(3/2) F_(3/2)"``.
 
-    Indices and exponents of more than one sign stand in round brackets or are one word; two spaces part formulas on one
-    line; words of three and more letters are text.
+    Indices and exponents of more than one sign stand in round brackets or are one word; two spaces
+    part formulas on one line; words of three and more letters are text.
     """
     made = re.sub(r"[⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ½]+", lambda m: "^(" + "".join(RAISED[c] for c in m[0]) + ")", formula.strip())
     made = re.sub(r"[₀-₉]+", lambda m: "_(" + "".join(LOWERED[c] for c in m[0]) + ")", made)
@@ -81,7 +81,8 @@ def _grouped(text: str) -> str:
 
 
 def is_formula(line: str) -> bool:
-    """Whether a line of a docstring is a formula: a relation between symbols, without words and code."""
+    """Whether a line of a docstring is a formula: a relation between symbols, without words and
+    code."""
     words = re.findall(r"(?<![A-Za-z_])[A-Za-z]{3,}", re.sub(r"_\(?[A-Za-z]+\)?", "", line))
     symbols = all(word in (*FUNCTIONS, *NAMED, "sqrt", "rms") for word in words)
     return symbols and not re.search(r"``|>>>", line) and bool(re.search(r"\S (=|≈|∝|<|>|≤|≥) \S", line))
@@ -90,7 +91,8 @@ def is_formula(line: str) -> bool:
 def paragraphs(docstring: str) -> list[tuple[str, list[str]]]:
     """A docstring before its first section: ("text" or "formula", lines) in turn.
 
-    Python dedents the formulas of a docstring that has nothing else after its first line, so the indent does not count.
+    Python dedents the formulas of a docstring that has nothing else after its first line, so the
+    indent does not count.
     """
     head = re.split(r"\n[A-Z]\w+\n-{3,}\n", inspect.cleandoc(docstring))[0]
     blocks = [block.splitlines() for block in re.split(r"\n\s*\n", head.strip())]

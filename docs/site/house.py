@@ -1,4 +1,5 @@
-"""Draw the house: ``python docs/site/house.py`` writes ``docs/develop/architecture.svg`` from the source and the table of layers of the tests."""
+"""Draw the house: ``python docs/site/house.py`` writes ``docs/develop/architecture.svg`` from the
+source and the table of layers of the tests."""
 
 from __future__ import annotations
 
@@ -32,7 +33,8 @@ ABOUT = {
 
 
 def lines() -> tuple[dict[str, int], dict[str, int]]:
-    """Lines of source by the folder whose layer they are of, and by physics, with its doors and figures."""
+    """Lines of source by the folder whose layer they are of, and by physics, with its doors and
+    figures."""
     layers, rooms = Counter[str](), Counter[str]()
     for path in PACKAGE.rglob("*.py"):
         parts = ["asperity", *path.relative_to(PACKAGE).with_suffix("").parts]
@@ -44,7 +46,8 @@ def lines() -> tuple[dict[str, int], dict[str, int]]:
 
 
 def picture() -> str:
-    """The house as SVG: a floor for each layer, a room for each physics, with thousands of lines."""
+    """The house as SVG: a floor for each layer, a room for each physics, with thousands of
+    lines."""
     layers, rooms = lines()
     floors = sorted(LAYERS, reverse=True)
     height = len(floors) * (HEIGHT + GAP) + 60
@@ -66,7 +69,10 @@ def picture() -> str:
                 shapes.append(f'<text class="t" x="{x + 6:.0f}" y="{y + 80}" font-size="11">{label}</text>')
                 shapes.append(f'<text class="t" x="{x + 6:.0f}" y="{y + 100}" font-size="11">{count / 1e3:.1f}</text>')
         y += tall + GAP
-    style = ".f{fill:#eef3f7;stroke:#5b7488}.n{fill:#1d3547;font-weight:bold}.t{fill:#33485a}.p{fill:#fdf0dd;stroke:#b9813a}"
+    style = (
+        ".f{fill:#eef3f7;stroke:#5b7488}.n{fill:#1d3547;font-weight:bold}"
+        ".t{fill:#33485a}.p{fill:#fdf0dd;stroke:#b9813a}"
+    )
     head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {y}" font-family="sans-serif" font-size="15">'
     return "\n".join([head, f"<style>{style}</style>", *shapes, "</svg>", ""])
 

@@ -1,4 +1,5 @@
-"""Pages of the Python interface: one for each public module, with every name and its docstring, and a table of the names at the top."""
+"""Pages of the Python interface: one for each public module, with every name and its docstring, and
+a table of the names at the top."""
 
 from __future__ import annotations
 
@@ -8,6 +9,7 @@ from types import ModuleType
 from theories import escaped
 
 import asperity
+from asperity.core.words import first_paragraph
 
 
 def pages() -> dict[str, str]:
@@ -27,8 +29,8 @@ def pages() -> dict[str, str]:
 
 INDEX = """# Python interface
 
-`import asperity as asp`: every name stands in a module of its subject, as `asp.MODULE.NAME`. Numbers are in SI units, arrays `[x, y]`
-([conventions](../conventions.md)).
+`import asperity as asp`: every name stands in a module of its subject, as `asp.MODULE.NAME`. Numbers are in
+SI units, arrays `[x, y]` ([conventions](../conventions.md)).
 
 | subject | module | |
 |---|---|---|"""
@@ -49,7 +51,7 @@ def _title(module: ModuleType) -> str:
 
 
 def _about(module: ModuleType) -> str:
-    return escaped((module.__doc__ or "").splitlines()[0].partition(": ")[2])
+    return escaped(first_paragraph(module).partition(": ")[2])
 
 
 def _where(module: str) -> str:
@@ -57,7 +59,7 @@ def _where(module: str) -> str:
 
 
 def _first(item: object) -> str:
-    return escaped(inspect.cleandoc(item.__doc__ or "").splitlines()[0])
+    return escaped(first_paragraph(item))
 
 
 def _page(name: str, module: ModuleType, top: list[str]) -> str:

@@ -1,4 +1,5 @@
-"""Sphinx extension: formulas as MathML, which browsers draw without script and without network; every displayed one numbered."""
+"""Sphinx extension: formulas as MathML, which browsers draw without script and without network;
+every displayed one numbered."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""The page of all theories, from what they declare: text and formulas of their docstrings, inputs, limits, sources."""
+"""The page of all theories, from what they declare: text and formulas of their docstrings, inputs,
+limits, sources."""
 
 from __future__ import annotations
 
@@ -49,7 +50,10 @@ def section(kind: type[Described]) -> str:
     ]
     lines += ["| input | unit | meaning | range | default |", "|---|---|---|---|---|"]
     lines += [
-        f"| `{item.name}`{'*' if measured and not item.of else ''} | {item.unit or '–'} | {escaped(item.help)} | {bounds(item)} | {default(item)} |"
+        (
+            f"| `{item.name}`{'*' if measured and not item.of else ''} | {item.unit or '–'} | {escaped(item.help)} "
+            f"| {bounds(item)} | {default(item)} |"
+        )
         for item in parameters(kind)
     ]
     lines.append("")
@@ -87,7 +91,8 @@ def description(kind: type[Described]) -> list[str]:
 
 
 def escaped(text: str) -> str:
-    """Plain text of a docstring in Markdown: code stays code, symbols with an index or a power become formulas."""
+    """Plain text of a docstring in Markdown: code stays code, symbols with an index or a power
+    become formulas."""
     roles = re.sub(r":\w+:`~?([^`]*)`", r"``\1``", text)
     parts = re.split(r"(``[^`]*``)", roles)
     return "".join(f"`{part[2:-2]}`" if part.startswith("``") else _prose(part) for part in parts)
@@ -99,7 +104,8 @@ def _prose(text: str) -> str:
 
 
 def _symbol(word: str) -> str:
-    """A word that is one symbol, with its punctuation outside of the formula; empty for any other word."""
+    """A word that is one symbol, with its punctuation outside of the formula; empty for any other
+    word."""
     found = re.fullmatch(r"(\(?)(.+?)([,.:;)]*)", word)
     if found is None:
         return ""

@@ -1,4 +1,5 @@
-"""Thumbnails of the gallery: of a figure much wider than a thumbnail its first panel, which is legible at that size."""
+"""Thumbnails of the gallery: of a figure much wider than a thumbnail its first panel, which is
+legible at that size."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ WHITE = 250
 
 
 def first_panel(figure: Image.Image) -> Image.Image:
-    """The left part of a wide ``figure`` as far as the first gap between panels; others as they are."""
+    """The left part of a wide ``figure`` as far as the first gap between panels; others as they
+    are."""
     width, height = figure.size
     if width < WIDE * height:
         return figure

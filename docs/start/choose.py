@@ -1,6 +1,8 @@
-"""Draws ``choose.png``, which theory holds when: of a rough surface by the real area, of an adhesive sphere by Tabor's parameter.
+"""Draws ``choose.png``, which theory holds when: of a rough surface by the real area, of an
+adhesive sphere by Tabor's parameter.
 
-``python docs/start/choose.py`` takes half a minute. Where a theory holds is asked of the theory itself, on one generated surface.
+``python docs/start/choose.py`` takes half a minute. Where a theory holds is asked of the theory
+itself, on one generated surface.
 """
 
 from __future__ import annotations
@@ -35,7 +37,8 @@ SPHERES = (("dmt", "stiff bodies, small radii"), ("maugis-dugdale", "any"), ("jk
 
 
 def spans(name: str, roughness: asp.roughness.Roughness) -> tuple[np.ndarray, np.ndarray]:
-    """Area fractions that the theory gives, and whether all its limits hold there that concern the area."""
+    """Area fractions that the theory gives, and whether all its limits hold there that concern the
+    area."""
     kind = theory(name)
     known = {"E_star": E_STAR, "hardness": HARDNESS, "yield_stress": HARDNESS / 2.8}
     bodies = {item.name: known[item.name] for item in kind.inputs if item.of == "bodies" and item.required}

@@ -1,4 +1,5 @@
-"""Draws ``overview.png``, the picture of README and front page: a surface, its contact, the stress below the coating.
+"""Draws ``overview.png``, the picture of README and front page: a surface, its contact, the stress
+below the coating.
 
 ``python docs/start/overview.py`` takes some ten seconds.
 """

@@ -2,8 +2,9 @@
 A hard coating on a softer steel
 ================================
 
-A diamond tip is pressed into a coated steel and taken off. Under the hard coating the steel yields first; the coating bends into it and is pulled at
-its lower face within the contact and at its upper face beside it: there it may crack. Finite elements follow plastic flow in both.
+A diamond tip is pressed into a coated steel and taken off. Under the hard coating the steel yields
+first; the coating bends into it and is pulled at its lower face within the contact and at its upper
+face beside it: there it may crack. Finite elements follow plastic flow in both.
 """
 
 import matplotlib.pyplot as plt
@@ -13,8 +14,8 @@ import asperity as asp
 from asperity import fem
 from asperity.solids.plasticity import LinearHardening
 
-# %%
-# One micrometre of a nitride on steel, a tip of 10 µm radius, 300 nm deep; the load is taken off at last.
+# %% One micrometre of a nitride on steel, a tip of 10 µm radius, 300 nm deep; the load is taken off
+# at last.
 steel, nitride = asp.Elastic(210e9, 0.3), asp.Elastic(420e9, 0.25)
 laws = {"coated": [LinearHardening(8e9, 4e9), LinearHardening(1e9, 2e9)], "bare": [LinearHardening(1e9, 2e9)] * 2}
 steps = [*np.linspace(25e-9, 300e-9, 12), fem.Load(0.0)]
@@ -26,7 +27,8 @@ for name, material in (("coated", nitride), ("bare", steel)):
     )
     top = found[name].steps[11]
     print(
-        f"{name}: {1e3 * top.load:.1f} mN, mean pressure {top.mean_pressure / 1e9:.2f} GPa, imprint {1e9 * found[name].imprint[0]:.0f} nm"
+        f"{name}: {1e3 * top.load:.1f} mN, mean pressure {top.mean_pressure / 1e9:.2f} GPa, imprint "
+        f"{1e9 * found[name].imprint[0]:.0f} nm"
     )
 
 # %%
@@ -34,10 +36,12 @@ for name, material in (("coated", nitride), ("bare", steel)):
 fields, coated = found["coated"].fields[11], found["coated"].steps[11]
 tension = fields.tension()
 print(
-    f"tension at the upper face {tension.largest_top[0] / 1e9:.1f} GPa, {tension.largest_top[1] / coated.contact_radius:.2f} contact radii from the axis"
+    f"tension at the upper face {tension.largest_top[0] / 1e9:.1f} GPa, "
+    f"{tension.largest_top[1] / coated.contact_radius:.2f} contact radii from the axis"
 )
 print(
-    f"tension at the lower face {tension.largest_bottom[0] / 1e9:.1f} GPa, {tension.largest_bottom[1] / coated.contact_radius:.2f} contact radii from the axis"
+    f"tension at the lower face {tension.largest_bottom[0] / 1e9:.1f} GPa, "
+    f"{tension.largest_bottom[1] / coated.contact_radius:.2f} contact radii from the axis"
 )
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.0), layout="constrained")

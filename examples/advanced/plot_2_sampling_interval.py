@@ -2,8 +2,8 @@
 The slope of a surface depends on the microscope
 ================================================
 
-On a self-affine surface there is always a finer scale. The rms slope follows the sampling interval, and the real area of
-contact follows the slope; the rms height does not change.
+On a self-affine surface there is always a finer scale. The rms slope follows the sampling interval,
+and the real area of contact follows the slope; the rms height does not change.
 """
 
 import matplotlib.pyplot as plt
@@ -11,9 +11,8 @@ import numpy as np
 
 import asperity as asp
 
-# %%
-# A surface with Hurst exponent 0.7 that is rough down to its pixel of 20 nm, and what coarser instruments see of it: every
-# second, fourth, … point.
+# %% A surface with Hurst exponent 0.7 that is rough down to its pixel of 20 nm, and what coarser
+# instruments see of it: every second, fourth, … point.
 H = 0.7
 spectrum = asp.generate.SelfAffine(
     amplitude=asp.generate.RmsHeight(20e-9), hurst=H, rolloff_wavelength=2e-6, shortest_wavelength=40e-9
@@ -22,9 +21,9 @@ fine = asp.generate.gaussian(asp.Grid((512, 512), (20e-9, 20e-9)), spectrum, see
 study = asp.roughness.sampling_interval_study(fine)
 interval = study.length
 
-# %%
-# What is expected of such a spectrum: the mean square difference of neighbours, divided by their distance. Well below the
-# roll-off it follows the power 2H - 2 of the distance: no instrument finds *the* slope.
+# %% What is expected of such a spectrum: the mean square difference of neighbours, divided by their
+# distance. Well below the roll-off it follows the power 2H - 2 of the distance: no instrument finds
+# *the* slope.
 expected = [
     asp.roughness.expected_difference_moments(
         spectrum.psd, float(step), shortest_wavelength=40e-9, longest_wavelength=1e-3, bends=[2e-6]
@@ -32,8 +31,8 @@ expected = [
     for step in interval
 ]
 
-# %%
-# Press what each instrument has seen. The area under one load is nearly inverse to the slope, so their product stays.
+# %% Press what each instrument has seen. The area under one load is nearly inverse to the slope, so
+# their product stays.
 product, area = [], []
 for every in (2, 4, 8, 16):
     seen = asp.Surface(fine.heights[::every, ::every], every * fine.dx, periodic=True)

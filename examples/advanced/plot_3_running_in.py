@@ -2,8 +2,9 @@
 Running-in: pass after pass
 ===========================
 
-A soft surface that meets a hard one again and again is flattened where it touches. At the same place one pass is enough, and
-the contact is elastic from then on; at ever new places the plastic work of a pass fades slowly.
+A soft surface that meets a hard one again and again is flattened where it touches. At the same
+place one pass is enough, and the contact is elastic from then on; at ever new places the plastic
+work of a pass fades slowly.
 """
 
 import matplotlib.pyplot as plt
@@ -11,8 +12,8 @@ import numpy as np
 
 import asperity as asp
 
-# %%
-# A copper surface under a rigid rough counter surface. Where the pressure reaches the hardness, copper flows.
+# %% A copper surface under a rigid rough counter surface. Where the pressure reaches the hardness,
+# copper flows.
 grid, rng = asp.Grid((96, 96), (100e-9, 100e-9)), np.random.default_rng(0)
 copper = asp.Elastic(130e9, 0.34, asp.Strength(hardness=1.2e9), name="copper")
 soft = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(20e-9, 1.5e-6), seed=1)
@@ -20,7 +21,8 @@ hard = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(5e-9, 1.
 
 
 def passes(shifts):
-    """Results of the passes with the counter surface shifted by so many pixels, each on what the last one has left."""
+    """Results of the passes with the counter surface shifted by so many pixels, each on what the
+    last one has left."""
     surface, results = soft, []
     for shift in shifts:
         counter = hard.with_heights(np.roll(hard.heights, shift, axis=(0, 1)), f"shifted by {shift}")

@@ -2,8 +2,8 @@
 Before and after polishing
 ==========================
 
-Two maps of one surface, from files. Polishing takes off the summits and leaves the valleys. What does that change for
-roughness, contact area and pressure?
+Two maps of one surface, from files. Polishing takes off the summits and leaves the valleys. What
+does that change for roughness, contact area and pressure?
 """
 
 from pathlib import Path
@@ -16,9 +16,9 @@ import asperity as asp
 
 folder = Path(mkdtemp())
 
-# %%
-# **Stand-ins for the scans**, written as matrices of text like those that Gwyddion exports: a ground surface, and the same
-# cut 10 nm above its mean plane, with 0.5 nm of fresh roughness on the cuts. With files of your own begin at the next cell.
+# %% **Stand-ins for the scans**, written as matrices of text like those that Gwyddion exports: a
+# ground surface, and the same cut 10 nm above its mean plane, with 0.5 nm of fresh roughness on the
+# cuts. With files of your own begin at the next cell.
 grid = asp.Grid((160, 160), (100e-9, 100e-9))
 ground = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(20e-9, 1.2e-6), seed=5, variant="fixed")
 fresh = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(0.5e-9, 0.6e-6), seed=6)
@@ -34,8 +34,10 @@ for name, scan in scans.items():
     results[name] = asp.solve(asp.ContactProblem(scan, asp.material("steel")), asp.MeanPressure(20e6))
     parameters[name] = asp.characterise(scan)
     h, f, r = parameters[name].heights, parameters[name].functional, results[name]
-    print(f"{name}: Sq {1e9 * h.Sq:.1f} nm, Ssk {h.Ssk:.2f}, Spk {1e9 * f.Spk:.1f} nm, "
-          f"area {100 * r.area_fraction_corrected:.1f} %, mean real pressure {r.mean_real_pressure / 1e9:.2f} GPa")  # fmt: skip
+    print(
+        f"{name}: Sq {1e9 * h.Sq:.1f} nm, Ssk {h.Ssk:.2f}, Spk {1e9 * f.Spk:.1f} nm, "
+        f"area {100 * r.area_fraction_corrected:.1f} %, mean real pressure {r.mean_real_pressure / 1e9:.2f} GPa"
+    )
 
 figure, axes = plt.subplots(2, 2, figsize=(9, 8), layout="constrained")
 for row, name in zip(axes, scans, strict=True):

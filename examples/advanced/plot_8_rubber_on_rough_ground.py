@@ -2,8 +2,9 @@
 Rubber that slides on rough ground
 ==================================
 
-Every bump that passes a point of rubber presses it in and lets it go again. What the rubber does not give back is friction. It is largest
-where bumps pass about as fast as the rubber relaxes, and the contact area falls with speed, for the rubber stiffens.
+Every bump that passes a point of rubber presses it in and lets it go again. What the rubber does
+not give back is friction. It is largest where bumps pass about as fast as the rubber relaxes, and
+the contact area falls with speed, for the rubber stiffens.
 """
 
 import matplotlib.pyplot as plt
@@ -11,8 +12,8 @@ import numpy as np
 
 import asperity as asp
 
-# %%
-# The ground is rough and rigid, the rubber flat: only roughness that moves over the rubber deforms it again and again.
+# %% The ground is rough and rigid, the rubber flat: only roughness that moves over the rubber
+# deforms it again and again.
 rubber = asp.Viscoelastic.prony(3e6, ((3e6, 1e-1), (10e6, 1e-2), (30e6, 1e-3)), 0.5, name="rubber")
 spectrum = asp.generate.SelfAffine(
     amplitude=asp.generate.RmsHeight(10e-6), hurst=0.8, rolloff_wavelength=1e-3, shortest_wavelength=1.2e-4
@@ -21,15 +22,16 @@ ground = asp.generate.gaussian(asp.Grid((96, 96), (2e-5, 2e-5)), spectrum, seed=
 problem = asp.ContactProblem(ground, asp.Rigid(), counter_body=rubber)
 load = asp.MeanPressure(0.2e6)
 
-# %%
-# Steady sliding at speeds over five decades. Friction comes from the loss in all waves, and again from the slope of the ground.
+# %% Steady sliding at speeds over five decades. Friction comes from the loss in all waves, and
+# again from the slope of the ground.
 speeds = np.geomspace(1e-4, 10.0, 11)
 found = [asp.slide(problem, load, float(speed)) for speed in speeds]
 friction = np.array([each.friction for each in found])
 area = np.array([each.normal.area_fraction for each in found])
 for speed, each in zip(speeds, found, strict=True):
     print(
-        f"{speed:8.2g} m/s: friction {each.friction:.3f}, area {each.normal.area_fraction:.3f}, heat {each.heat:.3g} W/m²"
+        f"{speed:8.2g} m/s: friction {each.friction:.3f}, area {each.normal.area_fraction:.3f}, heat "
+        f"{each.heat:.3g} W/m²"
     )
 
 # %%

@@ -2,8 +2,8 @@
 A theory of your own
 ====================
 
-Anything with the methods ``at_pressure`` and ``validity`` stands beside the theories of the catalogue: in tables, figures,
-and with its limits checked.
+Anything with the methods ``at_pressure`` and ``validity`` stands beside the theories of the
+catalogue: in tables, figures, and with its limits checked.
 """
 
 import matplotlib.pyplot as plt
@@ -13,9 +13,9 @@ from scipy.special import erf
 import asperity as asp
 from asperity.theories.protocol import Limit, prediction
 
-# %%
-# A rule of thumb: A/A₀ = erf(√π κ p/(2 E* h')) starts with the slope κ and ends at full contact. Persson's theory is the
-# case κ = √(8/π); solutions for rough surfaces start steeper, and κ = 2.2 is tried here.
+# %% A rule of thumb: A/A₀ = erf(√π κ p/(2 E* h')) starts with the slope κ and ends at full contact.
+# Persson's theory is the case κ = √(8/π); solutions for rough surfaces start steeper, and κ = 2.2
+# is tried here.
 
 
 class Rule:

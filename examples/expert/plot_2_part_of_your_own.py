@@ -2,8 +2,9 @@
 A part of your own: electrical contact
 ======================================
 
-A part computes something from every solved contact. It declares its settings and quantities once. Installed by a package
-(see the guide *Add an analysis or a physics of your own*) it has its table in documents, its options, columns and sections.
+A part computes something from every solved contact. It declares its settings and quantities once.
+Installed by a package (see the guide *Add an analysis or a physics of your own*) it has its table
+in documents, its options, columns and sections.
 """
 
 from typing import Annotated
@@ -17,9 +18,8 @@ from asperity.core.settings import Settings, setting
 from asperity.core.values import Number
 from asperity.parts.part import Found, Part, Solved
 
-# %%
-# Conductance and stiffness of a contact obey the same equation (Barber 2003): between two half-spaces of resistivity ρ the
-# conductance is dF/dδ / (E* ρ).
+# %% Conductance and stiffness of a contact obey the same equation (Barber 2003): between two
+# half-spaces of resistivity ρ the conductance is dF/dδ / (E* ρ).
 
 
 class ElectricSettings(Settings):
@@ -42,8 +42,8 @@ def conductance(surface, boundary, control):
     return Electric().compute(ElectricSettings(), solved).values["conductance"]
 
 
-# %%
-# Try it before packing it: a ball conducts 2a/ρ through its contact circle (Holm), a rough surface as much as it is loaded.
+# %% Try it before packing it: a ball conducts 2a/ρ through its contact circle (Holm), a rough
+# surface as much as it is loaded.
 copper, loads = asp.material("copper"), np.geomspace(1e6, 100e6, 6)
 ball = asp.generate.sphere(asp.Grid((96, 96), (0.5e-6, 0.5e-6)), radius=1e-3)
 spectrum = asp.generate.GaussianAutocorrelation(10e-9, 0.6e-6)

@@ -2,8 +2,8 @@
 How thick must a coating be?
 ============================
 
-A coating much thinner than a contact is not felt, one much thicker hides what is below. In between, pressure and approach go
-over from one limit to the other.
+A coating much thinner than a contact is not felt, one much thicker hides what is below. In between,
+pressure and approach go over from one limit to the other.
 """
 
 import matplotlib.pyplot as plt
@@ -11,9 +11,8 @@ import numpy as np
 
 import asperity as asp
 
-# %%
-# A ball of 100 µm on a coated half-space, under a fixed force. Without the coating, and with an endless one, Hertz holds: with
-# the modulus of the substrate, and with that of the coating.
+# %% A ball of 100 µm on a coated half-space, under a fixed force. Without the coating, and with an
+# endless one, Hertz holds: with the modulus of the substrate, and with that of the coating.
 substrate, force, radius = asp.Elastic(200e9, 0.3, name="substrate"), 20e-3, 100e-6
 coatings = {"four times stiffer": asp.Elastic(800e9, 0.3), "four times softer": asp.Elastic(50e9, 0.3)}
 hertz = asp.theories.HertzPoint(asp.solids.contact_modulus(substrate), radius).at_load(force)
@@ -26,9 +25,9 @@ def largest_pressure(body, width):
     return asp.solve(asp.ContactProblem(ball, body, boundary=asp.Free()), asp.Force(force)).max_pressure
 
 
-# %%
-# The floor is the thickness up to which the pressure stays within 5 % of the way from its value without a coating, the
-# ceiling that from which it is within 5 % of its value for an endless coating.
+# %% The floor is the thickness up to which the pressure stays within 5 % of the way from its value
+# without a coating, the ceiling that from which it is within 5 % of its value for an endless
+# coating.
 figure, ax = plt.subplots(figsize=(7, 4.5), layout="constrained")
 curves, bounds = {}, {}
 for name, coating in coatings.items():

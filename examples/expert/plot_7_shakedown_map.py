@@ -2,8 +2,9 @@
 Shakedown map: friction against coating thickness
 =================================================
 
-A contact that passes again and again may yield in the first passes and respond elastically ever after: it shakes down. The
-load up to which it does is above that of first yield, and depends on friction and coating.
+A contact that passes again and again may yield in the first passes and respond elastically ever
+after: it shakes down. The load up to which it does is above that of first yield, and depends on
+friction and coating.
 """
 
 import matplotlib.pyplot as plt
@@ -30,21 +31,20 @@ def curve(t):
     return asp.stresses.shakedown(result, asp.stresses.depths_through(body, (t + 0.9) * a, per_region=6), friction)
 
 
-# %%
-# Without a coating the limit is between two bounds: one with the residual stresses that a pass leaves, one that no residual stress
-# can exceed.
+# %% Without a coating the limit is between two bounds: one with the residual stresses that a pass
+# leaves, one that no residual stress can exceed.
 curves = [curve(t) for t in thickness]
 closed_form = [asp.theories.sphere_shakedown(mu) for mu in friction]
 for mu, low, high, found in zip(
     friction, curves[0].limit / k * 1e9, curves[0].bound / k * 1e9, closed_form, strict=True
 ):
     print(
-        f"friction {mu:.1f}: {low:.2f} to {high:.2f} k, in closed form {found.peak_over_k:.2f} to {found.bound_over_k:.2f} k"
+        f"friction {mu:.1f}: {low:.2f} to {high:.2f} k, in closed form {found.peak_over_k:.2f} to "
+        f"{found.bound_over_k:.2f} k"
     )
 
-# %%
-# The map multiplies the load that gives bare steel a peak pressure equal to its yield stress. Where dots are, the steel below
-# the coating sets the limit.
+# %% The map multiplies the load that gives bare steel a peak pressure equal to its yield stress.
+# Where dots are, the steel below the coating sets the limit.
 figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
 plot_shakedown_curve(curves[0], axes[0], per=1e9 / k, label="peak pressure / k, bare steel")
 found = asp.stresses.shakedown_map(thickness, curves)

@@ -2,8 +2,9 @@
 Pull-off of a rough surface
 ===========================
 
-A soft pad, as of a gecko's foot or a soft gripper, is pressed on a rough surface and pulled off again. It jumps into contact, holds on while it is pulled,
-and lets go in jumps; a stiffer pad of the same work of adhesion hardly sticks at all.
+A soft pad, as of a gecko's foot or a soft gripper, is pressed on a rough surface and pulled off
+again. It jumps into contact, holds on while it is pulled, and lets go in jumps; a stiffer pad of
+the same work of adhesion hardly sticks at all.
 """
 
 import matplotlib.pyplot as plt
@@ -13,9 +14,8 @@ import asperity as asp
 from asperity.physics.adhesion.figures import plot_adhesion, plot_adhesion_loop
 from asperity.physics.adhesion.stickiness import stickiness
 
-# %%
-# A work of adhesion of 50 mJ/m² and a range chosen so that the grid resolves the attracting zone; what the pull-off of
-# compliant contacts depends on is the work.
+# %% A work of adhesion of 50 mJ/m² and a range chosen so that the grid resolves the attracting
+# zone; what the pull-off of compliant contacts depends on is the work.
 spectrum = asp.generate.GaussianAutocorrelation(45e-9, 1.2e-6)
 surface = asp.generate.gaussian(asp.Grid((96, 96), (0.07e-6, 0.07e-6)), spectrum, seed=3)
 law = asp.ExponentialAdhesion(work=0.05, range=45e-9)

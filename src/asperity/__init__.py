@@ -62,7 +62,8 @@ class _Package(LateModule):
 
 
 class _Moved:
-    """Finder of modules behind all others: for ``from asperity import NAME`` Python drops the message of the attribute, and looks for a module last."""
+    """Finder of modules behind all others: for ``from asperity import NAME`` Python drops the
+    message of the attribute, and looks for a module last."""
 
     @staticmethod
     def find_spec(fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None) -> None:
@@ -73,7 +74,8 @@ class _Moved:
 
 
 def _moved(name: str) -> str:
-    """Where a ``name`` that is not here is, by the stubs of the public modules; empty if it is here or nowhere."""
+    """Where a ``name`` that is not here is, by the stubs of the public modules; empty if it is here
+    or nowhere."""
     if name.startswith("_") or name in _HOME:
         return ""
     here = Path(__file__).parent

@@ -1,9 +1,9 @@
 """Friction: laws, stick and slip under a tangential load, tangential stiffness.
 
-The laws are ``Coulomb``, ``TrescaFriction`` and ``FullStick``; ``Shift`` and ``TangentialForce`` load tangentially,
-``shear_cycles`` to and fro. ``StickSlip`` and ``GrossSliding`` are what a result holds; ``tangential_stiffness`` is
-that of a contact that does not slip, and ``contraction_factor`` tells whether rounds between normal and tangential
-contact converge.
+The laws are ``Coulomb``, ``TrescaFriction`` and ``FullStick``; ``Shift`` and ``TangentialForce``
+load tangentially, ``shear_cycles`` to and fro. ``StickSlip`` and ``GrossSliding`` are what a result
+holds; ``tangential_stiffness`` is that of a contact that does not slip, and ``contraction_factor``
+tells whether rounds between normal and tangential contact converge.
 """
 
 from .core.late import late_names

@@ -1,8 +1,9 @@
 """Viscoelasticity: materials that relax, oscillating and sliding contacts, hysteretic friction.
 
 ``Viscoelastic`` is the material, ``fitted_solid`` fits it to a ``MasterCurve`` (``Arrhenius``,
-``WilliamsLandelFerry``), ``Creeping`` is what a result holds. ``harmonic`` gives the ``HarmonicResponse`` of a
-contact, ``slide`` its ``SteadySliding`` and ``slide_in_time`` its ``TransientSliding``.
+``WilliamsLandelFerry``), ``Creeping`` is what a result holds. ``harmonic`` gives the
+``HarmonicResponse`` of a contact, ``slide`` its ``SteadySliding`` and ``slide_in_time`` its
+``TransientSliding``.
 """
 
 from .core.late import late_names

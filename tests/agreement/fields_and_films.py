@@ -1,4 +1,5 @@
-"""Rows of the agreement matrix on stresses below the surface, on menisci, and on the design for the least area."""
+"""Rows of the agreement matrix on stresses below the surface, on menisci, and on the design for the
+least area."""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ def stresses_apart(found, expected) -> float:
 
 
 def far_below(name: str, far: float) -> float:
-    """Stresses ``far`` contact radii below a Hertz contact against those of its force at a point or on a line."""
+    """Stresses ``far`` contact radii below a Hertz contact against those of its force at a point or
+    on a line."""
     if name == "hertz-stress":
         depth = far * float(make("hertz", E, R).at_load(LOAD).radius)
         force = make("boussinesq", LOAD, E)
@@ -58,7 +60,8 @@ def round_ellipse(off: float) -> float:
 
 
 def rolled_elements(across: float) -> float:
-    """Shakedown limit from the elastic stresses of finite elements below the pressure of Hertz, which pass by along x, against the closed fields."""
+    """Shakedown limit from the elastic stresses of finite elements below the pressure of Hertz,
+    which pass by along x, against the closed fields."""
     fine = Resolution(across=int(across), growth=1.3, depth=1.5, distance=200.0)
     track = cylinder_track(Elastic(1.0, NU), 1.0, (0.0, 0.0), plasticity=None, resolution=fine)
     push = line_load(track, 0.0, 1.0, 1.0)
@@ -70,14 +73,16 @@ def rolled_elements(across: float) -> float:
 
 
 def rolling_shear(_: float) -> float:
-    """Bound of a rolling sphere against one over the largest shear stress σ_xz below the plane of symmetry."""
+    """Bound of a rolling sphere against one over the largest shear stress σ_xz below the plane of
+    symmetry."""
     x, z = np.linspace(0.5, 1.2, 701)[:, None], np.linspace(0.2, 0.6, 401)[None]
     stress = hertz_normal(x, np.zeros_like(x), z, 1.0, shear=1.0, nu=NU).stress
     return apart(make("shakedown").bound_over_k, 1.0 / np.abs(stress.xz).max())
 
 
 def onset_of_yield(_: float) -> float:
-    """Largest stress of von Mises on the axis at the load of first yield against the yield stress."""
+    """Largest stress of von Mises on the axis at the load of first yield against the yield
+    stress."""
     contact = make("hertz", E, R).at_load(LOAD)
     onset = make("first-yield", NU).at_friction([0.0])
     depth = float(onset.z[0]) * float(contact.radius)
@@ -102,7 +107,8 @@ def grown_menisci(hamaker: float) -> float:
 
 
 def designed_area(_: float) -> float:
-    """Area of the designed surface against Greenwood and Williamson's on that surface, for 1e-4 <= P_a <= 1e-2."""
+    """Area of the designed surface against Greenwood and Williamson's on that surface, for 1e-4 <=
+    P_a <= 1e-2."""
     design = make("least-area", 8e9)
     ratio = float(design.at_modulus([E]).summit_ratio[0])
     surface = make("greenwood-williamson", E, ETA, SIGMA / ratio, SIGMA)
@@ -208,7 +214,8 @@ FIELDS_AND_FILMS: tuple[Agreement, ...] = (
         rolling_shear,
         (),
         1e-3,
-        "the shear alternates, so that no residual stress lowers it; places along the pass are 0.04 of the radius apart, the error is of second order",
+        "the shear alternates, so that no residual stress lowers it; places along the pass are 0.04 of the "
+        "radius apart, the error is of second order",
     ),
     Agreement(
         "shakedown",
@@ -226,7 +233,8 @@ FIELDS_AND_FILMS: tuple[Agreement, ...] = (
         dry_summits,
         (1e-2, 1e-4, 1e-6),
         1e-6,
-        "the meniscus force of the summits in the film, at most 2πRγ(1 + cos θ)η = 13 Pa of which 2 % reach it, over 1e5 Pa",
+        "the meniscus force of the summits in the film, at most 2πRγ(1 + cos θ)η = 13 Pa of which 2 % reach "
+        "it, over 1e5 Pa",
     ),
     Agreement(
         "kinetic-meniscus",

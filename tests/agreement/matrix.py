@@ -1,7 +1,9 @@
-"""The agreement matrix: which theories must agree, in which limit, to what tolerance. One row per agreement.
+"""The agreement matrix: which theories must agree, in which limit, to what tolerance. One row per
+agreement.
 
-Each row holds a function from the parameter of the limit to the largest relative difference; it is evaluated at the values
-``towards`` the limit. The difference at the last one must be within the tolerance, and smaller than at the one before.
+Each row holds a function from the parameter of the limit to the largest relative difference; it is
+evaluated at the values ``towards`` the limit. The difference at the last one must be within the
+tolerance, and smaller than at the one before.
 """
 
 from __future__ import annotations
@@ -26,19 +28,21 @@ from asperity.theories.statistics.nayak import NayakSummits
 from asperity.theories.statistics.roughness import Roughness
 
 E, R, SIGMA, ETA, AREA = 1e11, 1e-6, 1e-8, 1e12, 1e-11
-"""Contact modulus (Pa), radius (m), height deviation (m), density (1/m²) and area (m²) of the rows."""
+"""Contact modulus (Pa), radius (m), height deviation (m), density (1/m²) and area (m²) of the
+rows."""
 
 ROUNDING = 1e-10
-"""Of two computations of the same number: sums of positive terms and inversions to 1e-12, with a margin."""
+"""Of two computations of the same number: sums of positive terms and inversions to 1e-12, with a
+margin."""
 
 
 @dataclass(frozen=True)
 class Agreement:
     """One row.
 
-    ``theory`` and ``other`` names in the catalogue, or words for what is not a theory of its own; ``limit`` in words;
-    ``difference`` and ``towards`` see above, an empty tuple for theories that must agree everywhere; ``reason`` where
-    the tolerance comes from.
+    ``theory`` and ``other`` names in the catalogue, or words for what is not a theory of its own;
+    ``limit`` in words; ``difference`` and ``towards`` see above, an empty tuple for theories that
+    must agree everywhere; ``reason`` where the tolerance comes from.
     """
 
     theory: str
@@ -124,12 +128,14 @@ def equal_coating(_: float) -> float:
 
 
 def coated_pull_off(thickness: float) -> float:
-    """Pull-off from a coating ten times as stiff as the base against 1.5πwR, that from either alone."""
+    """Pull-off from a coating ten times as stiff as the base against 1.5πwR, that from either
+    alone."""
     return apart(make("jkr-coated-sphere", 1e7, 1e6, **COATED | {"thickness": thickness}).pull_off_ratio, 1.0)
 
 
 def coating_on_a_grid(points: float) -> float:
-    """Pull-off from a coating four times softer than the base on a grid, with adhesion without range."""
+    """Pull-off from a coating four times softer than the base on a grid, with adhesion without
+    range."""
     solids = {"coating_nu": 0.3, "base_nu": 0.3, "thickness": 0.5, "radius": 1.0, "work": 0.02}
     theory = make("jkr-coated-sphere", 0.25, 1.0, **solids)
     pixel = 1.8 / points
@@ -144,7 +150,8 @@ def coating_on_a_grid(points: float) -> float:
 
 
 def rough_and_attractive(share: float) -> float:
-    """Mean pressure over E* at which a twentieth of a rough map touches, of an attraction whose number is ``share`` of the limit of stickiness."""
+    """Mean pressure over E* at which a twentieth of a rough map touches, of an attraction whose
+    number is ``share`` of the limit of stickiness."""
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=96.0, shortest_wavelength=12.0
     )
@@ -160,7 +167,8 @@ def rough_and_attractive(share: float) -> float:
 
 
 def stickiness_of_a_map(_: float) -> float:
-    """Share of the limit at which that pressure changes its sign, tensile below and compressive above, against 1."""
+    """Share of the limit at which that pressure changes its sign, tensile below and compressive
+    above, against 1."""
     shares = np.array([1.0, 2.0, 4.0])
     pressure = np.array([rough_and_attractive(share) for share in shares])
     assert pressure[0] < 0.0 < pressure[-1]
@@ -176,7 +184,8 @@ def adhesive_wave(work: float) -> float:
 
 
 def full_contact_of_a_wave(_: float) -> float:
-    """Work left by full contact of one wave against the work of adhesion less that of pressing the wave flat."""
+    """Work left by full contact of one wave against the work of adhesion less that of pressing the
+    wave flat."""
     amplitude, length, work = 1e-8, 1e-5, 0.5
     wave = make("westergaard", E, amplitude, length)
     pressure = wave.full_contact_pressure * np.linspace(0.0, 1.0, 100_001) ** 2
@@ -236,11 +245,13 @@ def kappa(theory, D: float) -> float:
 
 
 RELAXED, STEP, TIME = 2e6, 2e7, 1e-4
-"""Relaxed modulus and what relaxes (Pa), and the time (s) of a standard linear solid that slides."""
+"""Relaxed modulus and what relaxes (Pa), and the time (s) of a standard linear solid that
+slides."""
 
 
 def sliding_area(speed: float, modulus: float) -> float:
-    """Area of the rubber at ``speed`` (m/s) against that of an elastic half-space of this ``modulus``."""
+    """Area of the rubber at ``speed`` (m/s) against that of an elastic half-space of this
+    ``modulus``."""
     q, psd = np.array([1e4, 1e5, 1e6]), np.array([1e-18, 1e-20, 1e-24])
     found = make("persson-friction", RELAXED, [STEP], [TIME], q, psd).at_speed([speed], 1e5).area_fraction
     spectrum = IsotropicSpectrum(q, psd)
@@ -255,7 +266,8 @@ def area_at_equal_load(name: str, other: str, alpha: float, separations: ArrayLi
 
 
 def elliptic_summit(ratio: float) -> float:
-    """The elliptical contacts of Bush, Gibson and Thomas against Hertz's ellipse: area and load at one approach."""
+    """The elliptical contacts of Bush, Gibson and Thomas against Hertz's ellipse: area and load at
+    one approach."""
     shape, mean = ellipse_of_curvatures(ratio), 0.5 * (1.0 + 1.0 / ratio) / R
     found = make("hertz-ellipse", E, R, ratio * R).at_load(1e-6)
     area = math.pi * found.approach / mean * shape.area
@@ -264,7 +276,8 @@ def elliptic_summit(ratio: float) -> float:
 
 
 def exponential_pairs(_: float) -> float:
-    """An exponential forgets: misaligned pairs of summits carry like single ones of the relative radius."""
+    """An exponential forgets: misaligned pairs of summits carry like single ones of the relative
+    radius."""
     pairs, single = (
         make(name, E, ETA, radius, SIGMA, heights=ExponentialHeights())
         for name, radius in (("greenwood-tripp", R), ("greenwood-williamson", 0.5 * R))
@@ -309,7 +322,8 @@ def fits_of_table_1(_: float) -> float:
 
 
 def shared_roughness(_: float) -> float:
-    """Two surfaces that share a roughness against one that has it all, at real areas of 1e-5 to 1e-2."""
+    """Two surfaces that share a roughness against one that has it all, at real areas of 1e-5 to
+    1e-2."""
     roughness = Roughness(SIGMA**2, 1e-3, 1e13 * 5.0)
     one, two = (catalogue.theory(name).from_roughness(roughness, E) for name in ("mccool", "greenwood-tripp"))
     pressure = E * math.sqrt(2e-3) * np.geomspace(1e-5, 1e-2, 10)
@@ -541,7 +555,8 @@ MATRIX: tuple[Agreement, ...] = (
         lambda speed: sliding_area(speed, RELAXED),
         (1e-6, 1e-9),
         1e-6,
-        "every wave then passes in more than the relaxation time; the modulus differs from the relaxed one by the square of its frequency times that",
+        "every wave then passes in more than the relaxation time; the modulus differs from the relaxed one by "
+        "the square of its frequency times that",
     ),
     Agreement(
         "persson-friction",

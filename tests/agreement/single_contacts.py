@@ -1,4 +1,5 @@
-"""More rows of the agreement matrix: theories of one contact in each other's limits, and the solver beside them."""
+"""More rows of the agreement matrix: theories of one contact in each other's limits, and the solver
+beside them."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ LOADS = np.array([0.0, 1e-7, 1e-6])
 
 
 def like_a_line(ratio: float) -> float:
-    """Half-width and peak of an ellipse of radii R and R times ``ratio``; its middle carries (3/4) P/a per length."""
+    """Half-width and peak of an ellipse of radii R and R times ``ratio``; its middle carries (3/4)
+    P/a per length."""
     ellipse = make("hertz-ellipse", E, ratio * R, R)
     a, b = ellipse.semi_axes(1e-6)
     line = make("hertz-line", E, R).at_load(0.75e-6 / float(a))
@@ -37,7 +39,8 @@ def like_a_cylinder(_: float) -> float:
 
 
 def wave_like_lines(share: float) -> float:
-    """A wave of 1 nm and 1 µm at ``share`` of the pressure of full contact, its crests cylinders of λ²/4π²Δ."""
+    """A wave of 1 nm and 1 µm at ``share`` of the pressure of full contact, its crests cylinders of
+    λ²/4π²Δ."""
     wave = make("westergaard", E, 1e-9, 1e-6)
     p = share * wave.full_contact_pressure
     line = make("hertz-line", E, 1e-12 / (4.0 * np.pi**2 * 1e-9)).at_load(p * 1e-6)
@@ -52,7 +55,8 @@ def like_coulomb(_: float) -> float:
 
 
 def slipping_wave_like_lines(share: float) -> float:
-    """Stick width and loop of a wave at ``share`` of the pressure of full contact, sheared by half the limit of friction."""
+    """Stick width and loop of a wave at ``share`` of the pressure of full contact, sheared by half
+    the limit of friction."""
     wave = make("mindlin-wave", E, 1e-9, 1e-6, 0.3)
     p = share * wave.normal.full_contact_pressure
     line, Q = make("mindlin-line", E, 1e-12 / (4.0 * np.pi**2 * 1e-9), 0.3), 0.15 * p
@@ -76,7 +80,8 @@ def stuck_without_coupling(_: float) -> float:
 
 
 def first_twist(share: float) -> float:
-    """Stiffness of a twisted sphere at a ``share`` of the largest torque beside that of a disc without slip."""
+    """Stiffness of a twisted sphere at a ``share`` of the largest torque beside that of a disc
+    without slip."""
     ball = make("lubkin", E, R, 0.4 * E, 0.3)
     answer = ball.at_load(1e-6, share * ball.largest_torque(1e-6))
     return apart(answer.stiffness, make("sticking-twist", 0.4 * E, float(answer.normal.radius)).stiffness)
@@ -105,7 +110,8 @@ def first_creepage(share: float) -> float:
 
 
 def first_stiffness(_: float) -> float:
-    """Tangential over normal stiffness before any slip: 2(1 - ν)/(2 - ν) for equal bodies of ν = 0.3."""
+    """Tangential over normal stiffness before any slip: 2(1 - ν)/(2 - ν) for equal bodies of ν =
+    0.3."""
     shear = E * (1.0 - 0.3)
     theory = make("mindlin", E, R, th.tangential_modulus(shear, 0.3, shear, 0.3), 0.3)
     ratio = theory.at_load(1e-6, 0.0).stiffness / theory.normal.at_load(1e-6).stiffness
@@ -126,7 +132,8 @@ def pull_off_like_jkr(deviation: float) -> float:
 
 
 def gw_like_identical(deviation: float) -> float:
-    """Pressure and area of summits whose heights vary by ``deviation`` around 1 µm, pressed by 38 pm."""
+    """Pressure and area of summits whose heights vary by ``deviation`` around 1 µm, pressed by 38
+    pm."""
     h = np.array([1e-6 - 38e-12])
     nearly = make("greenwood-williamson", E, 1e12, R, deviation, 1e-6).at_separation(h)
     equal = make("identical-asperities", E, 1e12, R, 1e-6).at_separation(h)

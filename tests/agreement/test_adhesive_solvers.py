@@ -1,4 +1,5 @@
-"""The adhesive solver against a dense bound-constrained method; its energy falls, its states restart, couplings agree."""
+"""The adhesive solver against a dense bound-constrained method; its energy falls, its states
+restart, couplings agree."""
 
 from __future__ import annotations
 
@@ -101,7 +102,8 @@ def test_history_goes_on_from_its_state(boundary):
 
 
 def test_a_smooth_branch_loses_nothing_and_its_work_is_known_whatever_the_step():
-    """Stiff bodies approach on one branch: the trapezoidal rule, whose error falls with the square of the step, tends to the work found."""
+    """Stiff bodies approach on one branch: the trapezoidal rule, whose error falls with the square
+    of the step, tends to the work found."""
     problem = sphere(32, 8.0, ExponentialAdhesion(WORK, WORK / strength_of(0.3)))
     rules, works, errors = [], [], []
     for steps in (8, 16):
@@ -174,7 +176,8 @@ WET = {
 
 @pytest.mark.parametrize(("dry", "thickness", "load"), WET.values(), ids=WET)
 def test_attraction_menisci_and_force_add_up(dry, thickness, load):
-    """The force wanted is met, and at the approach found the contact held there bears it but for pixels of liquid."""
+    """The force wanted is met, and at the approach found the contact held there bears it but for
+    pixels of liquid."""
     film = asp.LiquidFilm(surface_tension=0.0728, thickness=thickness * APPROACH)
     problem = replace(dry, film=film)
     control = asp.Force(load * FORCE) if load > 0.0 else asp.contact.Pull(-load * FORCE)
@@ -218,7 +221,8 @@ def test_stick_and_slip_joins():
 
 
 def test_line_contact_pulls_off():
-    """Exponential law and a cylinder: JKR's -3(πE*w²R/16)^(1/3) is met from below, for the zone has a width."""
+    """Exponential law and a cylinder: JKR's -3(πE*w²R/16)^(1/3) is met from below, for the zone has
+    a width."""
     length = (RADIUS**2 * WORK / E_STAR) ** (1.0 / 3.0)
     n, size = 256, 12.0 * length
     x = (np.arange(n) - 0.5 * (n - 1)) * size / n

@@ -1,8 +1,10 @@
-"""Each physics of the interface alone against stored values of an independent route: plain loops around a dense solver.
+"""Each physics of the interface alone against stored values of an independent route: plain loops
+around a dense solver.
 
-``python tests/agreement/test_coupling_references.py`` (in ``tests``, with it on the path) writes ``tests/reference/couplings.csv`` anew: every
-normal contact by the dense active set to rounding, menisci and shear repeated until nothing changes, limits of a film
-damped (soft) or as they are (hard), load paths step by step from the indentation left.
+``python tests/agreement/test_coupling_references.py`` (in ``tests``, with it on the path) writes
+``tests/reference/couplings.csv`` anew: every normal contact by the dense active set to rounding,
+menisci and shear repeated until nothing changes, limits of a film damped (soft) or as they are
+(hard), load paths step by step from the indentation left.
 """
 
 from __future__ import annotations

@@ -1,4 +1,5 @@
-"""The exact active-set solver, on which the agreement of all others rests, against enumeration and a general QP solver."""
+"""The exact active-set solver, on which the agreement of all others rests, against enumeration and
+a general QP solver."""
 
 from __future__ import annotations
 
@@ -30,7 +31,8 @@ def tiny(shape: tuple[int, int], seed: int, *, free: bool, capped: bool, load: b
 
 
 def enumerated(qp: ContactQP) -> np.ndarray:
-    """Pressure of the one assignment of points to idle, free and capped that meets every condition."""
+    """Pressure of the one assignment of points to idle, free and capped that meets every
+    condition."""
     n, matrix, heights = qp.profile.size, qp.operator.matrix(), qp.profile.ravel()
     cap = np.broadcast_to(qp.cap, qp.profile.shape).ravel()
     unit = float(matrix[0, 0])  # keeps the bordered matrix well scaled
@@ -120,7 +122,8 @@ def test_reaches_rounding() -> None:
 
 @pytest.mark.parametrize("mean", [1e-6, 0.3])
 def test_a_load_carried_by_points_at_their_cap_moves_to_others(mean: float) -> None:
-    """With no point free the level is open: a point leaves its cap only together with one that takes the load."""
+    """With no point free the level is open: a point leaves its cap only together with one that
+    takes the load."""
     unfinished, wrong = [], []
     for seed in range(40):
         rng = np.random.default_rng(seed)

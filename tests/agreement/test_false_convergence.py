@@ -1,4 +1,5 @@
-"""What is called converged is right: random small problems against the exact dense solution, over all kinds of trouble."""
+"""What is called converged is right: random small problems against the exact dense solution, over
+all kinds of trouble."""
 
 from __future__ import annotations
 
@@ -20,14 +21,16 @@ LARGEST_ERROR = 1e-3
 """Of the pressure, relative L2."""
 
 EXACT = DenseActiveSet(tolerance=1e-8)
-"""Its error is rounding, which is up to 1e-9 of the small lengths by which errors are made relative here."""
+"""Its error is rounding, which is up to 1e-9 of the small lengths by which errors are made relative
+here."""
 
 FILMS = [(10.0, 0.5), (0.1, 2.0), (3.0, 8.0)]
 """Modulus over that of the base, thickness in pixels."""
 
 
 def heights_of(rng: np.random.Generator, shape: tuple[int, int]) -> RealArray:
-    """Rough, stepped, with plateaus, ties or spikes, nearly flat or flat, of rms slopes about one or less."""
+    """Rough, stepped, with plateaus, ties or spikes, nearly flat or flat, of rms slopes about one
+    or less."""
     kind = rng.integers(7)
     rough = rng.standard_normal(shape)
     if kind == 0:
@@ -50,7 +53,8 @@ def heights_of(rng: np.random.Generator, shape: tuple[int, int]) -> RealArray:
 
 
 def problem(seed: int) -> ContactQP:
-    """Up to 12 x 12 points; pixels up to 1 : 4; half-spaces and films; caps; loads over twelve decades; both boundaries."""
+    """Up to 12 x 12 points; pixels up to 1 : 4; half-spaces and films; caps; loads over twelve
+    decades; both boundaries."""
     rng = np.random.default_rng([seed, 14])
     shape = int(rng.integers(2, 13)), int(rng.integers(1, 13))
     grid = asp.Grid(shape, (1.0, float(rng.choice([1.0, 0.25, 0.7, 4.0]))))
@@ -145,7 +149,8 @@ def film_of(modulus: float) -> Compliance:
     ("shape", "modulus", "relative_cap"), [((3, 12), 100.0, 1.01), ((24, 24), 100.0, 10.0), ((24, 24), 1000.0, 2.0)]
 )
 def test_bending_films_under_a_cap_are_solved(shape: tuple[int, int], modulus: float, relative_cap: float) -> None:
-    """Steps that are clipped to the bounds must let points reach them: shortened as a whole they went on for ever."""
+    """Steps that are clipped to the bounds must let points reach them: shortened as a whole they
+    went on for ever."""
     heights = 1e-3 * np.random.default_rng(shape[0] // 24).standard_normal(shape)
     load = 1.0 if shape[0] == 3 else 0.1
     operator = prepare_operator(
@@ -159,7 +164,8 @@ def test_bending_films_under_a_cap_are_solved(shape: tuple[int, int], modulus: f
 
 @pytest.mark.parametrize(("load", "relative_cap"), [(0.01, np.inf), (1.0, 10.0)])
 def test_stiff_films_are_solved_while_the_energy_falls(load: float, relative_cap: float) -> None:
-    """Their errors rise above that of the start for many steps, which must not count as stagnation."""
+    """Their errors rise above that of the start for many steps, which must not count as
+    stagnation."""
     grid = asp.Grid((64, 64), (1.0, 4.0))
     operator = prepare_operator(film_of(1000.0), grid, asp.Periodic(), engine=asp.engines.CpuEngine(1))
     heights = 1e-3 * np.random.default_rng(0).standard_normal(grid.shape)
@@ -207,7 +213,8 @@ def test_flat_periodic_bodies_far_above_the_datum_are_solved(
 
 @pytest.mark.parametrize(("shape", "seed", "load"), [((2, 2), 8, 1e-2), ((2, 3), 7, 2e-3)])
 def test_a_load_just_below_the_cap_is_solved_to_rounding(shape: tuple[int, int], seed: int, load: float) -> None:
-    """Only the missing 1e-4 of the load deflects, so that heights count from the level of the last point that bears."""
+    """Only the missing 1e-4 of the load deflects, so that heights count from the level of the last
+    point that bears."""
     heights = np.random.default_rng(seed).standard_normal(shape)
     operator = prepare_operator(
         HalfSpace(1.0), asp.Grid(shape, (1.0, 4.0)), asp.Periodic(), engine=asp.engines.CpuEngine(1)

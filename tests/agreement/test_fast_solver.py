@@ -1,6 +1,8 @@
-"""The fast solver where it is hardest: against the exact solver, against constrained CG, and against itself.
+"""The fast solver where it is hardest: against the exact solver, against constrained CG, and
+against itself.
 
-Bounds of differences follow from the errors both solutions report: |p - p*|_K² <= e · height scale · load.
+Bounds of differences follow from the errors both solutions report: |p - p*|_K² <= e · height
+scale · load.
 """
 
 from __future__ import annotations
@@ -55,7 +57,8 @@ def posed(
 
 
 def rounding(qp: ContactQP, p: RealArray) -> float:
-    """Relative error that the rounding of heights and deflections, of some units in the last place each, leaves in the gap."""
+    """Relative error that the rounding of heights and deflections, of some units in the last place
+    each, leaves in the gap."""
     u = qp.operator.apply(p)
     length = 8.0 * np.finfo(float).eps * (np.abs(qp.profile).max() + np.abs(u).max())
     return scaled_error(qp, float(length), float(p.sum()), 0.5 * float((p * u).sum()))
@@ -100,7 +103,8 @@ def reference(qp: ContactQP) -> Solution:
 
 
 def reference_of_any_size(qp: ContactQP) -> Solution:
-    """Exact solution of a small problem, else one of constrained conjugate gradients, an independent method."""
+    """Exact solution of a small problem, else one of constrained conjugate gradients, an
+    independent method."""
     if qp.profile.size <= 256:
         return reference(qp)
     solution = run(ConjugateGradient(tolerance=1e-9), qp)
@@ -152,7 +156,8 @@ LOADS = (1e-12, 1e-3, 0.03, 0.3, 3.0, 1e4)
 
 
 def capped(qp: ContactQP, pressure: RealArray) -> Iterator[ContactQP]:
-    """The problem without cap and with caps reached nowhere, in one pixel, in most, in all, and with a map of caps."""
+    """The problem without cap and with caps reached nowhere, in one pixel, in most, in all, and
+    with a map of caps."""
     yield qp
     yield replace(qp, cap=2.0 * float(pressure.max()))
     first, second = np.sort(pressure, axis=None)[:-3:-1]
@@ -165,7 +170,8 @@ def capped(qp: ContactQP, pressure: RealArray) -> Iterator[ContactQP]:
 
 
 def complaints(name: str, elastic_qp: ContactQP) -> Iterator[str]:
-    """What is wrong with the solutions of ``elastic_qp`` and its capped variants, in both precisions.
+    """What is wrong with the solutions of ``elastic_qp`` and its capped variants, in both
+    precisions.
 
     With a cap no step is free; without one both kinds of steps are tried.
     """
@@ -437,7 +443,8 @@ def test_single_precision_corrections_give_pressures_to_1e_5(n: int, load: float
 @pytest.mark.parametrize("load", [0.01, 0.05, 0.2])
 @pytest.mark.parametrize("n", [128, 256])
 def test_single_precision_alone_gives_pressures_to_1e_5_and_can_be_polished(n: int, load: float) -> None:
-    """Gaps are known to some roundings of the height scale, 2^-24 each: tolerances of 1e-6 are within reach."""
+    """Gaps are known to some roundings of the height scale, 2^-24 each: tolerances of 1e-6 are
+    within reach."""
     qp = posed(
         self_affine(n) + 1e3, asp.Periodic(), load
     )  # heights far from zero: they are centred in double precision

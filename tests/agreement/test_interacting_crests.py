@@ -1,4 +1,5 @@
-"""Crests that press each other down against the boundary-element solution of the same smooth bumps."""
+"""Crests that press each other down against the boundary-element solution of the same smooth
+bumps."""
 
 from __future__ import annotations
 
@@ -11,7 +12,8 @@ from asperity.theories.rough.interacting_crests import InteractingCrests
 
 PIXEL, N = 8e-9, 160
 RADIUS, MODULUS, DELTA = 1e-6, 1e11, 8e-9
-# on pixels, so that first touch is that of the crests; contact radii are about 90 nm, distances five times that
+# on pixels, so that first touch is that of the crests; contact radii are about 90 nm, distances
+# five times that
 PLACES = np.array([[40, 40], [96, 44], [48, 104], [112, 112]])
 HEIGHTS = np.array([0.0, -1e-9, -2e-9, -5e-10])
 
@@ -49,8 +51,9 @@ def test_loads_of_interacting_crests_are_those_of_the_solver(shape, wavelength):
         areas = found.area_fraction / (result.contact_area / theory.area)
         return float((found.pressure * theory.area / result.force)[0]), float(areas[0])
 
-    # ten pixels to a contact radius leave below 1 % in the load and a pixel of the rim in the area; point forces 0.4 % of
-    # the displacements between crests; two terms of the sine 0.3 % at a/λ = 0.11
+    # ten pixels to a contact radius leave below 1 % in the load and a pixel of the rim in the area;
+    # point forces 0.4 % of the displacements between crests; two terms of the sine 0.3 % at a/λ =
+    # 0.11
     load, area = shares("far field")
     assert load == pytest.approx(1.0, abs=0.01)
     assert area == pytest.approx(1.0, abs=0.03)

@@ -1,4 +1,5 @@
-"""Limits found together with the pressure against rounds of contacts at given limits, which share no step of the method."""
+"""Limits found together with the pressure against rounds of contacts at given limits, which share
+no step of the method."""
 
 from __future__ import annotations
 
@@ -42,7 +43,8 @@ def in_rounds(monkeypatch, problem: asp.ContactProblem, control, tolerance: floa
 @BOUNDARIES
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_pressures_are_those_of_rounds(monkeypatch, boundary, seed):
-    """Limits agree to 1e-5 with their depths in both; a limit that falls by s c < 0.3 of what a point sinks doubles that at most."""
+    """Limits agree to 1e-5 with their depths in both; a limit that falls by s c < 0.3 of what a
+    point sinks doubles that at most."""
     problem, load = posed(hard_film(8.0), 96, seed, boundary), asp.MeanPressure(0.05)
     found = asp.solve(problem, load, solver=ActiveSet(tolerance=1e-10))
     other = in_rounds(monkeypatch, problem, load, 1e-10)
@@ -90,7 +92,8 @@ def test_a_stiff_film_and_odd_sizes(monkeypatch):
 
 
 def test_pairs_of_transforms():
-    """As many as for the elastic contact, in which the same part of the work is on coarser grids, in the mean of some surfaces, since each takes whole pairs; rounds took six times as many."""
+    """As many as for the elastic contact, in which the same part of the work is on coarser grids,
+    in the mean of some surfaces, since each takes whole pairs; rounds took six times as many."""
     body, solver, pairs = hard_film(8.0), ActiveSet(tolerance=1e-6), []
     for seed in (1, 2, 3):
         problem = posed(body, 256, seed)
@@ -104,7 +107,8 @@ def test_pairs_of_transforms():
 
 @pytest.mark.parametrize("seed", [2, 3])
 def test_a_film_thinner_than_the_points_of_coarser_grids(monkeypatch, seed):
-    """Limits fall gently on the fine grid and steeply on the coarser ones, where points may rest at several depths: what a few steps there give is enough."""
+    """Limits fall gently on the fine grid and steeply on the coarser ones, where points may rest at
+    several depths: what a few steps there give is enough."""
     problem, load, coarse = posed(hard_film(2.0, base=0.2), 128, seed), asp.MeanPressure(0.02), []
     found_on = yielding._Iteration.found
 
@@ -125,7 +129,8 @@ def test_a_film_thinner_than_the_points_of_coarser_grids(monkeypatch, seed):
 
 
 def test_what_is_not_found_is_left_to_rounds(monkeypatch):
-    """Where the joint method gives up the answer is that of rounds, to the bit, and its transforms count as well."""
+    """Where the joint method gives up the answer is that of rounds, to the bit, and its transforms
+    count as well."""
     problem, load = posed(hard_film(8.0), 96, 1), asp.MeanPressure(0.05)
     other = in_rounds(monkeypatch, problem, load, 1e-8)
     monkeypatch.setattr(yielding, "_MOST_STEPS", 1)

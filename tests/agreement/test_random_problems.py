@@ -1,4 +1,5 @@
-"""Random tiny problems with loads, heights and caps over many decades: every solver solves every one of them."""
+"""Random tiny problems with loads, heights and caps over many decades: every solver solves every
+one of them."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ SEEDS = range(2, 100)
 
 
 def problem(seed: int) -> ContactQP:
-    """Up to 8 x 8 points, a third of the profiles with many equal heights, caps from 10 MPa to 10 GPa or none."""
+    """Up to 8 x 8 points, a third of the profiles with many equal heights, caps from 10 MPa to 10
+    GPa or none."""
     rng = np.random.default_rng(seed)
     shape = int(rng.integers(2, 9)), int(rng.integers(1, 9))
     free, capped = rng.random() < 0.5, int(rng.integers(3))

@@ -1,4 +1,5 @@
-"""Steady rolling by the direct method against moves of the material until they rest, and under the symmetries of the grid."""
+"""Steady rolling by the direct method against moves of the material until they rest, and under the
+symmetries of the grid."""
 
 from dataclasses import replace
 
@@ -15,7 +16,8 @@ COATED = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.2), 0.04)], base=STEEL)
 
 
 def wheel(shape=(24, 24), body=STEEL, counter=None, law=None, across=0.6):
-    """Ellipsoid with more curvature across the rolling direction, under a load of a contact of about A."""
+    """Ellipsoid with more curvature across the rolling direction, under a load of a contact of
+    about A."""
     spacing = 2.5 * A / shape[0]
     x, y = ((np.arange(n) - 0.5 * (n - 1)) * spacing for n in shape)
     heights = -(x[:, None] ** 2 + y[None, :] ** 2 / across) / (2.0 * R)
@@ -40,7 +42,8 @@ UNLIKE = "rigid on coated"
     ids=str,
 )
 def test_both_methods_find_the_same_traction(pair, motion):
-    """A steady state at a change of 1e-8 a move; the error of the transient method is a hundred times that."""
+    """A steady state at a change of 1e-8 a move; the error of the transient method is a hundred
+    times that."""
     body = STEEL if pair == "equal" else COATED
     problem, load = wheel(body=body, counter=asp.Rigid() if pair == UNLIKE else None)
     creepage = asp.rolling.Creepage(motion[0] * UNIT, motion[1] * UNIT, motion[2] * UNIT / A)

@@ -1,11 +1,13 @@
-"""All solvers find the one solution of the convex problem, within bounds that follow from their own reported errors.
+"""All solvers find the one solution of the convex problem, within bounds that follow from their own
+reported errors.
 
-With e the relative error of a solver (``optimality.relative_error``), convexity gives, for prescribed load and for
-prescribed position alike (variational inequality at the exact p*),
+With e the relative error of a solver (``optimality.relative_error``), convexity gives, for
+prescribed load and for prescribed position alike (variational inequality at the exact p*),
 
     |p - p*|_K² <= sum g·(p - p*) <= e · height_scale · max(sum p, sum p*),
 
-from which bounds of pressure, displacement, offset and contact area follow without any tuned number.
+from which bounds of pressure, displacement, offset and contact area follow without any tuned
+number.
 """
 
 from __future__ import annotations
@@ -46,7 +48,8 @@ def energy_distance(qp: ContactQP, solution: Solution, exact: Solution) -> float
 
 @pytest.mark.parametrize("case", CASES, ids=pair_id)
 def test_every_solver_finds_the_exact_solution(case: Case) -> None:
-    """Each pair is solved once; the exact solution once for each constraint, which differs only where it was searched."""
+    """Each pair is solved once; the exact solution once for each constraint, which differs only
+    where it was searched."""
     exact: dict[object, Solution] = {}
     wrong = []
     for solver in SOLVERS.values():

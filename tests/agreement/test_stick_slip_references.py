@@ -1,4 +1,5 @@
-"""Stick and slip against independent solutions of discrete Coulomb problems, and against the reduced theorem."""
+"""Stick and slip against independent solutions of discrete Coulomb problems, and against the
+reduced theorem."""
 
 import numpy as np
 import pytest
@@ -33,7 +34,8 @@ BODIES = {
 
 @pytest.mark.parametrize("name", sorted({row["name"] for row in reference("discrete_coulomb_steps")}))
 def test_discrete_problems(name):
-    """Six implicit steps: every traction, number of slipping points, and the work of the slip (error of the data: 1e-12)."""
+    """Six implicit steps: every traction, number of slipping points, and the work of the slip
+    (error of the data: 1e-12)."""
     rows = [row for row in reference("discrete_coulomb_steps") if row["name"] == name]
     heights = np.zeros((15, 15))
     for row in reference("discrete_coulomb_heights"):
@@ -62,7 +64,8 @@ def test_discrete_problems(name):
 @pytest.mark.parametrize("direction", [0.0, 0.7])
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()])
 def test_reduced_theorem(boundary, direction):
-    """Equal bodies of ν = 0: q = μ [p(P) - p(P*)] and slip = μ times the gap at P*, on any grid (Ciavarella 1998; Jäger 1998)."""
+    """Equal bodies of ν = 0: q = μ [p(P) - p(P*)] and slip = μ times the gap at P*, on any grid
+    (Ciavarella 1998; Jäger 1998)."""
     mu, load, share = 0.3, 0.02, 0.5
     body = asp.Elastic(2.0, 0.0)
     problem = asp.ContactProblem(rough((48, 48), 3, power=1.8), body, counter_body=body, boundary=boundary)

@@ -54,7 +54,8 @@ def posed(case, bound, load):
 @pytest.mark.parametrize("bound", BOUNDS)
 @pytest.mark.parametrize("case", CASES)
 def test_three_methods_agree(case, bound, load):
-    """Tractions within the bound that the errors give: ½|q - q*|² in the energy norm is at most the duality gap."""
+    """Tractions within the bound that the errors give: ½|q - q*|² in the energy norm is at most the
+    duality gap."""
     qp = posed(case, bound, load)
     found = StickSlipNewton(tolerance=1e-10).solve(qp)
     assert found.status.converged, found.status.message

@@ -1,4 +1,5 @@
-"""The field's library SurfaceTopography has many of the same quantities: where it is right, ours are equal."""
+"""The field's library SurfaceTopography has many of the same quantities: where it is right, ours
+are equal."""
 
 from __future__ import annotations
 
@@ -90,7 +91,8 @@ def test_profile_spectra(shape, axis):
 
 @pytest.mark.parametrize("periodic", [True, False])
 def test_spectrum_of_the_map(shape, periodic):
-    """Their window of maps that are not periodic is the radial one, of the full width of square maps."""
+    """Their window of maps that are not periodic is the radial one, of the full width of square
+    maps."""
     surface, theirs = both(shape if periodic else SHAPES["square"], periodic=periodic)
     heights_ = surface.heights - surface.heights.mean()
     centred = Topography(heights_, theirs.physical_sizes, periodic=periodic)
@@ -145,7 +147,8 @@ def test_scale_dependent_slope_and_curvature(shape):
 
 @pytest.mark.parametrize("radius", [0.3, 1.0, 4.0])
 def test_tip_cutoff(radius):
-    """Theirs finds the root of the interpolated curvature along x, ours lies between the same two stencils."""
+    """Theirs finds the root of the interpolated curvature along x, ours lies between the same two
+    stencils."""
     surface, theirs = both(((256, 32), 0.1, 0.1), periodic=True)
     scaled = asp.Surface(0.02 * surface.heights, surface.dx, surface.dy, periodic=True)
     theirs = theirs.scale(0.02)
@@ -155,12 +158,14 @@ def test_tip_cutoff(radius):
     if expected is None:
         assert found == 0.0
     else:
-        # the least curvature of noise is no smooth function of the length, several roots lie within some pixels
+        # the least curvature of noise is no smooth function of the length, several roots lie within
+        # some pixels
         assert found == pytest.approx(expected, abs=8.0 * surface.dx)
 
 
 def test_missing_points_are_ours_alone():
-    """They drop whole stencil positions around a missing point; a stencil without one counts here."""
+    """They drop whole stencil positions around a missing point; a stencil without one counts
+    here."""
     h = heights((40, 30))
     h[7, 11] = np.nan
     surface = asp.Surface(h, 1.0)

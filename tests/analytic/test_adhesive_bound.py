@@ -1,4 +1,5 @@
-"""The lower bound of the energy of adhesive contacts: below every branch, near where there is one minimum, exact without attraction."""
+"""The lower bound of the energy of adhesive contacts: below every branch, near where there is one
+minimum, exact without attraction."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Branches of adhesive contacts through their folds: Maugis' unstable branch, folds of Lennard-Jones spheres, histories of grips."""
+"""Branches of adhesive contacts through their folds: Maugis' unstable branch, folds of
+Lennard-Jones spheres, histories of grips."""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ from asperity.theories.adhesion.spheres import maugis_at_ring
 
 
 def test_unstable_branch_of_maugis():
-    """Dugdale's law whose end falls over its whole range: the fold and what lies beyond, to the parting of the last point."""
+    """Dugdale's law whose end falls over its whole range: the fold and what lies beyond, to the
+    parting of the last point."""
     problem = sphere(96, 4.0, DugdaleAdhesion(WORK, WORK / strength_of(1.5), smoothing=1.0))
     start = asp.solve(problem, asp.FixedGrips(0.0))
     branch = asp.adhesion.adhesive_branch(start, points=31, step=0.15)
@@ -48,7 +50,8 @@ def test_unstable_branch_of_maugis():
 
 @pytest.mark.parametrize("points", [48, 72])
 def test_a_steep_fall_of_the_attraction_does_not_stop_a_branch(points):
-    """The zone of Dugdale's law loses single points of a coarse grid one after the other, which turns the branch back each time."""
+    """The zone of Dugdale's law loses single points of a coarse grid one after the other, which
+    turns the branch back each time."""
     law = DugdaleAdhesion(WORK, WORK / strength_of(1.0), smoothing=0.2)
     problem = sphere(points, 4.5, law)
     branch = asp.adhesion.adhesive_branch(asp.solve(problem, asp.FixedGrips(0.0)), farthest=-1.2 * APPROACH)
@@ -60,7 +63,8 @@ def test_a_steep_fall_of_the_attraction_does_not_stop_a_branch(points):
     first, *_, last = branch.folds
     assert first.approach / APPROACH == pytest.approx(row["delta_fold_norm"], abs=0.015)
     apex = 0.5 * problem.grid.spacing[0] * problem.grid.spacing[1] / (2.0 * RADIUS)
-    # the steps around the second fold are as long as the gap between the last two equilibria, 5 % of the range
+    # the steps around the second fold are as long as the gap between the last two equilibria, 5 %
+    # of the range
     assert last.approach == pytest.approx(-1.1 * law.range - apex, abs=0.05 * law.range)
     assert problem.grid.spacing[0] < branch.needed_pixel
 
@@ -79,7 +83,8 @@ def test_a_branch_that_single_points_cut_names_the_pixel_it_needs():
 @pytest.mark.slow
 @pytest.mark.parametrize("tabor", [1.0, 2.0])
 def test_folds_of_lennard_jones_spheres(tabor):
-    """Jump-off and jump-in of the reference, from one branch, which leads from the contact to surfaces that lie apart."""
+    """Jump-off and jump-in of the reference, from one branch, which leads from the contact to
+    surfaces that lie apart."""
     row = next(row for row in reference("adhesion/lennard_jones_pulloff") if row["tabor_mu"] == tabor)
     law = asp.adhesion.LennardJonesAdhesion(work_of(tabor), SPACING)
     points, half = {1.0: (64, 5.0), 2.0: (144, 4.8)}[tabor]
@@ -107,7 +112,8 @@ def test_stable_parts_are_what_grips_hold_and_jumps_are_at_folds():
         if branch.force[k] < -0.7 * FORCE:
             assert held.external_force == pytest.approx(branch.force[k], rel=1e-3)
             assert held.adhesion.margin == pytest.approx(branch.margin[k], abs=0.01)
-    # around the first, where single points leave the wall one after the other, the branch goes to and fro by less than the steps of the search for a jump
+    # around the first, where single points leave the wall one after the other, the branch goes to
+    # and fro by less than the steps of the search for a jump
     off, *between, on = branch.folds
     assert all(abs(fold.approach - off.approach) < 0.004 * APPROACH for fold in between)
     way = np.linspace(0.0, -1.2, 25) * APPROACH
@@ -120,7 +126,8 @@ def test_stable_parts_are_what_grips_hold_and_jumps_are_at_folds():
         assert jump.grips == pytest.approx(fold.approach, abs=0.004 * APPROACH)
         assert jump.before.external_force == pytest.approx(fold.force, abs=0.08 * FORCE)
         assert jump.lost > 0.0
-    # over the cycle the jumps lose what the loop encloses; its long steps know where the jumps were to a step
+    # over the cycle the jumps lose what the loop encloses; its long steps know where the jumps were
+    # to a step
     loop = asp.adhesion.adhesion_loop(history.steps)
     closed = loop.closed_in(jumps)
     lost = sum(jump.lost for jump in jumps)

@@ -1,4 +1,5 @@
-"""Adhesive contacts on a grid against closed forms: Maugis' transition, jump-in, stability of two flats, Bradley's limit."""
+"""Adhesive contacts on a grid against closed forms: Maugis' transition, jump-in, stability of two
+flats, Bradley's limit."""
 
 from __future__ import annotations
 
@@ -25,14 +26,16 @@ def test_pull_off_of_maugis_transition(row):
     solved = asp.solve(problem, history)
     assert solved.last.adhesion.resolved
     pull_off = -min(solved.external_force) / FORCE
-    # the front of the zone advances by pixels: 0.2 % where the steps are finer than that (see the validation page)
+    # the front of the zone advances by pixels: 0.2 % where the steps are finer than that (see the
+    # validation page)
     assert pull_off == pytest.approx(row["minus_P_pulloff_norm"], rel=5e-3)
 
 
 @pytest.mark.parametrize("smoothing", [0.0, None, 1.0])
 @pytest.mark.parametrize(("tabor", "points", "size"), [(0.3, 20, 8.0), (0.3, 48, 8.0), (1.0, 38, 4.0), (1.0, 60, 4.0)])
 def test_a_resolved_pull_off_is_right_to_a_hundredth(tabor, points, size, smoothing):
-    """A step is 4 to 11 % off where the cohesive length has as many as 41 and 6.8 pixels; what is called resolved is Maugis' within 1e-2."""
+    """A step is 4 to 11 % off where the cohesive length has as many as 41 and 6.8 pixels; what is
+    called resolved is Maugis' within 1e-2."""
     transition = 1.157 * tabor
     exact = maugis_pull_off(transition)
     more = {} if smoothing is None else {"smoothing": smoothing}
@@ -54,9 +57,11 @@ def test_a_resolved_pull_off_is_right_to_a_hundredth(tabor, points, size, smooth
 def test_pull_off_from_dmt_to_jkr(tabor, points, size, smoothing):
     """Within 0.5 % of Maugis for Tabor's parameter from 0.1 to 3; the largest deviation was 0.23 %.
 
-    Steps of the front by pixels move single forces by up to 0.3 %, found from two grids and neighbouring steps. From 2 on the law falls over its
-    whole range: two and a half pixels in the cohesive length are then enough, where a fall over a fifth of the range takes 8 for 0.4 % (see the
-    validation page). The box holds the largest contact with its zone, of radius 1.34 at Tabor's parameter 3.
+    Steps of the front by pixels move single forces by up to 0.3 %, found from two grids and
+    neighbouring steps. From 2 on the law falls over its whole range: two and a half pixels in the
+    cohesive length are then enough, where a fall over a fifth of the range takes 8 for 0.4 % (see
+    the validation page). The box holds the largest contact with its zone, of radius 1.34 at Tabor's
+    parameter 3.
     """
     transition = 1.157 * tabor
     exact = maugis_pull_off(transition)
@@ -111,7 +116,8 @@ def test_load_and_position_meet_on_the_same_branch():
     loaded = asp.solve(problem, asp.History([asp.Force(0.5 * FORCE), asp.Unloaded(), asp.contact.Pull(FORCE)])).last
     held = asp.solve(problem, asp.History([asp.FixedGrips(APPROACH), asp.FixedGrips(loaded.approach)])).last
     assert held.external_force == pytest.approx(-FORCE, rel=1e-4)
-    # a yielding machine whose line meets that point comes to it as well; load control is the least stable
+    # a yielding machine whose line meets that point comes to it as well; load control is the least
+    # stable
     stiffness = 50.0
     grips = loaded.approach + loaded.external_force / stiffness
     machine = asp.solve(problem, asp.FixedGrips(float(grips), stiffness), state=loaded.state)

@@ -49,7 +49,8 @@ def test_jkr_and_dmt(row):
 
 @every_row(reference("jkr_normalised"), label=lambda row: f"{row['delta_over_delta_c']:g}")
 def test_jkr_with_fixed_grips(row):
-    """Where the contact breaks, δ(a) has its minimum and the radius is known to the root of the rounding alone."""
+    """Where the contact breaks, δ(a) has its minimum and the radius is known to the root of the
+    rounding alone."""
     x = contact_ratio(row["delta_over_delta_c"])
     breaks = row["delta_over_delta_c"] == -1.0
     assert x == pytest.approx(row["a_over_a_c"], rel=1e-7 if breaks else DIGITS)
@@ -80,7 +81,8 @@ def test_maugis(row):
 
 @every_row(reference("maugis_pulloff"), label=name)
 def test_pull_off_of_maugis(row):
-    """The place of a minimum is known to the root of the rounding over its curvature: 4e-6 of A was found at A = 0.02."""
+    """The place of a minimum is known to the root of the rounding over its curvature: 4e-6 of A was
+    found at A = 0.02."""
     least = maugis_pull_off(row["lambda"])
     load, radius = float(least.load), float(least.radius)
     assert load == pytest.approx(row["P_pulloff_norm"], rel=DIGITS)
@@ -90,7 +92,8 @@ def test_pull_off_of_maugis(row):
 
 
 def test_maugis_goes_to_dmt_and_to_jkr():
-    """Toward DMT the load is off by πλA² and the approach by 1.5 sqrt(λ), toward JKR both by the order 1/λ²."""
+    """Toward DMT the load is off by πλA² and the approach by 1.5 sqrt(λ), toward JKR both by the
+    order 1/λ²."""
     A = np.array([0.8, 1.5, 3.0])
     stiff, soft = maugis_state(1e-5, A), maugis_state(1e4, A)
     assert stiff.load == pytest.approx(A**3 - 2.0, abs=1.1e-5 * np.pi * A.max() ** 2)
@@ -122,7 +125,8 @@ def test_maugis_curves_reach_the_pull_off():
 
 @every_row(reference("adhesion/maugis_transition"), label=lambda row: f"{row['lambda']:g}")
 def test_maugis_with_fixed_grips(row):
-    """The fold in units of Maugis, and the same sphere with all dimensions: approach, load, and the outer radius of the attraction."""
+    """The fold in units of Maugis, and the same sphere with all dimensions: approach, load, and the
+    outer radius of the attraction."""
     least = maugis_fold(row["lambda"])
     if row["delta_fold_norm"] != "":
         assert float(least.approach) == pytest.approx(row["delta_fold_norm"], rel=1e-12)

@@ -1,4 +1,5 @@
-"""Long steps of adhesive contacts: the same branch, jumps and losses as with short ones, under every control."""
+"""Long steps of adhesive contacts: the same branch, jumps and losses as with short ones, under
+every control."""
 
 from __future__ import annotations
 
@@ -27,12 +28,14 @@ def gripped(problem: asp.ContactProblem, positions: object) -> asp.HistoryResult
 
 
 def test_a_long_step_stays_on_its_branch():
-    """The branch of Tabor's parameter 1.5 ends at -2.57 z0; at once the contact came to -0.324 of πwR where it holds -1.362."""
+    """The branch of Tabor's parameter 1.5 ends at -2.57 z0; at once the contact came to -0.324 of
+    πwR where it holds -1.362."""
     problem = ball(1.5, 80)
     ways = [gripped(problem, way).last for way in ((-0.6, -2.3), (-0.6, *np.linspace(-0.6, -2.3, 11)[1:]))]
     unit = np.pi * problem.adhesion.work
     forces = [result.external_force / unit for result in ways]
-    # traction and law agree to 1e-5 of the strength; compliance of the contact magnifies that by 1 / margin
+    # traction and law agree to 1e-5 of the strength; compliance of the contact magnifies that by
+    # 1 / margin
     error = 2e-5 / min(result.adhesion.margin for result in ways)
     assert forces[0] == pytest.approx(forces[1], rel=error)
     assert forces[0] == pytest.approx(-1.362, abs=1e-3)

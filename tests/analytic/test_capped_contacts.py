@@ -1,4 +1,5 @@
-"""Contacts limited by hardness in closed form: the flat punch with a plastic rim, the sphere at onset."""
+"""Contacts limited by hardness in closed form: the flat punch with a plastic rim, the sphere at
+onset."""
 
 from __future__ import annotations
 
@@ -28,14 +29,16 @@ def punch(n: int) -> tuple[asp.ContactProblem, float]:
 
 @pytest.mark.parametrize("beta", [0.4, 0.7, 0.9])
 def test_flat_punch_with_a_plastic_rim(beta):
-    """Rim b < r < a at the hardness, no singularity at b = β a: with h(t) = ∫ r p dr/(r² - t²)^½ = E* χ/2 (Sneddon 1965)
+    """Rim b < r < a at the hardness, no singularity at b = β a: with h(t) = ∫ r p dr/(r² - t²)^½ =
+    E* χ/2 (Sneddon 1965)
 
     δ = (2H/E*) (a² - b²)^½ and P = 2 H a² [arccos β + β (1 - β²)^½].
     """
     posed, a = punch(64)
     result = asp.solve(posed, asp.Approach(2.0 * HARDNESS * a * math.sqrt(1.0 - beta**2)), solver=TIGHT)
     force = 2.0 * HARDNESS * a**2 * (math.acos(beta) + beta * math.sqrt(1.0 - beta**2))
-    # the outline of 49 pixels across is off by parts of a pixel: measured 8e-4 at 32², 1.4e-4 at 64², 5e-5 at 128²
+    # the outline of 49 pixels across is off by parts of a pixel: measured 8e-4 at 32², 1.4e-4 at
+    # 64², 5e-5 at 128²
     assert result.force == pytest.approx(force, rel=5e-4)
     # the rim ends between two rings of pixels: half a pixel of b on either side
     pixel = 2.6 / 64 / a
@@ -58,7 +61,8 @@ def sphere(n: int, hardness: float) -> asp.ContactProblem:
 
 
 def test_first_yield_of_a_sphere():
-    """p0 = H at P = π³ R² H³/(6 E*²); the mean pressure of a pixel is that of its middle to (dx/a)²/8 = 2e-4."""
+    """p0 = H at P = π³ R² H³/(6 E*²); the mean pressure of a pixel is that of its middle to
+    (dx/a)²/8 = 2e-4."""
     found = asp.plasticity.plastic_load(sphere(64, 0.1), fraction=0.0, solver=TIGHT)
     onset = math.pi**3 * 0.1**3 / 6.0
     assert found.below.plastic_area_fraction == 0.0 < found.above.plastic_area_fraction
@@ -90,7 +94,8 @@ def test_a_smooth_surface_yields_as_a_whole():
 
 
 def test_the_first_passage_is_found_though_the_share_falls_again():
-    """A pin yields at H times one pixel; pressed in, it is a small share of the flat around it that touches next."""
+    """A pin yields at H times one pixel; pressed in, it is a small share of the flat around it that
+    touches next."""
     pin = np.full((8, 8), -1.0)
     pin[3, 3] = 1.0
     posed = asp.ContactProblem(asp.Surface(pin, 1.0), elastic(1.0), boundary=asp.Free(), law=asp.Hardness(1e-3))

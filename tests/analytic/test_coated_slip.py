@@ -29,7 +29,8 @@ def test_lines(row):
     assert slip.pressure([0.0, 0.5 * a]) == pytest.approx([row["p_0"], row["p_05a"]], rel=1e-9)
     places = [0.0, 0.5 * c, 0.5 * (a + c)]
     assert slip.traction(places) == pytest.approx([row["q_0"], row["q_c2"], row["q_mid"]], rel=5e-9)
-    # the tangent at c is vertical: rounding of c to 1e-16 is 1e-8 times the slope; the traction there is μp
+    # the tangent at c is vertical: rounding of c to 1e-16 is 1e-8 times the slope; the traction
+    # there is μp
     assert slip.traction(c) == pytest.approx(row["q_c"], rel=2e-7)
     assert slip.traction(c) == pytest.approx(row["mu"] * float(slip.pressure(c)), rel=1e-12)
 

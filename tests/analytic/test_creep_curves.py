@@ -1,4 +1,5 @@
-"""Creep-force curves against Kalker's linear slope, saturation, FASTSIM and Carter; layered rollers in their limits; rough wheels."""
+"""Creep-force curves against Kalker's linear slope, saturation, FASTSIM and Carter; layered rollers
+in their limits; rough wheels."""
 
 import numpy as np
 import pytest
@@ -36,7 +37,8 @@ def roller(n=64, body=STEEL, reach=1.5, boundary=None):
 
 
 def waves(problem, count, seed=3):
-    """Random roughness along the rolling direction with a few wavelengths, periodic over ``count`` pixels."""
+    """Random roughness along the rolling direction with a few wavelengths, periodic over ``count``
+    pixels."""
     spacing = problem.grid.spacing[0]
     rng, x = np.random.default_rng(seed), np.arange(count)
     numbers = np.arange(4, 16)
@@ -96,7 +98,8 @@ def test_theories_stand_aside_where_they_do_not_hold():
 
 
 def test_layered_rollers_between_their_limits():
-    """A layer of the roller's own material is no layer; a thin one is its base, a thick one its own material."""
+    """A layer of the roller's own material is no layer; a thin one is its base, a thick one its own
+    material."""
     soft, at = asp.Elastic(0.4, 0.25), np.array([0.3, 0.7]) * UNIT
     load = asp.Force(0.4 * roller()[1].value)
 

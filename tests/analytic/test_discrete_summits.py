@@ -1,4 +1,5 @@
-"""Theories of the very summits of a map, alone and pressing each other down, against reference solutions and limits."""
+"""Theories of the very summits of a map, alone and pressing each other down, against reference
+solutions and limits."""
 
 from __future__ import annotations
 
@@ -43,7 +44,8 @@ def test_summits_of_a_map(row):
     theory = DiscreteSummits.from_roughness(roughness, 91.2e9)
     assert roughness.summits.count == row["n_summits_8"]
     found = theory.at_separation(theory.highest - row["delta_m"])
-    # second differences lose six digits of the heights, sums of cosines with phases of six digits agree exactly
+    # second differences lose six digits of the heights, sums of cosines with phases of six digits
+    # agree exactly
     assert found.area_fraction * roughness.area == pytest.approx(row["area_m2"], rel=1e-10)
     assert found.pressure * roughness.area == pytest.approx(row["load_N_Estar_91.2GPa"], rel=1e-10)
     assert found.contact_density * roughness.area == pytest.approx(row["n_contacts"])
@@ -217,7 +219,8 @@ def test_what_crests_cannot_do_is_refused():
 
 
 def test_crowded_crests_settle_at_loads_far_apart():
-    """Contact radii up to the distances, as on a map that is rough down to its pixels: at once, from single crests, nothing settles."""
+    """Contact radii up to the distances, as on a map that is rough down to its pixels: at once,
+    from single crests, nothing settles."""
     rng = np.random.default_rng(3)
     side, count, radius = 1e-6, 400, 8e-8
     places = side / 20 * (np.divmod(np.arange(count), 20) + 0.8 * rng.random((2, count)))

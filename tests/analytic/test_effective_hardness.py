@@ -33,7 +33,8 @@ def test_rows(row):
 
 
 def test_rows_of_known_yield_strength_are_near_those_of_tabor():
-    """The yield strengths of the rows are hardnesses over 2.8, rounded to four digits for 5.357 and 3.214 GPa."""
+    """The yield strengths of the rows are hardnesses over 2.8, rounded to four digits for 5.357 and
+    3.214 GPa."""
     law = EffectiveHardness(15e9, 9e9, 140 / 190)
     row = next(r for r in reference("effective_hardness") if r["H_layer_GPa"] == 15 and r["hc_over_h"] == 0.3)
     assert float(law.at(0.3)) == pytest.approx(row["He_GPa"] * 1e9, rel=1e-4)
@@ -54,7 +55,8 @@ def test_equal_hardness_is_that_hardness(modulus_ratio, depth):
 
 
 def test_without_yield_strengths_the_exponents_are_those_of_hardness():
-    """Y = H/2.8: (H1/H2)/(E1/E2) (h_c/h)² for soft films, (E1/E2)^-1/2 h_c/h for hard ones (Peng 2001, app. C)."""
+    """Y = H/2.8: (H1/H2)/(E1/E2) (h_c/h)² for soft films, (E1/E2)^-1/2 h_c/h for hard ones (Peng
+    2001, app. C)."""
     assert float(EffectiveHardness(0.5, 1.0, 2.0).film_share(1.5)) == pytest.approx(np.exp(-0.25 * 2.25), rel=1e-14)
     assert float(EffectiveHardness(4.0, 1.0, 2.0).film_share(1.5)) == pytest.approx(np.exp(-1.5 / 2**0.5), rel=1e-14)
 

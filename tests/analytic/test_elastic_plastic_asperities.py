@@ -1,4 +1,5 @@
-"""Chang-Etsion-Bogy, Kogut-Etsion, Jackson-Green: single spheres and rough surfaces, reference rows and limits."""
+"""Chang-Etsion-Bogy, Kogut-Etsion, Jackson-Green: single spheres and rough surfaces, reference rows
+and limits."""
 
 from __future__ import annotations
 
@@ -71,7 +72,8 @@ def test_sphere_of_jackson_and_green(row):
 
 @every_row(ROUGH_ROWS, label=lambda row: f"psi{row['psi_c']:g}-D{row['D']:g}")
 def test_rough_surfaces(row):
-    """K = 0.577 is that of ν = 0.3. Twelve digits are good; ω_c from H and back costs some roundings."""
+    """K = 0.577 is that of ν = 0.3. Twelve digits are good; ω_c from H and back costs some
+    roundings."""
     E_star, deviation, radius, density = 1.0, 1.0, 1e4, 1e-6
     critical = deviation / row["psi_c"] ** 2
     hardness = 2.0 * E_star / (math.pi * 0.577) * math.sqrt(critical / radius)
@@ -138,7 +140,8 @@ def test_full_plasticity_is_the_hardness():
 
 @pytest.mark.parametrize("key", ROUGH)
 def test_rough_surfaces_that_do_not_yield_are_those_of_greenwood_and_williamson(key):
-    """Hertz up to yield far beyond the highest summits; what remains is the quadrature of both, 1e-12."""
+    """Hertz up to yield far beyond the highest summits; what remains is the quadrature of both,
+    1e-12."""
     theory = ROUGH[key](1e11, 1e12, 1e-6, 1e-9, 5e11, mean_height=2e-9)
     elastic = GreenwoodWilliamson(1e11, 1e12, 1e-6, 1e-9, 2e-9)
     for ask, values in (("at_separation", np.linspace(-2e-9, 8e-9, 21)), ("at_pressure", np.geomspace(1e2, 1e9, 15))):
@@ -150,7 +153,8 @@ def test_rough_surfaces_that_do_not_yield_are_those_of_greenwood_and_williamson(
 
 @pytest.mark.parametrize(("key", "share"), [("ceb", 0.577), ("ke", 1.0)])
 def test_rough_surfaces_that_flow_carry_their_hardness(key, share):
-    """ψ_c = 350: but for 1e-3 of the heights all summits in contact are fully plastic, A_r = p/(share of H)."""
+    """ψ_c = 350: but for 1e-3 of the heights all summits in contact are fully plastic, A_r =
+    p/(share of H)."""
     theory = ROUGH[key](1e11, 1e12, 1e-7, 1e-8, 1e8)
     found = theory.at_pressure(np.geomspace(1e4, 1e6, 7))
     assert found.mean_real_pressure == pytest.approx(np.full(7, share * 1e8), rel=0.03 if key == "ke" else 1e-3)

@@ -1,4 +1,5 @@
-"""Finite elements against fields they must hold exactly, another library, an expanding cavity, Hertz and collapse loads."""
+"""Finite elements against fields they must hold exactly, another library, an expanding cavity,
+Hertz and collapse loads."""
 
 from __future__ import annotations
 
@@ -29,7 +30,8 @@ def distorted(seed: int = 3) -> mesh.Mesh:
 def held(
     body: solid.Solid, known: RealArray, prescribed: np.ndarray, state: PlasticState | None = None
 ) -> tuple[RealArray, solid.Response, list[float]]:
-    """Displacement with the ``known`` values at ``prescribed`` unknowns, by Newton's method, and unbalanced forces on the way."""
+    """Displacement with the ``known`` values at ``prescribed`` unknowns, by Newton's method, and
+    unbalanced forces on the way."""
     u, start, left = np.zeros(len(known)), state or body.virgin(), []
     for _ in range(25):
         found = body.respond(u, start, stiffness=True)
@@ -60,7 +62,8 @@ def test_patch(kind: str) -> None:
 
 
 def test_plane_strain_stiffness_is_that_of_another_library() -> None:
-    """On rectangles the mean of the dilatation is that at the centre, which scikit-fem integrates with one point."""
+    """On rectangles the mean of the dilatation is that at the centre, which scikit-fem integrates
+    with one point."""
     skfem = pytest.importorskip("skfem")
     from skfem.helpers import ddot, div, sym_grad, trace
 
@@ -96,7 +99,8 @@ def rings(outer: float, around: int) -> mesh.Mesh:
 
 
 def cavity(row: Row, around: int) -> tuple[float, list[float]]:
-    """Pressure over Y in a cavity that is widened to the displacement of ``row`` in one step, and the residuals of Newton's method."""
+    """Pressure over Y in a cavity that is widened to the displacement of ``row`` in one step, and
+    the residuals of Newton's method."""
     E, nu, c = float(row["E_over_Y"]), float(row["nu"]), float(row["c_over_a"])
     grid = rings(4.0 * c, around)
     parts = elements.axisymmetric(grid)
@@ -118,7 +122,8 @@ CAVITIES = [row for row in reference("expanding_cavity") if float(row["nu"]) < 0
     "case", [row["case"] for row in CAVITIES if row["E_over_Y"] in (200.0,) and row["c_over_a"] in (1.2, 3.0)]
 )
 def test_expanding_cavity(case: float) -> None:
-    """The pressure of Hill's cavity; the error of bilinear elements falls fourfold when they are halved."""
+    """The pressure of Hill's cavity; the error of bilinear elements falls fourfold when they are
+    halved."""
     row = next(row for row in CAVITIES if row["case"] == case)
     errors = [cavity(row, around)[0] / float(row["p_over_Y"]) - 1.0 for around in (12, 24)]
     assert abs(errors[1]) < 0.003
@@ -137,7 +142,8 @@ def test_newton_is_quadratic() -> None:
 def pressed(
     resolution: mesh.Resolution, law: asp.Elastic | J2, *, plane: bool = False, friction: float = 0.0
 ) -> tuple[contact.Pressed, RealArray]:
-    """A half-space beneath contacts of radius 1 at most, and the places of the points that may touch."""
+    """A half-space beneath contacts of radius 1 at most, and the places of the points that may
+    touch."""
     grid = mesh.layered_mesh(asp.Layered([], STEEL), 1.0, resolution)
     parts = elements.plane_strain(grid) if plane else elements.axisymmetric(grid)
     near = grid.surface[grid.points[grid.surface, 0] < 2.0]
@@ -152,7 +158,8 @@ def pressed(
 @pytest.mark.slow
 @pytest.mark.parametrize("by_force", [False, True])
 def test_hertz(by_force: bool) -> None:
-    """Load within 0.3 % of Hertz, the contact radius within half an element, by approach and by force alike."""
+    """Load within 0.3 % of Hertz, the contact radius within half an element, by approach and by
+    force alike."""
     body, r = pressed(mesh.Resolution(growth=1.1, distance=1000.0), STEEL)
     E_star, R, a = STEEL.plane_strain_modulus, 10.0, 0.9
     load = 4.0 * E_star * a**3 / (3.0 * R)
@@ -164,7 +171,8 @@ def test_hertz(by_force: bool) -> None:
 
 
 def test_a_layer_of_rigid_base_and_interfaces_of_the_mesh() -> None:
-    """A line of the mesh lies at every interface, six elements are in the thinnest layer, and the mesh ends at a rigid base."""
+    """A line of the mesh lies at every interface, six elements are in the thinnest layer, and the
+    mesh ends at a rigid base."""
     body = asp.Layered([asp.Layer(STEEL, 0.01), asp.Layer(asp.Elastic(2.0, 0.3), 0.5)], asp.RigidBase())
     grid = mesh.layered_mesh(body, 1.0, mesh.Resolution())
     z = np.unique(grid.points[:, 1])

@@ -1,4 +1,5 @@
-"""Indentation without slip and with friction: tables, tractions, limits, and the equations on another mesh."""
+"""Indentation without slip and with friction: tables, tractions, limits, and the equations on
+another mesh."""
 
 import numpy as np
 import pytest
@@ -72,7 +73,8 @@ FINITE = reference("friction/finite_friction_indentation")
 
 
 def friction_row(row):
-    """Three finer meshes agree with ours to 1e-11; the table, nearly singular at the edge, to 1.4e-8 at β = 0.5."""
+    """Three finer meshes agree with ours to 1e-11; the table, nearly singular at the edge, to
+    1.4e-8 at β = 0.5."""
     beta, share = row["beta"], row["c_over_a"]
     mu = friction_of_stick(beta, share)
     assert mu == pytest.approx(row["mu"], rel=2e-8)

@@ -1,4 +1,5 @@
-"""Single bodies that slide or roll steadily over a viscoelastic half-space, on free grids: Hunter's cylinder, limits of the speed, symmetries."""
+"""Single bodies that slide or roll steadily over a viscoelastic half-space, on free grids: Hunter's
+cylinder, limits of the speed, symmetries."""
 
 from __future__ import annotations
 
@@ -17,10 +18,12 @@ RUBBER = asp.Viscoelastic.prony(RELAXED, ((STEP, TIME),), 0.0)
 
 @dataclass(frozen=True)
 class Hunter:
-    """Cylinder (R = 1 m) that rolls or slides over a standard linear solid with half-width ``a`` (Hunter 1961), per length.
+    """Cylinder (R = 1 m) that rolls or slides over a standard linear solid with half-width ``a``
+    (Hunter 1961), per length.
 
-    With the retardation time lambda, L = v lambda and 1 + s = E_0/E_inf the field q = (1 + s) p - L p' is that of an elastic contact with a
-    linear slope, q = (A + B x + C x²)/sqrt(a² - x²). A and the place e of the axis follow from p(-a) = 0 and from the slope at the front.
+    With the retardation time lambda, L = v lambda and 1 + s = E_0/E_inf the field q = (1 + s) p - L
+    p' is that of an elastic contact with a linear slope, q = (A + B x + C x²)/sqrt(a² - x²). A and
+    the place e of the axis follow from p(-a) = 0 and from the slope at the front.
     """
 
     a: float
@@ -67,7 +70,8 @@ def test_cylinder_of_hunter(speed: float) -> None:
 
 
 def test_limits_of_hunter() -> None:
-    """Its load is Hertz's of the relaxed modulus when it is slow, of the instantaneous one when it is fast."""
+    """Its load is Hertz's of the relaxed modulus when it is slow, of the instantaneous one when it
+    is fast."""
     for speed, modulus in ((1e-4, RELAXED), (1e5, RELAXED + STEP)):
         load, friction, ahead = Hunter(0.2, speed).solved()
         assert load == pytest.approx(0.25 * np.pi * modulus * 0.2**2, rel=1e-2)
@@ -88,7 +92,8 @@ LOAD = asp.Force(0.004)
 
 @pytest.mark.slow
 def test_sphere_between_rest_and_high_speed() -> None:
-    """Pressure and approach are those of the relaxed and the instantaneous elastic body at the ends; friction has one maximum between."""
+    """Pressure and approach are those of the relaxed and the instantaneous elastic body at the
+    ends; friction has one maximum between."""
     speeds = np.array([0.0, 1e-4, 1e-3, 0.01, 0.02, 0.05, 0.2, 1.0, 1e3])
     found = [asp.slide(ball(), LOAD, float(v)) for v in speeds]
     for each, modulus in ((found[0], RELAXED), (found[-1], RELAXED + STEP)):
@@ -121,7 +126,8 @@ def test_every_axis_is_the_same() -> None:
 
 
 def test_coating_on_a_free_grid() -> None:
-    """A stack of one material, fitted as layers, is that material; a thin coating on a stiff base dissipates less."""
+    """A stack of one material, fitted as layers, is that material; a thin coating on a stiff base
+    dissipates less."""
     almost = asp.Layered([asp.Layer(RUBBER.with_times(1.0 + 1e-6), 0.1)], RUBBER)
     thin = asp.Layered([asp.Layer(RUBBER, 0.02)], asp.Elastic(100.0, 0.3))
     whole, layered, coated = (asp.slide(ball(32, body), LOAD, 0.02) for body in (RUBBER, almost, thin))

@@ -1,4 +1,5 @@
-"""Sliding and sticking contacts of dissimilar bodies, elliptic punch, conforming contacts: against the solver and integrals."""
+"""Sliding and sticking contacts of dissimilar bodies, elliptic punch, conforming contacts: against
+the solver and integrals."""
 
 import numpy as np
 import pytest
@@ -39,7 +40,8 @@ def row(n, length=2.4):
 
 @pytest.mark.parametrize("friction", [0.5, 1.5])
 def test_sliding_cylinder_against_the_solver(friction):
-    """800 pixels on the contact; its ends are known to a pixel, and the pressure is compared away from them."""
+    """800 pixels on the contact; its ends are known to a pixel, and the pressure is compared away
+    from them."""
     theory = SlidingCylinder(1.0, 50.0, BETA, friction)
     load = 1.0 / float(theory.at_load(1.0).radius) ** 2  # half-width 1
     grid, x = row(1120, 2.8)
@@ -73,7 +75,8 @@ def test_sliding_contacts_without_coupling_are_those_without_friction():
 
 
 def test_tractions_of_punches_move_the_surface_as_a_rigid_punch():
-    """Slope of the normal displacement under the punch, and that of the tangential one where it sticks, from 4000 pixels."""
+    """Slope of the normal displacement under the punch, and that of the tangential one where it
+    sticks, from 4000 pixels."""
     grid, x = row(4000, 2.0)
     inside = np.abs(x[:, 0]) < 0.8
     ends = np.concatenate([x[:, 0] - 0.5 * grid.spacing[0], [1.0]])
@@ -101,7 +104,8 @@ def test_tractions_of_punches_move_the_surface_as_a_rigid_punch():
 
 
 def test_round_punch_without_slip():
-    """Tractions on pixels of a/48: the displacements under the punch are those of a rigid one to the size of the pixel."""
+    """Tractions on pixels of a/48: the displacements under the punch are those of a rigid one to
+    the size of the pixel."""
     theory = StickingPunch(1.0, 1.0, BETA)
     load = float(theory.at_load(0.0).stiffness)  # approach 1
     r, w = gauss(np.stack([1.0 - 0.5 ** np.arange(30.0), 1.0 - 0.5 ** np.arange(1.0, 31.0)], axis=-1), 12)
@@ -213,7 +217,8 @@ def test_sphere_in_cavity_against_the_solver():
 
 @pytest.mark.parametrize("angle", [0.7, 1.3])
 def test_pin_in_hole_satisfies_the_contact_condition(angle):
-    """A pressure p_n cos nθ opens disc and hole by (2R/E*) n/(n² - 1) p_n, and R p_0/E* (Michell); the rest is a shift.
+    """A pressure p_n cos nθ opens disc and hole by (2R/E*) n/(n² - 1) p_n, and R p_0/E* (Michell);
+    the rest is a shift.
 
     2000 harmonics of a pressure that ends like a root leave 1e-5 of the clearance's order.
     """

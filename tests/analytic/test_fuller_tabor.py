@@ -1,4 +1,5 @@
-"""Fuller and Tabor's adhesion of rough surfaces: reference rows, the limit of no adhesion, pull-off, curves."""
+"""Fuller and Tabor's adhesion of rough surfaces: reference rows, the limit of no adhesion,
+pull-off, curves."""
 
 from __future__ import annotations
 
@@ -63,7 +64,8 @@ def test_without_adhesion_it_is_greenwood_and_williamson(parting):
 
 
 def test_smooth_surfaces_part_like_one_sphere():
-    """JKR's least load is at δ/δ_c = -(4√x - x²)/3, x³ = 9, and flat there to the square of the heights over the reach."""
+    """JKR's least load is at δ/δ_c = -(4√x - x²)/3, x³ = 9, and flat there to the square of the
+    heights over the reach."""
     theory = of_reach(1000.0)
     x = 9.0 ** (1.0 / 3.0)
     assert theory.load_per_summit(-1000.0 * (x**2 - 4.0 * np.sqrt(x)) / 3.0) == pytest.approx(-1.0, abs=1e-5)

@@ -1,4 +1,5 @@
-"""Greenwood and Williamson against high-precision quadrature (15 digits), closed forms and limits."""
+"""Greenwood and Williamson against high-precision quadrature (15 digits), closed forms and
+limits."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ from asperity.theories.statistics.heights import NAMED_HEIGHTS, AnyHeights, Gaus
 
 HEIGHTS = dict(NAMED_HEIGHTS)
 UNIT = GreenwoodWilliamson(1.0, 1.0, 1.0, 1.0)
-# sums of a hundred positive terms in double precision, and powers with rounded arguments of up to 6² / 2
+# sums of a hundred positive terms in double precision, and powers with rounded arguments of up to
+# 6² / 2
 ROUNDING = 1e-13
 
 

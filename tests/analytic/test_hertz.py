@@ -33,7 +33,8 @@ def pressure_error(result):
 
 
 def test_one_percent_at_64_pixels_per_diameter():
-    """The bar for a first mesh: radius, peak pressure and approach within 1 % (errors are of order 3/2 to 2)."""
+    """The bar for a first mesh: radius, peak pressure and approach within 1 % (errors are of order
+    3/2 to 2)."""
     result = hertz(77)
     assert radius(result) == pytest.approx(CONTACT_RADIUS, rel=0.01)
     assert result.max_pressure == pytest.approx(PEAK, rel=0.01)
@@ -41,10 +42,12 @@ def test_one_percent_at_64_pixels_per_diameter():
 
 
 def test_order_of_convergence():
-    """Constant pressure on pixels: peak and approach converge with order 2 but for the edge (square root) at 3/2.
+    """Constant pressure on pixels: peak and approach converge with order 2 but for the edge (square
+    root) at 3/2.
 
-    The field converges with order 1, as does any piecewise constant approximation. Scatter of the edge position on the
-    grid moves single errors by some ten per cent, so orders are fitted over three refinements and 0.25 is allowed.
+    The field converges with order 1, as does any piecewise constant approximation. Scatter of the
+    edge position on the grid moves single errors by some ten per cent, so orders are fitted over
+    three refinements and 0.25 is allowed.
     """
     pixels = np.array([24, 48, 96, 192])
     results = [hertz(n) for n in pixels]
@@ -55,7 +58,8 @@ def test_order_of_convergence():
     assert order([r.max_pressure / PEAK - 1.0 for r in results]) > 1.5
     assert order([r.approach / APPROACH - 1.0 for r in results]) > 1.5
     assert order([pressure_error(r) for r in results]) == pytest.approx(1.0, abs=0.25)
-    # the corrected radius is a count of pixels along the rim: error of the order of one pixel in the circumference
+    # the corrected radius is a count of pixels along the rim: error of the order of one pixel in
+    # the circumference
     for n, result in zip(pixels, results, strict=True):
         assert abs(radius(result) / CONTACT_RADIUS - 1.0) < 2.4 / n / 2.0
 
@@ -68,7 +72,8 @@ def test_stiffness_is_twice_modulus_times_radius():
 
 
 def test_stiffness_is_the_derivative_of_force_by_approach():
-    """Central difference; the contact grows smoothly, so its error is of second order in the step plus pixel steps."""
+    """Central difference; the contact grows smoothly, so its error is of second order in the step
+    plus pixel steps."""
     step = 0.02
     low, high = hertz(96, asp.Approach(APPROACH - step)), hertz(96, asp.Approach(APPROACH + step))
     slope = (high.mean_pressure - low.mean_pressure) / (2.0 * step)
@@ -93,14 +98,16 @@ def test_mean_gap_control_finds_the_force():
 
 
 def test_elastic_energy_is_the_work_of_the_force():
-    """Integral of P d(delta) = 2/5 P delta for P ~ delta^(3/2); error of the field: 1 % at 96 pixels."""
+    """Integral of P d(delta) = 2/5 P delta for P ~ delta^(3/2); error of the field: 1 % at 96
+    pixels."""
     result = hertz(96)
     assert result.elastic_energy == pytest.approx(0.4 * FORCE * APPROACH, rel=1e-3)
 
 
 @every_row(reference("hertz_elliptical")[:12], label=lambda row: f"case{row['case']:g}")
 def test_ellipse_on_rectangular_pixels(row):
-    """Pixels as elongated as the contact, up to 1:15. Peak and approach as for the sphere (order 2: 1e-4 at 80 pixels
+    """Pixels as elongated as the contact, up to 1:15. Peak and approach as for the sphere (order 2:
+    1e-4 at 80 pixels
 
     per axis); semi-axes from the second moments of the pressure, <x²> = a²/5, likewise of order 2.
     """
@@ -120,10 +127,12 @@ def test_ellipse_on_rectangular_pixels(row):
 
 
 def test_periodic_agrees_with_free_on_a_large_cell():
-    """Images on a square lattice shift the approach by 3.9003 P / (pi E* L) and bend the surface little.
+    """Images on a square lattice shift the approach by 3.9003 P / (pi E* L) and bend the surface
+    little.
 
-    The bending term, 2.258 r²/L² of P/(pi E* L), is 2.258/16² = 0.9 % of P/(pi E* L) at r = a = L/16; relative to the
-    approach a²/R = 3P/(4 E* a) that is 2e-4, and the spectral differs from the patch discretisation by some pixel²/a².
+    The bending term, 2.258 r²/L² of P/(pi E* L), is 2.258/16² = 0.9 % of P/(pi E* L) at r = a =
+    L/16; relative to the approach a²/R = 3P/(4 E* a) that is 2e-4, and the spectral differs from
+    the patch discretisation by some pixel²/a².
     """
     n, size = 256, 16.0 * CONTACT_RADIUS
     surface = generate.sphere(square_grid(n, size), radius=RADIUS)

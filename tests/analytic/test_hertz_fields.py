@@ -1,4 +1,5 @@
-"""Stresses below Hertz contacts, pressed and sliding: point and line forces summed, closed forms, first yield."""
+"""Stresses below Hertz contacts, pressed and sliding: point and line forces summed, closed forms,
+first yield."""
 
 from __future__ import annotations
 
@@ -32,7 +33,8 @@ def components(fields):
 @pytest.mark.parametrize(("force", "field"), [(boussinesq, hertz_normal), (cerruti, hertz_shear)])
 @pytest.mark.parametrize("point", POINTS, ids=str)
 def test_the_circular_contact_is_a_sum_of_point_forces(force, field, point):
-    """r = a sqrt(1 - s²) makes the traction polynomial; 80 x 256 points are exact to rounding at depths from 0.3 a on."""
+    """r = a sqrt(1 - s²) makes the traction polynomial; 80 x 256 points are exact to rounding at
+    depths from 0.3 a on."""
     a, (x, y, z) = 1.0, point
     s, weight = gauss(np.array([0.0, 1.0]), 80)
     angle = (np.arange(256) + 0.5) * 2.0 * np.pi / 256
@@ -49,7 +51,8 @@ def test_the_circular_contact_is_a_sum_of_point_forces(force, field, point):
 )
 @pytest.mark.parametrize("point", POINTS, ids=str)
 def test_the_line_contact_is_a_sum_of_line_forces(force, field, point):
-    """Displacements too, datum included. 400 points in the angle; rounding of some hundred terms of order ten."""
+    """Displacements too, datum included. 400 points in the angle; rounding of some hundred terms of
+    order ten."""
     a, (x, _, z) = 1.5, point
     angle, weight = gauss(np.array([-0.5 * np.pi, 0.5 * np.pi]), 400)
     weight = a * np.cos(angle) ** 2 * weight
@@ -83,7 +86,8 @@ def test_circles_and_lines_are_ellipses(nu):
     z = np.maximum(z, 0.0)  # a third on the surface
     ellipse = hertz_ellipse_normal(x, y, z, (1.0, 1.0), nu=nu)
     circle = hertz_normal(x, y, z, 1.0, shear=1.0, nu=nu).stress
-    # a/b = 1e4: the pressure varies along the line by (1/1e4)², what is far away adds of the order b/a
+    # a/b = 1e4: the pressure varies along the line by (1/1e4)², what is far away adds of the order
+    # b/a
     slender = hertz_ellipse_normal(0.0 * y, y, z, (1e4, 1.0), nu=nu)
     line = hertz_line_normal(y, z, 1.0, shear=1.0, nu=nu).stress
     for one in STRESSES:
@@ -107,7 +111,8 @@ def test_largest_shear_below_an_ellipse(ratio, shear, depth):
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
 def test_closed_forms_on_the_surface_and_the_axis(nu):
-    """Johnson (1985, eq. 3.41-3.47): independent formulas of the pressed contact, and of the shear on the surface."""
+    """Johnson (1985, eq. 3.41-3.47): independent formulas of the pressed contact, and of the shear
+    on the surface."""
     x = np.array([0.02, 0.4, 0.9, 1.0, 1.5, 4.0])
     inside = np.minimum(x, 1.0)
     s = np.sqrt(1.0 - inside**2)
@@ -135,7 +140,8 @@ def test_closed_forms_on_the_surface_and_the_axis(nu):
 
 @pytest.mark.parametrize("field", [hertz_normal, hertz_shear])
 def test_fields_are_in_equilibrium_everywhere(field):
-    """Divergence by central differences of step 1e-4: truncation 1e-8 and rounding 1e-12 of stresses of order one."""
+    """Divergence by central differences of step 1e-4: truncation 1e-8 and rounding 1e-12 of
+    stresses of order one."""
     h = 1e-4
     rng = np.random.default_rng(0)
     x, y, z = rng.uniform([[-2.0], [-2.0], [0.2]], 2.0, (3, 50))
@@ -154,9 +160,11 @@ def test_fields_are_in_equilibrium_everywhere(field):
 
 @every_row(FRICTION, label=lambda row: f"nu{row['nu']:g}-mu{row['mu']:g}")
 def test_friction_moves_first_yield(row):
-    """The table is good to 1e-5; its places come from a search of its own, 1e-5 for smooth maxima, 1e-3 on the surface.
+    """The table is good to 1e-5; its places come from a search of its own, 1e-5 for smooth maxima,
+    1e-3 on the surface.
 
-    Its maxima below the surface are maxima only where yield starts there; else they lie where its search ended.
+    Its maxima below the surface are maxima only where yield starts there; else they lie where its
+    search ended.
     """
     onset = sphere_yield_onset(row["nu"], row["mu"])
     assert onset.root_J2 == pytest.approx(row["sqrtJ2max_over_p0"], rel=1e-5)
@@ -177,7 +185,8 @@ def test_friction_moves_first_yield(row):
 
 @every_row(ONSET, label=lambda row: f"nu{row['nu']:g}")
 def test_first_yield_without_friction(row):
-    """On the axis sqrt(J2) = 2τ/√3; the place of a maximum is known to the root of the rounding, 2e-8."""
+    """On the axis sqrt(J2) = 2τ/√3; the place of a maximum is known to the root of the rounding,
+    2e-8."""
     onset = sphere_yield_onset(row["nu"])
     assert onset.root_J2 * np.sqrt(3.0) / 2.0 == pytest.approx(row["tau_max_over_p0"], rel=1e-13)
     assert onset.z == pytest.approx(row["z_over_a"], abs=1e-7)
@@ -194,7 +203,8 @@ def test_first_yield_without_friction(row):
     [(0.2, 0.351209, 0.587), (0.3, 0.321882, 0.704), (0.4, 0.305561, 0.766), (0.5, 0.300283, 0.786)],
 )
 def test_first_yield_of_a_line_contact(nu, root_J2, z):
-    """Six and three printed digits; ν = 0.5 is the largest shear stress in the plane, 0.300283 p0 at 0.786 a."""
+    """Six and three printed digits; ν = 0.5 is the largest shear stress in the plane, 0.300283 p0
+    at 0.786 a."""
     onset = cylinder_yield_onset(nu)
     assert onset.root_J2 == pytest.approx(root_J2, abs=6e-7)
     assert onset.z == pytest.approx(z, abs=6e-4)

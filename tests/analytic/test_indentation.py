@@ -1,4 +1,5 @@
-"""Indentation of elastic-plastic half-spaces and layers by finite elements, against closed forms, independent numbers and laws."""
+"""Indentation of elastic-plastic half-spaces and layers by finite elements, against closed forms,
+independent numbers and laws."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ RADIUS = np.pi * PEAK * R / (2 * E_STAR)
 PERFECT = LinearHardening(Y, 1e-4 * E)
 ROUGH = fem.Resolution(across=16)
 FAR = {"growth": 1.2, "distance": 20.0}
-"""Mesh beyond the contact: a layer of ratio 4 takes half the time of the default one, and loads are 0.12 to 0.16 % higher; the least that is allowed below is 1 %."""
+"""Mesh beyond the contact: a layer of ratio 4 takes half the time of the default one, and loads are
+0.12 to 0.16 % higher; the least that is allowed below is 1 %."""
 
 
 @cache
@@ -46,7 +48,8 @@ DOWN = (9.5, 9.0, 8.5, 8.0, 7.5, 7.0, 7.25, 8.0, 9.0, 10.0)
 
 @pytest.mark.slow
 def test_the_curve_of_a_sphere() -> None:
-    """Loads within 2 % of an independent computation, contact radii within half an element and the scatter of the table, 1.5 %."""
+    """Loads within 2 % of an independent computation, contact radii within half an element and the
+    scatter of the table, 1.5 %."""
     found = sphere((*UP, *DOWN))
     rows = {float(row["delta_over_delta_y"]): row for row in reference("sphere_perfectly_plastic")}
     compared = [number for number, x in enumerate(UP) if x in rows]
@@ -59,7 +62,8 @@ def test_the_curve_of_a_sphere() -> None:
 
 
 def test_first_yield_is_on_the_axis_beneath_the_surface() -> None:
-    """Nothing flows at 0.95 of the approach of first yield; at 1.05 flow has begun at 0.48 a, within an element, on the axis."""
+    """Nothing flows at 0.95 of the approach of first yield; at 1.05 flow has begun at 0.48 a,
+    within an element, on the axis."""
     found = sphere((*UP, *DOWN))
     assert found.steps[1].zones[0].volume == 0.0
     zone = found.steps[2].zones[0]
@@ -73,7 +77,8 @@ def test_first_yield_is_on_the_axis_beneath_the_surface() -> None:
 
 
 def test_unloading_and_reloading() -> None:
-    """Unloading follows the reference within 1 %, starts with the stiffness 2 E* a, and reloading takes the same way but for a little flow backwards near the edge."""
+    """Unloading follows the reference within 1 %, starts with the stiffness 2 E* a, and reloading
+    takes the same way but for a little flow backwards near the edge."""
     found = sphere((*UP, *DOWN))
     rows = reference("sphere_unloading")
     down = slice(len(UP) - 1, len(UP) + 6)
@@ -97,7 +102,8 @@ def test_unloading_and_reloading() -> None:
 
 @pytest.mark.slow
 def test_energy_balance() -> None:
-    """Work is elastic energy and plastic work, and this is ∫ Y dq, up to the trapezoids of the steps; smaller steps are fourfold better."""
+    """Work is elastic energy and plastic work, and this is ∫ Y dq, up to the trapezoids of the
+    steps; smaller steps are fourfold better."""
     errors = []
     for parts in (8, 16):
         last = sphere(tuple(np.linspace(0.0, 6.0, parts + 1)[1:]), across=16).steps[-1]
@@ -108,7 +114,8 @@ def test_energy_balance() -> None:
 
 
 def test_equal_states_in_other_units() -> None:
-    """Small strains with a paraboloid have one parameter beside ν: the approach over that at first yield."""
+    """Small strains with a paraboloid have one parameter beside ν: the approach over that at first
+    yield."""
     x = np.array([1.5, 4.0, 3.0])
     first = fem.indentation(STEEL, fem.Paraboloid(R), x * APPROACH, plasticity=PERFECT, resolution=ROUGH)
     soft, hard = asp.Elastic(E / 50.0, NU), LinearHardening(3.0 * Y / 50.0, 1.0e-4 * E / 50.0)
@@ -128,7 +135,8 @@ def layered(ratio: float, steps: RealArray, across: int = 40) -> fem.Indentation
 @pytest.mark.slow
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0, 4.0])
 def test_a_layer(ratio: float) -> None:
-    """Loads within 1.5 % and radii within half an element and 2 % of an independent computation; plastic strains, which depend on the mesh, within a quarter where they are large."""
+    """Loads within 1.5 % and radii within half an element and 2 % of an independent computation;
+    plastic strains, which depend on the mesh, within a quarter where they are large."""
     rows = [row for row in reference("sphere_layered_plastic") if row["E1_over_E2"] == ratio]
     steps = np.arange(0.5, max(float(row["delta_over_delta_y"]) for row in rows) + 0.1, 0.5)
     found = layered(ratio, steps)
@@ -143,7 +151,8 @@ def test_a_layer(ratio: float) -> None:
 
 
 def test_tractions_and_tension_of_a_layer() -> None:
-    """The interface carries the load; forces through every row of elements are the load, and nothing when it is taken off."""
+    """The interface carries the load; forces through every row of elements are the load, and
+    nothing when it is taken off."""
     found = fem.indentation(
         asp.Layered([asp.Layer(asp.Elastic(4 * E, NU), RADIUS)], STEEL),
         fem.Paraboloid(R),
@@ -173,7 +182,8 @@ def test_tractions_and_tension_of_a_layer() -> None:
 
 @pytest.mark.slow
 def test_an_elastic_layer() -> None:
-    """Contact radius and approach under the load of the bare base, from the semi-analytical solution of layered solids."""
+    """Contact radius and approach under the load of the bare base, from the semi-analytical
+    solution of layered solids."""
     rows = [
         row
         for row in reference("sphere_layered_summary")
@@ -252,7 +262,8 @@ def test_an_elastic_cone() -> None:
 
 @pytest.mark.parametrize("friction", [0.0, math.inf])
 def test_an_elastic_punch(friction: float) -> None:
-    """Stiffness 2 E* a without friction and 4 G a ln(3 - 4ν)/(1 - 2ν) when it sticks (Spence 1968); the edge converges as the size of the elements."""
+    """Stiffness 2 E* a without friction and 4 G a ln(3 - 4ν)/(1 - 2ν) when it sticks (Spence 1968);
+    the edge converges as the size of the elements."""
     a, G, exact = 1e-5, STEEL.shear_modulus, 2.0 * E_STAR * 1e-5
     if friction:
         exact = 4.0 * G * a * math.log(3.0 - 4.0 * NU) / (1.0 - 2.0 * NU)
@@ -269,7 +280,8 @@ def test_an_elastic_punch(friction: float) -> None:
 
 @pytest.mark.slow
 def test_friction_slips_and_sticks() -> None:
-    """Shear is at most μ p everywhere and equal to it where the surface slips; much friction is full stick, and a little lies between."""
+    """Shear is at most μ p everywhere and equal to it where the surface slips; much friction is
+    full stick, and a little lies between."""
     x = APPROACH * np.array([0.4, 0.8, 1.2])
     loads = {}
     for friction in (0.0, 0.05, 50.0, math.inf):
@@ -311,7 +323,8 @@ def strip(across: int, steps: RealArray) -> float:
 
 @pytest.mark.slow
 def test_collapse_of_a_strip() -> None:
-    """(2 + π) k within 1 % from two meshes, from above; the pressure over the width with half an element lies below it."""
+    """(2 + π) k within 1 % from two meshes, from above; the pressure over the width with half an
+    element lies below it."""
     coarse, fine = (strip(across, np.linspace(0.004, 0.036, 8)) for across in (6, 12))
     exact = 2.0 + math.pi
     assert coarse > fine > exact > fine / (1.0 + 0.5 / 12)
@@ -338,7 +351,8 @@ def test_collapse_of_a_circle(friction: float, expected: float) -> None:
 
 
 def test_oliver_and_pharr_on_a_computed_curve() -> None:
-    """The modulus comes out within 12 % where piled-up material is not seen, the hardness with it."""
+    """The modulus comes out within 12 % where piled-up material is not seen, the hardness with
+    it."""
     found = sphere((*UP, *DOWN))
     read = found.oliver_pharr(fem.Paraboloid(R))
     assert read.contact_modulus == pytest.approx(E_STAR, rel=0.12)
@@ -346,7 +360,8 @@ def test_oliver_and_pharr_on_a_computed_curve() -> None:
 
 
 def test_pressure_is_johnsons_cavity_or_more() -> None:
-    """Johnson's model lies some per cent below finite elements (handbooks: 8 % at E* a/(Y R) = 5)."""
+    """Johnson's model lies some per cent below finite elements (handbooks: 8 % at E* a/(Y R) =
+    5)."""
     found = sphere((*UP, *DOWN))
     for number in (8, 10):
         a = found.contact_radius[number]
@@ -371,7 +386,8 @@ def test_what_is_refused() -> None:
 
 @pytest.mark.parametrize("ball", [fem.Paraboloid, fem.Sphere])
 def test_balls_are_pressed_as_far_as_strains_are_small(ball: type[fem.Paraboloid | fem.Sphere]) -> None:
-    """As on the command line: refused beyond 0.08 of the radius, a finding where the contact is wider than 0.15 of it; cones have one slope at any depth."""
+    """As on the command line: refused beyond 0.08 of the radius, a finding where the contact is
+    wider than 0.15 of it; cones have one slope at any depth."""
     for steps in ([0.081 * R], [1e-7, fem.Depth(0.081 * R)]):
         with refused(InputError, "depth of indentation (m)", "0.08"):
             fem.indentation(STEEL, ball(R), steps, plasticity=None, resolution=ROUGH)
@@ -397,11 +413,14 @@ def test_a_punch_beyond_collapse() -> None:
 
 @pytest.mark.slow
 def test_repeated_indentation_with_a_back_stress() -> None:
-    """Bauschinger's effect at 300 times the load at first yield: a back stress (Prager) flows back more as the load is taken off and flows again in every cycle, which all but
-    close; the yield stress that grows by the same slope soon bears the load, and flow falls more than tenfold from cycle to cycle, as it does with either at a tenth of the load."""
+    """Bauschinger's effect at 300 times the load at first yield: a back stress (Prager) flows back
+    more as the load is taken off and flows again in every cycle, which all but close; the yield
+    stress that grows by the same slope soon bears the load, and flow falls more than tenfold from
+    cycle to cycle, as it does with either at a tenth of the load."""
 
     def works(law: J2 | LinearHardening, times: float) -> tuple[float, list[float]]:
-        """Plastic work of the first way out, and of each cycle after it, over that of the first way in."""
+        """Plastic work of the first way out, and of each cycle after it, over that of the first way
+        in."""
         top, shares = times * LOAD, (0.02, 0.1, 0.25, 0.5, 0.75, 1.0)
         down = [fem.Load(share * top) for share in (0.75, 0.5, 0.25, 0.0)]
         up = [fem.Load(share * top) for share in (0.25, 0.5, 0.75, 1.0)]

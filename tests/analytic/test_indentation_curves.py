@@ -1,4 +1,5 @@
-"""Unloading curves: exact for elastic indenters, beside the unloading of an elastic-plastic sphere, and what is refused."""
+"""Unloading curves: exact for elastic indenters, beside the unloading of an elastic-plastic sphere,
+and what is refused."""
 
 from __future__ import annotations
 
@@ -65,9 +66,11 @@ def test_analysis_is_that_of_the_theory_at_the_same_stiffness() -> None:
 
 
 def test_unloading_of_a_sphere_that_yielded() -> None:
-    """Initial slope 2 E* a of the table, within its 1 %; Hertz between the new radii leaves 3.0 δ_y.
+    """Initial slope 2 E* a of the table, within its 1 %; Hertz between the new radii leaves 3.0
+    δ_y.
 
-    The table ends at 0.7 of the largest approach; over that range the exponent is that of instruments (Oliver and Pharr 1992 found 1.25 to 1.51).
+    The table ends at 0.7 of the largest approach; over that range the exponent is that of
+    instruments (Oliver and Pharr 1992 found 1.25 to 1.51).
     """
     rows = reference("sphere_unloading")
     depth = np.array([float(row["delta_over_delta_y"]) for row in rows])

@@ -38,9 +38,11 @@ def test_reference_has_both_shapes():
 
 @every_row(CONES, label=name)
 def test_cone(row):
-    """At 80 pixels per diameter, radius to half a pixel; approach as for the sphere; the apex is log-singular, so
+    """At 80 pixels per diameter, radius to half a pixel; approach as for the sphere; the apex is
+    log-singular, so
 
-    pressures are compared away from it. Near the rim (0.9 a) the slope of the pressure makes 3 pixel/a * 0.1 there.
+    pressures are compared away from it. Near the rim (0.9 a) the slope of the pressure makes 3
+    pixel/a * 0.1 there.
     """
     n, a = 96, row["a"]
     result = solved(generate.cone(square_grid(n, 2.4 * a), slope=row["B"]), row, asp.Force(row["P"]))
@@ -54,7 +56,8 @@ def test_cone(row):
 
 @every_row(PUNCHES, label=name)
 def test_flat_punch(row):
-    """The staircase rim is uncertain by half a pixel, and so is the force 2 E* a delta; the error must fall with it."""
+    """The staircase rim is uncertain by half a pixel, and so is the force 2 E* a delta; the error
+    must fall with it."""
     a, errors = row["a"], []
     for n in (48, 192):
         surface = generate.flat_punch(square_grid(n, 2.4 * a), radius=a, depth=10.0 * row["delta"])

@@ -1,4 +1,5 @@
-"""Adhesion of infinitely short range on a grid: JKR's sphere, Johnson's wave, coated spheres, and the compliance of a step of the edge."""
+"""Adhesion of infinitely short range on a grid: JKR's sphere, Johnson's wave, coated spheres, and
+the compliance of a step of the edge."""
 
 from __future__ import annotations
 
@@ -29,7 +30,8 @@ def parted(problem: asp.ContactProblem, approaches: object) -> asp.HistoryResult
 
 @pytest.mark.slow
 def test_pull_off_of_a_sphere_converges_with_the_first_order():
-    """Pixels in the radius times relative error is 1.6 to 1.7 from 7 to 52 pixels on; what the order leaves is below 1 %."""
+    """Pixels in the radius times relative error is 1.6 to 1.7 from 7 to 52 pixels on; what the
+    order leaves is below 1 %."""
     found = {}
     for points in (48, 96):
         loop = parted(sphere(points, SIZE, LAW), [0.2, *np.linspace(0.0, -0.9, 31)])
@@ -141,7 +143,8 @@ def test_step_compliance_of_a_half_space():
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()], ids=["free", "periodic"])
 def test_step_compliance_is_that_of_a_point_at_a_step(boundary):
-    """One over the diagonal of the inverse of the compliances of half a grid and a part of its last row, by dense algebra."""
+    """One over the diagonal of the inverse of the compliances of half a grid and a part of its last
+    row, by dense algebra."""
     n = 24
     operator = prepare_operator(
         contact_compliance(BODY, asp.Rigid()), asp.Surface(np.zeros((n, n)), 1e-7, 1.4e-7).grid, boundary

@@ -1,4 +1,5 @@
-"""Kotwal and Bhushan's theory against quadrature (11 digits), its Gaussian limit and the published trend."""
+"""Kotwal and Bhushan's theory against quadrature (11 digits), its Gaussian limit and the published
+trend."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ QUADRATURE = 5e-12  # of the table: 3e-12 on moments 0 to 4
 
 
 def unit(skewness, kurtosis):
-    """Theory with η R σ_s = E* = σ_s/R = 1, of which pressures are P_a and area fractions A_r/(A_a η R σ_s)."""
+    """Theory with η R σ_s = E* = σ_s/R = 1, of which pressures are P_a and area fractions A_r/(A_a
+    η R σ_s)."""
     return KotwalBhushan(1.0, 1.0, 1.0, 1.0, skewness=skewness, kurtosis=kurtosis)
 
 
@@ -44,7 +46,8 @@ def test_gaussian_heights_are_greenwood_and_williamson():
 
 
 def test_published_trend_at_a_light_load():
-    """Positive skewness with a large kurtosis halves the area, negative skewness enlarges it (Kotwal & Bhushan 1996)."""
+    """Positive skewness with a large kurtosis halves the area, negative skewness enlarges it
+    (Kotwal & Bhushan 1996)."""
     areas = [
         float(unit(*moments).at_pressure(1e-3).area_fraction[0]) for moments in ((0.0, 3.0), (0.5, 5.0), (-1.0, 5.0))
     ]

@@ -1,4 +1,5 @@
-"""Axisymmetric loads on layered bodies, the rigid sphere on a layer (O'Sullivan & King 1988), the sliding Hertz contact."""
+"""Axisymmetric loads on layered bodies, the rigid sphere on a layer (O'Sullivan & King 1988), the
+sliding Hertz contact."""
 
 import functools
 
@@ -29,7 +30,8 @@ def sphere_of(row):
 
 @every_row(AXISYMMETRIC, label=label)
 def test_disc_and_hertz_loads_on_layered_bodies(row):
-    """The table is accurate to 1e-13 per unit pressure; 1e-12 adds the quadrature here. Worst found: 6e-13."""
+    """The table is accurate to 1e-13 per unit pressure; 1e-12 adds the quadrature here. Worst
+    found: 6e-13."""
     body = body_of(row)
     load = (Disc if row["load"] == "disc" else Hertz)(row["a"])
     u, s = fields(body, plane_of(row, body, row["z"]), load, row["r"])
@@ -57,7 +59,8 @@ def test_stress_under_a_sphere_on_a_layer(row):
 
 @every_row(LARGEST, label=label)
 def test_largest_stress_under_a_sliding_sphere_on_a_layer(row):
-    """The table is accurate to 1e-7 (cusps at the edge of the contact). Worst difference found: 3e-8.
+    """The table is accurate to 1e-7 (cusps at the edge of the contact). Worst difference found:
+    3e-8.
 
     That it is the largest is checked on points around it in its region.
     """
@@ -81,7 +84,8 @@ def test_largest_stress_under_a_sliding_sphere_on_a_layer(row):
 
 @every_row(FRICTION, label=lambda row: f"nu{row['nu']:g}-mu{row['mu']:g}")
 def test_friction_moves_the_onset_of_yield_of_a_sphere(row):
-    """Hankel integrals of the table to 1e-5 relative; found equal to rounding. The largest tension is in closed form."""
+    """Hankel integrals of the table to 1e-5 relative; found equal to rounding. The largest tension
+    is in closed form."""
     body = asp.Layered([], asp.Elastic(1.0, row["nu"]))
     x, z = row["x_over_a"], row["z_over_a"]
 
@@ -99,7 +103,8 @@ def test_friction_moves_the_onset_of_yield_of_a_sphere(row):
 
 @every_row(ONSET, label=lambda row: f"nu{row['nu']:g}")
 def test_onset_of_yield_of_a_sphere(row):
-    """All digits of the table are good; second order around the maximum leaves the depth's rounding out."""
+    """All digits of the table are good; second order around the maximum leaves the depth's rounding
+    out."""
     body = asp.Layered([], asp.Elastic(1.0, row["nu"]))
     s = fields(body, planes(body, [row["z_over_a"]])[0], Hertz(1.0), 0.0)[1]
     assert max_shear(s) == pytest.approx(row["tau_max_over_p0"], rel=1e-10)

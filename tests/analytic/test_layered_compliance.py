@@ -1,4 +1,5 @@
-"""Wavenumber compliance of layered bodies: published closed form, limits, and a multiprecision table."""
+"""Wavenumber compliance of layered bodies: published closed form, limits, and a multiprecision
+table."""
 
 import numpy as np
 import pytest
@@ -19,7 +20,8 @@ def surface(body, alpha):
 
 @every_row(ROWS, label=lambda row: f"case-{row['case']:g}")
 def test_every_row_of_the_table(row):
-    """Table exact to its 16 digits; sums of positive terms keep the arithmetic's accuracy: 1.6e-15 found, 1e-14 allowed.
+    """Table exact to its 16 digits; sums of positive terms keep the arithmetic's accuracy: 1.6e-15
+    found, 1e-14 allowed.
 
     The coupling can vanish, so its error is measured against the geometric mean of the diagonal.
     """
@@ -32,7 +34,8 @@ def test_every_row_of_the_table(row):
 
 @every_row([r for r in ROWS if r["xi"] * r["eta"]], label=lambda row: f"case-{row['case']:g}")
 def test_cartesian_tensor_of_the_table(row):
-    """The wavevector of the row is the mode (1, 1) or one of its mirror images on a grid made for it."""
+    """The wavevector of the row is the mode (1, 1) or one of its mirror images on a grid made for
+    it."""
     xi, eta = row["xi"], row["eta"]
     grid = asp.Grid((4, 4), (0.5 * np.pi / abs(xi), 0.5 * np.pi / abs(eta)))
     tensor = surface_tensor(grid, layered(row))
@@ -48,7 +51,8 @@ def test_cartesian_tensor_of_the_table(row):
 
 @pytest.mark.parametrize(("ratio", "digits"), [(0.1, 1e-14), (1.0, 1e-14), (10.0, 1e-13), (1000.0, 1e-9), (1e-3, 1e-9)])
 def test_single_layer_closed_form(ratio, digits):
-    """Burmister (1945), O'Sullivan & King (1988); the closed form itself loses digits where the moduli differ much."""
+    """Burmister (1945), O'Sullivan & King (1988); the closed form itself loses digits where the
+    moduli differ much."""
     body = on_half_space(ratio, 2.0, nu=0.25, nu_base=0.4)
     G1, G2 = body.layers[0].material.shear_modulus, body.base.shear_modulus
     mu, x, theta = G1 / G2, ALPHA_H, np.exp(-2.0 * ALPHA_H)
@@ -61,7 +65,8 @@ def test_single_layer_closed_form(ratio, digits):
 
 
 def test_single_layer_antiplane_closed_form():
-    """C_T from the two exponentials of the layer: (1/G1 alpha)(1 + r theta)/(1 - r theta), r = (mu - 1)/(mu + 1)."""
+    """C_T from the two exponentials of the layer: (1/G1 alpha)(1 + r theta)/(1 - r theta), r =
+    (mu - 1)/(mu + 1)."""
     body = on_half_space(7.0, 2.0)
     mu, theta = 7.0, np.exp(-2.0 * ALPHA_H)
     r = (1.0 - mu) / (1.0 + mu)
@@ -71,7 +76,8 @@ def test_single_layer_antiplane_closed_form():
 
 @pytest.mark.parametrize(("alpha_h", "error"), [(1e-3, 3e-5), (1e-4, 3e-7)])
 def test_thin_layers_to_first_order(alpha_h, error):
-    """Bracket of (4.8) for each component; what is left falls with the square of the thickness (relative to d/alpha)."""
+    """Bracket of (4.8) for each component; what is left falls with the square of the thickness
+    (relative to d/alpha)."""
     layers = [(4.0, 0.2, 1.0), (0.3, 0.45, 2.0)]
     body = asp.Layered([asp.Layer(elastic(E, nu), h) for E, nu, h in layers], elastic(1.0, 0.35))
     base, alpha = body.base, alpha_h
@@ -103,15 +109,17 @@ def test_rigid_base_at_long_wavelengths_is_the_mean_mode():
 
 
 def test_incompressible_layer_on_a_rigid_base_bears_any_mean_pressure():
-    """Reynolds' thin film of rubber: C_zz = (alpha h)² h/(3G) for alpha h << 1, nothing in the mean."""
+    """Reynolds' thin film of rubber: C_zz = (alpha h)² h/(3G) for alpha h << 1, nothing in the
+    mean."""
     body = asp.Layered([asp.Layer(elastic(3.0, 0.5), 2.0)], asp.RigidBase())
     assert LayerStack(body).mean_mode() == 0.0
     assert surface(body, 1e-4).zz == pytest.approx((2e-4) ** 2 * 2.0 / 3.0, rel=1e-6)
 
 
 def test_sheet_on_a_frictionless_base():
-    """Thin plate: C_zz = 1/(D alpha^4 + 1/C_base), D = E' h³/12; C_LL that of the membrane, 1/(E' h alpha²), and of the
-    bending by the eccentric traction. Shear deformation is left out: errors of the order (alpha h)² = 1e-4 at most."""
+    """Thin plate: C_zz = 1/(D alpha^4 + 1/C_base), D = E' h³/12; C_LL that of the membrane, 1/(E' h
+    alpha²), and of the bending by the eccentric traction. Shear deformation is left out: errors of
+    the order (alpha h)² = 1e-4 at most."""
     stiff = asp.Layer(elastic(1e6, 0.3), 1e-3, asp.Frictionless())
     body = asp.Layered([stiff], elastic(1.0, 0.3))
     E = stiff.material.plane_strain_modulus
@@ -133,7 +141,8 @@ def test_sheet_on_a_frictionless_base():
     ids=lambda value: f"{value:g}" if isinstance(value, float) else "",
 )
 def test_graded_coating_converges_with_second_order(alpha, limit, known):
-    """E from 4 E_s to E_s exponentially over h = 1, nu = 0.3, with 4, 8, … 128 sublayers: known errors, two digits each.
+    """E from 4 E_s to E_s exponentially over h = 1, nu = 0.3, with 4, 8, … 128 sublayers: known
+    errors, two digits each.
 
     The limits are known to 9 and 7 digits, which blurs the smallest errors by 1e-9 and 1e-7.
     """
@@ -146,7 +155,8 @@ def test_graded_coating_converges_with_second_order(alpha, limit, known):
 
 
 def test_gibson_soil_deflects_locally():
-    """Incompressible half-space with G = m z: C_zz = 1/2m at every wavenumber (Gibson 1967), here by geometric layers."""
+    """Incompressible half-space with G = m z: C_zz = 1/2m at every wavenumber (Gibson 1967), here
+    by geometric layers."""
     edges = np.concatenate([[0.0], np.geomspace(1e-4, 1e2, 320)])
     middle = 0.5 * (edges[1:] + edges[:-1])
     layers = [asp.Layer(elastic(3.0 * z, 0.5), h) for z, h in zip(middle, np.diff(edges), strict=True)]

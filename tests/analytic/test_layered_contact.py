@@ -1,7 +1,9 @@
-"""Rigid sphere and cylinder on a coated half-space, against integral equations solved to twelve digits.
+"""Rigid sphere and cylinder on a coated half-space, against integral equations solved to twelve
+digits.
 
-Sphere: O'Sullivan & King (1988); cylinder: Cole & Sayles (1992). Errors are those of constant pressure on pixels:
-of second order in pixel over contact radius inside, growing like the curvature of the pressure towards the edge.
+Sphere: O'Sullivan & King (1988); cylinder: Cole & Sayles (1992). Errors are those of constant
+pressure on pixels: of second order in pixel over contact radius inside, growing like the curvature
+of the pressure towards the edge.
 """
 
 import functools
@@ -35,7 +37,8 @@ RADII = {constants(row): row["a_over_a0"] for row in SUMMARY}
 
 @functools.cache
 def under_the_sphere(case, radius):
-    """Contact of the bodies of a ``case`` on pixels over the ``radius``, solved once for both tables."""
+    """Contact of the bodies of a ``case`` on pixels over the ``radius``, solved once for both
+    tables."""
     return sphere(dict(zip(CONSTANTS, case, strict=True)), radius, SPHERE_PIXELS)
 
 
@@ -54,7 +57,8 @@ def test_sphere(row):
 
 @pytest.mark.parametrize("case", sorted({constants(row) for row in PRESSURE}), ids=str)
 def test_pressure_under_the_sphere(case):
-    """Truncation error of second order times the curvature (1 - r²/a²)^(-3/2) of the pressure; at the edge a pixel."""
+    """Truncation error of second order times the curvature (1 - r²/a²)^(-3/2) of the pressure; at
+    the edge a pixel."""
     rows = [row for row in PRESSURE if constants(row) == case]
     away = max(rows, key=lambda row: row["r_over_a"])
     radius = away["r_over_a0"] / away["r_over_a"]
@@ -68,7 +72,8 @@ def test_pressure_under_the_sphere(case):
 
 
 def test_sphere_converges_with_second_order():
-    """Peak and approach on a stiff layer; scatter of the rim on the grid moves the order by a quarter (see Hertz)."""
+    """Peak and approach on a stiff layer; scatter of the rim on the grid moves the order by a
+    quarter (see Hertz)."""
     row = next(row for row in SUMMARY if row["E1_over_E2"] == 4.0 and row["h_over_a0"] == 0.5)
     pixels = np.array([33, 65, 129])
     results = [sphere(row, row["a_over_a0"], n) for n in pixels]

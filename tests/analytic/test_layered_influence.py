@@ -1,4 +1,5 @@
-"""Free influence coefficients of layered and homogeneous bodies: tables, closed forms, independent quadratures."""
+"""Free influence coefficients of layered and homogeneous bodies: tables, closed forms, independent
+quadratures."""
 
 import numpy as np
 import pytest
@@ -21,10 +22,11 @@ STATED = 1e-8
 
 @pytest.mark.parametrize("configuration", CONFIGURATIONS)
 def test_every_row_of_the_table(configuration):
-    """All components under all loads, against the polar quadrature of the table (1e-13 absolute for a unit traction).
+    """All components under all loads, against the polar quadrature of the table (1e-13 absolute for
+    a unit traction).
 
-    On the rigid base displacements fall exponentially, to 1e-13 of the loaded pixel's; there the error counts
-    against the value that a half-space of the layer's material would have.
+    On the rigid base displacements fall exponentially, to 1e-13 of the loaded pixel's; there the
+    error counts against the value that a half-space of the layer's material would have.
     """
     rows = [row for row in ROWS if row["config"] == configuration]
     body, side = layered(rows[0]), rows[0]["Delta"]
@@ -62,7 +64,8 @@ def test_three_zones_give_love_s_patch(spacing):
 
 @pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 2.5)])
 def test_homogeneous_tensor_is_the_closed_form(spacing):
-    """All nine surface components under a rectangle (Kalker 1990; Johnson 1985, sec. 3.4), summed over its corners."""
+    """All nine surface components under a rectangle (Kalker 1990; Johnson 1985, sec. 3.4), summed
+    over its corners."""
     G, nu = 2.0, 0.3
     grid = asp.Grid((24, 30), spacing)
     t = influence_tensor(grid, asp.Elastic(2.0 * G * (1.0 + nu), nu))
@@ -99,7 +102,8 @@ def test_homogeneous_tensor_is_the_closed_form(spacing):
 )
 @pytest.mark.parametrize("order", [0, 1, 2])
 def test_point_response_by_another_quadrature(layers, base, order):
-    """Gauss panels, graded towards zero and as short as half a wave of the Bessel function; the near field in closed form."""
+    """Gauss panels, graded towards zero and as short as half a wave of the Bessel function; the
+    near field in closed form."""
     body = asp.Layered(
         [asp.Layer(elastic(E, nu), h) for E, nu, h in layers], asp.RigidBase() if base is None else elastic(*base)
     )
@@ -122,14 +126,16 @@ def test_point_response_by_another_quadrature(layers, base, order):
 @pytest.mark.parametrize("thickness", [0.01, 0.7, 30.0])
 @pytest.mark.parametrize("ratio", [1e-3, 0.01, 5.0, 1e3])
 def test_coarse_pixels_are_sums_of_fine_ones(ratio, thickness):
-    """Nine thirds of a pixel under the same pressure make the pixel, across all zones; modulus ratios to a thousand."""
+    """Nine thirds of a pixel under the same pressure make the pixel, across all zones; modulus
+    ratios to a thousand."""
     stack = LayerStack(on_half_space(ratio, thickness))
     coarse = stack.influence(asp.Grid((40, 25), (1.0, 1.5)))
     fine = stack.influence(asp.Grid((121, 76), (1.0 / 3.0, 0.5)))
     reach = np.abs(np.arange(-1, 119)), np.abs(np.arange(-1, 74))
     near = fine[np.ix_(*reach)]
     nine = sum(near[1 + a :: 3, 1 + b :: 3][:39, :24] for a in (-1, 0, 1) for b in (-1, 0, 1))
-    # displacements on a soft layer change sign, where they are small beside those of a half-space of its material
+    # displacements on a soft layer change sign, where they are small beside those of a half-space
+    # of its material
     top = HalfSpace(stack.body.layers[0].material.plane_strain_modulus).influence(asp.Grid((39, 24), (1.0, 1.5)))
     np.testing.assert_array_less(np.abs(coarse[:39, :24] - nine), STATED * np.maximum(np.abs(nine), top))
 
@@ -156,8 +162,9 @@ def test_slipping_layers_have_no_tangential_coefficients():
 
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
 def test_strips_under_shear_step_from_the_top_layer_to_what_holds_it(nu):
-    """u_z of a line force Q is ±(1-2ν)Q/4G near it and with the base's constants far away; the contraction ν/2G of a sheet
-    gives ∓νQ/4G over an interface that slips. The approach to the limits is like h/x and x/h."""
+    """u_z of a line force Q is ±(1-2ν)Q/4G near it and with the base's constants far away; the
+    contraction ν/2G of a sheet gives ∓νQ/4G over an interface that slips. The approach to the
+    limits is like h/x and x/h."""
     film, base, dx = elastic(2.0, nu), elastic(1.0, 0.1), 1e-4
     bonded = asp.Layered([asp.Layer(film, 1.0)], base)
     slipping = asp.Layered([asp.Layer(film, 1.0, asp.Frictionless())], base)
@@ -178,11 +185,13 @@ def test_strips_under_shear_step_from_the_top_layer_to_what_holds_it(nu):
 
 
 def test_coupling_of_a_slipping_layer_tends_to_that_of_a_sheet():
-    """αC_Lz from (1-2ν)/2G of the film to -ν/2G: u_x far from a normal point force is -αC_Lz/(2πr) x/r."""
+    """αC_Lz from (1-2ν)/2G of the film to -ν/2G: u_x far from a normal point force is -αC_Lz/(2πr)
+    x/r."""
     film = elastic(2.0, 0.3)
     body = asp.Layered([asp.Layer(film, 1.0, asp.Frictionless())], elastic(1.0, 0.1))
     xz, yz = BodiesSurface(body, asp.Rigid()).coupling_pixels(asp.Grid((5, 5), (1e4, 1e4)))
     expected = 0.3 / (2.0 * film.shear_modulus) / (2.0 * np.pi * np.arange(3, 5) * 1e4) * 1e8
-    # a pixel instead of a point: the mean of x/r² over a square, harmonic but for the fourth order, 1/60 r^-4 at most
+    # a pixel instead of a point: the mean of x/r² over a square, harmonic but for the fourth order,
+    # 1/60 r^-4 at most
     np.testing.assert_allclose(xz[3:, 0], expected, rtol=2e-3)
     np.testing.assert_allclose(yz, xz.T, rtol=1e-9, atol=1e-9 * np.abs(xz).max())

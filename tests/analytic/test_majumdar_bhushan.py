@@ -60,7 +60,8 @@ def test_sizes_of_spots(row):
 
 @given(dimension=st.one_of(DIMENSIONS, st.floats(1.499, 1.501), st.just(1.5)), ratio=st.floats(1.5, 1e5))
 def test_the_load_is_that_of_the_spots(dimension, ratio):
-    """∫ P(a) n(a) da with the elastic load of a spot; also next to D = 3/2, where the closed form changes."""
+    """∫ P(a) n(a) da with the elastic load of a spot; also next to D = 3/2, where the closed form
+    changes."""
     theory = MajumdarBhushan(dimension, 1e-11, 1e11, 2e10, AREA)
     critical = theory.critical_area
     largest = ratio * critical
@@ -115,7 +116,8 @@ def test_what_cannot_be_is_refused():
 
 
 def test_the_theory_of_a_surface():
-    """A map made of a self-affine spectrum: dimension from its structure function, prediction = that of the parameters."""
+    """A map made of a self-affine spectrum: dimension from its structure function, prediction =
+    that of the parameters."""
     waves = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsHeight(5e-9), hurst=0.6, rolloff_wavelength=1e-6, shortest_wavelength=2e-8
     )

@@ -141,7 +141,8 @@ def test_without_film_the_contact_is_dry():
 
 
 def test_menisci_of_exponential_summits_are_proportional_to_the_load():
-    """F_m = F_max exp(H - D) and L = k Γ(5/2) exp(-D): a constant ratio of meniscus force and load."""
+    """F_m = F_max exp(H - D) and L = k Γ(5/2) exp(-D): a constant ratio of meniscus force and
+    load."""
     row = {"m": 0.1, "H": 0.5}
     theory = wet(row, ExponentialHeights())
     ratio = row["m"] * math.exp(row["H"]) / math.gamma(2.5)
@@ -168,7 +169,8 @@ def meniscus_share(skewness: float = 0.0, kurtosis: float = 3.0, film: float = 2
 
 
 def test_few_high_summits_stick_less_and_mind_the_film_less():
-    """Published trends: positive skewness and a kurtosis of 5 and more lower the meniscus force and its rise with the film."""
+    """Published trends: positive skewness and a kurtosis of 5 and more lower the meniscus force and
+    its rise with the film."""
     by_skewness = [meniscus_share(skewness, 3.5) for skewness in (-0.5, 0.0, 0.3, 0.5)]
     assert (np.diff(by_skewness) < 0.0).all()
     by_kurtosis = [meniscus_share(0.0, kurtosis) for kurtosis in (2.2, 3.0, 5.0, 8.0)]

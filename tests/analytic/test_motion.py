@@ -1,4 +1,5 @@
-"""Motion on rough interfaces against independent solutions: vibration, stick-slip, sliding blocks, and the boundaries of stability."""
+"""Motion on rough interfaces against independent solutions: vibration, stick-slip, sliding blocks,
+and the boundaries of stability."""
 
 from __future__ import annotations
 
@@ -93,7 +94,8 @@ UNITS = {
 
 @pytest.mark.parametrize("case", sorted({row["set"] for row in SERIES}))
 def test_first_milliseconds_of_a_block(case: float) -> None:
-    """Within 1e-7 of the scales: a tolerance of 1e-12 a step over some 1e4 steps; the reference agrees with itself to 1e-11."""
+    """Within 1e-7 of the scales: a tolerance of 1e-12 a step over some 1e4 steps; the reference
+    agrees with itself to 1e-11."""
     rows = [row for row in SERIES if row["set"] == case]
     block, pause = block_of(rows[0]), 1e-4
     end = max(row["t_s"] for row in rows)
@@ -117,19 +119,22 @@ SLIDING = {row["set"]: row for row in reference("block_sliding_features")}
 
 
 BEATS = {7.0: 2e-3, 8.0: 1e-2, 12.0: 5e-3, 15.0: 2e-3}
-"""Sets with a slow beat, and how well their vibration is found in some window of the length of the reference's.
+"""Sets with a slow beat, and how well their vibration is found in some window of the length of the
+reference's.
 
-The phase of the beat in the window of the reference follows from the rounding that its flutter grows from. In set 12 the vibration goes between
-0.085 and 0.128 of the penetration at rest over a beat of 0.29 s."""
+The phase of the beat in the window of the reference follows from the rounding that its flutter
+grows from. In set 12 the vibration goes between 0.085 and 0.128 of the penetration at rest over a
+beat of 0.29 s."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", sorted(SLIDING))
 def test_long_runs_of_a_block(case: float) -> None:
-    """Forces and vibration within 2e-3, some twenty times what halving the step of the reference changes most of them by; peak and mean also in beats.
+    """Forces and vibration within 2e-3, some twenty times what halving the step of the reference
+    changes most of them by; peak and mean also in beats.
 
-    An impulse of 1e-3 begins the flutter, which else waits for rounding, and on some processors until it is too late. An earlier begin
-    takes up to 5e-3 from the peak.
+    An impulse of 1e-3 begins the flutter, which else waits for rounding, and on some processors
+    until it is too late. An earlier begin takes up to 5e-3 from the peak.
     """
     row = SLIDING[case]
     block, beats = block_of(row), case in BEATS
@@ -157,7 +162,8 @@ def part(motion: dyn.Motion, start: float, end: float) -> dyn.Motion:
 
 
 def vibration(run: dyn.BlockRun, start: float, end: float) -> np.ndarray:
-    """Smallest and largest normal force over the load, standard deviations of penetration and tilt, from ``start`` to ``end``."""
+    """Smallest and largest normal force over the load, standard deviations of penetration and tilt,
+    from ``start`` to ``end``."""
     motion, block = part(run.motion, start, end), run.block
     normal = motion["normal_force"] / block.load
     penetration, tilt = motion["penetration"].std(), motion["tilt"].std()
@@ -172,8 +178,9 @@ STICK_SLIP = {row["set"]: row for row in reference("block_stick_slip_features")}
 def test_stick_slip_of_a_block(case: float) -> None:
     """Peak and valley within 1 %, as reproducible as the table says.
 
-    The block waits on the plateau of the friction until flutter has grown from the error of the integration: each power of ten of
-    that error makes the period 1.0 to 1.3 % longer. At this tolerance the rounding of another build moves it by three powers either way.
+    The block waits on the plateau of the friction until flutter has grown from the error of the
+    integration: each power of ten of that error makes the period 1.0 to 1.3 % longer. At this
+    tolerance the rounding of another build moves it by three powers either way.
     """
     row = STICK_SLIP[case]
     block, tolerance = block_of(row), 1e-10
@@ -197,7 +204,8 @@ BLOCK = dyn.SlidingBlock(LAW, mass=1.0, length=0.1, width=0.02, height=0.05, loa
 @pytest.mark.slow
 @pytest.mark.parametrize(("power", "highest"), [(2.0, 1.5), (1.5, 2.5)])
 def test_energy_over_a_thousand_periods(power: float, highest: float) -> None:
-    """Without damping the energy keeps to 1e-8 over 1000 periods, with loss of contact in each of the second case, and the last ends where the first began."""
+    """Without damping the energy keeps to 1e-8 over 1000 periods, with loss of contact in each of
+    the second case, and the last ends where the first began."""
     joint = dyn.NormalOscillator(dyn.NormalCompliance(1e15, power), mass=1.0, area=2e-3, load=100.0)
     exact = theories.free_vibration(power, highest)
     period = float(exact.period_ratio) * 2.0 * math.pi / joint.natural_frequency
@@ -234,7 +242,8 @@ def test_forced_vibration_of_small_amplitude_is_linear() -> None:
 @pytest.mark.parametrize("law", ["ageing", "slip"])
 @pytest.mark.parametrize("share", [0.9, 1.1])
 def test_stability_with_rate_and_state(law: str, share: float) -> None:
-    """Eigenvalues change sign at the stiffness of Rice and Ruina, and the motion grows or decays as they say."""
+    """Eigenvalues change sign at the stiffness of Rice and Ruina, and the motion grows or decays as
+    they say."""
     friction = dyn.RateState(0.6, 0.01, 0.015, 1e-5, 1e-6, law)
     mass, force, speed = 1.0, 100.0, 1e-5
     critical = float(theories.critical_stiffness(force, 0.01, 0.015, 1e-5, mass=mass, speed=speed))
@@ -258,7 +267,8 @@ def test_steady_friction_of_rate_and_state() -> None:
 
 
 def test_flutter_boundary_by_eigenvalues_and_by_simulation() -> None:
-    """Just below the critical friction a disturbance decays, just above it grows at the rate of the eigenvalue."""
+    """Just below the critical friction a disturbance decays, just above it grows at the rate of the
+    eigenvalue."""
     damped = replace(BLOCK, law=LAW.damped(0.02, BLOCK.mass / BLOCK.area, BLOCK.load / BLOCK.area))
     critical = damped.critical_friction()
     for share in (0.93, 1.07):
@@ -281,7 +291,8 @@ def test_flutter_boundary_by_eigenvalues_and_by_simulation() -> None:
 
 
 def test_critical_friction_of_a_small_tilt() -> None:
-    """The formula without damping for small tilt: the difference falls with the height of the block, hence with the tilt."""
+    """The formula without damping for small tilt: the difference falls with the height of the
+    block, hence with the tilt."""
     errors = []
     for height in (0.04, 0.02, 0.01):
         block = replace(BLOCK, height=height)
@@ -310,8 +321,9 @@ def test_smoothed_friction_tends_to_exact_friction() -> None:
 
 
 def test_flutter_after_a_long_rest_begins_with_a_disturbance():
-    """Loading the spring takes 12 000 periods of the normal vibration, so that hardly anything is left of it when the block begins to slide,
-    and whether flutter grows without a disturbance is a matter of rounding.
+    """Loading the spring takes 12 000 periods of the normal vibration, so that hardly anything is
+    left of it when the block begins to slide, and whether flutter grows without a disturbance is a
+    matter of rounding.
 
     What the impulse leads to does not depend on its size, and its work is in the balance of energy.
     """

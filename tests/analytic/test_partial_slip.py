@@ -62,7 +62,8 @@ def test_wave_carries_its_mean_shear_and_slips_where_the_traction_is_at_the_limi
 
 
 def test_gap_of_the_wave_is_that_of_the_profile_and_the_displacement_of_its_harmonics():
-    """Pressure p_n cos 2πnx/λ moves by p_n λ/(πnE*) cos: ten thousand harmonics are summed by a transform."""
+    """Pressure p_n cos 2πnx/λ moves by p_n λ/(πnE*) cos: ten thousand harmonics are summed by a
+    transform."""
     wave, n = MindlinWave(1.0, 0.01, 1.0, 0.4).normal, 2**14
     x = np.arange(n) / n
     p = 0.5 * wave.full_contact_pressure
@@ -149,7 +150,8 @@ def test_a_step_is_exact_however_it_is_divided(name):
 
 @pytest.mark.parametrize("name", ["ball", "cone", "power"])
 def test_energy_of_a_path(name):
-    """Work of the tangential force is that of friction and the elastic energy κ Σ ∫ m Q dδ of the memory."""
+    """Work of the tangential force is that of friction and the elastic energy κ Σ ∫ m Q dδ of the
+    memory."""
     contact, rng = CONTACTS[name], np.random.default_rng(5)
     depth = 0.02 * (0.2 + rng.random(5))
     bound = contact.friction * contact.ratio

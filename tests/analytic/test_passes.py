@@ -1,4 +1,5 @@
-"""Passes of cylinders and spheres over meshed bodies: elastic fields in closed form, shakedown, ratchetting, energies, the sphere of the table."""
+"""Passes of cylinders and spheres over meshed bodies: elastic fields in closed form, shakedown,
+ratchetting, energies, the sphere of the table."""
 
 from __future__ import annotations
 
@@ -32,7 +33,8 @@ def parabola(radius: float):
 
 
 def test_bricks_hold_uniform_strain() -> None:
-    """Patch test: a linear displacement gives its strain at all points, and forces of a uniform stress balance inside."""
+    """Patch test: a linear displacement gives its strain at all points, and forces of a uniform
+    stress balance inside."""
     x = np.array([0.0, 0.7, 1.0])
     mesh = brick_mesh(x, x, x, np.zeros(2, dtype=np.intp))
     middle = np.flatnonzero(np.all(mesh.points == 0.7, axis=1))
@@ -49,7 +51,8 @@ def test_bricks_hold_uniform_strain() -> None:
 
 
 def test_indenters_over_a_track_are_gentle_where_they_touch() -> None:
-    """A cylinder whose contact is wider than 0.4 of its radius is refused, as on the command line; large plastic strains are a finding."""
+    """A cylinder whose contact is wider than 0.4 of its radius is refused, as on the command line;
+    large plastic strains are a finding."""
     load = math.pi * E_STAR / 400.0
     track = passes.cylinder_track(STEEL, 1.0, (-0.5, 0.5), plasticity=None, resolution=COARSE)
     with refused(InputError, "slope of the indenter", "0.4"):
@@ -61,7 +64,8 @@ def test_indenters_over_a_track_are_gentle_where_they_touch() -> None:
 
 
 def test_elastic_cylinder() -> None:
-    """Hertz, pressed and dragged: pressure within 0.5 %; stresses on the axis within 1 % of the peak, which the far boundary lifts by about a/distance."""
+    """Hertz, pressed and dragged: pressure within 0.5 %; stresses on the axis within 1 % of the
+    peak, which the far boundary lifts by about a/distance."""
     radius, load = 100.0, math.pi * E_STAR / 400.0  # a = 1
     track = passes.cylinder_track(STEEL, 1.0, (-0.5, 0.5), plasticity=None)
     state = track.press(track.virgin(), parabola(radius), place=0.0, force=load)
@@ -84,7 +88,8 @@ def test_elastic_cylinder() -> None:
 
 @pytest.mark.slow
 def test_elastic_sphere_that_slides() -> None:
-    """Hertz and Hamilton below the middle; half the body bears half the load. Six elements to the radius: 3 % of the peak below half a radius."""
+    """Hertz and Hamilton below the middle; half the body bears half the load. Six elements to the
+    radius: 3 % of the peak below half a radius."""
     radius, load = 100.0, 4.0 / 3.0 * E_STAR / 100.0
     track = passes.sphere_track(
         STEEL, 1.0, (0.0, 0.0), plasticity=None, resolution=Resolution(across=6, growth=1.7, depth=0.8, distance=12.0)
@@ -108,7 +113,8 @@ def test_elastic_sphere_that_slides() -> None:
 
 @pytest.mark.slow
 def test_pressure_of_hertz_on_a_sphere_track() -> None:
-    """Given forces: their sum and first moment are exact or of second order, stresses below the middle are Hertz's within 3 % of the peak, and no more is left once they are taken off."""
+    """Given forces: their sum and first moment are exact or of second order, stresses below the
+    middle are Hertz's within 3 % of the peak, and no more is left once they are taken off."""
     fine = Resolution(across=6, growth=1.7, depth=0.8, distance=12.0)
     track = passes.sphere_track(STEEL, 1.0, (-0.5, 0.5), plasticity=None, resolution=fine)
     push = pass_histories.point_load(track, 0.25, 1.0, 1.0)
@@ -130,7 +136,8 @@ def test_pressure_of_hertz_on_a_sphere_track() -> None:
 
 
 def test_pressed_in_place() -> None:
-    """Between equal ends nothing moves: a cylinder is pressed and lifted as often as there are steps of the ramps."""
+    """Between equal ends nothing moves: a cylinder is pressed and lifted as often as there are
+    steps of the ramps."""
     track = coated(None, 1.0)
     states = list(pass_histories.sliding_steps(track, track.virgin(), parabola(100.0), 1.0, (0.0, 0.0), ramp=3))
     np.testing.assert_allclose([state.normal.sum() for state in states], [1 / 3, 2 / 3, 1, 2 / 3, 1 / 3, 0], atol=1e-6)
@@ -149,7 +156,8 @@ def rolled(
 
 
 def flows(track: passes.Track, states: list[passes.PassState]) -> tuple[RealArray, RealArray]:
-    """Of each pass in the middle of the track: largest growth of the accumulated plastic strain, and the largest one of the shear strain, times E/Y."""
+    """Of each pass in the middle of the track: largest growth of the accumulated plastic strain,
+    and the largest one of the shear strain, times E/Y."""
     total = np.array([track.column(state.plastic.accumulated)[1] for state in states]) * E
     shear = np.array([track.column(state.plastic.plastic_strain)[1][:, 4] for state in states]) * E
     return np.diff(total, axis=0).max(axis=1), np.abs(np.diff(shear, axis=0)).max(axis=1)
@@ -157,7 +165,8 @@ def flows(track: passes.Track, states: list[passes.PassState]) -> tuple[RealArra
 
 @pytest.mark.slow
 def test_rolling_below_the_limit_shakes_down() -> None:
-    """At 0.95 of 4 k flow of the third pass is below 1 % of that of the first; the residual stresses are those that a pass may leave."""
+    """At 0.95 of 4 k flow of the third pass is below 1 % of that of the first; the residual
+    stresses are those that a pass may leave."""
     law = J2(STEEL, LinearHardening(1.0), kinematic=E / 10.0)
     track, states = rolled(law, 3.8, 3)
     growth, _ = flows(track, states)
@@ -170,7 +179,8 @@ def test_rolling_below_the_limit_shakes_down() -> None:
     assert (
         np.abs(stress[depth < 2.0][:, (2, 4)]).max() < 0.03 * np.abs(stress[:, 1]).max()
     )  # those in x and y alone, but for the ends of the track at three half-widths
-    # all work but the elastic energy of the residual stress is dissipated or stored by the back stress
+    # all work but the elastic energy of the residual stress is dissipated or stored by the back
+    # stress
     work, lost = states[-1].work, states[-1].dissipated
     elastic = float(track.solid.elastic_energy(track.response(states[-1]).stress).sum())
     assert work == pytest.approx(lost + elastic, rel=0.05)  # trapezoidal work, implicit flow: first order in the steps
@@ -178,7 +188,8 @@ def test_rolling_below_the_limit_shakes_down() -> None:
 
 @pytest.mark.slow
 def test_residual_stresses_at_the_limit_of_rolling() -> None:
-    """ρ_xx = -0.134 p_0 and ρ_yy = -0.213 p_0 at half a half-width (Johnson 1962). A slack of 0.1 % of the limit, as of mesh and steps, leaves ρ_xx free within 0.022 p_0."""
+    """ρ_xx = -0.134 p_0 and ρ_yy = -0.213 p_0 at half a half-width (Johnson 1962). A slack of 0.1 %
+    of the limit, as of mesh and steps, leaves ρ_xx free within 0.022 p_0."""
     track, states = rolled(J2(STEEL, LinearHardening(1.0)), 4.0, 4)
     depth, stress = track.column(track.response(states[-1]).stress)
     found = [np.interp(0.5, depth, stress[:, row]) / (4.0 * K) for row in (0, 1)]
@@ -187,7 +198,8 @@ def test_residual_stresses_at_the_limit_of_rolling() -> None:
 
 @pytest.mark.slow
 def test_above_the_limit() -> None:
-    """Rolling at 1.1 of the limit: closed cycles by Prager's law, equal flow in each pass while the shear of a pass fades."""
+    """Rolling at 1.1 of the limit: closed cycles by Prager's law, equal flow in each pass while the
+    shear of a pass fades."""
     growth, shear = flows(*rolled(J2(STEEL, LinearHardening(1.0), kinematic=E / 10.0), 4.4, 4))
     assert growth[3] == pytest.approx(growth[2], rel=0.05)
     assert growth[3] > 0.3 * growth[0]
@@ -196,7 +208,8 @@ def test_above_the_limit() -> None:
 
 @pytest.mark.slow
 def test_ratchetting() -> None:
-    """Friction 0.2 at 1.2 of the limit: where back stress is recalled the surface moves on in every pass, where it is not flow ceases."""
+    """Friction 0.2 at 1.2 of the limit: where back stress is recalled the surface moves on in every
+    pass, where it is not flow ceases."""
     bounded = J2(STEEL, LinearHardening(1.0), kinematic=E / 10.0, recall=E / 10.0 / 0.05)
     mesh = Resolution(
         across=6, growth=1.4, depth=1.0, distance=50.0
@@ -215,7 +228,8 @@ def test_ratchetting() -> None:
 
 @pytest.mark.slow
 def test_a_second_pass_of_a_sliding_cylinder() -> None:
-    """A rigid cylinder slides: balance of forces, a second pass that flows less, the same to the bit from a kept state."""
+    """A rigid cylinder slides: balance of forces, a second pass that flows less, the same to the
+    bit from a kept state."""
     radius, half_width = 100.0, 1.0
     strength = E_STAR / (2.0 * 100.0 * 2.2)
     law = LinearHardening(strength, 0.01 * E)  # peak pressure 2.2 Y of the elastic contact
@@ -247,7 +261,8 @@ SPHERE = [row for row in reference("sphere_perfectly_plastic") if float(row["del
 @pytest.mark.slow
 @pytest.mark.parametrize("row", SPHERE, ids=lambda row: str(row["delta_over_delta_y"]))
 def test_sphere_of_the_axisymmetric_table(row: Row) -> None:
-    """Loads of the table give its approaches, less the part of the far boundary, within 3 %: six elements to the radius; the radius within an element."""
+    """Loads of the table give its approaches, less the part of the far boundary, within 3 %: six
+    elements to the radius; the radius within an element."""
     peak = 1.6134
     a_y, P_y, d_y = (
         math.pi * peak / (2.0 * E_STAR),
@@ -296,7 +311,8 @@ def coated(law: object, stiff: float, distance: float = 30.0) -> passes.Track:
 
 
 def test_interface_and_film_of_a_coating() -> None:
-    """Tractions are continuous across the interface; a stiff film is drawn at its lower side under the load; equal layers change nothing."""
+    """Tractions are continuous across the interface; a stiff film is drawn at its lower side under
+    the load; equal layers change nothing."""
     track = coated(None, 4.0)
     push = pass_histories.line_load(track, 0.0, 1.0, 1.0)
     state = track.carry(track.virgin(), push, 0.3 * push)
@@ -335,7 +351,8 @@ def test_equal_layers_are_one_body() -> None:
 
 
 def slid(ratio: float, friction: float) -> tuple[list[float], list[tuple[pass_fields.RegionFindings, ...]], float]:
-    """Two passes of a sphere at ten times the load at first yield of the base, over a layer of thickness a_y that is ``ratio`` times stiffer and harder.
+    """Two passes of a sphere at ten times the load at first yield of the base, over a layer of
+    thickness a_y that is ``ratio`` times stiffer and harder.
 
     Plastic work of each pass, the findings after sliding in each, and the thickness.
     """
@@ -364,8 +381,9 @@ def slid(ratio: float, friction: float) -> tuple[list[float], list[tuple[pass_fi
 
 @pytest.mark.slow
 def test_a_sphere_that_slides_on_a_hard_layer() -> None:
-    """Trends of Kral and Komvopoulos (1996, 1997): the second pass adds a part of the first; a layer four times stiffer and harder halves the plastic work and carries
-    more tension; the base flows most just below the interface."""
+    """Trends of Kral and Komvopoulos (1996, 1997): the second pass adds a part of the first; a
+    layer four times stiffer and harder halves the plastic work and carries more tension; the base
+    flows most just below the interface."""
     plain, of_plain, _ = slid(1.0, 0.25)
     hard, of_hard, thickness = slid(4.0, 0.25)
     assert hard[0] < 0.6 * plain[0]

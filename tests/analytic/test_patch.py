@@ -1,4 +1,5 @@
-"""Love's patch against independent quadrature, the point load far away, and the mean over a half-space."""
+"""Love's patch against independent quadrature, the point load far away, and the mean over a
+half-space."""
 
 import numpy as np
 import pytest
@@ -31,7 +32,8 @@ def test_centre_of_square():
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 4, np.pi / 2])
 def test_far_field_joins_the_near_field(angle):
-    """Closed form and multipole agree at the switch; the closed form there loses about eps (d/a)^3 ~ 1e-8."""
+    """Closed form and multipole agree at the switch; the closed form there loses about eps
+    (d/a)^3 ~ 1e-8."""
     below, above = 299.9999, 300.0001
     u = patch_displacement(np.cos(angle) * np.array([below, above]), np.sin(angle) * np.array([below, above]), 1.0, 1.0)
     assert u[0] * below == pytest.approx(u[1] * above, rel=1e-8)

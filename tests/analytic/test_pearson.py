@@ -1,4 +1,5 @@
-"""Pearson's system of distributions against tables, closed forms, its differential equation and its moments."""
+"""Pearson's system of distributions against tables, closed forms, its differential equation and its
+moments."""
 
 from __future__ import annotations
 
@@ -16,8 +17,9 @@ from scipy import stats
 from asperity.core.errors import InputError
 from asperity.core.pearson import TYPES, Pearson
 
-# SciPy's distribution of the same four moments, for the types that have one (type VII is Student's t of 4 + 6/(kurtosis - 3)
-# degrees of freedom, type V an inverse gamma distribution, which the row of the table is taken for)
+# SciPy's distribution of the same four moments, for the types that have one (type VII is Student's
+# t of 4 + 6/(kurtosis - 3) degrees of freedom, type V an inverse gamma distribution, which the row
+# of the table is taken for)
 CLOSED = {
     "uniform": (0.0, 1.8, stats.uniform(-math.sqrt(3.0), 2.0 * math.sqrt(3.0))),
     "normal": (0.0, 3.0, stats.norm()),
@@ -87,7 +89,8 @@ def test_the_four_moments_are_those_asked_for(pair):
     raw = [float(law.excess_moment(order, start)) for order in (0.0, 1.0, 2.0, 3.0)]
     shifted = [1.0, -start, 1.0 + start**2, pair[0] - 3.0 * start - start**3]
     np.testing.assert_allclose(raw, shifted, rtol=1e-9)
-    # the fourth from the quantiles: E x⁴ = ∫ x(G)⁴ φ(G) dG, whose tails hold less than 1e-6 unless the kurtosis is large
+    # the fourth from the quantiles: E x⁴ = ∫ x(G)⁴ φ(G) dG, whose tails hold less than 1e-6 unless
+    # the kurtosis is large
     normal = np.linspace(-9.5, 9.5, 9501)
     weight = np.exp(-0.5 * normal**2) / math.sqrt(2.0 * math.pi) * (normal[1] - normal[0])
     if pair[1] < 7.0:
@@ -100,7 +103,8 @@ def test_the_density_obeys_its_differential_equation(pair):
     c0, c1, c2 = law.coefficients
     x, step = law.quantile(np.array([0.02, 0.2, 0.5, 0.8, 0.98])), 1e-6
     slope = (np.log(law.pdf(x + step)) - np.log(law.pdf(x - step))) / (2.0 * step)
-    # central difference: step²/6 times the third derivative of ln f, here below 1e6; rounding 1e-16/step
+    # central difference: step²/6 times the third derivative of ln f, here below 1e6; rounding
+    # 1e-16/step
     np.testing.assert_allclose(slope, -(x + c1) / (c0 + c1 * x + c2 * x**2), rtol=1e-6, atol=1e-8)
 
 
@@ -123,7 +127,8 @@ def test_numbers_from_normal_ones_keep_the_probability(pair):
     law, normal = Pearson(*pair), np.linspace(-6.0, 6.0, 241)
     x = law.of_normal(normal)
     assert (np.diff(x) >= 0.0).all()
-    # cubic splines of step 0.02: 0.02⁴/384 of the fourth derivative, which is below 20 (1 + |x|) for G < 6
+    # cubic splines of step 0.02: 0.02⁴/384 of the fourth derivative, which is below 20 (1 + |x|)
+    # for G < 6
     exact = np.where(
         normal < 0.0, law.quantile(stats.norm.cdf(normal)), -Pearson(-pair[0], pair[1]).quantile(stats.norm.sf(normal))
     )

@@ -1,4 +1,5 @@
-"""Persson's theory against high-precision quadrature, its limits, and its diffusion equation solved numerically."""
+"""Persson's theory against high-precision quadrature, its limits, and its diffusion equation solved
+numerically."""
 
 from __future__ import annotations
 
@@ -68,7 +69,8 @@ def test_low_load_law_of_the_gap(name):
     original = PerssonGap(MODULUS, found, gamma=1.0)
     assert original.decay_length == pytest.approx(row["u0_gamma1_m"], rel=1e-9)
     assert PerssonGap(MODULUS, found).decay_length == pytest.approx(row["u0_gamma045_m"], rel=1e-9)
-    # the reference has it within 5e-5, by integration in 40 digits; the law below at low load has all digits
+    # the reference has it within 5e-5, by integration in 40 digits; the law below at low load has
+    # all digits
     assert original.prefactor == pytest.approx(row["beta_gamma1"], rel=5e-5)
 
 
@@ -76,8 +78,9 @@ def test_low_load_law_of_the_gap(name):
 def test_gap_and_stiffness(row):
     """The reference states 2e-8 for the gap and 1e-9 for the rest.
 
-    The stiffness of two of its rows, the lowest loads of the spectra without plateau, is less accurate: integration in
-    40 digits differs from them by up to 1.6e-6, and agrees with the values here within 3e-13.
+    The stiffness of two of its rows, the lowest loads of the spectra without plateau, is less
+    accurate: integration in 40 digits differs from them by up to 1.6e-6, and agrees with the values
+    here within 3e-13.
     """
     found, p = spectrum(row["set"]), MODULUS * row["p_over_Estar"]
     area = float(Persson(MODULUS, found.rms_slope).area_fraction(p))
@@ -121,7 +124,8 @@ def test_the_gap_falls_exponentially_at_low_load(gamma):
     theory = PerssonGap(MODULUS, spectrum("A"), gamma=gamma)
     p = 1e-8 * MODULUS * theory.spectrum.rms_slope
     expected = -theory.decay_length * math.log(p / (theory.prefactor * MODULUS))
-    # w has a square-root pole at q_L: waves with w p/E* > 1 hold a share p/E* (C q_L⁴/4π)^(-1/2) of the integral
+    # w has a square-root pole at q_L: waves with w p/E* > 1 hold a share p/E* (C q_L⁴/4π)^(-1/2) of
+    # the integral
     waves = theory.spectrum
     left_out = p / MODULUS / math.sqrt(waves.psd[0] * waves.wavenumber[0] ** 4 / (4.0 * math.pi))
     assert left_out < 2e-6
@@ -141,7 +145,8 @@ def test_the_table_may_be_as_fine_as_one_likes():
 
 
 def test_diffusion_solved_numerically_agrees_with_the_closed_form():
-    """Second order in both steps: halving them divides the error of the density by four, and it is small."""
+    """Second order in both steps: halving them divides the error of the density by four, and it is
+    small."""
     waves = spectrum("A")
     nominal = 0.1 * MODULUS * waves.rms_slope
     errors = []
@@ -171,7 +176,8 @@ def test_diffusion_follows_the_magnification():
 
 
 def test_a_slope_that_contradicts_its_spectrum_is_refused():
-    """As sqrt(m2) in a spectrum of the other convention, or a wavenumber without 2π; what a grid leaves out of either is accepted."""
+    """As sqrt(m2) in a spectrum of the other convention, or a wavenumber without 2π; what a grid
+    leaves out of either is accepted."""
     waves = spectrum("A")
     for factor in (1.0, 0.6, 1.5):
         Persson(1e9, factor * waves.rms_slope, waves.wavenumber, waves.psd)
@@ -210,7 +216,8 @@ def test_inputs_out_of_range_are_refused():
 
 
 def test_the_theory_of_a_surface():
-    """What ``roughness_of`` finds on a map goes in; with the same numbers given by hand the same comes out."""
+    """What ``roughness_of`` finds on a map goes in; with the same numbers given by hand the same
+    comes out."""
     waves = spectrum("F")
     q = waves.wavenumber[0] * np.exp(np.linspace(0.0, waves.span[-1], 60))
     level = waves.at(np.log(q / waves.wavenumber[0]))

@@ -1,4 +1,5 @@
-"""Spheres on elastic-plastic bodies by the volume method against finite elements, closed forms and conservation of energy."""
+"""Spheres on elastic-plastic bodies by the volume method against finite elements, closed forms and
+conservation of energy."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ from asperity.solids.plasticity import J2, LinearHardening, von_mises
 
 NU = 0.3
 YIELD = 1.613
-"""Largest pressure at first yield over the yield stress, for this Poisson's ratio (Johnson 1985)."""
+"""Largest pressure at first yield over the yield stress, for this Poisson's ratio (Johnson
+1985)."""
 
 
 class Sphere:
@@ -56,7 +58,8 @@ def loaded() -> asp.HistoryResult:
 
 
 def test_loads_of_a_perfectly_plastic_body() -> None:
-    """Axisymmetric finite elements give the load to 0.5 %, the radius to 1.5 %; ours depends on the pixels by 2 % of the latter."""
+    """Axisymmetric finite elements give the load to 0.5 %, the radius to 1.5 %; ours depends on the
+    pixels by 2 % of the latter."""
     rows = {float(row["delta_over_delta_y"]): row for row in reference("sphere_perfectly_plastic")}
     for step in loaded().steps[1:]:
         row = rows[round(step.approach / SPHERE.approach, 6)]
@@ -66,7 +69,8 @@ def test_loads_of_a_perfectly_plastic_body() -> None:
 
 
 def test_yield_begins_on_the_axis_at_half_the_contact_radius() -> None:
-    """Just above δ_y the first point flows at 0.48 a; below nothing does, and the contact is Hertz'."""
+    """Just above δ_y the first point flows at 0.48 a; below nothing does, and the contact is
+    Hertz'."""
     elastic = loaded().steps[0]
     assert not elastic.plastic_flow.flowed.points.size
     assert elastic.force / SPHERE.load == pytest.approx(0.9**1.5, rel=3e-3)
@@ -81,7 +85,8 @@ LAYERED = [(2.0, 3.0), (4.0, 3.0), (0.5, 3.0)]
 
 @pytest.mark.parametrize(("ratio", "approach"), LAYERED)
 def test_layered_bodies(ratio: float, approach: float) -> None:
-    """Loads of three layers as thick as the contact is wide at first yield, by finite elements of one mesh to 1 %, and which part flows."""
+    """Loads of three layers as thick as the contact is wide at first yield, by finite elements of
+    one mesh to 1 %, and which part flows."""
     rows = [row for row in reference("sphere_layered_plastic") if row["E1_over_E2"] == ratio]
     top, base = SPHERE.law(ratio), SPHERE.law()
     body = asp.Layered([asp.Layer(top.elastic, SPHERE.width)], base.elastic)
@@ -102,7 +107,8 @@ def test_layered_bodies(ratio: float, approach: float) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("ratio", [2.0, 4.0, 0.5])
 def test_zones_of_layered_bodies(ratio: float) -> None:
-    """The zones in layer and base by finite elements and by the volume method end within one cell of each other."""
+    """The zones in layer and base by finite elements and by the volume method end within one cell
+    of each other."""
     top, base = SPHERE.law(ratio), SPHERE.law()
     body = asp.Layered([asp.Layer(top.elastic, SPHERE.width)], base.elastic)
     approaches = [times * SPHERE.approach for times in (1.0, 1.5, 2.0, 2.5, 3.0)]
@@ -130,7 +136,8 @@ def test_zones_of_layered_bodies(ratio: float) -> None:
 
 
 def test_unloading_is_elastic() -> None:
-    """No flow on the way back, the first slope is 2 E* a, loading again retraces it, and what is left is the imprint."""
+    """No flow on the way back, the first slope is 2 E* a, loading again retraces it, and what is
+    left is the imprint."""
     problem, last = SPHERE.problem(), loaded().last
     back = [0.995 * last.force, 0.5 * last.force]
     result = asp.solve(
@@ -147,12 +154,14 @@ def test_unloading_is_elastic() -> None:
 
 
 def test_stress_obeys_the_yield_condition() -> None:
-    """Everywhere in the cells, where flow goes on with equality; without load the stress that is left does not pull at the surface."""
+    """Everywhere in the cells, where flow goes on with equality; without load the stress that is
+    left does not pull at the surface."""
     last = loaded().last
     flow = last.plastic_flow
     stress = flow.stress(last.pressure)
     mises = von_mises(np.moveaxis(stress, 1, -1)) / SPHERE.yield_stress
-    # elastic cells next to the deepest may exceed it by the change of stress over a cell; the return mapping holds in all others
+    # elastic cells next to the deepest may exceed it by the change of stress over a cell; the
+    # return mapping holds in all others
     assert mises.max() < 1.001
     assert np.count_nonzero(mises[flow.accumulated > 0.0] > 0.999) > 0.5 * flow.flowed.points.size
     residual = flow.stress()
@@ -160,7 +169,8 @@ def test_stress_obeys_the_yield_condition() -> None:
 
 
 def test_images_of_the_padded_grid_hardly_matter() -> None:
-    """Grids of 3.7 and 7.4 contact radii, free: loads agree to 0.1 %; with the images of pressure and eigenstrain left in by 0.4 %."""
+    """Grids of 3.7 and 7.4 contact radii, free: loads agree to 0.1 %; with the images of pressure
+    and eigenstrain left in by 0.4 %."""
     narrow, wide = (asp.solve(SPHERE.problem(n, 3.0), asp.Approach(4.0 * SPHERE.approach)) for n in (24, 48))
     radius = np.sqrt(wide.contact_area / np.pi)
     assert narrow.problem.grid.size[0] < 3.8 * radius
@@ -168,7 +178,8 @@ def test_images_of_the_padded_grid_hardly_matter() -> None:
 
 
 def test_lateral_stress_by_images_of_a_half_space() -> None:
-    """-(1 + ν) z/(2π r³) of a unit force at every point of a square lattice, whose sum is 4 ζ(3/2) β(3/2); none above a rigid base far away."""
+    """-(1 + ν) z/(2π r³) of a unit force at every point of a square lattice, whose sum is 4 ζ(3/2)
+    β(3/2); none above a rigid base far away."""
     solid, size = asp.Elastic(200e9, NU), 10.0
     cells = DepthCells(solid, np.linspace(0.0, 1.0, 9))
     operator = EigenstrainOperator.prepared(asp.Grid((4, 4), (size / 8.0, size / 8.0)), cells, free=True)
@@ -197,7 +208,8 @@ def balance(steps: int) -> RealArray:
 
 
 def test_energy_balance() -> None:
-    """Work of the load is elastic energy of contact and residual stress and plastic work; implicit steps leave an error of first order."""
+    """Work of the load is elastic energy of contact and residual stress and plastic work; implicit
+    steps leave an error of first order."""
     coarse, fine = balance(8), balance(16)
     assert fine < 0.03
     assert fine < 0.7 * coarse

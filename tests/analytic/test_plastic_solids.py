@@ -1,4 +1,5 @@
-"""Plastic flow of a material point, cavities and shakedown against independent solutions and laws."""
+"""Plastic flow of a material point, cavities and shakedown against independent solutions and
+laws."""
 
 from __future__ import annotations
 
@@ -40,7 +41,8 @@ def components(row: Row, letter: str) -> np.ndarray:
 
 @pytest.mark.parametrize("case", sorted(PATHS, key=str))
 def test_paths_of_a_material_point(case: object) -> None:
-    """Stress, plastic strain and consistent tangent of implicit steps, computed elsewhere with 40 digits."""
+    """Stress, plastic strain and consistent tangent of implicit steps, computed elsewhere with 40
+    digits."""
     solid, state = solid_of(PATHS[case][0]), None
     for row in PATHS[case]:
         step = solid.step(components(row, "e"), state, tangent=True)
@@ -59,7 +61,8 @@ HARDENING = {"linear": LinearHardening(1.0, 5.0), "swift": Swift(1.0, 0.01, 0.2)
 @pytest.mark.parametrize("law", HARDENING)
 @pytest.mark.parametrize(("kinematic", "recall"), [(0.0, 0.0), (20.0, 0.0), (20.0, 30.0)])
 def test_the_tangent_is_the_derivative(law: str, kinematic: float, recall: float) -> None:
-    """Central differences of 1e-6 err by their square and by rounding over them; symmetric unless back stress is recalled."""
+    """Central differences of 1e-6 err by their square and by rounding over them; symmetric unless
+    back stress is recalled."""
     random = np.random.default_rng(3)
     solid = J2(asp.Elastic(200.0, 0.3), HARDENING[law], kinematic, recall)
     first = solid.step(0.02 * random.standard_normal((40, 6)))
@@ -75,7 +78,8 @@ def test_the_tangent_is_the_derivative(law: str, kinematic: float, recall: float
 
 @given(st.lists(st.floats(-0.05, 0.05), min_size=6, max_size=6), st.floats(0.0, 50.0), st.floats(0.0, 0.45))
 def test_laws_of_plastic_flow(strain: list[float], modulus: float, nu: float) -> None:
-    """The stress stays within yield, plastic strain keeps the volume, and plastic work is not negative."""
+    """The stress stays within yield, plastic strain keeps the volume, and plastic work is not
+    negative."""
     solid = J2(asp.Elastic(200.0, nu), LinearHardening(1.0, modulus))
     step = solid.step(strain)
     q = step.state.accumulated
@@ -96,7 +100,8 @@ def test_one_large_radial_step_is_many_small_ones() -> None:
 
 
 def test_recall_bounds_the_back_stress() -> None:
-    """Under ever growing strain the back stress tends to H_k/γ (Armstrong and Frederick); Prager's grows on."""
+    """Under ever growing strain the back stress tends to H_k/γ (Armstrong and Frederick); Prager's
+    grows on."""
     solid, state = J2(asp.Elastic(200.0, 0.3), LinearHardening(1.0), 20.0, 30.0), None
     for strain in np.linspace(0.005, 0.5, 100):
         state = solid.step(np.array([1.0, -0.5, -0.5, 0.0, 0.0, 0.0]) * strain, state).state
@@ -135,7 +140,8 @@ def test_pure_rolling() -> None:
 
 
 def test_shakedown_from_the_stresses_of_a_solved_contact() -> None:
-    """The limit of a solved cylinder is 4k p_0 within the error of its stresses, of first order in the pixel; a coating of the body's own material changes nothing."""
+    """The limit of a solved cylinder is 4k p_0 within the error of its stresses, of first order in
+    the pixel; a coating of the body's own material changes nothing."""
     x = (np.arange(256) - 127.5) * 1e-5
     cylinder = asp.Surface((-(x**2) / 0.2)[:, None], 1e-5, 1e-5)
     steel = asp.Elastic(2e11, 0.3)

@@ -19,14 +19,16 @@ KINDS = {
 
 @every_row(POINTS, label=label)
 def test_point_forces_agree_with_the_verified_closed_forms(row):
-    """All digits of the table are good; 1e-14 of the largest field are some ten roundings. Worst found: 7e-16."""
+    """All digits of the table are good; 1e-14 of the largest field are some ten roundings. Worst
+    found: 7e-16."""
     fields = found(getattr(point_loads, row["kind"])(row["x"], row["y"], row["z"], **constants(row)))
     np.testing.assert_allclose(fields, expected(row), atol=1e-14 * np.abs(expected(row)).max(), rtol=0)
 
 
 @every_row(LINES, label=label)
 def test_line_forces_and_strips_agree_with_quadrature(row):
-    """Displacements relative to (0, 1). Quadrature in 22 digits; worst error found: 1e-15 of the largest field."""
+    """Displacements relative to (0, 1). Quadrature in 22 digits; worst error found: 1e-15 of the
+    largest field."""
     width = (row["a"],) if row["kind"].startswith("strip") else ()
     here, datum = (KINDS[row["kind"]](x, z, *width, **constants(row)) for x, z in ((row["x"], row["z"]), (0.0, 1.0)))
     u, u0, s = here.displacement, datum.displacement, here.stress
@@ -42,7 +44,8 @@ def test_reference_rows_exist():
 
 @pytest.mark.parametrize(("load", "axis"), [(point_loads.boussinesq, "zz"), (point_loads.cerruti, "xz")])
 def test_a_hemisphere_carries_the_force(load, axis):
-    """Traction of a hemisphere of radius 1 around the force sums to -1 along it; Gauss rule, exact to rounding."""
+    """Traction of a hemisphere of radius 1 around the force sums to -1 along it; Gauss rule, exact
+    to rounding."""
     cosine, weight = np.polynomial.legendre.leggauss(24)
     cosine, weight = 0.5 * (cosine + 1.0), 0.5 * weight
     angle = np.arange(32) * 2.0 * np.pi / 32

@@ -21,7 +21,8 @@ SPHERES = {mu: theories.sphere_shakedown(mu) for mu in FRICTION}
 
 
 def test_pure_rolling_of_a_sphere() -> None:
-    """Alternating σ_xz bounds the load: 4.68 k (Hearle, Ponter and Johnson 1985). The residual normal stresses reach 1 % below it."""
+    """Alternating σ_xz bounds the load: 4.68 k (Hearle, Ponter and Johnson 1985). The residual
+    normal stresses reach 1 % below it."""
     x, z = np.linspace(-1.5, 0.0, 601)[:, None], np.linspace(0.2, 0.6, 161)[None, :]
     largest = np.abs(hertz_normal(x, 0.0 * x, z, 1.0, shear=1.0, nu=0.3).stress.xz).max()
     found = SPHERES[0.0]
@@ -53,7 +54,8 @@ def test_the_surface_under_high_friction(mu: float) -> None:
 
 @pytest.mark.slow
 def test_long_ellipses_are_lines() -> None:
-    """Across the pass: 4 k within some (a/b)²; round: the sphere, within the coarser places of the ellipse."""
+    """Across the pass: 4 k within some (a/b)²; round: the sphere, within the coarser places of the
+    ellipse."""
     long = theories.ellipse_shakedown(15.0)
     assert 4.0 < long.peak_over_k < 4.04
     round_ = theories.ellipse_shakedown(1.0)
@@ -62,7 +64,8 @@ def test_long_ellipses_are_lines() -> None:
 
 
 def test_plane_strain_of_incompressible_solids() -> None:
-    """σ_yy is then the mean of the others all along the pass, and von Mises' criterion that of the smallest circles."""
+    """σ_yy is then the mean of the others all along the pass, and von Mises' criterion that of the
+    smallest circles."""
     x, z = np.linspace(-4.0, 4.0, 401)[None, :], np.array([0.1, 0.4, 0.5, 0.8])[:, None]
     normal = hertz_line_normal(x, z, 1.0, shear=1.0, nu=0.5).stress
     stress = normal + hertz_line_shear(x, z, 1.0, shear=1.0, nu=0.5).stress * 0.2
@@ -103,7 +106,8 @@ def test_residual_stresses_that_are_there_already_change_nothing() -> None:
 
 
 def test_against_a_general_optimiser() -> None:
-    """The least of the largest J2 over the residual stresses, by sequential quadratic programming."""
+    """The least of the largest J2 over the residual stresses, by sequential quadratic
+    programming."""
     stress = loops(3)
     found = theories.point_shakedown(stress, 1.0)
 
@@ -148,7 +152,8 @@ def solved(body: object) -> asp.ContactResult:
 
 @pytest.mark.slow
 def test_limits_of_a_solved_contact() -> None:
-    """The sphere within the error of its pixels, 15 to the radius; a coating of the body's own material changes nothing; a weaker one lowers the limit."""
+    """The sphere within the error of its pixels, 15 to the radius; a coating of the body's own
+    material changes nothing; a weaker one lowers the limit."""
     k, friction, results = 1e9 / math.sqrt(3.0), [0.0, 0.2, 0.6], []
     weak = asp.Elastic(2e11, 0.3, asp.Strength(yield_stress=5e8), name="weak")
     for body in (
@@ -192,7 +197,8 @@ def test_refusals() -> None:
 
 
 def test_rolling_sphere_by_finite_elements() -> None:
-    """Both bounds from the elastic stresses of finite elements below the pressure of Hertz; four elements to the radius give stresses within 3 % of the peak."""
+    """Both bounds from the elastic stresses of finite elements below the pressure of Hertz; four
+    elements to the radius give stresses within 3 % of the peak."""
     coarse = Resolution(across=4, growth=1.5, depth=1.0, distance=12.0)
     track = sphere_track(asp.Elastic(1.0, 0.3), 1.0, (0.0, 0.0), plasticity=None, resolution=coarse)
     push = point_load(track, 0.0, 1.0, 1.0)

@@ -1,4 +1,5 @@
-"""Stresses under prescribed tractions: point, line and patch loads and arrays, against closed forms; layered bodies."""
+"""Stresses under prescribed tractions: point, line and patch loads and arrays, against closed
+forms; layered bodies."""
 
 import math
 
@@ -29,7 +30,8 @@ def stress(body, tractions, depths, **more):
 
 @pytest.mark.parametrize("at", [(16.0, 16.0), (16.5, 16.25)])
 def test_point_load_is_that_of_boussinesq_and_cerruti(at):
-    """The second moment of the four pixels is Δ²/12 + f(1 - f)Δ², whose relative effect at depth z is of order (Δ/z)²."""
+    """The second moment of the four pixels is Δ²/12 + f(1 - f)Δ², whose relative effect at depth z
+    is of order (Δ/z)²."""
     load = asp.stresses.PointLoad(at, normal=2.0, tangential=(0.5, -1.0))
     depth = 8.0
     field = stress(BODY, asp.stresses.Tractions.of(grid(), load, boundary="free"), [depth], displacement=True)
@@ -48,7 +50,8 @@ def test_point_load_is_that_of_boussinesq_and_cerruti(at):
 
 
 def test_patch_is_that_of_love():
-    """Stress below the corner of a uniformly loaded rectangle (Love 1929), in the form of Newmark; four of them make any point."""
+    """Stress below the corner of a uniformly loaded rectangle (Love 1929), in the form of Newmark;
+    four of them make any point."""
     patch = asp.stresses.PatchLoad(x=(9.5, 15.5), y=(11.5, 21.5), pressure=3.0)
     z = 2.5
     field = stress(BODY, asp.stresses.Tractions.of(grid(), patch, boundary="free"), [z])
@@ -67,7 +70,8 @@ def test_patch_is_that_of_love():
 
 
 def test_hertz_pressure_with_friction_as_an_array():
-    """Mean of the pressure in each pixel by 8 x 8 points; pixels of a/24 leave 0.1 % of p0 at a depth of a/4."""
+    """Mean of the pressure in each pixel by 8 x 8 points; pixels of a/24 leave 0.1 % of p0 at a
+    depth of a/4."""
     cell, a, mu = grid(65), 24.0, 0.3
     x, y = cell.centred_coordinates()
     fine = (np.arange(8) - 3.5) / 8.0
@@ -121,7 +125,8 @@ def test_layered_body_under_the_tractions_of_a_contact_has_the_stresses_of_the_c
 
 
 def test_far_from_a_coating_a_point_load_is_that_of_boussinesq():
-    """The stress at 80 layer thicknesses is that of the base: 1.1 % less by the layer, 0.7 % by the size of the pixel."""
+    """The stress at 80 layer thicknesses is that of the base: 1.1 % less by the layer, 0.7 % by the
+    size of the pixel."""
     thin = asp.Layered([asp.Layer(asp.Elastic(5.2, 0.3), 0.1)], BODY)
     load = asp.stresses.PointLoad((16.0, 16.0), 1.0)
     found = stress(

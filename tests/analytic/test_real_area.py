@@ -1,4 +1,5 @@
-"""Real contact area by the place of edges between pixels, against closed forms and fine grids; its error holds the truth."""
+"""Real contact area by the place of edges between pixels, against closed forms and fine grids; its
+error holds the truth."""
 
 from __future__ import annotations
 
@@ -13,14 +14,16 @@ import asperity as asp
 from asperity.contact.edge_tables import PATCHES, WAVES
 
 MEAN_ERROR = {2.0: 0.033, 3.0: 0.007, 5.0: 0.002, 8.0: 0.001}
-"""Relative error of the area of spheres by pixels in their radius: mean and twice the deviation over positions of the edge."""
+"""Relative error of the area of spheres by pixels in their radius: mean and twice the deviation
+over positions of the edge."""
 
 MEAN_LENGTH = {3.0: -0.038, 5.0: -0.025, 8.0: -0.011}
 """The same of their perimeter; along pixel sides it is 0.27 and more too long."""
 
 
 def sphere(radius: float, at: np.ndarray, *, hardness: float = math.inf) -> asp.ContactResult:
-    """Contact of a sphere, of this ``radius`` in pixels if it is elastic, ``at`` a place on the grid in pixels."""
+    """Contact of a sphere, of this ``radius`` in pixels if it is elastic, ``at`` a place on the
+    grid in pixels."""
     points = int(2.6 * radius + 8)
     x = np.arange(points) - 0.5 * (points - 1)
     heights = -((x[:, None] - at[0]) ** 2 + (x[None, :] - at[1]) ** 2) / 4000.0
@@ -49,7 +52,8 @@ def test_area_of_spheres(radius: float) -> None:
 
 @pytest.mark.parametrize("half", [3.0, 8.0])
 def test_area_of_lines(half: float) -> None:
-    """Half-width of a cylinder, F = π E* a²/(4R); the bar is that of a line, all of whose pairs share the place."""
+    """Half-width of a cylinder, F = π E* a²/(4R); the bar is that of a line, all of whose pairs
+    share the place."""
     rng, points = np.random.default_rng(5), int(2.6 * half + 8)
     for off in rng.random(12) - 0.5:
         x = np.arange(points) - 0.5 * (points - 1) - off
@@ -68,7 +72,8 @@ def rough(row: Row, **law: object) -> asp.ContactProblem:
 
 
 def holds(found: asp.ContactResult, row: Row) -> None:
-    """The reference within the bars, spots that add up, and a mean pressure that gives the force."""
+    """The reference within the bars, spots that add up, and a mean pressure that gives the
+    force."""
     apart = abs(found.area_fraction_corrected - float(row["ref_area"]))
     assert apart < found.area_fraction_error + float(row["ref_area_bar"])
     assert found.spot_areas.sum() == pytest.approx(found.contact_area, rel=1e-12)
@@ -77,7 +82,8 @@ def holds(found: asp.ContactResult, row: Row) -> None:
 
 @every_row(rough_rows("elastic"), lambda row: f"case {row['case']:.0f} on {row['N']:.0f}²")
 def test_rough_elastic_contacts(row: Row) -> None:
-    """Bars of 5 % on average at 8 pixels in the shortest wave, errors of 1 % there and of 6.4 % at most at 4."""
+    """Bars of 5 % on average at 8 pixels in the shortest wave, errors of 1 % there and of 6.4 % at
+    most at 4."""
     found = asp.solve(rough(row), asp.MeanPressure(float(row["load"]) * UNIT))
     holds(found, row)
     assert found.area_fraction_corrected == pytest.approx(float(row["ref_area"]), rel=0.02 if row["N"] > 100 else 0.07)
@@ -131,7 +137,8 @@ def test_tables_are_those_of_the_reference() -> None:
 
 @pytest.mark.parametrize("name", ["jkr", "weak"])
 def test_adhesive_edges(name: str) -> None:
-    """The grid holds the edge of an attraction without range, a resolved one is an elastic edge; both errors hold the theory of JKR's limit."""
+    """The grid holds the edge of an attraction without range, a resolved one is an elastic edge;
+    both errors hold the theory of JKR's limit."""
     pixel, radius = 4e-9, 1e-6
     x = np.arange(48) - 23.3
     heights = -(x[:, None] ** 2 + x[None, :] ** 2) * pixel**2 / (2.0 * radius)
@@ -151,7 +158,8 @@ def test_adhesive_edges(name: str) -> None:
 
 @pytest.mark.parametrize("radius", [1.5, 3.0, 5.0, 8.0])
 def test_peak_pressure_of_spheres(radius: float) -> None:
-    """p0 of Hertz within the error, and where the sphere touches; from 3 pixels on within 2 % (pixels: 6 % low)."""
+    """p0 of Hertz within the error, and where the sphere touches; from 3 pixels on within 2 %
+    (pixels: 6 % low)."""
     rng, p0 = np.random.default_rng(21), 2.0 * 1e9 * radius / (2000.0 * math.pi)
     for at in rng.random((8, 2)) - 0.5:
         result = sphere(radius, at)
@@ -168,7 +176,8 @@ def test_peak_pressure_of_spheres(radius: float) -> None:
 
 @every_row(rough_rows("elastic"), lambda row: f"case {row['case']:.0f} on {row['N']:.0f}²")
 def test_peak_pressure_of_rough_surfaces(row: Row) -> None:
-    """Within the error on the finer grid; on both that and the value are those of the reference where it is not refused."""
+    """Within the error on the finer grid; on both that and the value are those of the reference
+    where it is not refused."""
     peak = asp.solve(rough(row), asp.MeanPressure(float(row["load"]) * UNIT)).peak_pressure
     if not peak.doubt:
         assert peak.value / UNIT == pytest.approx(float(row["pmax"]), rel=1e-2)

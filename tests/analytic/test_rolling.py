@@ -51,7 +51,8 @@ def test_carters_cylinders(row):
 
 
 def test_kalkers_table():
-    """Every row that was at hand to its three digits, but for a misprint; the misprint against its neighbours."""
+    """Every row that was at hand to its three digits, but for a misprint; the misprint against its
+    neighbours."""
     for row in reference("friction/kalker_coefficients"):
         found = asp.theories.kalker_coefficients(row["a_over_b"], row["nu"])
         for name in ("C11", "C22", "C23", "C33"):
@@ -71,7 +72,8 @@ def test_forces_are_odd_bounded_and_balance_the_heat():
     scale = np.abs(found.traction).max()
     assert np.abs(found.traction + back.traction).max() <= 1e-3 * scale
     assert np.all(np.hypot(*found.traction) <= mu * found.normal.pressure * (1.0 + 1e-9))
-    # heat by the tractions and slip at points against the power of the forces: an error of first order
+    # heat by the tractions and slip at points against the power of the forces: an error of first
+    # order
     finer = ball(80, body, asp.Coulomb(mu))
     missing = []
     for result in (found, asp.roll(finer, load_of(finer), motion)):

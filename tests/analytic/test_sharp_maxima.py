@@ -1,4 +1,5 @@
-"""Largest stresses on the edges of contacts against closed forms and fine grids; their errors hold the truth."""
+"""Largest stresses on the edges of contacts against closed forms and fine grids; their errors hold
+the truth."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ def maxima(result: asp.ContactResult, mu: float, direction: float = 0.0, of: str
 def paraboloid(
     pixels: float, at: np.ndarray, body: object, *, ratio: float = 1.0, size: float = 1.3
 ) -> asp.ContactProblem:
-    """Free contact of a rigid paraboloid, curvatures 1 and ``ratio`` over ``RADIUS``, on a grid of ``size`` times ``pixels`` to each side."""
+    """Free contact of a rigid paraboloid, curvatures 1 and ``ratio`` over ``RADIUS``, on a grid of
+    ``size`` times ``pixels`` to each side."""
     points = int(2.0 * size * pixels + 8)
     x = np.arange(points) - 0.5 * (points - 1)
     heights = -((x[:, None] - at[0]) ** 2 + ratio * (x[None, :] - at[1]) ** 2) / (2.0 * RADIUS)
@@ -38,7 +40,8 @@ def paraboloid(
 @pytest.mark.parametrize("pixels", [3.0, 5.0, 8.0])
 @every_row(reference("sharp/sphere_sliding"), lambda row: f"nu {row['nu']}, mu {row['mu']}")
 def test_spheres(row: Row, pixels: float) -> None:
-    """Errors of σ1 up to 6.9, 3.2 and 2.1 %, of von Mises 8.4, 3.2 and 2.1 %; pixels alone are 45, 35 and 27 % low."""
+    """Errors of σ1 up to 6.9, 3.2 and 2.1 %, of von Mises 8.4, 3.2 and 2.1 %; pixels alone are 45,
+    35 and 27 % low."""
     nu, mu = float(row["nu"]), float(row["mu"])
     body, at = asp.Elastic(1e9 * (1.0 - nu**2), nu), np.random.default_rng(int(row["case"])).random(2) - 0.5
     result = asp.solve(paraboloid(pixels, at, body), asp.Force(4.0 / 3.0 * 1e9 * pixels**3 / RADIUS))
@@ -50,7 +53,10 @@ def test_spheres(row: Row, pixels: float) -> None:
         if mu >= 0.1:  # below, von Mises is a difference of larger parts
             assert peak.value == pytest.approx(float(exact) * p0, rel={3.0: 0.084, 5.0: 0.032, 8.0: 0.021}[pixels])
     if mu > 0.1:
-        away = math.hypot(found.tension.x - at[0] - 0.5 * (result.problem.grid.shape[0] - 1), found.tension.y - at[1] - 0.5 * (result.problem.grid.shape[0] - 1))  # fmt: skip
+        away = math.hypot(
+            found.tension.x - at[0] - 0.5 * (result.problem.grid.shape[0] - 1),
+            found.tension.y - at[1] - 0.5 * (result.problem.grid.shape[0] - 1),
+        )
         assert away == pytest.approx(pixels, abs=0.7)
 
 
@@ -85,7 +91,8 @@ def test_coated_spheres(row: Row) -> None:
 
 @every_row(rough_rows("elastic"), lambda row: f"case {row['case']:.0f} on {row['N']:.0f}²")
 def test_rough_surfaces(row: Row) -> None:
-    """Two thirds of the 24 on the finer grid are trusted; those with fewer than 6 pixels in the shortest wave are none of them."""
+    """Two thirds of the 24 on the finer grid are trusted; those with fewer than 6 pixels in the
+    shortest wave are none of them."""
     nu = float(row["nu"])
     heights = rough_heights(int(row["N"]), row, hurst=float(row["hurst"]))
     surface = asp.Surface(heights, SIDE / int(row["N"]), periodic=True)
@@ -103,7 +110,8 @@ def test_rough_surfaces(row: Row) -> None:
 
 
 def test_fine_cylinder_and_both_bodies() -> None:
-    """σ1 = 2 μ p0 at the trailing edge of a cylinder; on a like counter body the same, under the traction the other way."""
+    """σ1 = 2 μ p0 at the trailing edge of a cylinder; on a like counter body the same, under the
+    traction the other way."""
     x = np.arange(29) - 14.3
     surface = asp.Surface(-(x[:, None] ** 2) / (2.0 * RADIUS), 1.0, 1.0)
     half = asp.Elastic(2e9, 0.0)
@@ -128,7 +136,8 @@ def test_small_spots_are_refused() -> None:
 
 
 def test_every_place_quotes_the_same_maxima(tmp_path: Path) -> None:
-    """Field, indicators, onset of yield, survey and its table: one value with one error, above what the points hold."""
+    """Field, indicators, onset of yield, survey and its table: one value with one error, above what
+    the points hold."""
     body = asp.Elastic(1e9 * 0.91, 0.3, asp.Strength(yield_stress=1e6))
     result = asp.solve(paraboloid(5.0, np.array([0.2, 0.3]), body), asp.Force(4.0 / 3.0 * 1e9 * 125.0 / RADIUS))
     p0 = 2.0 * 1e9 * 5.0 / (math.pi * RADIUS)

@@ -1,4 +1,5 @@
-"""JKR's contacts of power-law profiles, cylinders, waves and coated spheres against the reference, and the grid against them."""
+"""JKR's contacts of power-law profiles, cylinders, waves and coated spheres against the reference,
+and the grid against them."""
 
 from __future__ import annotations
 
@@ -100,7 +101,8 @@ def test_homogeneous_limit_is_jkr():
 
 @pytest.mark.slow
 def test_grid_meets_jkr_on_a_soft_coating():
-    """Exponential law of short range on the grid, E1/E2 = 0.25, h = R/2: the pull-off is 1.113 of that of a half-space."""
+    """Exponential law of short range on the grid, E1/E2 = 0.25, h = R/2: the pull-off is 1.113 of
+    that of a half-space."""
     row = next(r for r in reference("adhesion/jkr_coated_pulloff") if r["E1_over_E2"] == 0.25 and r["h"] == 0.5)
     top = asp.Elastic(row["E1_over_E2"], row["nu1"])
     body = asp.Layered([asp.Layer(top, row["h"])], asp.Elastic(1.0, row["nu2"]))
@@ -114,5 +116,6 @@ def test_grid_meets_jkr_on_a_soft_coating():
     problem = asp.ContactProblem(asp.Surface(heights, pixel), body, boundary=asp.Free(), adhesion=law)
     steps = row["delta_at_pulloff"] + np.array([0.1, 0.02, 0.0, -0.02, -0.04, -0.06])
     found = asp.solve(problem, asp.History([asp.FixedGrips(float(step)) for step in steps]))
-    # a zone of four pixels at the edge of a contact of twenty: Maugis' transition is within 4 % of JKR there
+    # a zone of four pixels at the edge of a contact of twenty: Maugis' transition is within 4 % of
+    # JKR there
     assert -min(found.external_force) == pytest.approx(-row["P_pulloff"], rel=0.04)

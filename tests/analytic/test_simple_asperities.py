@@ -96,7 +96,8 @@ def test_oliver_and_pharr(row):
 
 
 def test_an_indentation_of_a_paraboloid_returns_its_modulus():
-    """Elastic paraboloid: S = 2E*a, and h_c = δ/2 with ε = 0.75, since W/S = 2δ/3; a² = 2R h_c is its true area."""
+    """Elastic paraboloid: S = 2E*a, and h_c = δ/2 with ε = 0.75, since W/S = 2δ/3; a² = 2R h_c is
+    its true area."""
     sphere = HertzPoint(7e10, 1e-5)
     answer = sphere.at_load(1e-3)
     test = OliverPharr(1e-3, float(answer.approach), float(answer.stiffness), PARABOLOID)
@@ -118,7 +119,8 @@ def test_rebound(row):
 
 
 def test_slow_impacts_lose_two_thirds_of_their_speed_times_damping():
-    """v_out = v_in (1 - (2/3)βv_in + …): nothing is lost in a slow impact, and no rebound exceeds 1/β."""
+    """v_out = v_in (1 - (2/3)βv_in + …): nothing is lost in a slow impact, and no rebound exceeds
+    1/β."""
     slow = np.array([1e-8, 1e-5, 2e-3])
     assert 1.0 - rebound(slow) / slow == pytest.approx(2.0 / 3.0 * slow, rel=2e-3, abs=1e-15)
     assert rebound(0.0) == 0.0
@@ -126,7 +128,8 @@ def test_slow_impacts_lose_two_thirds_of_their_speed_times_damping():
 
 
 def test_rebound_between_series_and_logarithm():
-    """v - ln(1 + v) before and -v - ln(1 - v) after by forty terms of their series, 0.3^40 = 1e-21."""
+    """v - ln(1 + v) before and -v - ln(1 - v) after by forty terms of their series, 0.3^40 =
+    1e-21."""
     speed = np.geomspace(1e-5, 0.3, 60)
     out = rebound(speed)
     powers = np.arange(2, 42)

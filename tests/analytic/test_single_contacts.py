@@ -1,4 +1,5 @@
-"""Closed forms of single contacts: every reference row, equilibrium, limits of one theory in another."""
+"""Closed forms of single contacts: every reference row, equilibrium, limits of one theory in
+another."""
 
 from __future__ import annotations
 
@@ -87,7 +88,8 @@ def test_two_bodies_have_the_curvatures_of_their_gap(curvatures, angle):
 
 
 def test_spheres_and_cylinders_as_two_bodies():
-    """Equal crossed cylinders are a sphere on a plane; parallel ones a line contact, which is refused as a ball too wide for its cup."""
+    """Equal crossed cylinders are a sphere on a plane; parallel ones a line contact, which is
+    refused as a ball too wide for its cup."""
     crossed = HertzBodies(1e9, math.inf, 0.01, math.inf, 0.01, 0.5 * math.pi).at_load(3.0)
     ball = HertzPoint(1e9, 0.01).at_load(3.0)
     assert [crossed.radius, crossed.approach] == pytest.approx([float(ball.radius), float(ball.approach)], rel=1e-12)
@@ -104,7 +106,8 @@ def test_a_circle_is_an_ellipse(radius, load, modulus):
 
 
 def test_nearly_circular_and_very_slender_ellipses():
-    """ln(b/a) = -(2/3) ln(B/A) to first order; B/A ~ (a/b)²/(ln 4a/b - 1), whose error is of the order (b/a)²."""
+    """ln(b/a) = -(2/3) ln(B/A) to first order; B/A ~ (a/b)²/(ln 4a/b - 1), whose error is of the
+    order (b/a)²."""
     assert 1.0 - axis_ratio(1.0 + 1e-7) == pytest.approx(2.0 / 3.0 * 1e-7, rel=1e-6)
     slender = axis_ratio(1e9)
     assert slender**-2 / (np.log(4.0 / slender) - 1.0) == pytest.approx(1e9, rel=1e-6)
@@ -178,7 +181,8 @@ def test_plane_indenters(row):
 
 @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 3.0, 6.0])
 def test_pressures_carry_the_load(exponent):
-    """200 Gauss points in u, r = a sin(πu³/2): smooth at the edge, and u² ln u at the apex of a cone is good for 1e-9."""
+    """200 Gauss points in u, r = a sin(πu³/2): smooth at the edge, and u² ln u at the apex of a
+    cone is good for 1e-9."""
     u, weight = gauss(np.array([0.0, 1.0]), 200)
     sine, cosine = np.sin(0.5 * np.pi * u**3), np.cos(0.5 * np.pi * u**3)
     weight = weight * 1.5 * np.pi * u**2 * cosine
@@ -256,7 +260,8 @@ def test_a_wave_from_the_first_touch_to_beyond_full_contact():
     assert wave.mean_gap([full, 2.0 * full]).tolist() == [0.0, 0.0]
     assert wave.max_pressure(2.0 * full) == pytest.approx(3.0 * full)
     assert wave.stiffness(full) == np.inf
-    # light loads: a row of Hertz line contacts with R = λ²/4π²Δ, to the square of the half-width in wavelengths
+    # light loads: a row of Hertz line contacts with R = λ²/4π²Δ, to the square of the half-width in
+    # wavelengths
     line = HertzLine(1.0, 1.0 / (4.0 * np.pi**2 * 0.01)).at_load(1e-8 * full)
     assert wave.area_fraction(1e-8 * full) == pytest.approx(float(line.area), rel=1e-7)
     step = 1e-4
@@ -306,7 +311,8 @@ def mindlin(row):
 
 @every_row(MINDLIN, label=name)
 def test_cattaneo_and_mindlin(row):
-    """At r = c the traction of the stick zone goes as the root of c - r, so rounding of c shows as its root, 3e-8."""
+    """At r = c the traction of the stick zone goes as the root of c - r, so rounding of c shows as
+    its root, 3e-8."""
     theory, P, Q = mindlin(row), row["P"], row["Q"]
     normal, slip = theory.normal.at_load(P), theory.at_load(P, Q)
     assert normal.radius == pytest.approx(row["a"], rel=DIGITS)
@@ -328,7 +334,8 @@ def test_tangential_loading_up_to_sliding():
     P = 0.01
     slip = theory.at_load(P, [0.0, 0.4 * P])
     assert slip.stick_radius == pytest.approx([float(theory.normal.at_load(P).radius), 0.0])
-    # the ratio of the first tangential to the normal stiffness of equal bodies is 2(1 - ν)/(2 - ν); here E* = G/(1 - ν)
+    # the ratio of the first tangential to the normal stiffness of equal bodies is 2(1 - ν)/(2 - ν);
+    # here E* = G/(1 - ν)
     equal = MindlinPoint(0.7 / 0.7, 2.0, theory.G_star, 0.4)
     ratio = equal.at_load(P, 0.0).stiffness / equal.normal.at_load(P).stiffness
     assert ratio == pytest.approx(2.0 * 0.7 / 1.7, rel=1e-13)

@@ -1,4 +1,5 @@
-"""Contacts without a wall: Lennard-Jones spheres, an own law with a core, and an independent minimum of the energy."""
+"""Contacts without a wall: Lennard-Jones spheres, an own law with a core, and an independent
+minimum of the energy."""
 
 from __future__ import annotations
 
@@ -198,7 +199,8 @@ def test_deep_contact_and_states_that_go_on(tmp_path):
 
 @pytest.mark.parametrize("pressure", [1e-6, 1e-3])
 def test_rough_surfaces_that_are_pressed_together_have_an_equilibrium(pressure):
-    """However light the load: on the way to it the energy may curve down with the distance, which is no sign that the surfaces part."""
+    """However light the load: on the way to it the energy may curve down with the distance, which
+    is no sign that the surfaces part."""
     missed = []
     for seed in range(12):
         heights = np.random.default_rng(seed).standard_normal((6, 6))

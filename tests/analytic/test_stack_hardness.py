@@ -1,4 +1,5 @@
-"""Hardness of several coatings by depth: one coating, equal neighbours, separated scales, bounds, work."""
+"""Hardness of several coatings by depth: one coating, equal neighbours, separated scales, bounds,
+work."""
 
 from __future__ import annotations
 

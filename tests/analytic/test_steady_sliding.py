@@ -1,4 +1,5 @@
-"""Steady sliding over viscoelastic bodies against closed forms, the reference of a sliding wave, limits, and a march in time."""
+"""Steady sliding over viscoelastic bodies against closed forms, the reference of a sliding wave,
+limits, and a march in time."""
 
 from __future__ import annotations
 
@@ -35,7 +36,8 @@ def over(surface: asp.Surface, body: asp.Elastic | asp.Layered) -> asp.ContactPr
 
 @every_row(reference("viscoelasticity/sliding_wave_full_contact"))
 def test_wave_in_full_contact(row: Row) -> None:
-    """Pressure amplitude, its lead in front of the wave, and friction, to the error of the solve."""
+    """Pressure amplitude, its lead in front of the wave, and friction, to the error of the
+    solve."""
     material = str(row["material"])
     problem = over(wave(32, 0.01, 2.0 * np.pi), rubber(material))
     found = asp.slide(problem, asp.MeanPressure(0.5 * PRONY[material][0] + 1.0), float(row["omega"]))
@@ -50,7 +52,8 @@ def test_wave_in_full_contact(row: Row) -> None:
 @pytest.mark.slow
 @every_row(reference("viscoelasticity/sliding_wave_partial_contact"))
 def test_wave_in_partial_contact(row: Row) -> None:
-    """Friction, largest pressure, fraction and shift of the contact at 256 points: error of the reference at 1024, and a pixel at the edge."""
+    """Friction, largest pressure, fraction and shift of the contact at 256 points: error of the
+    reference at 1024, and a pixel at the edge."""
     material, points = str(row["material"]), 256
     scale = np.pi * PRONY[material][0] * 0.01
     problem = over(wave(points, 0.01, 1.0), rubber(material))
@@ -82,7 +85,8 @@ LOAD = asp.MeanPressure(0.3e6)
 
 @pytest.mark.parametrize("speed", [0.0, 1e6])
 def test_slow_and_fast_sliding_are_elastic(speed: float) -> None:
-    """The relaxed contact at rest, that of the first instant at high speed, where no wave stands still; no friction in either."""
+    """The relaxed contact at rest, that of the first instant at high speed, where no wave stands
+    still; no friction in either."""
     E = 16e6 if speed else 2e6
     x = 2.0 * np.pi * (np.arange(64) + 0.5) / 64
     surface = asp.Surface(1e-7 * (np.cos(x) + 0.4 * np.cos(3 * x + 1.0))[:, None], 1e-6 / 64)
@@ -110,7 +114,8 @@ def test_direction_turns_with_the_surface_and_times_scale_with_the_speed() -> No
 
 
 def test_coating_between_rigid_base_and_half_space() -> None:
-    """A thick coating is the half-space of its material; a thin one on a stiff base dissipates less."""
+    """A thick coating is the half-space of its material; a thin one on a stiff base dissipates
+    less."""
     whole = asp.slide(over(rough(), RUBBER), LOAD, 1e-3)
     stiff = asp.Elastic(1e9, 0.3)
     thick, thin = (
@@ -187,7 +192,8 @@ def sticky(
 
 @pytest.mark.slow
 def test_adhesive_sliding_is_where_the_motion_in_time_ends() -> None:
-    """Friction to the error of the steps of time (5e-3 at two steps a pixel); the two ways to it, work of pressure and attraction, by a pixel at the edges."""
+    """Friction to the error of the steps of time (5e-3 at two steps a pixel); the two ways to it,
+    work of pressure and attraction, by a pixel at the edges."""
     steady, dry = asp.slide(sticky(64), LIGHT, 0.1), asp.slide(sticky(64, None), LIGHT, 0.1)
     found = asp.viscoelasticity.slide_in_time(sticky(64), LIGHT, 0.1, 3.0)
     assert found.mean_friction(1.0) == pytest.approx(steady.friction, rel=0.02)
@@ -202,7 +208,8 @@ def test_adhesive_sliding_is_where_the_motion_in_time_ends() -> None:
 
 @pytest.mark.parametrize(("speed", "modulus", "error"), [(1e7, 10.0, 1e-6), (1e-8, 1.0, 1e-5)])
 def test_adhesive_sliding_fast_and_slow_is_elastic(speed: float, modulus: float, error: float) -> None:
-    """The adhesive contact of the first instant or of the relaxed body: the lag goes with the ratio of times, 1e-7 of the displacement."""
+    """The adhesive contact of the first instant or of the relaxed body: the lag goes with the ratio
+    of times, 1e-7 of the displacement."""
     found = asp.slide(sticky(64), LIGHT, speed)
     elastic = asp.solve(sticky(64, body=asp.Elastic(modulus, 0.0)), LIGHT)
     np.testing.assert_allclose(found.normal.pressure, elastic.pressure, atol=error * elastic.max_pressure)
@@ -211,7 +218,8 @@ def test_adhesive_sliding_fast_and_slow_is_elastic(speed: float, modulus: float,
 
 
 def test_full_adhesive_contact_has_no_edge() -> None:
-    """Both ways to the friction agree to the error of the displacement, and it is that of the wave in full contact: attraction changes no displacement."""
+    """Both ways to the friction agree to the error of the displacement, and it is that of the wave
+    in full contact: attraction changes no displacement."""
     found = asp.slide(sticky(64), LIGHT, 0.01)
     assert found.normal.area_fraction == 1.0
     assert found.slope_friction == pytest.approx(found.friction, rel=1e-6)
@@ -221,7 +229,8 @@ def test_full_adhesive_contact_has_no_edge() -> None:
 
 
 def test_adhesive_sliding_stays_on_its_branch() -> None:
-    """Under one load a steep wave touches in part after it was brought to touch, and everywhere after it was pressed there, under a pull as well."""
+    """Under one load a steep wave touches in part after it was brought to touch, and everywhere
+    after it was pressed there, under a pull as well."""
     steep = asp.ContactProblem(wave(64, 0.02, 1.0), asp.Rigid(), counter_body=SLS, adhesion=STICKY)
     touched = asp.slide(steep, LIGHT, 1e-3)
     pressed = asp.slide(steep, asp.MeanPressure(0.5), 1e-3)
@@ -240,7 +249,8 @@ def test_adhesive_sliding_stays_on_its_branch() -> None:
 
 @pytest.mark.slow
 def test_machine_that_gives_way_while_it_slides() -> None:
-    """The approach of the bodies is that of the grips less the force over the stiffness, and the contact is that at this approach, to the tolerance of the attraction."""
+    """The approach of the bodies is that of the grips less the force over the stiffness, and the
+    contact is that at this approach, to the tolerance of the attraction."""
     grips = asp.FixedGrips(4e-3, 5.0)
     found = asp.slide(sticky(64), grips, 0.1)
     force = found.normal.external_force
@@ -252,7 +262,8 @@ def test_machine_that_gives_way_while_it_slides() -> None:
 
 @pytest.mark.parametrize("adhesion", [None, STICKY])
 def test_menisci_press_a_sliding_surface(adhesion: asp.adhesion.Adhesion | None) -> None:
-    """The contact is that under the load and the force of the menisci together, and the coefficient is over the load."""
+    """The contact is that under the load and the force of the menisci together, and the coefficient
+    is over the load."""
     film = asp.LiquidFilm(surface_tension=2.5e-6, thickness=1e-3)
     load = 0.1 * np.pi * 0.01
     found = asp.slide(sticky(64, adhesion, film=film), asp.MeanPressure(load), 1.0)
@@ -270,7 +281,8 @@ def test_menisci_press_a_sliding_surface(adhesion: asp.adhesion.Adhesion | None)
 
 
 def error_of_bands(surface: asp.Surface) -> float:
-    """Largest relative error of the moments of order 1 to 3 of the spectrum in bands: friction grows with q when it is fast, with q³ when it is slow."""
+    """Largest relative error of the moments of order 1 to 3 of the spectrum in bands: friction
+    grows with q when it is fast, with q³ when it is slow."""
     bands = radial_spectrum(power_spectrum(surface))
     table = asp.theories.IsotropicSpectrum(bands.q[bands.psd > 0.0], bands.psd[bands.psd > 0.0])
     wave = np.abs(np.fft.fft2(surface.heights)) ** 2 / surface.heights.size**2
@@ -286,7 +298,8 @@ def error_of_bands(surface: asp.Surface) -> float:
 @pytest.mark.slow
 @pytest.mark.parametrize("speed", [1e-4, 3e-3, 3e-2, 1.0])
 def test_persson_beside_a_sliding_surface(speed: float) -> None:
-    """In full contact the mean over directions, to the bands of the spectrum; in partial contact too little area and, with S = 1, too much friction."""
+    """In full contact the mean over directions, to the bands of the spectrum; in partial contact
+    too little area and, with S = 1, too much friction."""
     waves = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=3e-5, shortest_wavelength=8e-6
     )
@@ -320,7 +333,8 @@ def test_persson_knows_half_spaces_and_maps_alone() -> None:
 
 @every_row(reference("viscoelasticity/persson_friction"))
 def test_rubber_friction_of_persson(row: Row) -> None:
-    """Friction and area of the reference, to the error of 800 wavenumbers between two of the table."""
+    """Friction and area of the reference, to the error of 800 wavenumbers between two of the
+    table."""
     q = [float(row[name]) for name in ("qL_per_m", "q0_per_m", "q1_per_m")]
     level = float(row["C0_m4"]) * (2.0 * np.pi) ** 2
     C = [level, level, level * (q[2] / q[1]) ** (-2.0 - 2.0 * float(row["H"]))]
@@ -373,6 +387,8 @@ def test_spectrum_in_many_pieces_is_that_in_few() -> None:
     few = np.array([1e3, 1e5, 1e6]), np.array([1e-15, 1e-21, 1e-26])
     dense = np.union1d(np.geomspace(1e3, 1e6, 400), [1e5])
     many = dense, np.exp(np.interp(np.log(dense), np.log(few[0]), np.log(few[1])))
-    one, other = (asp.theories.PerssonFriction(2e6, [2e7], [1e-4], *table).at_speed([1e-2], 1e5) for table in (few, many))  # fmt: skip
+    one, other = (
+        asp.theories.PerssonFriction(2e6, [2e7], [1e-4], *table).at_speed([1e-2], 1e5) for table in (few, many)
+    )
     assert other.friction == pytest.approx(one.friction, rel=1e-7)
     assert other.area_fraction == pytest.approx(one.area_fraction, rel=1e-7)

@@ -1,4 +1,5 @@
-"""Stick and slip against closed and semi-analytic solutions of single contacts, with the order of convergence."""
+"""Stick and slip against closed and semi-analytic solutions of single contacts, with the order of
+convergence."""
 
 import math
 
@@ -31,13 +32,15 @@ def coated(row):
 
 
 def pixel_means(values, n):
-    """Means over the n x n pixels of a field on a finer grid: what constant tractions on pixels stand for."""
+    """Means over the n x n pixels of a field on a finer grid: what constant tractions on pixels
+    stand for."""
     m = len(values) // n
     return values.reshape(n, m, n, m).mean(axis=(1, 3))
 
 
 def test_cattaneo_mindlin_sphere_converges_with_first_order():
-    """Equal bodies of ν = 0, where the theory is exact: tractions in L2, of pixel means, and shift."""
+    """Equal bodies of ν = 0, where the theory is exact: tractions in L2, of pixel means, and
+    shift."""
     mu, a, R, E = 0.4, 0.1, 1.0, 2.0
     body = asp.Elastic(E, 0.0)
     P = 4.0 / 3.0 * (0.5 * E) * a**3 / R
@@ -59,7 +62,8 @@ def test_cattaneo_mindlin_sphere_converges_with_first_order():
 
 @pytest.mark.parametrize("row", rows("partial_slip_sinusoid"), ids=lambda row: f"{row['case']:.0f}")
 def test_partial_slip_of_a_wave(row):
-    """Lines of equal bodies in a periodic cell, in-plane and antiplane: tractions, shift, and the work of a whole cycle."""
+    """Lines of equal bodies in a periodic cell, in-plane and antiplane: tractions, shift, and the
+    work of a whole cycle."""
     body = asp.Elastic(row["E_each"], row["nu_each"])
     along = row["mode"] == "inplane"
     errors = []
@@ -88,7 +92,8 @@ def test_partial_slip_of_a_wave(row):
 
 @pytest.mark.parametrize("row", rows("line_layered_twins"), ids=lambda row: f"{row['case']:.0f}")
 def test_coated_cylinders(row):
-    """Coated twins in line contact: force at the same stick width, where the reduced theorem is up to 60 % off."""
+    """Coated twins in line contact: force at the same stick width, where the reduced theorem is up
+    to 60 % off."""
     body, along = coated(row), row["mode"] == "inplane"
     misses = []
     for n in (96, 192):
@@ -122,7 +127,8 @@ def test_twisted_coated_spheres(row):
 
 @pytest.mark.parametrize("case", sorted({row["case"] for row in rows("sphere_histories_nu0")}))
 def test_paths_of_a_sphere(case):
-    """Forces and accumulated work on a path of approach and shift, sampled finely enough for implicit steps."""
+    """Forces and accumulated work on a path of approach and shift, sampled finely enough for
+    implicit steps."""
     path = rows("sphere_histories_nu0", case=case)
     body, reach = asp.Elastic(path[0]["E_each"], 0.0), 1.15 * max(row["a"] for row in path)
     problem, _ = sphere(40, path[0]["R"], reach, body, body, asp.Coulomb(path[0]["mu"]))
@@ -148,7 +154,8 @@ def test_paths_of_a_sphere(case):
     "row", rows("finite_friction_indentation", nu_rigid_indenter=0.3), ids=lambda row: f"{row['c_over_a']}"
 )
 def test_stick_radius_of_a_pressed_sphere(row):
-    """Rigid sphere pressed on ν = 0.3 with Coulomb friction: the inner circle of radius c sticks (Spence 1975)."""
+    """Rigid sphere pressed on ν = 0.3 with Coulomb friction: the inner circle of radius c sticks
+    (Spence 1975)."""
     a, R = 0.1, 1.0
     body = asp.Elastic(1.0, 0.3)
     P = 4.0 / 3.0 * body.plane_strain_modulus * a**3 / R

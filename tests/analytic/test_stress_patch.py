@@ -1,4 +1,5 @@
-"""Uniform traction on a rectangle: independent cubature, the far field, the surface, lattices of coefficients."""
+"""Uniform traction on a rectangle: independent cubature, the far field, the surface, lattices of
+coefficients."""
 
 import numpy as np
 import pytest
@@ -30,7 +31,8 @@ def test_reference_rows_cover_all_loads_and_the_surface():
 
 @pytest.mark.parametrize("load", ["x", "y", "z"])
 def test_far_field_joins_the_near_field_and_is_a_point_force(load):
-    """Corner differences lose eps (d/a)³, about 1e-8 of the field, where the four forces take over."""
+    """Corner differences lose eps (d/a)³, about 1e-8 of the field, where the four forces take
+    over."""
     direction = np.array([0.48, 0.6, 0.64])
     inner, outer = (
         found(patch_fields(*(d * direction), Patch((1.0, 2.0), load), **BODY)) * ([d] * 3 + [d**2] * 6)
@@ -58,7 +60,8 @@ def test_mean_values_on_the_edges_of_the_surface():
 @pytest.mark.parametrize("load", ["x", "y", "z"])
 @pytest.mark.parametrize("z", [0.0, 0.3e-6, 5e-6])
 def test_coefficients_are_the_fields_at_the_pixels(load, z):
-    """dx != dy, nx != ny, lengths of micrometres; differences are roundings of corner sums up to 11 sides away."""
+    """dx != dy, nx != ny, lengths of micrometres; differences are roundings of corner sums up to 11
+    sides away."""
     grid = Grid((6, 11), (1e-6, 0.6e-6))
     x, y = grid.coordinates()
     fields = patch_fields(x, y, z, Patch(grid.spacing, load), shear=2e9, nu=0.25)

@@ -1,4 +1,5 @@
-"""Theories of all summits of random surfaces against high-precision quadrature, their limits and each other."""
+"""Theories of all summits of random surfaces against high-precision quadrature, their limits and
+each other."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ from asperity.theories.rough.profile_peaks import OnionsArchard, plastic_area_sh
 from asperity.theories.single.hertz import axis_ratio, ellipse, ellipse_of_curvatures
 from asperity.theories.statistics.roughness import MomentTensor, Roughness
 
-# sums of hundreds of positive terms in double precision, tails of Gaussians at arguments of up to ten
+# sums of hundreds of positive terms in double precision, tails of Gaussians at arguments of up to
+# ten
 ROUNDING = 2e-13
 
 
@@ -56,7 +58,8 @@ def test_greenwood_tripp_by_monte_carlo():
 def test_greenwood_tripp_of_a_shared_roughness():
     found = GreenwoodTripp.from_roughness(Roughness(2.0, 0.5, 2.0), 1e9)
     single = McCool(1e9, 2.0, 0.5, 2.0).equivalent()
-    # halves of the moments: the same bandwidth and density, summits blunter by sqrt(2), the sum as high as the whole
+    # halves of the moments: the same bandwidth and density, summits blunter by sqrt(2), the sum as
+    # high as the whole
     assert found.density == pytest.approx(single.density)
     assert found.radius == pytest.approx(math.sqrt(2.0) * single.radius)
     assert found.height_deviation == pytest.approx(single.height_deviation)
@@ -111,7 +114,8 @@ def test_all_summits(kind):
         theory = kind(1.0, 1.0, 1.0, row["alpha"])
         found = theory.at_separation(row["D"])
         assert found.area_fraction == pytest.approx(row[f"area_fraction{suffix}"], rel=ROUNDING)
-        # the pressures of the table for α = 1.6 are off by 2.5e-11: they change by 1e-15 here with thrice the nodes
+        # the pressures of the table for α = 1.6 are off by 2.5e-11: they change by 1e-15 here with
+        # thrice the nodes
         assert found.pressure == pytest.approx(row[f"p_over_Estar_sqrt_m2{suffix}"], rel=5e-11)
         assert kappa(theory, found) == pytest.approx(row[f"kappa{suffix}"], rel=5e-11)
         assert found.contact_density / row["alpha"] == pytest.approx(row["n_times_m2_over_m4"], rel=ROUNDING)
@@ -119,7 +123,8 @@ def test_all_summits(kind):
 
 @pytest.mark.parametrize(("alpha", "D"), [(2.0, 1.0), (8.0, 0.0)])
 def test_all_summits_by_monte_carlo(alpha, D):
-    # draws of height, mean curvature and its anisotropy at a point of the surface; a summit counts by its Gaussian curvature
+    # draws of height, mean curvature and its anisotropy at a point of the surface; a summit counts
+    # by its Gaussian curvature
     rng, number, rho = np.random.default_rng(2), 150_000, math.sqrt(1.5 / alpha)
     t = rng.standard_normal(number)
     height = rho * t + math.sqrt(1.0 - rho**2) * rng.standard_normal(number)

@@ -1,4 +1,5 @@
-"""Summits of Gaussian surfaces and peaks of Gaussian profiles against quadrature, simulation and closed forms."""
+"""Summits of Gaussian surfaces and peaks of Gaussian profiles against quadrature, simulation and
+closed forms."""
 
 from __future__ import annotations
 
@@ -83,7 +84,8 @@ def test_the_mean_geometric_curvature_is_its_integral():
 @given(alpha=st.floats(1.5, 500.0))
 def test_the_density_of_heights_has_the_stated_moments(alpha):
     summits = NayakSummits(1.0, 1.0, alpha)
-    # the density of a single wavelength ends at zero height, that of nearly one falls there within sqrt(1 - 1.5/α)
+    # the density of a single wavelength ends at zero height, that of nearly one falls there within
+    # sqrt(1 - 1.5/α)
     edges = np.geomspace(1e-6, 14.0, 48)
     low = [0.0] if alpha < 1.5 + 1e-8 else [*-edges[::-1], 0.0]
     z, weight = gauss(np.array([*low, *edges]), 12)
@@ -115,8 +117,9 @@ def test_summits_of_generated_surfaces(rolloff, hurst):
     height, curvature = (
         np.concatenate([getattr(found.summits, name) for found in maps]) for name in ("height", "curvature")
     )
-    # four standard errors of independent summits; sixteen points to the shortest wave make central differences too small
-    # by at most 1.3 %, and more summits by up to 1 % (on a lattice some saddles count as summits)
+    # four standard errors of independent summits; sixteen points to the shortest wave make central
+    # differences too small by at most 1.3 %, and more summits by up to 1 % (on a lattice some
+    # saddles count as summits)
     error = 4.0 / math.sqrt(height.size)
     density = float(np.mean([found.summits.density for found in maps]))
     assert density == pytest.approx(expected.density, rel=error + 0.01)
@@ -180,7 +183,8 @@ def test_impossible_correlations_are_refused():
 @pytest.mark.parametrize("alpha", [1.6, 2.0, 10.0])
 @pytest.mark.parametrize("xi", [-1.0, -4.0, -8.0, -30.0])
 def test_curvature_of_summits_far_below_the_mean_plane(alpha, xi):
-    """Ratio of integrals over t of (t² - 1 + e^(-t²)) times the normal density given ξ, whose common factor cancels."""
+    """Ratio of integrals over t of (t² - 1 + e^(-t²)) times the normal density given ξ, whose
+    common factor cancels."""
     rho = math.sqrt(1.5 / alpha)
     mean, variance = rho * xi, 1.0 - rho**2
 

@@ -1,4 +1,5 @@
-"""Statistics of surfaces that are known in closed form: waves, planes, paraboloids, Gaussian heights and slopes."""
+"""Statistics of surfaces that are known in closed form: waves, planes, paraboloids, Gaussian
+heights and slopes."""
 
 from __future__ import annotations
 
@@ -108,7 +109,8 @@ def is_map(row: Row) -> bool:
 def test_sampled_shapes(row):
     given_ = json.loads(row["parameters"])
     value = value_of(surface_of(row["case"], given_), row["quantity"], given_)
-    # where the exact value is zero, rounding of the heights (1e-16) counts, over the square of the pixel in curvatures
+    # where the exact value is zero, rounding of the heights (1e-16) counts, over the square of the
+    # pixel in curvatures
     floor = 1e-12 if row["sampled_value"] == 0.0 else 0.0
     assert value == pytest.approx(row["sampled_value"], rel=max(row["tol_rel"], 5e-12), abs=floor)
 
@@ -122,7 +124,8 @@ def test_uniform_heights():
 
 @pytest.mark.parametrize("line", ["least squares", "secant"])
 def test_material_ratio_of_gaussian_heights(line):
-    """Quantiles of the normal distribution at (k - 1/2)/N: the discrete curve errs by O(1/N) in the middle."""
+    """Quantiles of the normal distribution at (k - 1/2)/N: the discrete curve errs by O(1/N) in the
+    middle."""
     from scipy.special import ndtri
 
     n = 400_000
@@ -156,7 +159,8 @@ def test_developed_area_of_gaussian_slopes(row):
     surface = asp.generate.gaussian(asp.Grid((1024, 1024), (1.0, 1.0)), spectrum, seed=9)
     scale = math.sqrt(json.loads(row["parameters"])["Sdq2"]) / asp.roughness.rms_slope(surface)
     scaled = asp.Surface(scale * surface.heights, 1.0, periodic=True)
-    # some 4000 independent slopes leave the fourth moment uncertain by 2 %, which enters Sdr with a quarter of Sdq²
+    # some 4000 independent slopes leave the fourth moment uncertain by 2 %, which enters Sdr with a
+    # quarter of Sdq²
     slope2 = json.loads(row["parameters"])["Sdq2"]
     assert r.developed_area_ratio(scaled) == pytest.approx(row["continuum_value"], rel=2e-3 + 0.02 * slope2)
 
@@ -183,7 +187,8 @@ def test_summits_of_sums_of_waves(number):
 
 
 def fits_the_grid(row: Row) -> bool:
-    """Spectra are tested elsewhere; a decay of a hundred pixels leaves too few independent heights on 512² points."""
+    """Spectra are tested elsewhere; a decay of a hundred pixels leaves too few independent heights
+    on 512² points."""
     return not row["model"].startswith("isotropic plateau") and json.loads(row["parameters"]) != {
         "delta_over_beta_e": 0.01
     }
@@ -209,8 +214,9 @@ def test_summits_of_sampled_gaussian_surfaces(row):
     found = [r.summit_statistics(r.summits(surface)) for surface in surfaces]
     four = [r.summit_statistics(r.summits(surface, 4)) for surface in surfaces]
     summits = sum(mean.count for mean in found)
-    # positions repel or attract each other, heights and curvatures are correlated: three times the error of
-    # independent summits, at five deviations; heights of long waves scatter more, by the number of such waves
+    # positions repel or attract each other, heights and curvatures are correlated: three times the
+    # error of independent summits, at five deviations; heights of long waves scatter more, by the
+    # number of such waves
     error = 5.0 * 3.0 / math.sqrt(summits)
     assert np.mean([mean.density for mean in found]) == pytest.approx(row["p8_summits_per_node"], rel=error)
     assert np.mean([mean.density for mean in four]) == pytest.approx(row["p4_summits_per_node"], rel=error)

@@ -1,4 +1,5 @@
-"""Tangential stiffness by its own linear solve: against finite differences of steps, Mindlin, and Cattaneo and Mindlin; contraction of rounds."""
+"""Tangential stiffness by its own linear solve: against finite differences of steps, Mindlin, and
+Cattaneo and Mindlin; contraction of rounds."""
 
 import numpy as np
 import pytest
@@ -25,7 +26,8 @@ CASES = {
 
 @pytest.mark.parametrize("case", CASES)
 def test_derivative_of_the_force_by_the_shift(case):
-    """Central differences of steps of 1e-5 of the shift, in which hardly any point changes between stick and slip."""
+    """Central differences of steps of 1e-5 of the shift, in which hardly any point changes between
+    stick and slip."""
     options, normal = CASES[case]
     settings = {"surface": rough((24, 24), 7, power=1.6), "body": SOFT, "friction": asp.Coulomb(0.4), **options}
     problem = asp.ContactProblem(**settings)
@@ -48,7 +50,8 @@ def test_derivative_of_the_force_by_the_shift(case):
 
 
 def test_stiffness_of_a_sphere():
-    """Mindlin's 2 E* a without slip for ν = 0, and 2 E* a (1 - Q/μP)^(1/3) of Cattaneo and Mindlin under a rising force."""
+    """Mindlin's 2 E* a without slip for ν = 0, and 2 E* a (1 - Q/μP)^(1/3) of Cattaneo and Mindlin
+    under a rising force."""
     n, a, R, mu = 96, 0.1, 1.0, 0.4
     body = asp.Elastic(2.0, 0.0)
     P = 4.0 / 3.0 * a**3 / R
@@ -73,7 +76,8 @@ def test_stiffness_of_a_sphere():
 
 
 def test_rounds_contract_by_friction_times_coupling():
-    """None for equal bodies; in proportion to friction, and near one for a coefficient of several units, where all slides."""
+    """None for equal bodies; in proportion to friction, and near one for a coefficient of several
+    units, where all slides."""
     factors = {}
     for mu in (0.2, 0.4, 5.0):
         problem = asp.ContactProblem(rough((24, 24), 7, power=1.6), SOFT, friction=asp.Coulomb(mu))

@@ -59,7 +59,8 @@ def test_first_twist_is_without_slip():
 
 
 def test_transform_of_any_pressure():
-    """Hertz's pressure, P = E*(a² - x²)/2R, gives Lubkin's x (K - E); a punch of constant P gives (2x/πa) K."""
+    """Hertz's pressure, P = E*(a² - x²)/2R, gives Lubkin's x (K - E); a punch of constant P gives
+    (2x/πa) K."""
     from scipy.special import ellipe, ellipk
 
     x = np.array([1e-4, 0.1, 0.5, 0.9, 0.999])

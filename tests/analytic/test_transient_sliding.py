@@ -1,4 +1,5 @@
-"""Sliding and rolling in steps of time against the steady solutions, the heat, and itself in two parts."""
+"""Sliding and rolling in steps of time against the steady solutions, the heat, and itself in two
+parts."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ def wave(
 
 
 def test_sliding_wave_comes_to_its_steady_state() -> None:
-    """From no friction at the first instant to the friction of the steady state, by slope and by heat, to half a percent."""
+    """From no friction at the first instant to the friction of the steady state, by slope and by
+    heat, to half a percent."""
     steady = asp.slide(wave(), PRESSURE, 0.1)
     found = asp.viscoelasticity.slide_in_time(wave(), PRESSURE, 0.1, 3.0)
     assert abs(found.friction[0]) < 1e-6
@@ -64,7 +66,8 @@ def test_cylinder_on_a_free_line_comes_to_its_steady_state() -> None:
 
 
 def test_rough_body_rolls() -> None:
-    """Roughness that passes through the contact at rest adds to the heat of the shape that moves over it; work and heat agree over a period."""
+    """Roughness that passes through the contact at rest adds to the heat of the shape that moves
+    over it; work and heat agree over a period."""
     points = 64
     x = np.arange(points) / points
     shape = asp.Surface(-0.01 * (1.0 - np.cos(2.0 * np.pi * x))[:, None], 1.0 / points, 1.0, periodic=True)
@@ -98,7 +101,8 @@ STICKY = asp.ExponentialAdhesion(2e-4, 2e-3)
 
 @pytest.mark.parametrize(("speed", "modulus", "error"), [(1e6, 10.0, 1e-5), (1e-5, 1.0, 5e-4)])
 def test_adhesive_sliding_fast_and_slow_is_elastic(speed: float, modulus: float, error: float) -> None:
-    """The adhesive contact of the first instant carried along, or that of the relaxed body; without friction in both."""
+    """The adhesive contact of the first instant carried along, or that of the relaxed body; without
+    friction in both."""
     found = asp.viscoelasticity.slide_in_time(wave(48, adhesion=STICKY), LIGHT, speed, 0.25, steps_per_pixel=1)
     elastic = asp.solve(wave(48, asp.Elastic(modulus, 0.0), 0.25, adhesion=STICKY), LIGHT)
     np.testing.assert_allclose(found.last.pressure, elastic.pressure, atol=error * elastic.max_pressure)
@@ -108,14 +112,16 @@ def test_adhesive_sliding_fast_and_slow_is_elastic(speed: float, modulus: float,
 
 @pytest.mark.slow
 def test_adhesion_adds_to_hysteretic_friction() -> None:
-    """Work along the motion of pressure and attraction is the heat of the solid, and more than without adhesion."""
+    """Work along the motion of pressure and attraction is the heat of the solid, and more than
+    without adhesion."""
     found = asp.viscoelasticity.slide_in_time(wave(32, adhesion=STICKY), LIGHT, 0.1, 1.5)
     assert found.mean_friction(1.0) == pytest.approx(found.mean_loss(1.0), rel=0.01)
     assert found.mean_friction(1.0) > 1.5 * asp.slide(wave(48), LIGHT, 0.1).friction
 
 
 def test_dents_stay_on_the_body_at_rest() -> None:
-    """After a period there is one groove of the same depth at all points, and pressures stay below the hardness."""
+    """After a period there is one groove of the same depth at all points, and pressures stay below
+    the hardness."""
     hardness = 0.05
     found = asp.viscoelasticity.slide_in_time(wave(48, law=asp.Hardness(hardness)), LIGHT, 0.1, 2.0, steps_per_pixel=1)
     dent = found.last.permanent_indentation

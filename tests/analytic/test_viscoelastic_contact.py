@@ -1,4 +1,5 @@
-"""Viscoelastic contacts in time against Lee & Radok, Ting, the flat punch, coated limits, and their energies."""
+"""Viscoelastic contacts in time against Lee & Radok, Ting, the flat punch, coated limits, and their
+energies."""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ PRONY = {
     "prony3": (1.0, ((2.0, 10.0), (5.0, 1.0), (20.0, 0.01))),
     "maxwell": (0.0, ((1.0, 1.0),)),
 }
-"""Contact modulus of the reference materials: Young's modulus of a solid whose Poisson's ratio is zero."""
+"""Contact modulus of the reference materials: Young's modulus of a solid whose Poisson's ratio is
+zero."""
 
 
 def solid(name: str) -> asp.Viscoelastic:
@@ -52,7 +54,8 @@ def rows(name: str, **wanted: object) -> list[Row]:
 
 @pytest.mark.parametrize("material", ["sls", "prony3", "maxwell"])
 def test_sphere_creeps_under_a_step_of_load(material: str) -> None:
-    """a³ = 3/4 R P J(t) by the approach a²/R, within the error of 48² pixels (2e-3) and of the steps of time."""
+    """a³ = 3/4 R P J(t) by the approach a²/R, within the error of 48² pixels (2e-3) and of the
+    steps of time."""
     table = rows("sphere_growing", material=material, history="load_step")
     largest = max(float(row["a"]) for row in table)
     times = [float(row["t"]) for row in table]
@@ -68,9 +71,11 @@ def test_sphere_creeps_under_a_step_of_load(material: str) -> None:
 
 @pytest.mark.parametrize("material", ["sls", "prony3"])
 def test_load_of_a_sphere_relaxes_under_a_step_of_approach(material: str) -> None:
-    """P = 4/3 sqrt(R) delta^3/2 E(t) at a fixed area: within 3e-3, the error of the pixels, at all times.
+    """P = 4/3 sqrt(R) delta^3/2 E(t) at a fixed area: within 3e-3, the error of the pixels, at all
+    times.
 
-    The pixels in contact stay what they are; where between them the edge lies is read with the modulus of the first instant, within its error.
+    The pixels in contact stay what they are; where between them the edge lies is read with the
+    modulus of the first instant, within its error.
     """
     table = rows("sphere_growing", material=material, history="approach_step")
     approach = asp.Approach(float(table[0]["delta"]))
@@ -102,7 +107,8 @@ def test_ramps_of_a_sphere(history: str) -> None:
 
 
 def test_flat_punch_under_any_history_of_approach() -> None:
-    """P(t) = ∫ E(t - s) d(stiffness delta): any history without tension, exact for approaches that are linear in time."""
+    """P(t) = ∫ E(t - s) d(stiffness delta): any history without tension, exact for approaches that
+    are linear in time."""
     height = np.zeros((24, 24))
     height[:6], height[-6:], height[:, :6], height[:, -6:] = -1.0, -1.0, -1.0, -1.0
     problem = free(asp.Surface(height, 1e-3), solid("prony3"))
@@ -127,7 +133,8 @@ def test_flat_punch_under_any_history_of_approach() -> None:
 
 @pytest.mark.parametrize("material", ["sls", "prony3", "maxwell"])
 def test_sphere_pressed_and_withdrawn(material: str) -> None:
-    """Load within 2e-3 of its peak all through a triangle of approach, and no contact after Ting's time of separation."""
+    """Load within 2e-3 of its peak all through a triangle of approach, and no contact after Ting's
+    time of separation."""
     table = rows("sphere_ting_triangle", material=material, T=1.0)
     v, end = float(table[0]["v"]), float(table[0]["t_separation"])
     inside = [float(row["t"]) for row in table if float(row["t"]) < 0.995 * end]
@@ -148,7 +155,8 @@ def test_sphere_pressed_and_withdrawn(material: str) -> None:
 
 
 def test_steps_of_time_are_of_second_order_and_their_error_is_estimated() -> None:
-    """The load at a fixed approach falls as E(t): twice as many equal steps have a quarter of the error, which the estimate bounds."""
+    """The load at a fixed approach falls as E(t): twice as many equal steps have a quarter of the
+    error, which the estimate bounds."""
     problem = free(sphere(0.3, 24), solid("sls"))
     course = asp.History([asp.Approach(0.02), asp.Step(asp.Approach(0.02), duration=2.0)])
     relaxation, errors = solid("sls").relaxation, []
@@ -185,7 +193,8 @@ STACKS = {
 
 @pytest.mark.parametrize("name", STACKS)
 def test_retarded_compliance_is_that_of_the_complex_moduli(name: str) -> None:
-    """The series meets the exact complex compliance at all wavelengths and frequencies within the error it states."""
+    """The series meets the exact complex compliance at all wavelengths and frequencies within the
+    error it states."""
     body, allowed = STACKS[name]
     creep = contact_creep(body, asp.Rigid())
     assert isinstance(creep, LayeredCreep)
@@ -202,7 +211,8 @@ def test_retarded_compliance_is_that_of_the_complex_moduli(name: str) -> None:
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("name", STACKS)
 def test_coated_contact_ends_at_the_relaxed_elastic_one(name: str, boundary: asp.Free | asp.Periodic) -> None:
-    """After a load and a hold of 500 relaxation times; on the way the work is stored or turned into heat."""
+    """After a load and a hold of 500 relaxation times; on the way the work is stored or turned into
+    heat."""
     body = STACKS[name][0]
     soft = asp.Elastic(1.0, 0.4)
     layers = [replace(layer, material=soft if layer.material is RUBBER else layer.material) for layer in body.layers]
@@ -220,7 +230,8 @@ def test_coated_contact_ends_at_the_relaxed_elastic_one(name: str, boundary: asp
 
 
 def test_layers_of_one_material_are_that_material() -> None:
-    """A stack of layers that relax alike up to 1e-6, fitted wavenumber by wavenumber, against the exact shared creep."""
+    """A stack of layers that relax alike up to 1e-6, fitted wavenumber by wavenumber, against the
+    exact shared creep."""
     surface = asp.Surface(sphere(0.5, 32).heights / 5.0, 1.0 / 32)
     course = asp.History([asp.Force(0.01), asp.Step(asp.Force(0.01), duration=2.0)])
     almost = asp.Layered([asp.Layer(RUBBER.with_times(1.0 + 1e-6), 0.2)], RUBBER)
@@ -266,7 +277,8 @@ CYCLE = [asp.Step(asp.MeanPressure(p), duration=0.05) for p in (1e6, 0.2e6)]
 @pytest.mark.slow
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 def test_work_of_a_cycle_is_the_heat_of_the_cycle(boundary: asp.Free | asp.Periodic) -> None:
-    """In the steady state no energy is left over, and the work of each cycle is what is dissipated in it."""
+    """In the steady state no energy is left over, and the work of each cycle is what is dissipated
+    in it."""
     problem = asp.ContactProblem(rough(), RUBBERY, boundary=boundary)
     found = asp.solve(problem, asp.History([asp.Step(asp.MeanPressure(0.2e6), duration=0.05), *CYCLE * 14]))
     last = [step.creep for step in found.steps[-2:] if step.creep is not None]
@@ -281,7 +293,8 @@ def test_work_of_a_cycle_is_the_heat_of_the_cycle(boundary: asp.Free | asp.Perio
 
 
 def test_time_and_modulus_only_scale() -> None:
-    """Twice the times under twice the durations, and all moduli with all loads, change nothing but units."""
+    """Twice the times under twice the durations, and all moduli with all loads, change nothing but
+    units."""
     course = [asp.Step(asp.MeanPressure(1e6), duration=0.02), asp.Step(asp.MeanPressure(1e6), duration=0.1)]
     first = asp.solve(asp.ContactProblem(rough(), RUBBERY), asp.History(course)).last
     slow = [replace(step, duration=2.0 * step.duration) for step in course]
@@ -352,7 +365,8 @@ def test_steps_come_one_by_one_and_say_why_they_end_early() -> None:
 
 
 def test_weights_of_short_and_long_steps_are_smooth() -> None:
-    """Series and closed forms meet; a constant pressure is kept exactly; weights of e, before and after add up to one."""
+    """Series and closed forms meet; a constant pressure is kept exactly; weights of e, before and
+    after add up to one."""
     times = np.array([1.0, np.inf])
     for length in (0.0, 1e-9, 0.0199999, 0.0200001, 1.0, 1e3):
         found = TimeWeights.of(times, length)
@@ -380,7 +394,8 @@ def test_what_is_refused(make: Callable[[], object], subject: str) -> None:
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("name", STACKS)
 def test_harmonic_stiffness_of_a_coated_contact(name: str, boundary: asp.Free | asp.Periodic) -> None:
-    """At high and low frequency the stiffness of the same area with instantaneous and relaxed moduli, between them a loss."""
+    """At high and low frequency the stiffness of the same area with instantaneous and relaxed
+    moduli, between them a loss."""
     body = STACKS[name][0]
     soft = asp.Elastic(1.0, 0.4)
     layers = [replace(layer, material=soft if layer.material is RUBBER else layer.material) for layer in body.layers]

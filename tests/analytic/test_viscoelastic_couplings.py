@@ -1,4 +1,5 @@
-"""Adhesion, friction, menisci and hardness beside creep: limits of the speed, energies, restart, what is refused."""
+"""Adhesion, friction, menisci and hardness beside creep: limits of the speed, energies, restart,
+what is refused."""
 
 from __future__ import annotations
 
@@ -54,7 +55,8 @@ def test_slow_retraction_is_that_of_the_relaxed_body() -> None:
 
 @pytest.mark.slow
 def test_machine_that_gives_way_while_the_body_relaxes() -> None:
-    """At once and after a long hold forces are those of the elastic contacts of the first and the relaxed modulus in the same machine, to the error of the steps."""
+    """At once and after a long hold forces are those of the elastic contacts of the first and the
+    relaxed modulus in the same machine, to the error of the steps."""
     grips = asp.FixedGrips(float(PLACES[0]), 20.0)
     found = asp.solve(sphere(RUBBER), asp.History([grips, asp.Step(grips, duration=1e3)]), time_steps=COARSE)
     for step, modulus in zip(found.steps, (FIRST, RELAXED), strict=True):
@@ -67,7 +69,8 @@ def test_machine_that_gives_way_while_the_body_relaxes() -> None:
 
 @pytest.mark.slow
 def test_retraction_at_once_is_elastic_about_what_has_crept() -> None:
-    """After the dwell the retarded displacement stays: an elastic contact of the first modulus of surfaces lowered by it."""
+    """After the dwell the retarded displacement stays: an elastic contact of the first modulus of
+    surfaces lowered by it."""
     found = retracted(RUBBER, np.inf)
     held = found.steps[1]
     assert held.creep is not None
@@ -139,7 +142,8 @@ def test_adhesion_of_a_viscoelastic_coating(boundary: asp.Free | asp.Periodic) -
 
 
 def test_adhesion_with_a_core_beside_creep() -> None:
-    """Lennard-Jones' law, which has no wall: after a long hold attraction and contact are those of the relaxed body."""
+    """Lennard-Jones' law, which has no wall: after a long hold attraction and contact are those of
+    the relaxed body."""
     load, law = asp.Force(1e-5), asp.adhesion.LennardJonesAdhesion(0.05, 0.25e-6)
     soft, relaxed = (replace(sphere(body), adhesion=law) for body in (RUBBER, asp.Elastic(RELAXED, 0.5)))
     held = asp.solve(soft, asp.History([load, asp.Step(load, duration=500.0)]), time_steps=COARSE).last
@@ -167,7 +171,8 @@ HOLD = asp.History([LOAD, asp.Step(LOAD, duration=0.05), asp.Step(LOAD, duration
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 def test_shear_of_sliding_creeps_with_the_pressure(boundary: asp.Free | asp.Periodic) -> None:
-    """Coupled Coulomb friction: at once as the first elastic body, after a long hold as the relaxed one."""
+    """Coupled Coulomb friction: at once as the first elastic body, after a long hold as the relaxed
+    one."""
     problem, first, relaxed = (
         asp.ContactProblem(GROUND, body, boundary=boundary, friction=asp.Coulomb(0.5))
         for body in (SOFT, asp.Elastic(16e6, 0.3), asp.Elastic(2e6, 0.3))

@@ -1,4 +1,5 @@
-"""Viscoelastic contacts through holds of any length: relaxed and glassy limits, the law of a fixed contact, and energies that balance or are said not to."""
+"""Viscoelastic contacts through holds of any length: relaxed and glassy limits, the law of a fixed
+contact, and energies that balance or are said not to."""
 
 from __future__ import annotations
 
@@ -46,7 +47,8 @@ def coated(material: asp.Elastic) -> asp.Layered:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_force_at_a_fixed_contact_falls_as_the_modulus(seed: int) -> None:
-    """F(t) = F(0) E(t)/E(0) for a step of approach (Lee & Radok 1960), exact on the grid as the contact stays, after holds of 0.1 to 1000 relaxation times."""
+    """F(t) = F(0) E(t)/E(0) for a step of approach (Lee & Radok 1960), exact on the grid as the
+    contact stays, after holds of 0.1 to 1000 relaxation times."""
     random = np.random.default_rng(seed)
     ratio, tau = 10.0 ** random.uniform(0.1, 2.5), 10.0 ** random.uniform(-4.0, 3.0)
     solid = asp.Viscoelastic.standard_linear(RELAXED, RELAXED * ratio, tau, 0.5)
@@ -83,7 +85,8 @@ def test_long_hold_of_layers_and_at_a_mean_gap(control: asp.contact.Control, coa
 
 
 def test_sheared_contact_held_in_place_relaxes() -> None:
-    """Where surfaces stick, force and tangential force of a position held go to those of the relaxed body."""
+    """Where surfaces stick, force and tangential force of a position held go to those of the
+    relaxed body."""
     place = asp.Step(DEPTH, asp.Shift(20e-9))
     both = [problem(body, friction=asp.friction.FullStick()) for body in (STANDARD, asp.Elastic(RELAXED, 0.5))]
     found = asp.solve(both[0], asp.History([place, replace(place, duration=0.2)]))
@@ -94,7 +97,8 @@ def test_sheared_contact_held_in_place_relaxes() -> None:
 
 
 def test_sheared_coating_held_in_place_stays_in_touch() -> None:
-    """Points that touch later stick elsewhere than in the relaxed contact: the same forces for other lengths of the steps, and energies that balance."""
+    """Points that touch later stick elsewhere than in the relaxed contact: the same forces for
+    other lengths of the steps, and energies that balance."""
     place = asp.Step(DEPTH, asp.Shift(20e-9))
     course = asp.History([place, replace(place, duration=0.2)])
     sheared = problem(coated(STANDARD), friction=asp.friction.FullStick())
@@ -107,7 +111,8 @@ def test_sheared_coating_held_in_place_stays_in_touch() -> None:
 
 
 def test_wet_contact_held_in_place_relaxes() -> None:
-    """Tries that part the surfaces look for menisci in the gap; the end is the wet contact of the relaxed body."""
+    """Tries that part the surfaces look for menisci in the gap; the end is the wet contact of the
+    relaxed body."""
     film = asp.LiquidFilm(surface_tension=0.03, thickness=3e-8)
     found = asp.solve(problem(STANDARD, film=film), held(DEPTH, 60e-3))
     end = asp.solve(problem(asp.Elastic(RELAXED, 0.5), film=film), DEPTH)
@@ -120,7 +125,8 @@ def test_wet_contact_held_in_place_relaxes() -> None:
 
 
 def test_contact_that_is_lost_in_truth_ends() -> None:
-    """Withdrawn to first touch in a relaxation time surfaces part; a long hold afterwards costs no more steps of time."""
+    """Withdrawn to first touch in a relaxation time surfaces part; a long hold afterwards costs no
+    more steps of time."""
     course = [DEPTH, asp.Step(DEPTH, duration=50e-3), asp.Step(asp.Approach(1e-9), duration=TIME)]
     found = asp.solve(problem(STANDARD), asp.History([*course, asp.Step(asp.Approach(1e-9), duration=1.0)]))
     parted, later = found.steps[2:]
@@ -139,7 +145,8 @@ def test_contact_that_is_lost_in_truth_ends() -> None:
 
 
 def test_energies_that_miss_are_not_converged(tmp_path: Path) -> None:
-    """Equal steps that part the surfaces lose more energy than there was; status, advice and files say so."""
+    """Equal steps that part the surfaces lose more energy than there was; status, advice and files
+    say so."""
     settings = asp.TimeSteps(number=16)
     with refused(asp.ConvergenceError, "Step 2 of the history"):
         asp.solve(problem(STANDARD), held(DEPTH, 60e-3), time_steps=settings)
@@ -158,7 +165,8 @@ def test_energies_that_miss_are_not_converged(tmp_path: Path) -> None:
 
 
 def test_a_lone_step_is_checked_from_its_state(tmp_path: Path) -> None:
-    """The account of energies is part of the state, also of one from a file; of a state without it energies are counted from there."""
+    """The account of energies is part of the state, also of one from a file; of a state without it
+    energies are counted from there."""
     first = asp.solve(problem(STANDARD), DEPTH)
     asp.save(first, tmp_path / "r.nc")
     hold, settings = asp.Step(DEPTH, duration=60e-3), asp.TimeSteps(number=16)
@@ -174,7 +182,8 @@ def test_a_lone_step_is_checked_from_its_state(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("body", [STANDARD, coated(STANDARD)])
 def test_work_of_a_step_at_once_is_what_is_stored(body: Body) -> None:
-    """No error of a rule: ∫F dδ = 2/5 F δ of Hertz within the pixels of a half-space, and further steps at once take or give the change."""
+    """No error of a rule: ∫F dδ = 2/5 F δ of Hertz within the pixels of a half-space, and further
+    steps at once take or give the change."""
     found = asp.solve(problem(body), asp.History([DEPTH, asp.Approach(0.1e-6), asp.Approach(0.2e-6)]))
     energies = found.energies
     np.testing.assert_allclose(energies.external_work, found.elastic_energy, rtol=1e-12)
@@ -186,7 +195,8 @@ def test_work_of_a_step_at_once_is_what_is_stored(body: Body) -> None:
 
 
 def test_work_of_a_step_at_once_beside_hardness() -> None:
-    """Plastic work is part of it: many small steps at once do the same work by the trapezoidal rule of the elastic path."""
+    """Plastic work is part of it: many small steps at once do the same work by the trapezoidal rule
+    of the elastic path."""
     law = {"law": asp.Hardness(20e6)}
     at_once = asp.solve(problem(STANDARD, **law), asp.History([DEPTH]))
     assert at_once.plastic_work[0] > 0.01 * at_once.elastic_energy[0]
@@ -199,8 +209,9 @@ def test_work_of_a_step_at_once_beside_hardness() -> None:
 
 @pytest.mark.parametrize("duration", [0.1, 10.0, 1e3, 1e5])
 def test_heat_of_a_long_hold_under_a_load(duration: float) -> None:
-    """Work F (δ2 - δ1) less the change of the stored energy, those of the elastic contacts of the first and the relaxed modulus; the first
-    step of time of a hold of 10⁴ times and more ended at the right place with a fifth too much heat."""
+    """Work F (δ2 - δ1) less the change of the stored energy, those of the elastic contacts of the
+    first and the relaxed modulus; the first step of time of a hold of 10⁴ times and more ended at
+    the right place with a fifth too much heat."""
     load = asp.Force(2e-6)
     first, last = (asp.solve(problem(asp.Elastic(E, 0.5)), load) for E in (MILDLY, RELAXED))
     found = asp.solve(problem(MILD), held(load, duration)).last
@@ -214,7 +225,8 @@ def test_heat_of_a_long_hold_under_a_load(duration: float) -> None:
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 def test_energies_of_sliding_surfaces_that_creep(boundary: asp.contact.Boundary) -> None:
-    """The work of the displacement by shear is that of pressures linear in time: energies balance over long and short holds."""
+    """The work of the displacement by shear is that of pressures linear in time: energies balance
+    over long and short holds."""
     solid = asp.Viscoelastic.standard_linear(RELAXED, 4.0 * RELAXED, TIME, 0.2)
     sliding = problem(solid, boundary, friction=asp.Coulomb(0.8))
     found = asp.solve(sliding, held(asp.Force(5e-6), 2e-3, 10.0))
@@ -225,7 +237,8 @@ def test_energies_of_sliding_surfaces_that_creep(boundary: asp.contact.Boundary)
 
 
 def test_history_of_a_dented_surface_begins_at_its_touch() -> None:
-    """Ramp from the touch of a surface that another contact has dented: work from there, and energies that balance."""
+    """Ramp from the touch of a surface that another contact has dented: work from there, and
+    energies that balance."""
     law = {"law": asp.Hardness(20e6)}
     dented = asp.solve(problem(asp.Elastic(FIRST, 0.5), **law), asp.History([DEPTH, asp.Unloaded()])).state
     assert dented is not None
@@ -239,7 +252,8 @@ def test_history_of_a_dented_surface_begins_at_its_touch() -> None:
 
 
 def test_state_after_sliding_in_time_goes_on_with_a_new_account() -> None:
-    """The work of a surface that moves is not that of the force over the approach; what follows is counted from its end."""
+    """The work of a surface that moves is not that of the force over the approach; what follows is
+    counted from its end."""
     wave = asp.Surface(1e-7 * np.cos(2.0 * np.pi * np.arange(24) / 24)[:, None] * np.ones(4), 1e-6, periodic=True)
     moving = asp.ContactProblem(wave, asp.Rigid(), counter_body=MILD)
     moved = asp.viscoelasticity.slide_in_time(moving, asp.MeanPressure(1e4), 1e-3, 12e-6)

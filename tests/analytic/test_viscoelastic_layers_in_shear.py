@@ -1,4 +1,5 @@
-"""Stick, slip and sliding of viscoelastic layers that relax differently: passive series, exact waves, elastic limits, energies, restart."""
+"""Stick, slip and sliding of viscoelastic layers that relax differently: passive series, exact
+waves, elastic limits, energies, restart."""
 
 from __future__ import annotations
 
@@ -67,7 +68,8 @@ def of_waves(pair: tuple[Body, Body], q: RealArray, omega: float) -> PlaneCompli
 @pytest.mark.slow
 @pytest.mark.parametrize("pair", PAIRS)
 def test_series_of_all_directions_is_passive_and_near_the_complex_compliance(pair: tuple[Body, Body]) -> None:
-    """At all wavelengths and frequencies within the error that it states; each term is positive semi-definite."""
+    """At all wavelengths and frequencies within the error that it states; each term is positive
+    semi-definite."""
     creep = contact_creep(*pair, shear=True)
     assert isinstance(creep, LayeredCreep)
     assert creep.shear is not None
@@ -98,7 +100,8 @@ def memory_of(problem: asp.ContactProblem) -> LayeredShear:
 def test_operators_of_the_first_instant_and_of_long_times(
     pair: tuple[Body, Body], boundary: asp.contact.Boundary
 ) -> None:
-    """Those of the elastic bodies that both are at once and after all relaxation, coupling included, and on coarser grids."""
+    """Those of the elastic bodies that both are at once and after all relaxation, coupling
+    included, and on coarser grids."""
     memory = memory_of(sphere(pair[0], 12, counter_body=pair[1], boundary=boundary))
     rng = np.random.default_rng(1)
     error = memory.kept.creep.error
@@ -117,10 +120,12 @@ def test_operators_of_the_first_instant_and_of_long_times(
 
 
 def wave_compliance(k: float, stack: asp.Layered, s: complex) -> ComplexArray:
-    """Displacements (u_x/i, u_z) by tractions (q_x/i, p) exp(ikx) on one layer on a base at ``s`` (1/s), from Navier's equations.
+    """Displacements (u_x/i, u_z) by tractions (q_x/i, p) exp(ikx) on one layer on a base at ``s``
+    (1/s), from Navier's equations.
 
-    Solutions u_x = i (A + B z) exp(m k z), u_z = (m A - (3 - 4 nu) B/k + m B z) exp(m k z) with m = 1, -1: two in a half-space, four in a
-    layer; tractions on the surface are given, displacements and stresses are continuous below.
+    Solutions u_x = i (A + B z) exp(m k z), u_z = (m A - (3 - 4 nu) B/k + m B z) exp(m k z) with m =
+    1, -1: two in a half-space, four in a layer; tractions on the surface are given, displacements
+    and stresses are continuous below.
     """
     (layer,) = stack.layers
 
@@ -170,7 +175,8 @@ STACKS = {
 
 
 def stuck(stack: asp.Layered, times: RealArray, steps: asp.TimeSteps) -> RealArray:
-    """Amplitudes of shear traction and pressure of a wavy surface pressed flat at once, and held without slip for these ``times`` (s)."""
+    """Amplitudes of shear traction and pressure of a wavy surface pressed flat at once, and held
+    without slip for these ``times`` (s)."""
     x = 2.0 * np.pi * np.arange(16) / 16
     surface = asp.Surface(WAVE * np.cos(x)[:, None] * np.ones(4), 1.0 / 16)
     problem = asp.ContactProblem(surface, stack, counter_body=asp.Rigid(), friction=asp.friction.FullStick())
@@ -184,7 +190,8 @@ def stuck(stack: asp.Layered, times: RealArray, steps: asp.TimeSteps) -> RealArr
 
 @pytest.mark.parametrize("name", STACKS)
 def test_stuck_wave_relaxes_as_the_inverse_of_the_complex_compliance(name: str) -> None:
-    """u_x = 0 and u_z = h cos kx for all times: (q, p) = C(s)^-1 (0, h)/s, within the error of the series and of the steps of time."""
+    """u_x = 0 and u_z = h cos kx for all times: (q, p) = C(s)^-1 (0, h)/s, within the error of the
+    series and of the steps of time."""
     k, times, stack = 2.0 * np.pi, np.array([0.1, 0.5, 2.0, 10.0]), STACKS[name]
 
     def tractions(s: complex) -> ComplexArray:
@@ -237,7 +244,8 @@ def forces(found: asp.HistoryResult) -> RealArray:
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("body", [COATED, FILM])
 def test_fast_and_slow_shear_are_elastic(body: asp.Layered, boundary: asp.contact.Boundary) -> None:
-    """Steps far shorter than all relaxation see the layers of the first instant, far longer ones the relaxed layers."""
+    """Steps far shorter than all relaxation see the layers of the first instant, far longer ones
+    the relaxed layers."""
     number, shift = 6, 0.004
     for duration, relaxed, allowed in ((1e-7, 0.0, 2e-5), (1e7, 1.0, 1e-3)):
         layers = sphere(as_elastic(body, relaxed), boundary=boundary)
@@ -255,8 +263,8 @@ def test_fast_and_slow_shear_are_elastic(body: asp.Layered, boundary: asp.contac
 
 @pytest.mark.parametrize("solid", [RUBBER, VOLUME])
 def test_layers_of_one_material_are_that_material(solid: asp.Viscoelastic) -> None:
-    """Layers of a solid of elastic bulk are fitted wave by wave, the half-space of it is two parts of one factor each; layers whose times differ
-    by 1e-6 likewise."""
+    """Layers of a solid of elastic bulk are fitted wave by wave, the half-space of it is two parts
+    of one factor each; layers whose times differ by 1e-6 likewise."""
     times = 1.0 if solid.elastic_bulk else 1.0 + 1e-6
     stack = asp.Layered([asp.Layer(solid.with_times(times), 0.3)], solid)
     assert isinstance(contact_creep(stack, asp.Rigid(), shear=True), LayeredCreep)
@@ -273,7 +281,8 @@ def test_layers_of_one_material_are_that_material(solid: asp.Viscoelastic) -> No
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("body", [COATED, FILM, PAD])
 def test_work_is_stored_or_heat_of_slip_or_of_the_layers(body: asp.Layered, boundary: asp.contact.Boundary) -> None:
-    """The balance of a loop with coupling between shear and pressure closes as the steps of time get shorter."""
+    """The balance of a loop with coupling between shear and pressure closes as the steps of time
+    get shorter."""
     left, whole = left_of_a_loop(sphere(body, 16, boundary=boundary), 0.004)
     assert left[1] < 1e-3 * whole
     assert left[1] < 0.2 * left[0]
@@ -308,7 +317,8 @@ def test_a_state_of_another_series_is_refused() -> None:
 
 
 def test_tresca_and_a_force_along_y_on_a_line() -> None:
-    """A strip on the free line: forces are borne, and a tangential force held creeps onwards until the layers are relaxed."""
+    """A strip on the free line: forces are borne, and a tangential force held creeps onwards until
+    the layers are relaxed."""
     x = (np.arange(48) - 23.5) * 0.05
     surface = asp.Surface(-(x[:, None] ** 2) / 20.0, 0.05)
     problem = asp.ContactProblem(
@@ -362,7 +372,8 @@ SLIDING: tuple[tuple[Body, Body], ...] = (
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.Periodic()])
 @pytest.mark.parametrize("pair", SLIDING)
 def test_shear_of_sliding_creeps_with_the_pressure(pair: tuple[Body, Body], boundary: asp.contact.Boundary) -> None:
-    """Coupled friction, by a map of coefficients too: at once as the first elastic bodies, after a long hold as the relaxed ones."""
+    """Coupled friction, by a map of coefficients too: at once as the first elastic bodies, after a
+    long hold as the relaxed ones."""
     coefficients = 0.4 + 0.4 * (np.arange(24)[:, None] > 12) * np.ones(24)
     course = asp.History([LOAD, asp.Step(LOAD, duration=0.5), asp.Step(LOAD, duration=1e4)])
     for friction in (asp.Coulomb(0.8, direction=0.3), asp.Coulomb(coefficients)):

@@ -45,7 +45,8 @@ def test_creep_leads_back_to_the_relaxation(name: str) -> None:
 
 @pytest.mark.parametrize("seed", range(8))
 def test_complex_compliance_is_the_reciprocal_of_the_modulus(seed: int) -> None:
-    """For random spectra, from close neighbours to strengths of 1e-9 of the whole; retardation is slower than relaxation."""
+    """For random spectra, from close neighbours to strengths of 1e-9 of the whole; retardation is
+    slower than relaxation."""
     random = np.random.default_rng(seed)
     taus, strengths = 10.0 ** random.uniform(-6, 6, 12), 10.0 ** random.uniform(-9, 0, 12)
     terms = (*zip(strengths, taus, strict=True), (0.3, taus[0] * (1.0 + 1e-6)))
@@ -82,8 +83,8 @@ def test_maxwell_flows() -> None:
 
 @pytest.mark.parametrize("alpha", [0.1, 0.3, 0.5])
 def test_power_law_by_a_prony_series(alpha: float) -> None:
-    """Relaxation within 1e-5 of itself; creep t^alpha/Gamma(1 - alpha)Gamma(1 + alpha) and complex modulus within 2e-3, for
-    what is lost below the shortest term falls off as a power of time."""
+    """Relaxation within 1e-5 of itself; creep t^alpha/Gamma(1 - alpha)Gamma(1 + alpha) and complex
+    modulus within 2e-3, for what is lost below the shortest term falls off as a power of time."""
     series, t = power_law_series(1e6, alpha, shortest=1e-2, longest=1e3), np.geomspace(1e-2, 1e3, 60)
     assert power_law_error(series, 1e6, alpha, t) < 1e-5
     np.testing.assert_allclose(series.creep.at(t) * 1e6, t**alpha / (gamma(1 - alpha) * gamma(1 + alpha)), rtol=2e-3)
@@ -94,7 +95,8 @@ def test_power_law_by_a_prony_series(alpha: float) -> None:
 
 
 def test_elastic_bulk_makes_the_ratio_relax() -> None:
-    """Contact and Young's modulus agree with the operational ones of shear and bulk modulus; the ratio ends where they say."""
+    """Contact and Young's modulus agree with the operational ones of shear and bulk modulus; the
+    ratio ends where they say."""
     solid = asp.Viscoelastic.standard_linear(1e6, 1e9, 1e-3, 0.3, elastic_bulk=True)
     s = np.array([1e-6, 1j, 100j, 3e3j, 1e9])
     G, nu = solid.operational(s)
@@ -106,7 +108,8 @@ def test_elastic_bulk_makes_the_ratio_relax() -> None:
 
 
 def test_measured_moduli_are_fitted_with_their_error() -> None:
-    """A broad spectrum is met within 1 %; noise of 5 % gives an error of that size and a smooth solid."""
+    """A broad spectrum is met within 1 %; noise of 5 % gives an error of that size and a smooth
+    solid."""
     series, f = power_law_series(1e6, 0.3, shortest=1e-6, longest=1e3), np.geomspace(1e-2, 1e4, 40)
     E = series.complex_modulus(2 * np.pi * f)
     fit = asp.viscoelasticity.fitted_solid(f, E.real, E.imag, poisson_ratio=0.49, per_decade=2)

@@ -1,4 +1,5 @@
-"""Stick and slip of viscoelastic bodies: elastic limits, relaxation under full stick, Cattaneo and Mindlin, energies, operators, restart."""
+"""Stick and slip of viscoelastic bodies: elastic limits, relaxation under full stick, Cattaneo and
+Mindlin, energies, operators, restart."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ def forces(found: asp.HistoryResult) -> np.ndarray:
 
 
 def test_a_solid_that_hardly_relaxes_is_elastic() -> None:
-    """With a relaxation of 1e-6 of the modulus a history of shear is that of the elastic body, through the same steps."""
+    """With a relaxation of 1e-6 of the modulus a history of shear is that of the elastic body,
+    through the same steps."""
     nearly = asp.Viscoelastic.standard_linear(1.0, 1.0 + 1e-6, 1.0, 0.3)
     number = 4
     found = asp.solve(sphere(nearly), asp.History(sheared(0.02, 1.0)), time_steps=asp.TimeSteps(number=number))
@@ -49,7 +51,8 @@ def test_a_solid_that_hardly_relaxes_is_elastic() -> None:
 
 @pytest.mark.parametrize(("duration", "modulus"), [(1e-7, 4.0), (1e6, 1.0)])
 def test_fast_and_slow_shear_are_elastic(duration: float, modulus: float) -> None:
-    """Steps far shorter than the relaxation time see the modulus of the first instant, far longer ones the relaxed one."""
+    """Steps far shorter than the relaxation time see the modulus of the first instant, far longer
+    ones the relaxed one."""
     elastic = asp.solve(sphere(asp.Elastic(modulus, 0.3)), asp.History(_divided(sheared(0.02, 0.0), 8)))
     found = asp.solve(sphere(SOLID), asp.History(sheared(0.02, duration)), time_steps=asp.TimeSteps(number=8))
     np.testing.assert_allclose(forces(found), forces(elastic)[7::8], atol=1e-4 * MU * LOAD.value)
@@ -80,7 +83,8 @@ def test_force_of_a_shift_held_relaxes_with_the_modulus() -> None:
 
 
 def test_cattaneo_and_mindlin_after_long_times() -> None:
-    """Shift under a slow tangential force as of the relaxed sphere, three times as far as at once; incompressible, so without coupling."""
+    """Shift under a slow tangential force as of the relaxed sphere, three times as far as at once;
+    incompressible, so without coupling."""
     solid = asp.Viscoelastic.standard_linear(1.0, 3.0, 1.0, 0.5)
     radius, share = 10.0, 0.6
     for modulus, duration in ((1.0, 1e5), (3.0, 1e-7)):
@@ -96,7 +100,8 @@ def test_cattaneo_and_mindlin_after_long_times() -> None:
 
 @pytest.mark.parametrize("bulk", [False, True])
 def test_work_is_stored_or_heat_of_slip_or_of_the_solid(bulk: bool) -> None:
-    """The balance of a loop with coupling between shear and pressure closes as the steps of time get shorter."""
+    """The balance of a loop with coupling between shear and pressure closes as the steps of time
+    get shorter."""
     solid = asp.Viscoelastic.standard_linear(1.0, 4.0, 1.0, 0.3, elastic_bulk=bulk)
     left, whole = left_of_a_loop(sphere(solid), 0.005)
     assert left[1] < 1e-3 * whole
@@ -113,7 +118,8 @@ STEEL = asp.Elastic(20.0, 0.3)
 def test_operators_of_the_first_instant_and_of_long_times(
     pair: tuple[asp.Elastic, asp.Elastic], boundary: asp.Free | asp.Periodic
 ) -> None:
-    """The parts add up to the elastic bodies that both solids are at once and after all relaxation, coupling included."""
+    """The parts add up to the elastic bodies that both solids are at once and after all relaxation,
+    coupling included."""
     problem = sphere(pair[0], 12, counter_body=pair[1], boundary=boundary)
     creep = contact_creep(*pair)
     assert isinstance(creep, SharedCreep)
@@ -143,7 +149,8 @@ def _elastic(solid: asp.Elastic, relaxed: float) -> asp.Elastic:
 
 @pytest.mark.slow
 def test_sheared_history_goes_on_to_the_bit(tmp_path: Path) -> None:
-    """From a file too, and from a step in the middle; slip and heat of a step are those of all its steps of time."""
+    """From a file too, and from a step in the middle; slip and heat of a step are those of all its
+    steps of time."""
     problem, steps = sphere(SOLID, 16), sheared(0.01, 0.5)
     whole = asp.solve(problem, asp.History(steps), time_steps=asp.TimeSteps(number=3))
     asp.save(whole, tmp_path / "h.nc")

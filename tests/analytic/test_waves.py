@@ -23,9 +23,11 @@ def westergaard(row, n=512):
 
 @every_row(reference("westergaard"), label=lambda row: f"load{row['pbar_over_pstar']:g}")
 def test_westergaard(row):
-    """On 512 points each end of the contact is known to a pixel, 2/512 of the period; smooth quantities to order 3/2
+    """On 512 points each end of the contact is known to a pixel, 2/512 of the period; smooth
+    quantities to order 3/2
 
-    of the pixel in the half-width: (2/512)^1.5 = 2.4e-4 for the narrowest contact and less for the others.
+    of the pixel in the half-width: (2/512)^1.5 = 2.4e-4 for the narrowest contact and less for the
+    others.
     """
     result = westergaard(row)
     assert result.area_fraction == pytest.approx(row["contact_fraction"], abs=2.0 / 512)
@@ -68,7 +70,8 @@ def test_place_of_edges_removes_the_pixel_bias():
 
 @every_row(ASYMPTOTIC, label=lambda row: f"load{row['pbar_over_pstar']:g}")
 def test_bisinusoid_at_low_load_is_hertz(row):
-    """The Hertz asymptote is 4.5 % low at 0.02 and its error falls like the area: below 1.2 % at 0.002."""
+    """The Hertz asymptote is 4.5 % low at 0.02 and its error falls like the area: below 1.2 % at
+    0.002."""
     result, full = bisinusoid(row["pbar_over_pstar"], n=512)
     assert result.max_pressure / full == pytest.approx(row["pmax_over_pstar_low_load"], rel=0.02)
     assert result.area_fraction_corrected == pytest.approx(row["area_fraction_low_load"], rel=0.03)
@@ -76,7 +79,8 @@ def test_bisinusoid_at_low_load_is_hertz(row):
 
 @pytest.mark.parametrize("load", [1.001, 1.5])
 def test_full_contact_is_the_inverse_spectrum(load):
-    """Where p = pbar + F^-1[h/c] is positive everywhere it is the solution: here pbar + p*/2 (cos + cos)."""
+    """Where p = pbar + F^-1[h/c] is positive everywhere it is the solution: here pbar + p*/2 (cos +
+    cos)."""
     result, full = bisinusoid(load, n=32)
     x, y = result.problem.grid.centred_coordinates()
     exact = CrossedWaves(1.0, 0.01, 1.0).full_contact(x, y, load * full)

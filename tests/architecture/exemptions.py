@@ -1,19 +1,28 @@
-"""What goes past a soft house limit or keeps a cache, each with its reason. An entry that is not in use fails."""
+"""What goes past a soft house limit or keeps a cache, each with its reason. An entry that is not in
+use fails."""
 
 from __future__ import annotations
 
 LIMITS: dict[str, dict[str, str]] = {
     "function lines": {
-        "sweep": "what a kernel calls is compiled once more in each of its callers: in nine functions it took four times as long",
+        "sweep": (
+            "what a kernel calls is compiled once more in each of its callers: in nine functions it took "
+            "four times as long"
+        ),
         "rise": "what a kernel calls is compiled once more in each of its callers",
         "fall": "what a kernel calls is compiled once more in each of its callers",
         "at_points": "what a kernel calls is compiled once more in each of its callers",
+        "found_of": "findings in turn, each a condition and its words, which fill most of the lines",
+        "RollingWork.compute": "findings in turn, each a condition and its words, which fill most of the lines",
+        "SlidingStartWork.compute": "findings in turn, each a condition and its words, which fill most of the lines",
     },
     "parameters": {
         "app": "one for each option of the command line",
         "indentation": "independent keyword-only choices of the user, each with a default",
         "Indentation.of": "the same choices as those of the function",
-        "StressPlanes.__init__": "independent keyword-only choices of the user, and the stress that a result knows beside its tractions",
+        "StressPlanes.__init__": (
+            "independent keyword-only choices of the user, and the stress that a result knows beside its tractions"
+        ),
         "filter_waves": "independent keyword-only choices of the user, each with a default",
         "finished": "what a solve ends with, and who asks: a history, a step of time or a sliding contact",
         "slide": "independent keyword-only choices of the user, each with a default",
@@ -83,31 +92,77 @@ LIMITS: dict[str, dict[str, str]] = {
         "weierstrass_mandelbrot_profile": "the constants of the published formula, each a keyword",
     },
 }
-"""Reason by limit and place of the definition in its module (``Class.method``), whatever module that is. A reason is why splitting would read worse; "it is long" is none."""
+"""Reason by limit and place of the definition in its module (``Class.method``), whatever module
+that is. A reason is why splitting would read worse; "it is long" is none."""
 
 CACHES: dict[str, str] = {
     "asperity.core.engine.blocks._compile_beside": "one process for all engines of a process, started at most once",
-    "asperity.contact.solvers.active_set.spline_model.octaves": "follows from the grid; 30 µs, and every grid of a solve, of 10 ms at 256², asks four times",
-    "asperity.core.parameters._objects": "the annotations of a function never change; reading them takes 50 µs, and every generator that is called needs them",
-    "asperity.core.quadrature.rule": "Gauss nodes and weights by their number: 96 take 3 ms, nine tenths of the time of a theory's curve",
-    "asperity.core.parameters.parameters": "a declaration never changes; reading it takes 50 µs, and every theory that is made needs it",
-    "asperity.core.settings.json_schema": "follows from the table; it takes 0.18 s for a document, and every document that is refused needs it",
-    "asperity.run.document.document_model": "follows from the parts, which do not change; building it takes 20 ms, and every case of a study is checked by it",
-    "asperity.solids.library.kinds": "the annotations of a class never change; reading them takes 0.2 ms, and each of 44 records needs them, a quarter of the time of `asperity materials`",
+    "asperity.contact.solvers.active_set.spline_model.octaves": (
+        "follows from the grid; 30 µs, and every grid of a solve, of 10 ms at 256², asks four times"
+    ),
+    "asperity.core.parameters._objects": (
+        "the annotations of a function never change; reading them takes 50 µs, and every generator that "
+        "is called needs them"
+    ),
+    "asperity.core.quadrature.rule": (
+        "Gauss nodes and weights by their number: 96 take 3 ms, nine tenths of the time of a theory's curve"
+    ),
+    "asperity.core.parameters.parameters": (
+        "a declaration never changes; reading it takes 50 µs, and every theory that is made needs it"
+    ),
+    "asperity.core.settings.json_schema": (
+        "follows from the table; it takes 0.18 s for a document, and every document that is refused needs it"
+    ),
+    "asperity.run.document.document_model": (
+        "follows from the parts, which do not change; building it takes 20 ms, and every case of a study "
+        "is checked by it"
+    ),
+    "asperity.solids.library.kinds": (
+        "the annotations of a class never change; reading them takes 0.2 ms, and each of 44 records needs "
+        "them, a quarter of the time of `asperity materials`"
+    ),
     "asperity.io.codec._columns": "the fields of a type do not change; a file of a history asks for them in every step",
-    "asperity.io.codec._hints": "the types of the fields of a type do not change; looking them up takes 0.1 ms, which a file of a history does in every step",
-    "asperity.io.description._version": "installed packages do not change; reading a version takes 0.7 ms, and every case of a study and every file needs four",
-    "asperity.parts.registry.parts": "installed packages do not change; looking them up takes 10 ms, and every document needs its parts",
-    "asperity.solids.compliance.creep._layered_creep": "follows from the bodies; a fit may take a second, and every solve of a history that is continued needs it",
-    "asperity.contact.operators.convolution.octaves_of": "follow from the body; 3 to 10 ms for 32 sublayers, and every solve of such a body needs them",
-    "asperity.contact.solvers.active_set.spline_model._fit": "follows from body, boundary and grid; 1 ms, and every solve, of 10 ms at 256², needs it on four or five grids",
-    "asperity.contact.solvers.active_set.spline_model._levels": "follow from body, boundary and grid; 0.3 ms, and every grid of a solve, of 10 ms at 256², asks twice",
-    "asperity.contact.solvers.active_set.spline_model._samples": "follows from the grid; 0.8 ms, and every solve, of 10 ms at 256², needs it on four or five grids",
-    "asperity.core.engine.spline_levels.layout": "follows from the shape; it takes 0.03 ms, and every solve needs it on four or five grids",
-    "asperity.core.engine.vectors._layout": "follows from the shape alone; it takes 0.1 ms, and every solve needs it on four or five grids",
+    "asperity.io.codec._hints": (
+        "the types of the fields of a type do not change; looking them up takes 0.1 ms, which a file of a "
+        "history does in every step"
+    ),
+    "asperity.io.description._version": (
+        "installed packages do not change; reading a version takes 0.7 ms, and every case of a study and "
+        "every file needs four"
+    ),
+    "asperity.parts.registry.parts": (
+        "installed packages do not change; looking them up takes 10 ms, and every document needs its parts"
+    ),
+    "asperity.solids.compliance.creep._layered_creep": (
+        "follows from the bodies; a fit may take a second, and every solve of a history that is continued needs it"
+    ),
+    "asperity.contact.operators.convolution.octaves_of": (
+        "follow from the body; 3 to 10 ms for 32 sublayers, and every solve of such a body needs them"
+    ),
+    "asperity.contact.solvers.active_set.spline_model._fit": (
+        "follows from body, boundary and grid; 1 ms, and every solve, of 10 ms at 256², needs it on four or five grids"
+    ),
+    "asperity.contact.solvers.active_set.spline_model._levels": (
+        "follow from body, boundary and grid; 0.3 ms, and every grid of a solve, of 10 ms at 256², asks twice"
+    ),
+    "asperity.contact.solvers.active_set.spline_model._samples": (
+        "follows from the grid; 0.8 ms, and every solve, of 10 ms at 256², needs it on four or five grids"
+    ),
+    "asperity.core.engine.spline_levels.layout": (
+        "follows from the shape; it takes 0.03 ms, and every solve needs it on four or five grids"
+    ),
+    "asperity.core.engine.vectors._layout": (
+        "follows from the shape alone; it takes 0.1 ms, and every solve needs it on four or five grids"
+    ),
     "asperity.core.engine.cpu._keep_freed_memory": "the allocator of a process is told once",
-    "asperity.core.units._factor": "the value of a unit never changes; pint takes 50 µs to find it, and a campaign calls it 10⁵ times",
-    "asperity.theories.subsurface.shakedown._cylinder": "follows from the friction alone; it takes a second, and every case of a study of passes asks for it",
-    "asperity.core.units._registry": "pint's registry takes a tenth of a second to build and does not change afterwards",
+    "asperity.core.units._factor": (
+        "the value of a unit never changes; pint takes 50 µs to find it, and a campaign calls it 10⁵ times"
+    ),
+    "asperity.theories.subsurface.shakedown._cylinder": (
+        "follows from the friction alone; it takes a second, and every case of a study of passes asks for it"
+    ),
+    "asperity.core.units._registry": (
+        "pint's registry takes a tenth of a second to build and does not change afterwards"
+    ),
 }
 """Reason by dotted name of the cached function."""

@@ -34,7 +34,8 @@ class Module:
 
     @property
     def folder(self) -> str:
-        """Subpackage (or module) directly below the package; empty for the package's own ``__init__``."""
+        """Subpackage (or module) directly below the package; empty for the package's own
+        ``__init__``."""
         parts = self.name.split(".")
         return parts[1] if len(parts) > 1 else ""
 
@@ -66,7 +67,8 @@ def _module(path: Path) -> Module:
 
 @cache
 def imports(module: Module) -> list[Import]:
-    """Everything that ``module`` imports, anywhere in it: at the top, in functions, for type checking, by name."""
+    """Everything that ``module`` imports, anywhere in it: at the top, in functions, for type
+    checking, by name."""
     return list(_imports(module, module.tree, late=False, typing=False))
 
 

@@ -1,4 +1,5 @@
-"""No module needs itself: imports make no circle, those in functions, by name and for type checkers counted."""
+"""No module needs itself: imports make no circle, those in functions, by name and for type checkers
+counted."""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ def circle(modules: Iterable[Module]) -> list[str]:
 
 
 def _home(target: str, names: Iterable[str]) -> str:
-    """Module in which the imported ``target`` is defined; empty for other libraries, and for the package itself."""
+    """Module in which the imported ``target`` is defined; empty for other libraries, and for the
+    package itself."""
     while target and target not in names:
         target = target.rpartition(".")[0]
     return target if "." in target else ""

@@ -22,7 +22,8 @@ def violations(module: Module) -> list[str]:
 
 
 def caches(module: Module) -> list[str]:
-    """Dotted names of the functions of ``module`` that remember their results for the life of the process."""
+    """Dotted names of the functions of ``module`` that remember their results for the life of the
+    process."""
     functions = [n for n in module.nodes if isinstance(n, ast.FunctionDef | ast.AsyncFunctionDef)]
     return [f"{module.name}.{f.name}" for f in functions if any(_name(d) in CACHE_DECORATORS for d in f.decorator_list)]
 
@@ -40,7 +41,8 @@ def _global_statements(nodes: list[ast.AST]) -> Iterator[tuple[int, str]]:
 
 
 def _module_state(module: Module) -> Iterator[tuple[int, str]]:
-    """Mutable containers bound at the top of the module, or in a class body, to names that do not claim to be constant."""
+    """Mutable containers bound at the top of the module, or in a class body, to names that do not
+    claim to be constant."""
     bodies = [module.tree.body, *(node.body for node in module.nodes if isinstance(node, ast.ClassDef))]
     for statement in (statement for body in bodies for statement in body):
         targets: list[ast.expr] = []

@@ -1,4 +1,5 @@
-"""Transforms and array accelerators are chosen in one place, ``core``; besides it, the kernels of stresses are compiled."""
+"""Transforms and array accelerators are chosen in one place, ``core``; besides it, the kernels of
+stresses are compiled."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ def reserved(target: str) -> bool:
 
 
 COMPILED = ("asperity.core.", "asperity.physics.stress.kernels.", "asperity.solids.eigenstrain.kernels")
-"""Where such libraries may be named: the kernels of stresses are compiled beside the physics that they compute."""
+"""Where such libraries may be named: the kernels of stresses are compiled beside the physics that
+they compute."""
 
 
 def test_only_core_names_an_fft_or_accelerator_library() -> None:

@@ -1,4 +1,5 @@
-"""Tests ask for types, subjects, fields, values and files; what messages and answers say stands in tests/messages alone."""
+"""Tests ask for types, subjects, fields, values and files; what messages and answers say stands in
+tests/messages alone."""
 
 from __future__ import annotations
 
@@ -10,14 +11,16 @@ import pytest
 
 TESTS = Path(__file__).parents[1]
 WORDS = re.compile(r"[A-Za-z]{2,}[,.:;]? +[a-z]{2,}")
-"""Two English words after each other, as in a sentence; a name, an option, a value or one word are allowed."""
+"""Two English words after each other, as in a sentence; a name, an option, a value or one word are
+allowed."""
 
 STREAM = re.compile(r"\.(stdout|stderr|output|err|out)\b")
 PRINTED = re.compile(rf"assert \w+ in .*{STREAM.pattern}")
 
 
 def sentences(text: str, name: str) -> list[str]:
-    """The patterns of ``match=`` in a test module that are sentences, or that are no text written in their place."""
+    """The patterns of ``match=`` in a test module that are sentences, or that are no text written
+    in their place."""
     found = []
     for call in (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Call)):
         for pattern in (keyword.value for keyword in call.keywords if keyword.arg == "match"):
@@ -28,7 +31,8 @@ def sentences(text: str, name: str) -> list[str]:
 
 
 def sought(text: str, name: str) -> list[str]:
-    """The sentences that a test module looks for in what the program prints: ``"… …" in result.stdout``, alone or in a loop."""
+    """The sentences that a test module looks for in what the program prints:
+    ``"… …" in result.stdout``, alone or in a loop."""
     found = []
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.For) and any(PRINTED.search(ast.unparse(line)) for line in node.body):

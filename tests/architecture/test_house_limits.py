@@ -1,4 +1,5 @@
-"""Files, functions, and parameter lists stay small. Soft limits may be passed with a written reason."""
+"""Files, functions, and parameter lists stay small. Soft limits may be passed with a written
+reason."""
 
 from __future__ import annotations
 
@@ -50,7 +51,8 @@ def _of_definitions(module: Module, parent: ast.AST, prefix: str) -> Iterator[Me
 
 
 def own_lines(module: Module, function: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
-    """Lines of code from ``def`` to the end, without docstring, nested definitions, blank lines and comments."""
+    """Lines of code from ``def`` to the end, without docstring, nested definitions, blank lines and
+    comments."""
     own = set(range(function.lineno, (function.end_lineno or function.lineno) + 1))
     nested = [node for node in ast.walk(function) if isinstance(node, DEFINITION) and node is not function]
     docstring = function.body[:1] if ast.get_docstring(function) is not None else []

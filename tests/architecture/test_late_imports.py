@@ -1,8 +1,10 @@
-"""Imports stand at the top of a module, except where they would make others pay for a library that costs time.
+"""Imports stand at the top of a module, except where they would make others pay for a library that
+costs time.
 
-A function may import a heavy library, or a module of this package that brings a heavy library which its own module does
-not have yet, or several modules of this package, a millisecond each: a contact without output needs no figures, reports and
-stresses. Everything else is imported at the top, where a reader looks for it.
+A function may import a heavy library, or a module of this package that brings a heavy library which
+its own module does not have yet, or several modules of this package, a millisecond each: a contact
+without output needs no figures, reports and stresses. Everything else is imported at the top, where
+a reader looks for it.
 """
 
 from __future__ import annotations
@@ -55,7 +57,8 @@ STANDARD = {
 """Modules of Python itself that may be imported late, and why."""
 
 REMAINING = {"studies": 2}
-"""Late imports by folder that the rule forbids and that are still there. The numbers may only fall."""
+"""Late imports by folder that the rule forbids and that are still there. The numbers may only
+fall."""
 
 
 MOST = 250
@@ -69,7 +72,8 @@ def outside(target: str) -> str:
 
 
 class Costs:
-    """The heavy libraries that importing each of some modules brings, with all that they import in turn."""
+    """The heavy libraries that importing each of some modules brings, with all that they import in
+    turn."""
 
     def __init__(self, modules: Mapping[str, Module]) -> None:
         self._modules = modules
@@ -140,12 +144,16 @@ def test_late_imports_without_a_reason_are_found() -> None:
         "asperity.core.light": "import math",
         "asperity.core.heavy": "import numpy as np\nfrom scipy import special",
         "asperity.core.chain": "from .heavy import f",
-        "asperity.core.user": "def f():\n    from .light import a\n    from .chain import b\n    import json, math\n    import scipy",
+        "asperity.core.user": (
+            "def f():\n    from .light import a\n    from .chain import b\n    import json, math\n    import scipy"
+        ),
         "asperity.core.far": "from .light import a\nfrom .near import b",
         "asperity.core.near": "from .nearer import c",
         "asperity.core.nearer": "",
         "asperity.core.alone": "def f():\n    from .far import a\n    from .near import b",
-        "asperity.core.other": "import numpy\nfrom scipy import special\ndef f():\n    from .heavy import a\n    import scipy.optimize",
+        "asperity.core.other": (
+            "import numpy\nfrom scipy import special\ndef f():\n    from .heavy import a\n    import scipy.optimize"
+        ),
     }
     modules = {name: Module(name, text, is_package=name.count(".") < 2) for name, text in texts.items()}
     found = [sentence.split(" late")[0] for _, sentence in violations(modules)]

@@ -26,7 +26,8 @@ SIDEWAYS = {("cli", "web"): "the command `asperity app` starts the web applicati
 """Sideways imports that are allowed, each with its reason."""
 
 ROOMS = {"part": "parts", "work": "parts", "figures": "plots", "files": "io"}
-"""Folder of whose layer a file in the folder of a physics is, by the beginning of its name; all others are of ``physics`` itself."""
+"""Folder of whose layer a file in the folder of a physics is, by the beginning of its name; all
+others are of ``physics`` itself."""
 
 NAMED = {
     "asperity.contact.known": "names of the physics with their types, which only type checkers read",
@@ -37,7 +38,8 @@ NAMED = {
 LAYER_OF = {folder: layer for layer, folders in LAYERS.items() for folder in folders} | dict.fromkeys(DATA_FOLDERS, -1)
 MODULES = library()
 TOP_LEVEL = {"", *(module.folder for module in MODULES if module.name.count(".") == 1 and not module.is_package)}
-"""The package itself and the files beside it, which stand above all layers: the public modules of names from several folders, and the command."""
+"""The package itself and the files beside it, which stand above all layers: the public modules of
+names from several folders, and the command."""
 
 
 def violations(module: Module) -> list[str]:
@@ -59,7 +61,8 @@ def folder_of(parts: list[str]) -> str:
 
 
 def imported_folder(item: Import) -> str | None:
-    """Folder of the library that is imported, the empty text for the public names, None for foreign packages."""
+    """Folder of the library that is imported, the empty text for the public names, None for foreign
+    packages."""
     parts = item.target.split(".")
     if parts[0] != PACKAGE:
         return None

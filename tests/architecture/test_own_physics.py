@@ -1,4 +1,5 @@
-"""A physics of one's own takes a file of its own and no change of any other: a layer of glue, as an example."""
+"""A physics of one's own takes a file of its own and no change of any other: a layer of glue, as an
+example."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ from asperity.core.quantity import Quantity
 
 @dataclass(frozen=True, eq=False)
 class Glued(Answer):
-    """What the glue does: its tension (nx, ny) in Pa, where it is whole, its force in N and its energy in J."""
+    """What the glue does: its tension (nx, ny) in Pa, where it is whole, its force in N and its
+    energy in J."""
 
     tension: RealArray
     whole: BoolArray
@@ -102,7 +104,8 @@ def problem(*physics: Physics, **given: Any) -> asp.ContactProblem:
 
 
 def test_glue_joins_solve_result_and_history() -> None:
-    """Balance of force, law of the springs at the gap found, energies, restart: all by the general hooks."""
+    """Balance of force, law of the springs at the gap found, energies, restart: all by the general
+    hooks."""
     history = asp.solve(problem(GLUE), asp.History(LOADS))
     assert history.converged
     for step in history:
@@ -118,7 +121,8 @@ def test_glue_joins_solve_result_and_history() -> None:
 
 
 def test_energies_of_glued_contacts_balance() -> None:
-    """The work over the approach is what body and glue store; the trapezium errs by the square of the steps."""
+    """The work over the approach is what body and glue store; the trapezium errs by the square of
+    the steps."""
     errors = []
     for steps in (4, 8, 16):
         loads = np.linspace(20e6, 100e6, steps + 1)

@@ -1,4 +1,5 @@
-"""What ``import asperity`` gives: the names and the public modules, their documentation, and a quick start."""
+"""What ``import asperity`` gives: the names and the public modules, their documentation, and a
+quick start."""
 
 from __future__ import annotations
 
@@ -19,6 +20,7 @@ from heavy_imports import HEAVY
 
 import asperity
 from asperity.core.late import LateModule
+from asperity.core.words import first_paragraph
 
 NAMES_FILE = Path(__file__).with_name("public_names.txt")
 MODULES: dict[str, ModuleType] = {name: getattr(asperity, name) for name in asperity.__all__}
@@ -84,8 +86,8 @@ def documentation_breaches(name: str, item: object) -> list[str]:
         found.append(f"{name} needs a docstring")
     elif text.startswith(f"{name.rpartition('.')[2]}("):
         found.append(f"{name} has only the docstring that dataclass writes")
-    elif text.splitlines()[0].rstrip()[-1] not in ".:;?!)`":
-        found.append(f"the first line of the docstring of {name} is not a sentence")
+    elif first_paragraph(item)[-1] not in ".:;?!)`":
+        found.append(f"what the docstring of {name} says first is not a sentence")
     members = vars(item).items() if inspect.isclass(item) else ()
     public = {key: it for key, it in members if not key.startswith("_")}
     described = {key: it for key, it in public.items() if inspect.isfunction(it) or isinstance(it, property)}
@@ -170,7 +172,8 @@ def test_help_is_a_table_of_contents_of_one_screen() -> None:
     files = lines.index("PACKAGE CONTENTS")
     assert files <= SCREEN
     assert max(map(len, lines[:files])) <= 100
-    # pydoc lists the files of every package, the list of names, version and place, and is not to be told otherwise
+    # pydoc lists the files of every package, the list of names, version and place, and is not to be
+    # told otherwise
     rest = [line for line in lines[files:] if line and not line.startswith(" ")]
     assert rest == ["PACKAGE CONTENTS", "DATA", "VERSION", "FILE"]
     assert sum(" = " in line for line in lines) == 1
@@ -178,7 +181,7 @@ def test_help_is_a_table_of_contents_of_one_screen() -> None:
 
 def test_the_table_of_contents_says_of_each_module_what_the_module_says() -> None:
     rows = re.findall(r"^    (\w+) +(.+)$", asperity.__doc__ or "", re.MULTILINE)
-    first = {name: (module.__doc__ or "").splitlines()[0] for name, module in MODULES.items()}
+    first = {name: first_paragraph(module) for name, module in MODULES.items()}
     assert dict(rows) == {name: line.partition(": ")[2].rstrip(".") for name, line in first.items()}
     assert [name for name, _ in rows] == sorted(MODULES)
 

@@ -1,4 +1,5 @@
-"""Dotted names, cross-references and paths in docstrings and pages lead to something that exists."""
+"""Dotted names, cross-references and paths in docstrings and pages lead to something that
+exists."""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ def pages() -> list[Path]:
 
 
 def docstrings(module: Module) -> Iterator[str]:
-    """All texts that stand for themselves: docstrings of modules, classes and functions, and of constants."""
+    """All texts that stand for themselves: docstrings of modules, classes and functions, and of
+    constants."""
     for node in module.nodes:
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
             yield node.value.value
@@ -51,7 +53,8 @@ def exists(name: str) -> bool:
 
 
 def referred(module: Module, name: str) -> bool:
-    """Whether a cross-reference in ``module`` names something there, in one of its classes, or by its full name."""
+    """Whether a cross-reference in ``module`` names something there, in one of its classes, or by
+    its full name."""
     own = {n.name for n in module.nodes if isinstance(n, ast.FunctionDef | ast.ClassDef)}
     return name in own or exists(name) or exists(f"{module.name}.{name}")
 

@@ -1,4 +1,5 @@
-"""A physics is named in its own folder: names, attributes, keywords, imports and keys of code count, prose does not."""
+"""A physics is named in its own folder: names, attributes, keywords, imports and keys of code
+count, prose does not."""
 
 from __future__ import annotations
 
@@ -34,7 +35,8 @@ TABLES = {
 """Files that name several physics, each with its reason."""
 
 MOST = {"adhesion": (2, 9), "menisci": (6, 16), "dynamics": (3, 7)}
-"""Files and mentions outside its folder at most. Of menisci the friction of their documents of version 1, and film as the word for a coating, are six files."""
+"""Files and mentions outside its folder at most. Of menisci the friction of their documents of
+version 1, and film as the word for a coating, are six files."""
 
 
 def names(module: Module) -> Iterator[str]:
@@ -71,6 +73,9 @@ def test_a_physics_is_named_in_its_folder(physics: str) -> None:
 
 
 def test_names_in_code_are_seen_and_prose_is_not() -> None:
-    text = '"""Prose on adhesion."""\nfrom ..adhesion.law import Law\nresult.adhesion\nsolve(adhesion=1)\nprint("adhesion")\nprint("some adhesion")\n'
+    text = (
+        '"""Prose on adhesion."""\nfrom ..adhesion.law import '
+        'Law\nresult.adhesion\nsolve(adhesion=1)\nprint("adhesion")\nprint("some adhesion")\n'
+    )
     pattern = re.compile(WORDS["adhesion"])
     assert sum(bool(pattern.search(name)) for name in names(Module("asperity.x.y", text))) == 4

@@ -1,4 +1,5 @@
-"""Each physics can be left out: without its folder and its lines in the registry the package solves, saves, tells and prints all else."""
+"""Each physics can be left out: without its folder and its lines in the registry the package
+solves, saves, tells and prints all else."""
 
 from __future__ import annotations
 
@@ -26,14 +27,16 @@ ONLY_FOR = {
     "asperity.report.tractions": ("stress",),
     "asperity.report.animation": ("indentation", "plastic_flow"),
 }
-"""Modules outside the folders that serve some physics alone: loads without a contact, pictures of plastic zones."""
+"""Modules outside the folders that serve some physics alone: loads without a contact, pictures of
+plastic zones."""
 
 NOT_YET = {
     "asperity.cli.results": "the command `stress` stands beside those on all results",
     "asperity.web.tasks": "stresses on request",
     "asperity.web.views": "maps of stresses",
 }
-"""Modules that import a physics at the top though they do more. An entry that is not in use fails."""
+"""Modules that import a physics at the top though they do more. An entry that is not in use
+fails."""
 
 QUICK = ("tests/unit/contact/test_measure.py", "tests/unit/io/test_layered_results.py")
 """Tests that concern no physics and end soon."""
@@ -42,11 +45,13 @@ FULL = ("tests/laws", "tests/unit/contact", "tests/unit/io", "tests/unit/plots",
 """Folders from which files that do not concern a physics are run, slowly."""
 
 EVERY = 40
-"""Of these files each physics has every fortieth, each another one to begin with: all take minutes for each physics."""
+"""Of these files each physics has every fortieth, each another one to begin with: all take minutes
+for each physics."""
 
 
 OF_ALL = ("test_every_reference_is_named_by_the_code",)
-"""Tests of the whole package that no physics can be left out of: papers are listed whoever rests on them."""
+"""Tests of the whole package that no physics can be left out of: papers are listed whoever rests on
+them."""
 
 
 def left_out(physics: str) -> frozenset[str]:
@@ -58,7 +63,8 @@ def left_out(physics: str) -> frozenset[str]:
 
 
 def registry_without(text: str, folders: Iterable[str]) -> str:
-    """The ``text`` of the registry without the entries of its lists that name one of the ``folders``."""
+    """The ``text`` of the registry without the entries of its lists that name one of the
+    ``folders``."""
     pattern, tree, gone = re.compile(rf"\bphysics\.({'|'.join(folders)})\b"), ast.parse(text), 0
     for node in ast.walk(tree):
         if isinstance(node, ast.Dict):
@@ -84,7 +90,8 @@ def modules_without(folders: frozenset[str]) -> list[str]:
 
 
 def stub_without(text: str, folders: frozenset[str]) -> str:
-    """The ``text`` of a stub without the names that come from one of the ``folders``, and from what serves these alone."""
+    """The ``text`` of a stub without the names that come from one of the ``folders``, and from what
+    serves these alone."""
     places = "|".join(re.escape(module.partition(".")[2]) for module in modules_without(folders))
     if places:
         text = re.sub(rf"^from \.+({places}) import (\([^)]*\)|.*)\n", "", text, flags=re.MULTILINE)
@@ -144,7 +151,8 @@ for result in (single, path):
     result.to_xarray()
     result.plot()
 np.savetxt(folder / "rough.txt", heights / 1e-9)
-asked = ["contact", "rough.txt", "--size", "320nm x 240nm", "--height-unit", "nm", "--body", "E=100GPa,nu=0.3,H=5GPa", "--pressure", "100MPa"]
+asked = ["contact", "rough.txt", "--size", "320nm x 240nm", "--height-unit", "nm"]
+asked += ["--body", "E=100GPa,nu=0.3,H=5GPa", "--pressure", "100MPa"]
 begun = Path.cwd()
 os.chdir(folder)
 done = CliRunner().invoke(app, [*asked, "--out", "run"])
@@ -167,7 +175,8 @@ def run_in(copy: Path, *arguments: str) -> None:
 
 
 def test_no_module_needs_a_physics_at_its_top() -> None:
-    """Outside the folder, but for those that serve it alone, and inside folders that the registry says to need it."""
+    """Outside the folder, but for those that serve it alone, and inside folders that the registry
+    says to need it."""
     used, wrong = set(), []
     for module in library():
         own = module.name.split(".")[2:3] if module.name.startswith("asperity.physics.") else []
@@ -211,7 +220,8 @@ def test_tests_that_do_not_concern_it_pass(physics: str, tmp_path: Path) -> None
 
 
 def unconcerned(folders: frozenset[str]) -> Iterator[Path]:
-    """Files of tests in ``FULL`` that neither import from the ``folders`` nor name what comes from them, nor have a helper that does."""
+    """Files of tests in ``FULL`` that neither import from the ``folders`` nor name what comes from
+    them, nor have a helper that does."""
     gone: set[str] = set()
     for stub in ROOT.rglob("*.pyi"):
         origins = (

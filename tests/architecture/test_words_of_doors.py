@@ -1,4 +1,5 @@
-"""Findings and errors name what can be done in the words of each door, and every such word exists there."""
+"""Findings and errors name what can be done in the words of each door, and every such word exists
+there."""
 
 from __future__ import annotations
 

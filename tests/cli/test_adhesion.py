@@ -1,4 +1,5 @@
-"""Adhesion on the command line and in documents: the loop and its files, findings, criteria, and what is refused."""
+"""Adhesion on the command line and in documents: the loop and its files, findings, criteria, and
+what is refused."""
 
 from __future__ import annotations
 
@@ -112,7 +113,8 @@ def test_a_branch_of_single_points_names_the_pixel_it_needs() -> None:
 @pytest.mark.parametrize("law", ["dugdale", "exponential", "linear", "van der waals"])
 @pytest.mark.parametrize("reach", ["0.1 nm", "1 nm"])
 def test_attraction_far_stronger_than_the_solid_converges_on_coarse_pixels(law: str, reach: str) -> None:
-    """A cohesive length of 1e-6 pixels and less: the attraction is 500 times the modulus, and rounding keeps the normal solve from 1e-13."""
+    """A cohesive length of 1e-6 pixels and less: the attraction is 500 times the modulus, and
+    rounding keeps the normal solve from 1e-13."""
     ball = PROBLEM | {"surface": PROBLEM["surface"] | {"points": [16, 16]}}
     table = {"work": "50 mJ/m**2", "range": reach, "law": law}
     for case in (
@@ -135,7 +137,8 @@ def test_attraction_far_stronger_than_the_solid_converges_on_coarse_pixels(law: 
 
 
 def test_a_core_that_no_pixel_resolves_names_the_pixel_it_needs() -> None:
-    """A Lennard-Jones sphere whose points snap one by one comes to no rest, soon and with the pixel it needs."""
+    """A Lennard-Jones sphere whose points snap one by one comes to no rest, soon and with the pixel
+    it needs."""
     ball = PROBLEM | {"surface": PROBLEM["surface"] | {"points": [16, 16]}}
     table = {"work": "50 mJ/m**2", "range": "1 nm", "law": "lennard-jones", "retract": "0.6 um", "steps": 4}
     with pytest.raises(ConvergenceError) as stopped:

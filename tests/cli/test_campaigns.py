@@ -1,4 +1,5 @@
-"""The commands run, status and collect: resumable whatever stops them, with exit codes and files."""
+"""The commands run, status and collect: resumable whatever stops them, with exit codes and
+files."""
 
 from __future__ import annotations
 
@@ -30,9 +31,11 @@ def written(folder: Path, **tables) -> Path:
 
 
 def started(path: Path, workers: int) -> subprocess.Popen[str]:
-    """The program on the study at ``path`` as a process of its own, in a group of its own as in a terminal.
+    """The program on the study at ``path`` as a process of its own, in a group of its own as in a
+    terminal.
 
-    A shell starts what runs in the background with SIGINT ignored, and children inherit that: the handler is set first.
+    A shell starts what runs in the background with SIGINT ignored, and children inherit that: the
+    handler is set first.
     """
     program = (
         "import runpy, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
@@ -54,7 +57,8 @@ def wait_for_records(log: Path, count: int, process: subprocess.Popen[str]) -> N
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="processes are counted in /proc, which is Linux")
 def test_a_kill_at_any_moment_loses_nothing_that_was_finished(tmp_path, run: Runner):
-    """Killed by -9 twice, then finished: every case is computed once, and the workers end with their driver."""
+    """Killed by -9 twice, then finished: every case is computed once, and the workers end with
+    their driver."""
     seeds = {"path": "surface.seed", "first": 1, "last": 60, "count": 60}
     problem = {**PROBLEM, "surface": {**PROBLEM["surface"], "points": [96, 96]}}
     path = written(tmp_path, problem=problem, axes=[seeds])

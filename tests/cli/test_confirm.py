@@ -1,4 +1,5 @@
-"""Work that fits the machine but takes much of it is confirmed: by an answer on a terminal, or by --yes."""
+"""Work that fits the machine but takes much of it is confirmed: by an answer on a terminal, or by
+--yes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Friction in motion at the doors: command, document, files made again, studies, and what is refused."""
+"""Friction in motion at the doors: command, document, files made again, studies, and what is
+refused."""
 
 from __future__ import annotations
 
@@ -50,7 +51,8 @@ def moved(**tables: Any) -> dict[str, Any]:
 
 
 def test_a_block_and_its_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
-    """The command solves, moves and writes; files give the same words and pictures again; no stresses come uninvited."""
+    """The command solves, moves and writes; files give the same words and pictures again; no
+    stresses come uninvited."""
     out = tmp_path / "out"
     command = ("dynamics", matrix, *SCALE, "--periodise", *BODY, *LOAD, *MOTION, "--friction", "0.3")
     done = run(*command, "--start", "sliding", "--duration", "2ms", "--out", out)
@@ -85,7 +87,8 @@ def test_a_document_is_what_python_computes() -> None:
 
 
 def test_models_beside_the_block() -> None:
-    """A mass vibrates at its natural frequency; a belt with more static friction has stick-slip at its closed-form period."""
+    """A mass vibrates at its natural frequency; a belt with more static friction has stick-slip at
+    its closed-form period."""
     mass = moved(dynamics={"model": "mass", "amplitude": 1.01, "damping_ratio": 0.0})
     assert mass["vibration_frequency"] == pytest.approx(mass["normal_frequency"], rel=0.01)  # 15 periods in the window
     belt = moved(dynamics={"model": "belt", "static_friction": 0.4})
@@ -116,7 +119,8 @@ def test_static_friction_of_a_wet_contact() -> None:
 
 @pytest.mark.slow
 def test_speed_and_spring_are_axes_of_studies(run: Runner, tmp_path: Path) -> None:
-    """Each case of a study is the document of its values; the stiffness is a quantity with a unit of its own."""
+    """Each case of a study is the document of its values; the stiffness is a quantity with a unit
+    of its own."""
     motion = PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms"}
     study = {
         "version": 1,
@@ -148,7 +152,8 @@ def test_a_curve_over_the_speed() -> None:
 
 
 def test_a_law_of_few_pixels_is_refused(run: Runner, matrix: Path) -> None:
-    """One pixel of a stiff body gives an exponent of one whatever the surface; the command fails with it."""
+    """One pixel of a stiff body gives an exponent of one whatever the surface; the command fails
+    with it."""
     stiff = PROBLEM | {"body": "E=100GPa,nu=0.3"}
     few = asp.run({key: value for key, value in stiff.items() if key != "dynamics"}).result
     assert 0 < few.contact.sum() < 50
@@ -161,7 +166,8 @@ def test_a_law_of_few_pixels_is_refused(run: Runner, matrix: Path) -> None:
 
 
 def test_loads_of_few_pixels_are_left_out_of_the_law() -> None:
-    """A path from a light load on gives the law of its loads from about twenty pixels on, and one of its own where those are too few."""
+    """A path from a light load on gives the law of its loads from about twenty pixels on, and one
+    of its own where those are too few."""
     control = {"path": {"mean_pressure": ["1 MPa"], "steps": 40}}
     outcome = asp.run(
         PROBLEM | {"control": control, "dynamics": PROBLEM["dynamics"] | {"start": "sliding", "duration": "1 ms"}}
@@ -174,7 +180,8 @@ def test_loads_of_few_pixels_are_left_out_of_the_law() -> None:
 
 
 def test_ends_that_are_not_steady_are_findings() -> None:
-    """Without damping the friction falls as the block hops: the spring relaxes through the whole window, at times that hang on rounding."""
+    """Without damping the friction falls as the block hops: the spring relaxes through the whole
+    window, at times that hang on rounding."""
     friction = {"coefficient": 0.5, "speed": "1 mm/s"}
     motion = PROBLEM["dynamics"] | {"start": "sliding", "duration": "20 ms", "damping_ratio": 0.0, "disturbance": 0.0}
     found = {item.criterion: item for item in asp.run(PROBLEM | {"friction": friction, "dynamics": motion}).findings}
@@ -186,7 +193,8 @@ def test_ends_that_are_not_steady_are_findings() -> None:
 
 
 def test_interface_with_a_power_below_one_has_modes_where_parts_lift_off() -> None:
-    """Without contact the stiffness is zero, not infinite: the eigenvalues were not those of numbers."""
+    """Without contact the stiffness is zero, not infinite: the eigenvalues were not those of
+    numbers."""
     law = dyn.NormalCompliance.amontons(1e9, 0.8, friction=0.3)
     assert np.array_equal(law.stiffness([-1e-6, 0.0]), [0.0, 0.0])
     assert np.array_equal(law.friction_slope([-1e-6, 0.0]), [0.0, 0.0])
@@ -196,7 +204,8 @@ def test_interface_with_a_power_below_one_has_modes_where_parts_lift_off() -> No
 
 
 def test_stick_slip_needs_a_base_that_comes_to_rest_on_the_belt() -> None:
-    """A swing of the spring without sticking is none, however much it stands out; the same swing that reaches the belt is."""
+    """A swing of the spring without sticking is none, however much it stands out; the same swing
+    that reaches the belt is."""
     block = dyn.SlidingBlock(
         dyn.NormalCompliance.amontons(2.8e18, 2.0, friction=0.3), 1.0, 0.1, 0.02, 0.05, 100.0, 2e5, 1e-3
     )

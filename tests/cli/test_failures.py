@@ -98,7 +98,8 @@ runpy.run_module("asperity", run_name="__main__", alter_sys=True)
 
 @pytest.mark.parametrize("late", ["typer", "rich.console", "numpy", "scipy", "asperity.contact.solve", "matplotlib"])
 def test_ctrl_c_while_libraries_are_imported(late: str, tmp_path: Path) -> None:
-    """As in the middle of the work: an interrupt at whichever import ends with 130 and one sentence."""
+    """As in the middle of the work: an interrupt at whichever import ends with 130 and one
+    sentence."""
     command = [sys.executable, "-c", INTERRUPTING, "demo", "--out", "run", late]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == INTERRUPTED, done.stderr

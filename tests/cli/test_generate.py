@@ -1,4 +1,5 @@
-"""The command ``generate``: every kind, text with units, files that come back, and errors that name options."""
+"""The command ``generate``: every kind, text with units, files that come back, and errors that name
+options."""
 
 from __future__ import annotations
 

@@ -18,7 +18,8 @@ FILES = {
     "wli_126um_640x480.opd": (6.71e-9, 640 * 480),
     "focusvar_88um_200x296.al3d": (289.8e-9, 200 * 296),
 }
-"""Rms height after plane levelling (m) and number of points, computed from the files by other means."""
+"""Rms height after plane levelling (m) and number of points, computed from the files by other
+means."""
 
 
 def test_no_file_is_left_out(shared_data: Path) -> None:

@@ -1,4 +1,5 @@
-"""What is printed reads well on a narrow terminal: names and numbers are not cut, missing options are named at once."""
+"""What is printed reads well on a narrow terminal: names and numbers are not cut, missing options
+are named at once."""
 
 from __future__ import annotations
 
@@ -103,7 +104,8 @@ def test_a_comma_before_the_decimals_is_answered_with_the_point(run: Runner, mat
 def test_generated_surfaces_state_the_slope_of_the_waves_beside_that_of_differences(
     run: Runner, tmp_path: Path
 ) -> None:
-    """That of the spectrum is what --rms-slope prescribes, and larger than differences between points can show."""
+    """That of the spectrum is what --rms-slope prescribes, and larger than differences between
+    points can show."""
     waves = (
         "--spectrum",
         "self_affine",

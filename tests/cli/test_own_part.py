@@ -1,4 +1,5 @@
-"""A part written here appears in documents, options, studies, files and reports with no other change, and so does one that an installed package adds."""
+"""A part written here appears in documents, options, studies, files and reports with no other
+change, and so does one that an installed package adds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Surfaces that asperity made itself are taken as they are: no plane is removed from a periodic one."""
+"""Surfaces that asperity made itself are taken as they are: no plane is removed from a periodic
+one."""
 
 from __future__ import annotations
 

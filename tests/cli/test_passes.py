@@ -1,4 +1,5 @@
-"""Repeated passes at the doors: document, command, files made again, studies, animated pictures, and what is refused."""
+"""Repeated passes at the doors: document, command, files made again, studies, animated pictures,
+and what is refused."""
 
 from __future__ import annotations
 
@@ -42,7 +43,8 @@ def said(outcome: asp.studies.Outcome) -> Any:
 
 
 def test_an_elastic_cylinder_is_hertz() -> None:
-    """Below first yield at 3.1 k: load, half-width and peak of Hertz within what five elements allow, no flow, and the share of the shakedown limit of the theory."""
+    """Below first yield at 3.1 k: load, half-width and peak of Hertz within what five elements
+    allow, no flow, and the share of the shakedown limit of the theory."""
     found = passed(2.5, friction=0.1)
     values, half_width = found.values, 2.0 * 2.5 * K * RADIUS / E_STAR
     assert values["pass_line_load"] == pytest.approx(0.5 * math.pi * half_width * 2.5 * K)
@@ -80,7 +82,8 @@ def test_an_elastic_sphere_is_hertz() -> None:
 
 @pytest.mark.slow
 def test_pressed_in_place_again_and_again() -> None:
-    """A cylinder yields first at 1.79 Y; pressed once more to the same load a hardening solid stays elastic."""
+    """A cylinder yields first at 1.79 Y; pressed once more to the same load a hardening solid stays
+    elastic."""
     for peak, flows in ((1.70, False), (1.95, True)):
         found = passed(peak * math.sqrt(3.0), count=2, motion="in place", elements=8)
         assert (found.values["pass_plastic_strain"] > 0.0) is flows, peak
@@ -99,7 +102,8 @@ def coated() -> asp.studies.Outcome:
 
 @pytest.mark.slow
 def test_to_and_fro_over_a_film(coated: asp.studies.Outcome) -> None:
-    """The surface follows the friction and comes back; the film is in tension and does not flow; the work lost is less than that of the friction."""
+    """The surface follows the friction and comes back; the film is in tension and does not flow;
+    the work lost is less than that of the friction."""
     values, each = coated.values, coated.found["passes"].values
     assert each["passes_forward"][0] > 0.0 > each["passes_forward"][1]
     assert values["pass_layer_strain"] == 0.0 < values["pass_base_strain"] <= values["pass_plastic_strain"]
@@ -171,7 +175,8 @@ def test_a_command_with_passes(run: Runner, matrix: Path, tmp_path: Path, render
 
 @pytest.mark.slow
 def test_a_study_of_thickness_and_hardness_ratio(tmp_path: Path) -> None:
-    """Beneath a cylinder pressed in place a thicker film of a harder material keeps more of the flow from the base."""
+    """Beneath a cylinder pressed in place a thicker film of a harder material keeps more of the
+    flow from the base."""
     import tomli_w
 
     layer = {"name": "film", "youngs_modulus": "200 GPa", "poisson_ratio": 0.3, "thickness": "40 um"}
@@ -204,16 +209,47 @@ def test_a_study_of_thickness_and_hardness_ratio(tmp_path: Path) -> None:
         (STEEL, ("--passes", "0", "--pass-peak", "1GPa"), "--passes"),
         (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-line-load", "1N/m"), "the passes"),
         (STEEL, ("--passes", "1", "--pass-line-load", "1N/m", "--pass-indenter", "sphere"), "the passes"),
-        (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-motion", "in place", "--pass-track", "1um"), "the passes"),
-        (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-elements", "30", "--pass-indenter", "sphere"), "--pass-elements"),
+        (
+            STEEL,
+            ("--passes", "1", "--pass-peak", "1GPa", "--pass-motion", "in place", "--pass-track", "1um"),
+            "the passes",
+        ),
+        (
+            STEEL,
+            ("--passes", "1", "--pass-peak", "1GPa", "--pass-elements", "30", "--pass-indenter", "sphere"),
+            "--pass-elements",
+        ),
         (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-motion", "sideways"), "--pass-motion"),
         (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-in", "counter_body"), "counter_body"),
         (STEEL, ("--passes", "1", "--pass-peak", "500GPa", "--pass-radius", "1um"), "load of the passes"),
-        (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-radius", "1um", "--pass-track", "2um", "--pass-elements", "60"), "mesh of the passes"),
-        (STEEL, ("--passes", "1", "--pass-peak", "1GPa", "--pass-radius", "1um", "--pass-track", "1mm"), "track of the passes"),
-        (f"{STEEL}:1um~/{STEEL}", ("--passes", "1", "--pass-peak", "1GPa", "--pass-radius", "1um"), "interface of a meshed layer"),
+        (
+            STEEL,
+            (
+                "--passes",
+                "1",
+                "--pass-peak",
+                "1GPa",
+                "--pass-radius",
+                "1um",
+                "--pass-track",
+                "2um",
+                "--pass-elements",
+                "60",
+            ),
+            "mesh of the passes",
+        ),
+        (
+            STEEL,
+            ("--passes", "1", "--pass-peak", "1GPa", "--pass-radius", "1um", "--pass-track", "1mm"),
+            "track of the passes",
+        ),
+        (
+            f"{STEEL}:1um~/{STEEL}",
+            ("--passes", "1", "--pass-peak", "1GPa", "--pass-radius", "1um"),
+            "interface of a meshed layer",
+        ),
     ],
-)  # fmt: skip
+)
 def test_refusals(run: Runner, matrix: Path, body: str, extra: tuple[str, ...], subject: str) -> None:
     done = run("contact", matrix, *SCALE, "--periodise", "--body", body, "--pressure", "1MPa", *extra)
     assert subject_of(done).startswith(subject), subject_of(done)

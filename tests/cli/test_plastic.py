@@ -1,4 +1,5 @@
-"""Plastic flow and indentation at the doors: command, document, files made again, studies, animated pictures, and what is refused."""
+"""Plastic flow and indentation at the doors: command, document, files made again, studies, animated
+pictures, and what is refused."""
 
 from __future__ import annotations
 
@@ -45,7 +46,8 @@ def outcome(**tables: Any) -> asp.studies.Outcome:
 
 @pytest.mark.slow
 def test_a_command_with_plastic_flow_and_its_files(run: Runner, matrix: Path, tmp_path: Path, rendered: None) -> None:
-    """The command solves and writes; files give the same words and pictures again; the animation has a frame for each step."""
+    """The command solves and writes; files give the same words and pictures again; the animation
+    has a frame for each step."""
     out, film = tmp_path / "out", tmp_path / "zones.gif"
     body = f"E=300GPa,nu=0.25,Y=0.5GPa,name=film:500nm/{STEEL}"
     flow = ("--plastic", "--plastic-steps", "2", "--plastic-unload", "--plastic-cells", "8")
@@ -85,8 +87,9 @@ def test_a_document_is_what_python_computes() -> None:
 
 
 def test_stresses_keep_to_the_yield_stress_that_the_same_run_enforces() -> None:
-    """Perfectly plastic, rough against the pixels, with friction that only the flow and the stresses feel: largest von Mises stress, the one at a depth
-    itself, tensions of both tables, tractions of the interface."""
+    """Perfectly plastic, rough against the pixels, with friction that only the flow and the
+    stresses feel: largest von Mises stress, the one at a depth itself, tensions of both tables,
+    tractions of the interface."""
     made = outcome(
         body=f"{STEEL}:800nm/E=100GPa,nu=0.3",
         plastic_flow=FLOW | {"unknown_is_elastic": True},
@@ -108,7 +111,8 @@ def test_stresses_keep_to_the_yield_stress_that_the_same_run_enforces() -> None:
 
 
 def test_unloading_keeps_imprint_and_work() -> None:
-    """Taking the load off adds no more plastic work than reverse flow, and the loop of force and approach is open."""
+    """Taking the load off adds no more plastic work than reverse flow, and the loop of force and
+    approach is open."""
     loaded, off = (outcome(body=STEEL, plastic_flow=FLOW | {"unload": unload}) for unload in (False, True))
     values = off.found["plastic_flow"].values
     assert off.result.force == 0.0
@@ -144,7 +148,8 @@ def test_light_loads_and_switched_off_flow_are_elastic() -> None:
 
 @pytest.mark.slow
 def test_a_study_of_thickness_and_yield_stress(tmp_path: Path) -> None:
-    """A harder film protects the steel; the case without enough strength to be known is a record, not a crash."""
+    """A harder film protects the steel; the case without enough strength to be known is a record,
+    not a crash."""
     study = {
         "version": 1,
         "problem": PROBLEM | {"plastic_flow": FLOW | {"steps": 1}},
@@ -241,7 +246,8 @@ def indented(depth: float, body: Any = STEEL, **more: Any) -> asp.studies.Outcom
 
 @pytest.mark.slow
 def test_indentation_of_a_half_space() -> None:
-    """Force of the table (own error 0.5 %; 12 elements 1 %), slope 2 E* a of the unloading, and the balance of work."""
+    """Force of the table (own error 0.5 %; 12 elements 1 %), slope 2 E* a of the unloading, and the
+    balance of work."""
     found = indented(6.0)
     row = next(row for row in reference("sphere_perfectly_plastic") if row["delta_over_delta_y"] == 6.0)
     values = found.values
@@ -254,7 +260,8 @@ def test_indentation_of_a_half_space() -> None:
     assert 0.0 < values["indent_residual_depth"] < values["indent_depth"]
     arrays = found.found["indentation"].values
     plastic = arrays["indentation_work_lost"][-1]
-    # the work kept is plastic work and the energy of the residual stress, a small part of it; trapezia of 8 steps err by 2 %
+    # the work kept is plastic work and the energy of the residual stress, a small part of it;
+    # trapezia of 8 steps err by 2 %
     assert plastic < values["indent_dissipated_work"] * 1.05
     assert plastic > 0.75 * values["indent_dissipated_work"]
     assert math.isnan(values["indent_layer_tension"])
@@ -262,7 +269,8 @@ def test_indentation_of_a_half_space() -> None:
 
 @pytest.mark.slow
 def test_equal_layers_are_the_half_space_and_scales_do_not_matter() -> None:
-    """Small strains: force over that at yield depends on the depth over that at yield alone; an interface of equal materials on nothing."""
+    """Small strains: force over that at yield depends on the depth over that at yield alone; an
+    interface of equal materials on nothing."""
     plain = indented(3.0, elements=8).values["indent_force"]
     coated = indented(3.0, f"{STEEL}:30nm/{STEEL}", elements=8).values["indent_force"]
     assert coated == pytest.approx(plain, rel=0.01)
@@ -281,7 +289,8 @@ def test_elastic_indentation_is_hertz() -> None:
 
 @pytest.mark.slow
 def test_an_elastic_indenter_and_friction() -> None:
-    """An indenter of the same elastic constants halves the contact modulus: Hertz's force at one approach, and Oliver and Pharr's modulus; friction does not lower the force."""
+    """An indenter of the same elastic constants halves the contact modulus: Hertz's force at one
+    approach, and Oliver and Pharr's modulus; friction does not lower the force."""
     body, table = "E=200GPa,nu=0.3,Y=40GPa", {"depth": f"{DEPTH_Y!r} m", "radius": "10 um", "elements": 12, "steps": 4}
     table |= {"unloading_steps": 8}
     pair = {"body": body, "counter_body": "E=200GPa,nu=0.3,name=ball", "control": {"mean_pressure": "1 MPa"}}
@@ -301,7 +310,8 @@ def test_an_elastic_indenter_and_friction() -> None:
 
 @pytest.mark.slow
 def test_a_hard_film_takes_more_and_is_in_tension(tmp_path: Path) -> None:
-    """Stiffer and harder: more force, less flow in the base; tension at surface and bottom of the film; files hold the same words and pictures."""
+    """Stiffer and harder: more force, less flow in the base; tension at surface and bottom of the
+    film; files hold the same words and pictures."""
     body = f"E=800GPa,nu=0.3,Y=1.6GPa,name=film:40nm/{STEEL},name=base"
     bare, coated = indented(5.0, elements=8), indented(5.0, body, elements=8)
     assert coated.values["indent_force"] > 1.1 * bare.values["indent_force"]
@@ -330,7 +340,8 @@ def test_the_radius_of_the_summits() -> None:
 
 
 def test_a_cone_on_what_stays_elastic() -> None:
-    """Sneddon's cone, F = (2/π) E* tan θ δ², on a body that yields at no stress of this depth; its tip reaches over any yield stress in one element alone."""
+    """Sneddon's cone, F = (2/π) E* tan θ δ², on a body that yields at no stress of this depth; its
+    tip reaches over any yield stress in one element alone."""
     table = {
         "depth": "50 nm",
         "indenter": "cone",

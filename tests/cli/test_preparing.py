@@ -114,7 +114,8 @@ def test_counter_surface_on_a_common_grid(run: Runner, matrix: Path, tmp_path: P
 
 
 def test_line_contact_of_one_line_of_a_map(run: Runner, matrix: Path, tmp_path: Path) -> None:
-    """In the frame of plane strain: loads per metre, stresses with a section along the line, no section across it."""
+    """In the frame of plane strain: loads per metre, stresses with a section along the line, no
+    section across it."""
     line = ("--boundary", "line", "--load", "0.5N/m", "--friction", 0.2, "--coupled")
     found = run("contact", matrix, *SCALE, *BODY, *line, "--line", "x=3um", "--out", tmp_path / "run")
     assert found.exit_code == 0, found.stderr

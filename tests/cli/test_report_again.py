@@ -1,4 +1,5 @@
-"""The report of a run is made again from its result file alone, and the file is one labelled tree."""
+"""The report of a run is made again from its result file alone, and the file is one labelled
+tree."""
 
 from __future__ import annotations
 
@@ -53,7 +54,8 @@ def test_the_report_is_made_again(folder: Path, run: Runner, tmp_path: Path) -> 
         path.read_text(encoding="utf-8").splitlines() for path in (folder / "report.html", tmp_path / "again.html")
     )
     differing = [line for line in difflib.ndiff(first, second) if line[0] in "+-"]
-    # the gaps of the steps of a path come back within their rounding (tests/unit/report/test_scene.py)
+    # the gaps of the steps of a path come back within their rounding
+    # (tests/unit/report/test_scene.py)
     expected = ("written (UTC)", "application/json") if (folder / "path.csv").exists() else ("written (UTC)",)
     assert all(any(word in line for word in expected) for line in differing), differing
 

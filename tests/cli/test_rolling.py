@@ -1,4 +1,5 @@
-"""Rolling on the command line and in documents: the numbers of Python, files and figures made again, studies, and what is refused."""
+"""Rolling on the command line and in documents: the numbers of Python, files and figures made
+again, studies, and what is refused."""
 
 from __future__ import annotations
 
@@ -53,7 +54,8 @@ def wheel(tmp_path: Path) -> Path:
 
 @pytest.mark.slow
 def test_a_wheel_and_its_files(run: Runner, wheel: Path, tmp_path: Path) -> None:
-    """Options give the numbers of Python; the files hold them, and give the same words and pictures again."""
+    """Options give the numbers of Python; the files hold them, and give the same words and pictures
+    again."""
     out = tmp_path / "out"
     rolling = ("--friction", "0.3", "--creepage", "0.1%", "--spin", "0.3rad/m", "--creep-points", "2")
     done = run("contact", wheel, *OPTIONS, *rolling, "--out", out)
@@ -147,7 +149,8 @@ def test_refused(name: str) -> None:
 
 
 def test_a_study_over_the_creepage(tmp_path: Path) -> None:
-    """Forces of a campaign are those of single runs; nothing is drawn, so that no curve is computed."""
+    """Forces of a campaign are those of single runs; nothing is drawn, so that no curve is
+    computed."""
     quantities = ["traction_coefficient", "rolling_heat"]
     axis = {"path": "rolling.longitudinal", "values": ["0.02 %", "0.08 %"]}
     made = plan(problem=WHEEL, axes=[axis], quantities=quantities)

@@ -1,4 +1,5 @@
-"""`asperity contact`, `asperity run` and ``asp.run`` give the same numbers to the last bit for the same document."""
+"""`asperity contact`, `asperity run` and ``asp.run`` give the same numbers to the last bit for the
+same document."""
 
 from __future__ import annotations
 
@@ -134,7 +135,8 @@ def _by_command(run: Runner, folder: Path, table: dict[str, Any]) -> dict[str, f
 def _by_study(
     run: Runner, folder: Path, monkeypatch: pytest.MonkeyPatch, table: dict[str, Any], wanted: tuple[str, ...]
 ) -> dict[str, float]:
-    """Values that `asperity run` collects, in this process; exact in the store, as in its dataset."""
+    """Values that `asperity run` collects, in this process; exact in the store, as in its
+    dataset."""
     monkeypatch.setattr("asperity.studies.local.LocalProcesses", lambda *_: InProcess())
     body, layers = checked(table).body, checked(table).body.layers
     path = "body.layers.0.poisson_ratio" if layers else "body.poisson_ratio"

@@ -34,7 +34,8 @@ LIGHT = {"asperity.core"} | {f"asperity.core.{name}" for name in ("errors", "lat
 
 
 def test_help_imports_of_the_library_only_the_commands() -> None:
-    """What the commands do lies in other folders; of those only what declares options, and the late names."""
+    """What the commands do lies in other folders; of those only what declares options, and the late
+    names."""
     code = (
         "import sys, json\n"
         "from asperity.cli.main import app\n"

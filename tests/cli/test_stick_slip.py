@@ -1,4 +1,5 @@
-"""Stick and slip on the command line and in documents: steps, files, figures made again, and what is refused."""
+"""Stick and slip on the command line and in documents: steps, files, figures made again, and what
+is refused."""
 
 from __future__ import annotations
 
@@ -42,7 +43,8 @@ def course(**tables: Any) -> list[asp.Step]:
 
 @pytest.mark.slow
 def test_a_fretting_loop_and_its_files(run: Runner, matrix: Path, tmp_path: Path) -> None:
-    """The loop from options is that of Python; the files hold it, and give the same words and pictures again."""
+    """The loop from options is that of Python; the files hold it, and give the same words and
+    pictures again."""
     out = tmp_path / "out"
     loop = ("--friction", "0.3", "--shift", "0.2nm", "--cycles", "1", "--cycle-steps", "1")
     done = run("contact", matrix, *SCALE, "--periodise", *BODY, *LOAD, *loop, "--out", out)

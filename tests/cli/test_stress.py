@@ -1,4 +1,5 @@
-"""Stresses inside the body from the command ``contact``: what is printed, drawn and written, and what is refused."""
+"""Stresses inside the body from the command ``contact``: what is printed, drawn and written, and
+what is refused."""
 
 from __future__ import annotations
 
@@ -157,7 +158,8 @@ def test_refusals(run: Runner, matrix: Path, tmp_path: Path, options: tuple[str,
 
 
 def test_measured_surface(run: Runner, shared_data: Path, tmp_path: Path) -> None:
-    """An AFM map of a granular film, coated, sliding: stresses at the surface follow the tractions."""
+    """An AFM map of a granular film, coated, sliding: stresses at the surface follow the
+    tractions."""
     source = shared_data / "afm_granular_film_10um_512.di"
     wanted = ("--friction", 0.3, "--depths", "0nm,100nm,20nm", "--section", "y=max")
     body = ("--body", "DLC:100nm/Cr:20nm/steel", "--hardness", "body", "--pressure", "50MPa")
@@ -171,7 +173,8 @@ def test_measured_surface(run: Runner, shared_data: Path, tmp_path: Path) -> Non
 
 
 def test_places_in_the_table_are_those_of_the_screen(run: Runner, matrix: Path, tmp_path: Path) -> None:
-    """The middles of the pixels, as in figures, or an edge between two of them; the library counts from their corners."""
+    """The middles of the pixels, as in figures, or an edge between two of them; the library counts
+    from their corners."""
     out = tmp_path / "run"
     result = run("contact", matrix, *SCALE, *COATED, *LOAD, "--friction", 0.3, "--depths", "0nm", "--out", out)
     assert result.exit_code == 0, result.stderr

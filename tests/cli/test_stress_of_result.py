@@ -1,4 +1,5 @@
-"""The command ``stress``: the same numbers as with the contact, other friction without solving, refusals."""
+"""The command ``stress``: the same numbers as with the contact, other friction without solving,
+refusals."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ COATED = "E=300GPa,nu=0.2,H=20GPa,name=film:50nm/E=100GPa,nu=0.1,H=5GPa,name=bas
 
 
 def saved(folder: Path, **stress: object) -> Path:
-    """Result file with its document, as `contact --out` leaves it; ``stress`` is its table [stress]."""
+    """Result file with its document, as `contact --out` leaves it; ``stress`` is its table
+    [stress]."""
     np.savetxt(folder / "rough.txt", np.random.default_rng(1).normal(size=(24, 32)))
     table = {
         "version": 1,

@@ -1,4 +1,5 @@
-"""The command ``theory``: the list, every theory by its options, surfaces, tables and files, and refusals."""
+"""The command ``theory``: the list, every theory by its options, surfaces, tables and files, and
+refusals."""
 
 from __future__ import annotations
 
@@ -151,22 +152,61 @@ def test_csv(run: Runner, tmp_path: Path) -> None:
         (("least-area", "--hardness", "6GPa", "--E-star", "100GPa"), "summit"),
         (("nayak", "--m0", "100nm**2", "--m2", "0.01", "--m4", "4um**-2"), "summits"),
         (
-            (*("effective-hardness", "--film", "15GPa", "--substrate", "9GPa"), "--modulus-ratio", "0.7", "--depth-ratio", "0..1"),
+            (
+                *("effective-hardness", "--film", "15GPa", "--substrate", "9GPa"),
+                "--modulus-ratio",
+                "0.7",
+                "--depth-ratio",
+                "0..1",
+            ),
             "share",
         ),
         (("first-yield", "--friction", "0"), "1.613"),
         (("boussinesq", "--load", "1N", "--shear", "80GPa", "--depth", "1um"), "mises"),
-        (("mindlin", *SUMMITS[:2], "--radius", "1mm", "--G-star", "80GPa", "--friction", "0.3", "--load", "1N", "--tangential", "0.1N"), "stick"),
-        (("power-law-indenter", *SUMMITS[:2], "--coefficient", "500 1/m", "--exponent", "2", "--load", "1N"), "approach"),
+        (
+            (
+                "mindlin",
+                *SUMMITS[:2],
+                "--radius",
+                "1mm",
+                "--G-star",
+                "80GPa",
+                "--friction",
+                "0.3",
+                "--load",
+                "1N",
+                "--tangential",
+                "0.1N",
+            ),
+            "stick",
+        ),
+        (
+            ("power-law-indenter", *SUMMITS[:2], "--coefficient", "500 1/m", "--exponent", "2", "--load", "1N"),
+            "approach",
+        ),
         (("power-law-indenter", *SUMMITS[:2], "--coefficient", "0.1", "--exponent", "1", "--load", "1N"), "approach"),
         (
-            ("kinetic-meniscus", *SUMMITS, "--surface-tension", "25mN/m", "--film-thickness", "1nm", "--viscosity", "0.1Pa*s",
-             "--hamaker-constant", "5e-20J", "--pressure", "1MPa", "--time", "0s..1ms"),
+            (
+                "kinetic-meniscus",
+                *SUMMITS,
+                "--surface-tension",
+                "25mN/m",
+                "--film-thickness",
+                "1nm",
+                "--viscosity",
+                "0.1Pa*s",
+                "--hamaker-constant",
+                "5e-20J",
+                "--pressure",
+                "1MPa",
+                "--time",
+                "0s..1ms",
+            ),
             "meniscus",
         ),
         (("persson", *SUMMITS[:2], "--rms-gradient", "0.1", "--local", "1GPa", "--pressure", "10MPa"), "above"),
     ],
-)  # fmt: skip
+)
 def test_what_has_no_load_is_asked_in_its_own_way(run: Runner, arguments: tuple[str, ...], words: str) -> None:
     result = run("theory", *arguments)
     assert result.exit_code == 0, result.output

@@ -1,4 +1,5 @@
-"""Viscoelastic contacts on the command line and in documents: the numbers of Python, files and figures made again, studies, and what is refused."""
+"""Viscoelastic contacts on the command line and in documents: the numbers of Python, files and
+figures made again, studies, and what is refused."""
 
 from __future__ import annotations
 
@@ -89,7 +90,8 @@ def of_start() -> asp.studies.Outcome:
 
 @pytest.mark.slow
 def test_a_coated_ball_in_time_and_its_files(run: Runner, tmp_path: Path) -> None:
-    """Options give the numbers of Python; the file holds them, gives words and pictures again, and a restart from every step."""
+    """Options give the numbers of Python; the file holds them, gives words and pictures again, and
+    a restart from every step."""
     asp.files.save_surface(build(checked(BALL)).problem.surface, tmp_path / "ball.nc")
     out = tmp_path / "out"
     done = run("contact", tmp_path / "ball.nc", *OPTIONS, "--path", "2mN,1mN", *IN_TIME, "--out", out)
@@ -159,7 +161,8 @@ def test_single_load_held_and_cycles(run: Runner) -> None:
 
 
 def test_at_once_is_the_first_instant_and_a_finding_says_so() -> None:
-    """Without times the contact is that of the elastic solid of the first instant, and nothing becomes heat."""
+    """Without times the contact is that of the elastic solid of the first instant, and nothing
+    becomes heat."""
     table = {key: value for key, value in BALL.items() if key != "viscoelastic"} | {"control": {"force": "2 mN"}}
     outcome = asp.run(table)
     elastic = asp.run(table | {"body": "E=2.5GPa,nu=0.38:2um/E=70GPa,nu=0.22"})
@@ -195,7 +198,8 @@ def test_oscillation_is_the_shortcut_of_python() -> None:
 
 
 def test_temperature_moves_all_times() -> None:
-    """A load held at a temperature is the same held shorter or longer by the shift at the reference."""
+    """A load held at a temperature is the same held shorter or longer by the shift at the
+    reference."""
     factor = asp.viscoelasticity.WilliamsLandelFerry(298.0, 8.86, 101.6).factor(310.0)
     base = GROUND | {"hysteresis": None, "control": {"mean_pressure": "0.1 MPa"}}
     base = {key: value for key, value in base.items() if value is not None}
@@ -208,7 +212,8 @@ def test_temperature_moves_all_times() -> None:
 
 @pytest.mark.slow
 def test_rubber_on_rough_ground_and_its_files(run: Runner, tmp_path: Path) -> None:
-    """Friction of Python with Persson's theory beside it, a curve against speed, and all of it again from the file."""
+    """Friction of Python with Persson's theory beside it, a curve against speed, and all of it
+    again from the file."""
     document = tmp_path / "ground.toml"
     table = GROUND | {"hysteresis": {"speed": "1 cm/s", "slowest": "1 mm/s", "fastest": "0.1 m/s", "points": 3}}
     document.write_text(dumps(checked(table)), encoding="utf-8")
@@ -240,7 +245,9 @@ def test_rubber_on_rough_ground_and_its_files(run: Runner, tmp_path: Path) -> No
     tree = asp.files.open_tree(tmp_path / "out" / "result.nc")
     for item in (*SLIDING, *SPEED_COLUMNS):
         assert tree[f"hysteresis/{item.name}"].attrs["units"] == item.unit
-    np.testing.assert_allclose(tree["hysteresis/sliding_pressure"], found.normal.pressure, atol=1e-6 * found.normal.max_pressure)  # fmt: skip
+    np.testing.assert_allclose(
+        tree["hysteresis/sliding_pressure"], found.normal.pressure, atol=1e-6 * found.normal.max_pressure
+    )
     made = {path.stem for path in (tmp_path / "out" / "plots").iterdir()}
     assert {figure.name for figure in outcome.figures["hysteresis"]} <= made
     assert {"sliding_pressure", "friction_by_speed", "area_by_speed"} <= made
@@ -256,7 +263,8 @@ START: dict[str, Any] = GROUND | {
 
 
 def test_start_of_sliding_and_its_files(tmp_path: Path) -> None:
-    """Friction and area along the way are those of Python, in the outcome and its file, with figures and words."""
+    """Friction and area along the way are those of Python, in the outcome and its file, with
+    figures and words."""
     outcome = of_start()
     found = asp.viscoelasticity.slide_in_time(
         build(checked(START)).problem, asp.MeanPressure(0.2e6), 0.01, 1e-3, steps_per_pixel=1
@@ -294,7 +302,8 @@ ATTRACTED: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ATTRACTED)
 def test_sliding_of_surfaces_that_attract_each_other(kind: str, tmp_path: Path) -> None:
-    """Adhesion and menisci stand beside sliding in documents with the numbers of Python, at rest, on the way and steadily; Persson's theory is left out."""
+    """Adhesion and menisci stand beside sliding in documents with the numbers of Python, at rest,
+    on the way and steadily; Persson's theory is left out."""
     table, physics = ATTRACTED[kind]
     dry, outcome = of_start(), asp.run(START | table)
     problem = replace(build(checked(START)).problem, **physics)
@@ -325,7 +334,15 @@ def test_start_of_sliding_that_leaves_its_grid_is_a_finding() -> None:
 
 def test_sliding_along_a_line_and_over_a_coating_has_no_theory_beside_it() -> None:
     coated = GROUND | {"counter_body": f"{RUBBER}:0.2mm/steel"}
-    line = GROUND | {"surface": {"kind": "sinusoid", "points": [32, 1], "size": "1 mm x 1 mm", "amplitude": "2 um", "wavelength": "1 mm"}}  # fmt: skip
+    line = GROUND | {
+        "surface": {
+            "kind": "sinusoid",
+            "points": [32, 1],
+            "size": "1 mm x 1 mm",
+            "amplitude": "2 um",
+            "wavelength": "1 mm",
+        }
+    }
     for table in (coated, line):
         values = asp.run(table).values
         assert values["hysteresis_friction"] > 0.0
@@ -355,7 +372,8 @@ def test_long_steps_of_time_and_steep_slopes_are_findings() -> None:
 
 
 def test_energies_that_miss_are_said_on_the_command_line(run: Runner, tmp_path: Path) -> None:
-    """Equal steps of time that part a ball held in place: exit code 1 and the words, in files too; with steps by their error 0."""
+    """Equal steps of time that part a ball held in place: exit code 1 and the words, in files too;
+    with steps by their error 0."""
     asp.files.save_surface(build(checked(BALL)).problem.surface, tmp_path / "ball.nc")
     body = ("--level", "none", "--body", "E=3MPa+297MPa@1ms,nu=0.5", "--boundary", "free", "--approach", "0.3um")
     words = ("contact", tmp_path / "ball.nc", *body, "--hold", "60ms")
@@ -370,7 +388,8 @@ def test_energies_that_miss_are_said_on_the_command_line(run: Runner, tmp_path: 
 
 @pytest.mark.parametrize("body", ["E=3MPa+13MPa@10ms,nu=0.45", "E=3MPa+13MPa@10ms,nu=0.45:2um/E=70GPa,nu=0.22"])
 def test_stick_and_slip_in_time(body: str) -> None:
-    """Steps along the surfaces take the time of the ramp; numbers are those of Python, and a path keeps its turning points and all shear steps."""
+    """Steps along the surfaces take the time of the ramp; numbers are those of Python, and a path
+    keeps its turning points and all shear steps."""
     rubber = {"body": body, "counter_body": "rigid", "friction": {"coefficient": 0.4}}
     surface = BALL["surface"] | {"points": [16, 16]}
     table = BALL | rubber | {"surface": surface, "control": {"force": "20 uN"}, "shear": {"shift": "100 nm"}}
@@ -499,7 +518,8 @@ def test_a_study_over_the_time_of_a_hold(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_motion_that_comes_to_another_steady_contact_is_a_finding() -> None:
-    """An adhesive wave that is pressed and slides jumps into full contact on the way, where the steady state found at once touches in part."""
+    """An adhesive wave that is pressed and slides jumps into full contact on the way, where the
+    steady state found at once touches in part."""
     wave = {"kind": "sinusoid", "points": [64, 1], "size": "1 mm x 1 mm", "amplitude": "2 um", "wavelength": "1 mm"}
     table = {
         "version": 2,

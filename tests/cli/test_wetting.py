@@ -1,4 +1,5 @@
-"""Liquid films on the command line and in documents: what is printed, drawn and written, and what is refused."""
+"""Liquid films on the command line and in documents: what is printed, drawn and written, and what
+is refused."""
 
 from __future__ import annotations
 
@@ -86,7 +87,8 @@ def test_saved_menisci_are_drawn_and_exported(run: Runner, scan: Path, tmp_path:
 
 
 def test_a_film_beside_stresses(run: Runner, scan: Path, tmp_path: Path) -> None:
-    """Friction counts for both where stresses are asked for; the stresses are those under load and menisci."""
+    """Friction counts for both where stresses are asked for; the stresses are those under load and
+    menisci."""
     asked = ("--liquid", "PFPE", "--film", "1nm", "--friction", 0.3, "--section", "y=max", "--out", tmp_path / "run")
     found = run("contact", scan, *DLC, *asked)
     assert found.exit_code == 0, found.stderr

@@ -25,7 +25,8 @@ def finished(name: str, tmp_path: Path):
 
 
 GOLD = {"gold_film_area": (1000, 12), "gold_film_grid": (4, 11)}
-"""Ready studies with long runs and the shape of their cases; tests/validation runs them on fewer and smaller ones."""
+"""Ready studies with long runs and the shape of their cases; tests/validation runs them on fewer
+and smaller ones."""
 
 
 def test_every_ready_study_is_tested_here():
@@ -59,7 +60,8 @@ def test_studies_of_the_gold_film_have_the_cases_of_the_chapter(name, tmp_path):
 
 @pytest.mark.slow
 def test_a_hard_film_protects_the_steel(tmp_path):
-    """The thicker film leaves less plastic strain in the steel; the harder it is the less it flows itself, and it bears tension at its bottom."""
+    """The thicker film leaves less plastic strain in the steel; the harder it is the less it flows
+    itself, and it bears tension at its bottom."""
     data = finished("plastic_coating", tmp_path).dataset()
     base, film = (np.asarray(data[f"flow_{part}_strain"]) for part in ("base", "layer"))
     assert base.shape == (3, 3)
@@ -70,7 +72,8 @@ def test_a_hard_film_protects_the_steel(tmp_path):
 
 
 def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):
-    """Waves of length λ reach about λ/2π deep: thicknesses beyond a few λ = 1 µm are endless, below λ/1000 they are none."""
+    """Waves of length λ reach about λ/2π deep: thicknesses beyond a few λ = 1 µm are endless, below
+    λ/1000 they are none."""
     found = finished("coating_thickness", tmp_path).analysis()
     for quantity in ("max_pressure", "max_displacement", "mean_gap"):
         floor, ceiling = found[f"{quantity}_floor"], found[f"{quantity}_ceiling"]
@@ -84,7 +87,8 @@ def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):
 
 @pytest.mark.slow
 def test_warm_rubber_has_the_friction_of_cold_rubber_at_higher_speed(tmp_path):
-    """All curves are one against speed times the shift of the times; Persson's theory follows, and area falls with speed."""
+    """All curves are one against speed times the shift of the times; Persson's theory follows, and
+    area falls with speed."""
     found = finished("rubber_friction", tmp_path).dataset()
     friction, area = (np.asarray(found[name]) for name in ("hysteresis_friction", "sliding_area_fraction"))
     speed, temperature = np.asarray(found["speed"]), np.asarray(found["temperature"])
@@ -112,8 +116,9 @@ def test_area_rises_in_proportion_to_load(tmp_path):
     assert np.all(half <= 0.04 * area)
     assert campaign.state().samples < 200
     modulus = 100e9 / (1.0 - 0.3**2)
-    # κ = A E* h' / p is √(2π) = 2.51 at small loads (Bush, Gibson & Thomas), and falls with area. At the smallest load grids of 64² and 256² points
-    # give 2.56 and 2.53 on twelve surfaces; the mean of the campaign is known to 4 %
+    # κ = A E* h' / p is √(2π) = 2.51 at small loads (Bush, Gibson & Thomas), and falls with area.
+    # At the smallest load grids of 64² and 256² points give 2.56 and 2.53 on twelve surfaces; the
+    # mean of the campaign is known to 4 %
     kappa = area * modulus * 0.02 / load
     assert kappa[0] == pytest.approx(math.sqrt(2.0 * math.pi), rel=0.06)
     assert kappa[-1] > 1.6
@@ -122,7 +127,8 @@ def test_area_rises_in_proportion_to_load(tmp_path):
 
 @pytest.mark.slow
 def test_roughness_lowers_the_pull_off_and_adhesion_raises_it(tmp_path):
-    """Four times the rms height leaves less than a quarter of the pull-off; the criteria say the same."""
+    """Four times the rms height leaves less than a quarter of the pull-off; the criteria say the
+    same."""
     found = finished("pull_off_and_roughness", tmp_path).analysis()
     force = np.asarray(found["pull_off_force_mean"])
     assert force.shape == (3, 2)

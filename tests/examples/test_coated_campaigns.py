@@ -1,4 +1,5 @@
-"""The ready studies of coated rough surfaces, on fewer pixels and thicknesses: they run, and say what they should."""
+"""The ready studies of coated rough surfaces, on fewer pixels and thicknesses: they run, and say
+what they should."""
 
 from __future__ import annotations
 
@@ -61,7 +62,8 @@ def test_area_rises_with_load_and_the_pressure_ends_at_the_hardness():
 
 
 def test_rows_of_equal_normalised_load_have_the_same_area():
-    """σ = 0.5 nm under 200 kPa, 1 nm under 400 kPa: X = 2e-3; below the hardness heights and loads scale exactly."""
+    """σ = 0.5 nm under 200 kPa, 1 nm under 400 kPa: X = 2e-3; below the hardness heights and loads
+    scale exactly."""
     data = solved(small("normalised_laws", points=64)).sel(modulus=100e9)
     low, high = (data.sel(roughness=rms, load=load, method="nearest") for rms, load in ((0.5e-9, 2e5), (1e-9, 4e5)))
     assert float(low["area_fraction"]) == float(high["area_fraction"]) > 0.0

@@ -1,4 +1,5 @@
-"""The examples run as pasted, are short, label their pictures, and agree with closed forms, published values and laws."""
+"""The examples run as pasted, are short, label their pictures, and agree with closed forms,
+published values and laws."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ import asperity as asp
 FOLDER = Path(__file__).parents[2] / "examples"
 SCRIPTS = sorted(path.relative_to(FOLDER).with_suffix("").as_posix() for path in FOLDER.glob("*/*.py"))
 LIGHT = (math.sqrt(8.0 / math.pi), math.sqrt(2.0 * math.pi))
-"""κ = (A/A₀) E* h'/p at light load: Persson (2001), and Bush, Gibson & Thomas (1975), between which solutions lie."""
+"""κ = (A/A₀) E* h'/p at light load: Persson (2001), and Bush, Gibson & Thomas (1975), between which
+solutions lie."""
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -49,7 +51,8 @@ def run(name: str) -> SimpleNamespace:
 
 
 def labelled(ax: Axes) -> bool:
-    """Whether data are drawn on ``ax``, and it is said what is along x and y, or in the colours of a bar."""
+    """Whether data are drawn on ``ax``, and it is said what is along x and y, or in the colours of
+    a bar."""
     if ax.get_label() == "<colorbar>":
         return bool(ax.get_ylabel())
     shared = any(other is not ax and other.get_ylabel() for other in ax.get_shared_y_axes().get_siblings(ax))
@@ -57,7 +60,8 @@ def labelled(ax: Axes) -> bool:
 
 
 def scatter(surface: asp.Surface, spectrum, weight) -> tuple[float, float]:
-    """Expected Σ weight·C/A over the modes of ``surface``, and its standard deviation over random surfaces, relative.
+    """Expected Σ weight·C/A over the modes of ``surface``, and its standard deviation over random
+    surfaces, relative.
 
     The powers of the modes of half a plane are independent and exponentially distributed.
     """
@@ -70,7 +74,8 @@ def scatter(surface: asp.Surface, spectrum, weight) -> tuple[float, float]:
 
 
 def balanced(result: asp.ContactResult) -> bool:
-    """Whether the contact bears the load and what the menisci pull, within the tolerance that the certificate states."""
+    """Whether the contact bears the load and what the menisci pull, within the tolerance that the
+    certificate states."""
     both = result.external_force + result.menisci.meniscus_force
     check = next(item for item in result.certificate.couplings if item.name == "menisci")
     return check.tolerance < 0.01 and abs(both / result.force - 1.0) <= check.tolerance
@@ -91,11 +96,13 @@ def test_every_example_is_tested():
 
 
 def test_scan_to_report():
-    """The file gives back the heights; preparation takes out tilt and offsets; the area lies between two theories."""
+    """The file gives back the heights; preparation takes out tilt and offsets; the area lies
+    between two theories."""
     left = run("beginner/plot_1_scan_to_report")
     assert left.scan.heights == pytest.approx(left.measured, abs=0.51e-12, rel=0.0)  # the file counts in pm
     assert left.scan.size == pytest.approx(left.grid.size, rel=1e-12)
-    # slopes of a plane and of lines are gone: what is left is the roughness, but for what lines and plane took of it
+    # slopes of a plane and of lines are gone: what is left is the roughness, but for what lines and
+    # plane took of it
     assert asp.roughness.rms_height(left.ready) == pytest.approx(left.rough.std(), rel=0.1)
     slope = asp.roughness_of(left.ready).rms_gradient
     kappa = left.result.area_fraction_corrected * left.problem.contact_modulus * slope / left.result.mean_pressure
@@ -104,7 +111,8 @@ def test_scan_to_report():
 
 
 def test_generated_surface():
-    """Mean square slope as prescribed, within four standard deviations; the rms height of fixed amplitudes is exact."""
+    """Mean square slope as prescribed, within four standard deviations; the rms height of fixed
+    amplitudes is exact."""
     left = run("beginner/plot_2_generate_a_surface")
     expected, deviation = scatter(left.surface, left.spectrum, left.grid.wavenumber() ** 2)
     assert math.sqrt(expected) == pytest.approx(0.1, rel=1e-12)
@@ -125,7 +133,8 @@ def test_hertz():
 
 
 def test_roughness_parameters():
-    """Sa = √(2/π) Sq for Gaussian heights; the other surface has the moments that were asked for."""
+    """Sa = √(2/π) Sq for Gaussian heights; the other surface has the moments that were asked
+    for."""
     left = run("beginner/plot_4_roughness_parameters")
     gaussian, plateau = (found.heights for found in left.found.values())
     assert gaussian.Sa / gaussian.Sq == pytest.approx(math.sqrt(2.0 / math.pi), rel=1e-3)
@@ -141,7 +150,8 @@ def test_stress_below_a_coating():
 
 
 def test_load_and_unload():
-    """Plastic work is hardness times indented volume; unloading and reloading take none; the energies balance."""
+    """Plastic work is hardness times indented volume; unloading and reloading take none; the
+    energies balance."""
     path = run("intermediate/plot_2_load_and_unload").path
     work = np.array([step.plastic_work for step in path.steps])
     assert np.abs(work[8:22]).max() < 1e-6 * work.max()
@@ -159,7 +169,8 @@ def test_theories_beside_the_solution():
 
 
 def test_menisci_and_humidity():
-    """Kelvin and Laplace: Δp = (RT/V) ln(1/φ) at 293.15 K, V = 18.048 cm³/mol; the contact bears load and menisci."""
+    """Kelvin and Laplace: Δp = (RT/V) ln(1/φ) at 293.15 K, V = 18.048 cm³/mol; the contact bears
+    load and menisci."""
     left = run("intermediate/plot_4_menisci_and_humidity")
     kelvin = 8.314462618 * 293.15 / 18.048e-6 * np.log(1.0 / left.humidity)
     assert left.suction == pytest.approx(kelvin, rel=1e-6)
@@ -172,7 +183,8 @@ def test_menisci_and_humidity():
 
 @pytest.mark.slow
 def test_fretting_loop():
-    """Masing's rule, exact for equal bodies at constant load; heat between the cube and the first power of the amplitude."""
+    """Masing's rule, exact for equal bodies at constant load; heat between the cube and the first
+    power of the amplitude."""
     left = run("intermediate/plot_6_fretting_loop")
     assert left.masing < 1e-3
     assert 0.2 < left.slipping < 0.9
@@ -181,7 +193,8 @@ def test_fretting_loop():
 
 @pytest.mark.slow
 def test_pull_off_of_a_rough_surface():
-    """The work of the closed cycle is what was lost; the stiff pad jumps less, loses less and holds less than the soft one."""
+    """The work of the closed cycle is what was lost; the stiff pad jumps less, loses less and holds
+    less than the soft one."""
     left = run("intermediate/plot_7_pull_off_of_a_rough_surface")
     soft, stiff = left.loops.values()
     assert abs(np.trapezoid(soft.force, soft.approach) - soft.hysteresis) <= soft.hysteresis_error
@@ -194,7 +207,8 @@ def test_pull_off_of_a_rough_surface():
 
 @pytest.mark.slow
 def test_rough_wheel():
-    """Carter's curve; the soft layer bends the curve of the plain rollers down; roughness hardly changes the force."""
+    """Carter's curve; the soft layer bends the curve of the plain rollers down; roughness hardly
+    changes the force."""
     left = run("intermediate/plot_8_rough_wheel")
     limit = left.plain.friction_limit
     assert left.plain.longitudinal_force == pytest.approx(left.carter.force_x, abs=0.01 * limit)
@@ -215,7 +229,8 @@ def test_polymer_coating():
 
 @pytest.mark.slow
 def test_rubber_on_rough_ground():
-    """Friction rises and falls with speed, the area falls, and theory and solution peak within a decade of each other."""
+    """Friction rises and falls with speed, the area falls, and theory and solution peak within a
+    decade of each other."""
     left = run("advanced/plot_8_rubber_on_rough_ground")
     peak = int(left.friction.argmax())
     assert 0 < peak < 6
@@ -229,7 +244,8 @@ def test_rubber_on_rough_ground():
 
 
 def test_wet_and_sliding():
-    """Friction resists load and menisci: μ_s = μ (1 + F/W); both fall towards the dry values as the load grows."""
+    """Friction resists load and menisci: μ_s = μ (1 + F/W); both fall towards the dry values as the
+    load grows."""
     left = run("intermediate/plot_5_wet_and_sliding")
     assert left.static == pytest.approx(0.3 * (1.0 + left.pull), rel=1e-12)
     assert np.all(np.diff(left.static) < 0.0)
@@ -237,7 +253,8 @@ def test_wet_and_sliding():
 
 
 def test_film_thickness():
-    """One meniscus pulls with 4πRγ, its area counted in pixels; no film pulls harder than its suction on everything."""
+    """One meniscus pulls with 4πRγ, its area counted in pixels; no film pulls harder than its
+    suction on everything."""
     left = run("advanced/plot_1_film_thickness")
     radii = np.sqrt(2.0 * 1e-6 * left.films) / 2e-9  # of the menisci in pixels
     assert np.all(np.abs(left.single / left.closed_form - 1.0) < 0.5 / radii)
@@ -254,13 +271,15 @@ def test_sampling_interval():
         expected, deviation = scatter(left.fine, left.spectrum, (2.0 * np.sin(0.5 * qx * step) / step) ** 2)
         assert left.expected[number] == pytest.approx(expected, rel=0.01)  # an integral for the sum over the modes
         assert left.study.mean["m2_x"][number] == pytest.approx(expected, rel=4.0 * deviation)
-    # from one interval to twice it within a tenth; each area is known to a quarter and worse, for its contacts have few pixels
+    # from one interval to twice it within a tenth; each area is known to a quarter and worse, for
+    # its contacts have few pixels
     assert all(max(pair) < 1.1 * min(pair) for pair in itertools.pairwise(left.product))
     assert max(left.product) < 1.15 * min(left.product)
 
 
 def test_running_in():
-    """At one place the second pass is elastic; the hardness carries the load; new places give way less and less."""
+    """At one place the second pass is elastic; the hardness carries the load; new places give way
+    less and less."""
     left = run("advanced/plot_3_running_in")
     assert left.same[1].plastic_work < 1e-6 * left.same[0].plastic_work
     work = np.array([result.plastic_work for result in left.sliding])
@@ -278,7 +297,8 @@ def test_before_and_after_polishing():
     cut = np.minimum(z, 0.5) - (np.minimum(z, 0.5) * weight).sum()
     rms = math.sqrt((cut**2 * weight).sum())
     before, after = (left.parameters[name].heights for name in ("before", "after"))
-    # a map of 16 µm holds about 2 L²/πβ² = 260 independent heights, β = 0.79 µm where the correlation is 1/e
+    # a map of 16 µm holds about 2 L²/πβ² = 260 independent heights, β = 0.79 µm where the
+    # correlation is 1/e
     error = 4.0 / math.sqrt(2.0 * 260)
     assert after.Sq / before.Sq == pytest.approx(rms, rel=error)
     assert after.Ssk == pytest.approx((cut**3 * weight).sum() / rms**3, abs=4.0 * math.sqrt(6.0 / 260))
@@ -302,7 +322,8 @@ def test_theory_of_your_own():
 
 
 def test_part_of_your_own():
-    """Holm's 2a/ρ for a circle; the grid of 0.5 µm holds the stiffness of a radius of 17 µm within a tenth of a pixel."""
+    """Holm's 2a/ρ for a circle; the grid of 0.5 µm holds the stiffness of a radius of 17 µm within
+    a tenth of a pixel."""
     left = run("expert/plot_2_part_of_your_own")
     ball = left.conductance(left.ball, asp.Free(), asp.Force(0.5))
     assert ball == pytest.approx(left.holm, rel=0.1 * 0.5 / 17.0)
@@ -319,7 +340,8 @@ def test_campaign_on_dask():
 
 
 def test_critical_coating_thickness():
-    """Hertz with the modulus of the substrate and of the coating are the ends, up to the ratio of thickness and contact."""
+    """Hertz with the modulus of the substrate and of the coating are the ends, up to the ratio of
+    thickness and contact."""
     left = run("expert/plot_4_critical_coating_thickness")
     for way in left.curves.values():
         assert way[0] == pytest.approx(0.0, abs=4.0 * 0.01)
@@ -329,7 +351,8 @@ def test_critical_coating_thickness():
 
 @pytest.mark.slow
 def test_yield_map_under_friction():
-    """First yield below a sliding cylinder in closed form, Johnson's 1.79 without friction; an edge known within a pixel."""
+    """First yield below a sliding cylinder in closed form, Johnson's 1.79 without friction; an edge
+    known within a pixel."""
     left = run("expert/plot_5_yield_map_under_friction")
     assert left.closed_form[0] == pytest.approx(1.79, abs=0.005)
     assert left.factor[0] == pytest.approx(left.closed_form, rel=0.02)
@@ -337,7 +360,8 @@ def test_yield_map_under_friction():
 
 @pytest.mark.slow
 def test_flow_below_a_rough_coating():
-    """Flow enlarges the real area and leaves residual stress that balances itself on every vertical plane; the zones stay in their layers."""
+    """Flow enlarges the real area and leaves residual stress that balances itself on every vertical
+    plane; the zones stay in their layers."""
     left = run("advanced/plot_11_flow_below_a_rough_coating")
     assert left.share > left.elastic_share
     film, steel = left.flow.zones
@@ -350,7 +374,8 @@ def test_flow_below_a_rough_coating():
 
 @pytest.mark.slow
 def test_shakedown_of_a_roller():
-    """Below the limit flow ceases, above it goes on; a compression below the surface protects, and pulls nothing across the plane as a whole."""
+    """Below the limit flow ceases, above it goes on; a compression below the surface protects, and
+    pulls nothing across the plane as a whole."""
     left = run("expert/plot_8_shakedown_of_a_roller")
     low, high = (np.array(left.growth[share]) for share in (0.9, 1.15))
     assert low[-1] < 1e-3 * low[0]
@@ -362,7 +387,8 @@ def test_shakedown_of_a_roller():
 
 @pytest.mark.slow
 def test_shakedown_map():
-    """Bare steel in closed form within the pixels; the coating that is twice as strong helps at the surface, where friction sets the limit."""
+    """Bare steel in closed form within the pixels; the coating that is twice as strong helps at the
+    surface, where friction sets the limit."""
     left = run("expert/plot_7_shakedown_map")
     k = 1e9 / np.sqrt(3.0)
     assert left.curves[0].limit * 1e9 / k == pytest.approx([found.peak_over_k for found in left.closed_form], rel=0.02)
@@ -372,7 +398,8 @@ def test_shakedown_map():
 
 @pytest.mark.slow
 def test_ensemble_with_error_bars():
-    """Between two theories at light load; both kinds of amplitudes have one mean, within their error bars."""
+    """Between two theories at light load; both kinds of amplitudes have one mean, within their
+    error bars."""
     left = run("expert/plot_6_ensemble_with_error_bars")
     for variant in ("random", "fixed"):
         assert LIGHT[0] < left.kappa[variant][1] - left.half_width[variant][1]
@@ -383,7 +410,8 @@ def test_ensemble_with_error_bars():
 
 @pytest.mark.slow
 def test_why_a_brake_squeals():
-    """Below the critical friction nothing grows; vibration lowers the friction that is felt, but not at ten times the speed."""
+    """Below the critical friction nothing grows; vibration lowers the friction that is felt, but
+    not at ten times the speed."""
     left = run("advanced/plot_6_why_a_brake_squeals")
     growing = left.stable.growth_rate[:, np.searchsorted(left.stable.axis_values[1], left.pad.height)] > 0.0
     first = left.stable.axis_values[0][np.argmax(growing)]
@@ -404,7 +432,8 @@ def test_stiction_of_a_disk_drive():
 
 
 def test_law_of_an_interface():
-    """Frequencies are those of the tangent stiffness; after plastic flow the joint is stiffer than its loading curve, as the fit says."""
+    """Frequencies are those of the tangent stiffness; after plastic flow the joint is stiffer than
+    its loading curve, as the fit says."""
     left = run("advanced/plot_9_law_of_an_interface")
     top, curve = left.up[-1], left.curves["plastic"]
     loading, unloading = ((top - left.up[-2]) / (curve[7] - curve[place]) for place in (6, 8))
@@ -421,7 +450,8 @@ def test_law_of_an_interface():
 
 @pytest.mark.slow
 def test_a_coating_that_bends():
-    """The coating carries more and leaves a shallower imprint; it is pulled beneath the tip from below and beside the contact from above."""
+    """The coating carries more and leaves a shallower imprint; it is pulled beneath the tip from
+    below and beside the contact from above."""
     left = run("advanced/plot_10_a_coating_that_bends")
     coated, bare = left.found["coated"], left.found["bare"]
     assert coated.load[11] > 1.3 * bare.load[11]

@@ -1,4 +1,5 @@
-"""The ready studies of wet contacts, on fewer pixels, samples and values: they run, and say what they should."""
+"""The ready studies of wet contacts, on fewer pixels, samples and values: they run, and say what
+they should."""
 
 from __future__ import annotations
 
@@ -10,7 +11,8 @@ from ready_studies import FOLDER, PIXEL, axis, results
 
 
 def solved(name: str, *, points: int = 64, samples: int = 2, **values: list[Any]):
-    """Results of the study ``name`` on small surfaces, with the ``values`` of some of its axes, averaged over them."""
+    """Results of the study ``name`` on small surfaces, with the ``values`` of some of its axes,
+    averaged over them."""
     table = tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
     surface = table["problem"]["surface"]
     assert surface["points"] == [128, 128]

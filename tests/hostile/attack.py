@@ -1,7 +1,9 @@
-"""Run the program on damaged input, in this process, within limits of time and memory, and count how it ends.
+"""Run the program on damaged input, in this process, within limits of time and memory, and count
+how it ends.
 
-``python -m hostile.attack 100000 --until 22:55`` (in ``tests/``) runs many, each kind of input in processes of its own, so that a
-crash is counted, too, and prints the table of ``docs/develop/tests.md``.
+``python -m hostile.attack 100000 --until 22:55`` (in ``tests/``) runs many, each kind of input in
+processes of its own, so that a crash is counted, too, and prints the table of
+``docs/develop/tests.md``.
 """
 
 from __future__ import annotations
@@ -49,7 +51,8 @@ ORIGINAL, BUILD = declared.built, functools.cache(declared.built)
 
 
 def built_once(command: Callable[..., None], name: str, *options: Any) -> Any:
-    """The ``command``, made of the options that it declares once in a process: for all mutants they are the same, and making them took a third of the time."""
+    """The ``command``, made of the options that it declares once in a process: for all mutants they
+    are the same, and making them took a third of the time."""
     return ORIGINAL(command, name, *options) if options else BUILD(command, name)
 
 
@@ -59,7 +62,8 @@ class OutOfTimeError(BaseException):
 
 @dataclass(frozen=True)
 class End:
-    """How the mutant ``seed`` of a target ended: one word, for a failure what happened, and its output."""
+    """How the mutant ``seed`` of a target ended: one word, for a failure what happened, and its
+    output."""
 
     seed: int
     word: str
@@ -106,7 +110,8 @@ def limits(folder: Path) -> Iterator[None]:
 
 
 def attacked(name: str, target: Target, seed: int, folder: Path) -> End:
-    """How the program ends on the mutant ``seed`` of ``target``, in a new folder below ``folder``."""
+    """How the program ends on the mutant ``seed`` of ``target``, in a new folder below
+    ``folder``."""
     random, place = Random(f"{name} {seed}"), folder / "work"
     place.mkdir()
     command: tuple[str, ...] = ()
@@ -152,7 +157,8 @@ def _alone(name: str, first: int, count: int) -> None:
 
 
 def tally(name: str, first: int, count: int) -> Iterator[End]:
-    """Ends of ``count`` mutants of ``name`` in a process of its own; one that dies is counted as a crash."""
+    """Ends of ``count`` mutants of ``name`` in a process of its own; one that dies is counted as a
+    crash."""
     command = [sys.executable, "-m", "hostile.attack", str(count), "--only", name, "--first", str(first)]
     paths = os.pathsep.join(filter(None, sys.path))
     ended = subprocess.run(

@@ -1,4 +1,5 @@
-"""Damage of every kind: to bytes, to text, to nested tables, to NetCDF-4 files. The same seed gives the same damage."""
+"""Damage of every kind: to bytes, to text, to nested tables, to NetCDF-4 files. The same seed gives
+the same damage."""
 
 from __future__ import annotations
 
@@ -115,7 +116,8 @@ def nested(random: Random) -> Any:
 
 
 def in_bytes(data: bytes, random: Random) -> bytes:
-    """``data`` cut, with bytes turned, numbers replaced, parts repeated, taken out, exchanged or filled up."""
+    """``data`` cut, with bytes turned, numbers replaced, parts repeated, taken out, exchanged or
+    filled up."""
     changed = bytearray(data)
     for _ in range(random.choice([1, 1, 2, 4])):
         size = max(len(changed), 1)
@@ -145,7 +147,8 @@ def in_bytes(data: bytes, random: Random) -> bytes:
 
 
 def in_text(data: bytes, random: Random) -> bytes:
-    """``data``, which is text, with other numbers and words, lines taken out, repeated, exchanged or cut; or as bytes."""
+    """``data``, which is text, with other numbers and words, lines taken out, repeated, exchanged
+    or cut; or as bytes."""
     if random.random() < 0.3:
         return in_bytes(data, random)
     text = data.decode("utf-8")
@@ -202,7 +205,8 @@ def mild(old: Any, random: Random) -> Any:
 
 
 def in_table(table: dict[str, Any], random: Random) -> dict[str, Any]:
-    """``table`` with one or two values of other size in half of the cases, else with anything replaced, taken out, renamed."""
+    """``table`` with one or two values of other size in half of the cases, else with anything
+    replaced, taken out, renamed."""
     changed = copy.deepcopy(table)
     if random.random() < 0.5:
         numbers = [at for at in _places(changed) if QUANTITY.match(str(at[0][at[1]]))]

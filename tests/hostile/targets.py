@@ -1,4 +1,5 @@
-"""What is attacked: every format and document that the package reads, each with sound examples and the commands that read it."""
+"""What is attacked: every format and document that the package reads, each with sound examples and
+the commands that read it."""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ DAMAGED = "damaged"
 
 @dataclass(frozen=True)
 class Target:
-    """Sound ``examples`` of a kind of file by their names, how they are damaged, and the ``commands`` that read them."""
+    """Sound ``examples`` of a kind of file by their names, how they are damaged, and the
+    ``commands`` that read them."""
 
     examples: Mapping[str, bytes]
     damage: Damage
@@ -49,7 +51,8 @@ class Moduli(Target):
     """Files of moduli, read by a document beside them."""
 
     def mutant(self, folder: Path, random: Random) -> Arguments:
-        """Write a damaged file and the document that names it into ``folder``; the command that reads it."""
+        """Write a damaged file and the document that names it into ``folder``; the command that
+        reads it."""
         super().mutant(folder, random)
         body = {"relaxation": {"kind": "measured", "moduli_file": f"{DAMAGED}.csv"}, "poisson_ratio": 0.4}
         surface = {"kind": "sphere", "points": [8, 8], "size": "8 um", "radius": "20 um"}
@@ -178,7 +181,8 @@ def instruments() -> dict[str, bytes]:
     nanoscope = (
         "\\*File list\r\n\\Version: 0x05310001\r\n\\*Ciao scan list\r\n\\Scan size: 1000 nm\r\n\\*Scanner list\r\n"
         "\\@Sens. Zscan: V 8.66 nm/V\r\n\\*Ciao image list\r\n\\Data offset: 1024\r\n\\Data length: 384\r\n"
-        "\\Bytes/pixel: 2\r\n\\Samps/line: 16\r\n\\Number of lines: 12\r\n\\Aspect ratio: 1:1\r\n\\Scan size: 1 1 ~m\r\n"
+        "\\Bytes/pixel: 2\r\n\\Samps/line: 16\r\n\\Number of lines: 12\r\n"
+        "\\Aspect ratio: 1:1\r\n\\Scan size: 1 1 ~m\r\n"
         '\\@2:Image Data: S [Height] "Height"\r\n\\@2:Z scale: V [Sens. Zscan] (0.006713867 V/LSB) 440.0 V\r\n'
         "\\*File list end\r\n\x1a"
     ).encode("latin-1")

@@ -1,4 +1,5 @@
-"""Damaged files, documents, stores and options end in an answer or in one clear sentence, never in a traceback, hang or crash."""
+"""Damaged files, documents, stores and options end in an answer or in one clear sentence, never in
+a traceback, hang or crash."""
 
 from __future__ import annotations
 
@@ -58,7 +59,8 @@ def test_some_mutants_of_every_kind(everything: dict[str, Target], tmp_path: Pat
 
 @pytest.mark.slow
 def test_two_thousand_mutants() -> None:
-    """In processes of their own: a crash in a library is a failure of one mutant and not of the suite; two at a time."""
+    """In processes of their own: a crash in a library is a failure of one mutant and not of the
+    suite; two at a time."""
     with ThreadPoolExecutor(2) as pool:
         ends = list(pool.map(lambda name: list(tally(name, EACH, MANY)), TARGETS))
     wrong = [

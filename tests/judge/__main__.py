@@ -1,4 +1,5 @@
-"""``python -m judge --count 10000`` in ``tests/`` judges as many random problems and writes the tables of ``docs/develop/judge.md``."""
+"""``python -m judge --count 10000`` in ``tests/`` judges as many random problems and writes the
+tables of ``docs/develop/judge.md``."""
 
 from __future__ import annotations
 

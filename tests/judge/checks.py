@@ -1,4 +1,5 @@
-"""Errors of equations beside what is stated of them, and what rounding alone makes of an equation."""
+"""Errors of equations beside what is stated of them, and what rounding alone makes of an
+equation."""
 
 from __future__ import annotations
 
@@ -12,12 +13,14 @@ LARGEST_RATIO = 10.0
 EPS = float(np.finfo(float).eps)
 
 ROUNDING = 64.0 * EPS
-"""Relative rounding of a sum or a transform of the sizes of the judge's grids, in double precision."""
+"""Relative rounding of a sum or a transform of the sizes of the judge's grids, in double
+precision."""
 
 
 @dataclass(frozen=True)
 class Check:
-    """``error`` of the equation ``name``, and what the result states of it; both relative, or in the same unit."""
+    """``error`` of the equation ``name``, and what the result states of it; both relative, or in
+    the same unit."""
 
     name: str
     error: float

@@ -1,4 +1,5 @@
-"""Equations of every physics, evaluated from the fields of results with operators in double precision, beside what the results state of their error."""
+"""Equations of every physics, evaluated from the fields of results with operators in double
+precision, beside what the results state of their error."""
 
 from __future__ import annotations
 
@@ -39,7 +40,8 @@ def _of_step(
     operator: Operator,
     along: TangentialOperator | None,
 ) -> list[Check]:
-    """Checks of the result of ``step``, the second of ``results``, beside the one before it; ``along`` is the compliance along the surface."""
+    """Checks of the result of ``step``, the second of ``results``, beside the one before it;
+    ``along`` is the compliance along the surface."""
     before, result = results
     none = np.zeros(result.problem.grid.shape)
     dented = none if before is None else np.asarray(before.permanent_indentation, dtype=float)

@@ -1,4 +1,5 @@
-"""Random heights of the judge's problems: rough, stepped, with plateaus, ties and spikes, smooth, flat, from far below to far above a pixel."""
+"""Random heights of the judge's problems: rough, stepped, with plateaus, ties and spikes, smooth,
+flat, from far below to far above a pixel."""
 
 from __future__ import annotations
 

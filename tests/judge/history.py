@@ -1,4 +1,5 @@
-"""Equations of what bodies remember: viscoelastic ones their pressures, plastic ones their strain."""
+"""Equations of what bodies remember: viscoelastic ones their pressures, plastic ones their
+strain."""
 
 from __future__ import annotations
 
@@ -14,12 +15,14 @@ from asperity.solids.eigenstrain.cells import DepthCells
 from asperity.solids.plasticity import UNIT, WEIGHTS, PlasticState
 
 NODES, GAUSS = np.polynomial.legendre.leggauss(12)
-"""Rule for the heat of a step, whose integrand is a product of exponentials and straight lines in time."""
+"""Rule for the heat of a step, whose integrand is a product of exponentials and straight lines in
+time."""
 
 
 @dataclass(frozen=True, eq=False)
 class Remembered:
-    """Internal pressures ξ_k (terms, nx, ny) in Pa of retardation times λ_k, λ dξ/dt = p - ξ, and the last pressure; ∫ p dt (Pa s) of a fluid."""
+    """Internal pressures ξ_k (terms, nx, ny) in Pa of retardation times λ_k, λ dξ/dt = p - ξ, and
+    the last pressure; ∫ p dt (Pa s) of a fluid."""
 
     times: RealArray
     shares: RealArray
@@ -45,7 +48,8 @@ class Remembered:
         return np.asarray(self.xi + gone * (self.pressure - self.xi) + rate * (time - lam * gone))
 
     def factor(self, time: float) -> float:
-        """Displacement by the pressure at the end of a step of ``time`` s in which it grew in a straight line, over that at once."""
+        """Displacement by the pressure at the end of a step of ``time`` s in which it grew in a
+        straight line, over that at once."""
         if time == 0.0:
             return 1.0
         grown = 1.0 - self.times * -np.expm1(-time / self.times) / time
@@ -60,7 +64,8 @@ class Remembered:
         return Remembered(self.times, self.shares, self.fluidity, xi, flow, pressure)
 
     def summed(self) -> RealArray:
-        """Pressure (nx, ny) in Pa that would displace as much at once as all before the last has done."""
+        """Pressure (nx, ny) in Pa that would displace as much at once as all before the last has
+        done."""
         return np.asarray(np.tensordot(self.shares, self.xi, axes=1) + self.fluidity * self.flow)
 
     def stored(self, operator: Operator) -> float:
@@ -89,7 +94,8 @@ class Remembered:
 def in_time(
     operator: Operator, past: Remembered, result: asp.ContactResult, duration: float
 ) -> tuple[RealArray, Remembered, list[Check]]:
-    """Retarded displacement (nx, ny) in m, what is remembered then, and equations of displacement, stored energy and heat of a step of time."""
+    """Retarded displacement (nx, ny) in m, what is remembered then, and equations of displacement,
+    stored energy and heat of a step of time."""
     creep = result.creep
     assert creep is not None
     pressure = np.asarray(result.pressure, dtype=float)
@@ -108,7 +114,8 @@ def in_time(
 
 
 def energy_in_time(results: tuple[asp.ContactResult, ...]) -> list[Check]:
-    """Work of the force over the approach by trapezia: what is stored and heat, to what the steps of time explain."""
+    """Work of the force over the approach by trapezia: what is stored and heat, to what the steps
+    of time explain."""
     works, spread, heat = 0.0, 0.0, 0.0
     largest = 0.0
     for result in results:
@@ -131,7 +138,8 @@ def energy_in_time(results: tuple[asp.ContactResult, ...]) -> list[Check]:
 
 
 def plastic_flow(result: asp.ContactResult, before: asp.ContactResult | None) -> list[Check]:
-    """The return mapping of the stress under this pressure leaves the plastic strain as it is; plastic strain keeps the volume."""
+    """The return mapping of the stress under this pressure leaves the plastic strain as it is;
+    plastic strain keeps the volume."""
     flow = result.require_plastic_flow()
     tolerance = max([check.tolerance for check in result.certificate.couplings], default=0.0)
     assert result.problem.plastic_flow is not None
@@ -167,7 +175,8 @@ def _shear(result: asp.ContactResult, pressure: RealArray) -> RealArray | None:
 def _mapped(
     flow: asp.plasticity.PlasticBody, deviator: RealArray, after: PlasticState, start: PlasticState
 ) -> RealArray:
-    """Plastic strain (cells, nx, ny, 6) that the laws return from ``start`` to under the ``deviator`` of the stress with the strain ``after``."""
+    """Plastic strain (cells, nx, ny, 6) that the laws return from ``start`` to under the
+    ``deviator`` of the stress with the strain ``after``."""
     found = after.plastic_strain.copy()
     regions = DepthCells(flow.body, flow.flowed.edges).regions
     for cell, region in enumerate(regions):

@@ -15,11 +15,13 @@ from asperity.contact.operators import Operator
 from asperity.core.arrays import BoolArray, RealArray
 
 WET_BALANCE = 1e-4
-"""Share of the force between the solids to which external force and menisci balance it: ten times as much is wrong."""
+"""Share of the force between the solids to which external force and menisci balance it: ten times
+as much is wrong."""
 
 
 def islands(cut: BoolArray, wraps: tuple[bool, bool]) -> RealArray:
-    """Number of the island of each pixel of ``cut``, zero elsewhere; pixels with a common edge belong together."""
+    """Number of the island of each pixel of ``cut``, zero elsewhere; pixels with a common edge
+    belong together."""
     labels, _ = ndimage.label(cut)
     for axis, wrap in enumerate(wraps):
         if not wrap:
@@ -33,11 +35,13 @@ def islands(cut: BoolArray, wraps: tuple[bool, bool]) -> RealArray:
 
 
 MARGINAL = 1e-3
-"""Distance over the height of the menisci from contact or from that height, and pressure over the largest, within which a pixel may be under liquid in part."""
+"""Distance over the height of the menisci from contact or from that height, and pressure over the
+largest, within which a pixel may be under liquid in part."""
 
 
 def meniscus_pixels(gap: RealArray, touching: BoolArray, film: asp.LiquidFilm, wraps: tuple[bool, bool]) -> BoolArray:
-    """Pixels that the suction acts on: without contact, on islands of gaps up to the meniscus height that hold liquid."""
+    """Pixels that the suction acts on: without contact, on islands of gaps up to the meniscus
+    height that hold liquid."""
     labels = islands((gap <= film.meniscus_height) | touching, wraps)
     wet = (gap <= film.thickness) | touching
     kept = np.isin(labels, np.unique(labels[wet & (labels > 0)])) & (labels > 0)
@@ -45,9 +49,11 @@ def meniscus_pixels(gap: RealArray, touching: BoolArray, film: asp.LiquidFilm, w
 
 
 def menisci(of: Pressed, control: object) -> list[Check]:
-    """The force between the solids is the external one and the suction times the area of the menisci that the gap makes.
+    """The force between the solids is the external one and the suction times the area of the
+    menisci that the gap makes.
 
-    Where that jumps, a pixel which comes to touch, or to the height of the menisci, may be under liquid on the share that is stated.
+    Where that jumps, a pixel which comes to touch, or to the height of the menisci, may be under
+    liquid on the share that is stated.
     """
     result = of.result
     film, found = result.problem.film, result.require_menisci()
@@ -80,7 +86,8 @@ def menisci(of: Pressed, control: object) -> list[Check]:
 
 
 def step_compliance(operator: Operator) -> float:
-    """Compliance (m/Pa) of a point at a step of the edge: geometric mean of the symbol over all waves but the mean (Helson & Lowdenslager 1958)."""
+    """Compliance (m/Pa) of a point at a step of the edge: geometric mean of the symbol over all
+    waves but the mean (Helson & Lowdenslager 1958)."""
     shape = operator.padded
     rows, columns = np.meshgrid(np.arange(shape[0]), np.arange(shape[1]), indexing="ij")
     mirrored = columns > shape[1] // 2
@@ -107,7 +114,8 @@ def adhesion(of: Pressed, control: object) -> list[Check]:
 
 
 def _slack(of: Pressed) -> float:
-    """Error (m) of the gap: rounding, and that of the deflection by the error of the traction that the certificate states."""
+    """Error (m) of the gap: rounding, and that of the deflection by the error of the traction that
+    the certificate states."""
     return of.resolved + of.placed + of.result.certificate.field_error * of.length
 
 
@@ -133,7 +141,8 @@ def _by_law(of: Pressed) -> list[Check]:
 
 
 def _soft_core(of: Pressed, traction: RealArray) -> list[Check]:
-    """Net traction -σ(g) everywhere; a point is off by no more than the tolerance, or than what the error of its gap makes of it."""
+    """Net traction -σ(g) everywhere; a point is off by no more than the tolerance, or than what the
+    error of its gap makes of it."""
     law = of.result.require_adhesion().law
     gap = of.operator.apply(traction) + of.depth - of.result.approach + law.spacing
     if not (gap > 0.0).all():
@@ -146,7 +155,8 @@ def _soft_core(of: Pressed, traction: RealArray) -> list[Check]:
 
 
 def _edge(of: Pressed, traction: RealArray) -> list[Check]:
-    """Closed points bear no more tension than the edge of a contact does, open ones none, and nowhere do bodies overlap."""
+    """Closed points bear no more tension than the edge of a contact does, open ones none, and
+    nowhere do bodies overlap."""
     found = of.result.require_adhesion()
     law = found.law
     assert isinstance(law, asp.JKRAdhesion)
@@ -181,7 +191,8 @@ def _held(of: Pressed, control: object, force: float) -> list[Check]:
 
 
 def _energies(of: Pressed, traction: RealArray) -> list[Check]:
-    """Elastic energy and that of the interface are those of traction and gap; no step makes energy."""
+    """Elastic energy and that of the interface are those of traction and gap; no step makes
+    energy."""
     found, pixel = of.result.require_adhesion(), of.result.problem.grid.pixel_area
     elastic = 0.5 * float((traction * of.operator.apply(traction)).sum()) * pixel
     size = norm(traction) * norm(of.operator.apply(traction)) * pixel

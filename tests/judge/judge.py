@@ -1,4 +1,5 @@
-"""Judge random problems: solve each, hold what is called converged against the equations of its physics, and count."""
+"""Judge random problems: solve each, hold what is called converged against the equations of its
+physics, and count."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ LARGEST_SHARE = 0.02
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came of the problem of a ``seed``: ``right``, ``false``, ``refused``, ``not converged`` or ``failed``, by its ``cause``; and the ``worst`` equation."""
+    """What came of the problem of a ``seed``: ``right``, ``false``, ``refused``, ``not converged``
+    or ``failed``, by its ``cause``; and the ``worst`` equation."""
 
     seed: int
     kind: str
@@ -30,7 +32,8 @@ class Verdict:
 
     @property
     def wrong(self) -> bool:
-        """Whether it was wrongly called converged, or the program ended by an error that it does not know."""
+        """Whether it was wrongly called converged, or the program ended by an error that it does
+        not know."""
         return self.outcome in ("false", "failed")
 
 
@@ -79,7 +82,8 @@ COLUMNS = ("problems", "right", "refused", "not converged", "false", "failed")
 
 
 def table(verdicts: Sequence[Verdict]) -> str:
-    """Two tables in Markdown: problems of each kind by what came of them, with the largest error over what is stated; and the causes."""
+    """Two tables in Markdown: problems of each kind by what came of them, with the largest error
+    over what is stated; and the causes."""
     counts = Counter((each.kind, each.outcome) for each in verdicts)
     lines = [
         f"| physics | {' | '.join(COLUMNS)} | largest error / stated | equation |",

@@ -1,9 +1,11 @@
-"""Equations of the normal contact: gap and pressure, bounds, load, position, yielding, elastic energy.
+"""Equations of the normal contact: gap and pressure, bounds, load, position, yielding, elastic
+energy.
 
-With the operator K in double precision, heights h counted from the highest point (d below it), what lifts the surfaces beside the pressure, l,
-the permanent indentation w and the approach δ,
+With the operator K in double precision, heights h counted from the highest point (d below it), what
+lifts the surfaces beside the pressure, l, the permanent indentation w and the approach δ,
 
-    gap = K p + l + d + w - δ >= 0,   0 <= p <= cap,   p gap = 0,   w grows only where p is at the cap.
+    gap = K p + l + d + w - δ >= 0,   0 <= p <= cap,   p gap = 0,
+    w grows only where p is at the cap.
 """
 
 from __future__ import annotations
@@ -20,16 +22,18 @@ from asperity.contact.operators import Operator
 from asperity.core.arrays import RealArray
 
 UNRESOLVED, OF_DEFLECTION, MOST_DEFLECTIONS = 1e-5, 1e-4, 30.0
-"""Lengths that errors are relative to at least: of the deflection of the mean pressure in the longest wave, and of the deflection under load; and at
-most, deflections under load (``solvers.protocol.scaled_error``)."""
+"""Lengths that errors are relative to at least: of the deflection of the mean pressure in the
+longest wave, and of the deflection under load; and at most, deflections under load
+(``solvers.protocol.scaled_error``)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pressed:
     """A result with what its fields make: in m and Pa, (nx, ny).
 
-    ``lift`` is the displacement that is not by the pressure, known to ``lift_error`` (norm over all points); ``factor`` what the operator is to be
-    multiplied by; ``dent`` the permanent indentation and imprint after the step, ``before`` the indentation before it.
+    ``lift`` is the displacement that is not by the pressure, known to ``lift_error`` (norm over all
+    points); ``factor`` what the operator is to be multiplied by; ``dent`` the permanent indentation
+    and imprint after the step, ``before`` the indentation before it.
     """
 
     result: asp.ContactResult
@@ -75,7 +79,8 @@ class Pressed:
 
     @property
     def energy(self) -> float:
-        """Complementary energy per pixel area (Pa m) of the pressure, by which errors of it are relative."""
+        """Complementary energy per pixel area (Pa m) of the pressure, by which errors of it are
+        relative."""
         p = self.pressure
         yielded = float((p * (self.indentation - self.before)).sum())
         elastic = 0.5 * float((p * self.deflection).sum())
@@ -84,7 +89,8 @@ class Pressed:
 
     @property
     def length(self) -> float:
-        """Length (m) to which the errors of the certificate are relative: the rms height; of flat bodies what they deform by; at least what is resolved."""
+        """Length (m) to which the errors of the certificate are relative: the rms height; of flat
+        bodies what they deform by; at least what is resolved."""
         p = self.pressure
         rms = float(self.result.problem.profile().std())
         if rms == 0.0:
@@ -93,7 +99,8 @@ class Pressed:
 
     @property
     def least(self) -> float:
-        """Length (m) that is resolved: shares of the deflections by the mean pressure and under load."""
+        """Length (m) that is resolved: shares of the deflections by the mean pressure and under
+        load."""
         return max(
             UNRESOLVED * self.factor * self.operator.largest * float(self.pressure.mean()),
             OF_DEFLECTION * self.deflected,
@@ -140,7 +147,8 @@ def _tolerance(result: asp.ContactResult, name: str) -> float:
 
 
 def complementarity(of: Pressed) -> list[Check]:
-    """The duality gap, relative to the energy, at the level of the bodies at which it is least; and the largest overlap."""
+    """The duality gap, relative to the energy, at the level of the bodies at which it is least; and
+    the largest overlap."""
     p, cap, result = of.pressure, of.cap, of.result
     total = float(p.sum())
     if total == 0.0:
@@ -161,7 +169,8 @@ def complementarity(of: Pressed) -> list[Check]:
 
 
 def _least(p: RealArray, r: RealArray, cap: float | RealArray) -> float:
-    """Least of Σ (r - λ)+ p + (λ - r)+ (cap - p) over the level λ, which it has at one of the values of r."""
+    """Least of Σ (r - λ)+ p + (λ - r)+ (cap - p) over the level λ, which it has at one of the
+    values of r."""
     values, p_, spare = r.ravel(), p.ravel(), np.maximum(np.asarray(cap - p), 0.0).ravel()
     order = np.argsort(values)
     values, p_, spare = values[order], p_[order], spare[order]
@@ -174,7 +183,8 @@ def _least(p: RealArray, r: RealArray, cap: float | RealArray) -> float:
 
 
 def gaps(of: Pressed) -> list[Check]:
-    """The gap that the result states is that of its pressure; where there is pressure it is closed."""
+    """The gap that the result states is that of its pressure; where there is pressure it is
+    closed."""
     result, p, g = of.result, of.pressure, of.gap
     total = float(p.sum())
     if total == 0.0:
@@ -192,7 +202,8 @@ def gaps(of: Pressed) -> list[Check]:
 
 
 def load(of: Pressed, control: object, *, pulled: float = 0.0) -> list[Check]:
-    """The mean pressure, less what is ``pulled`` beside it (Pa), is the prescribed one; or the position."""
+    """The mean pressure, less what is ``pulled`` beside it (Pa), is the prescribed one; or the
+    position."""
     result = of.result
     p, grid = of.pressure, result.problem.grid
     mean = float(p.mean())

@@ -1,6 +1,7 @@
 """Random problems over all physics of a contact, each the same for the same seed.
 
-What is known beforehand to have no solution is not made: loads above the hardness, positions beyond full contact, tangential forces above friction.
+What is known beforehand to have no solution is not made: loads above the hardness, positions beyond
+full contact, tangential forces above friction.
 """
 
 from __future__ import annotations
@@ -41,7 +42,8 @@ class Rolled:
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """A problem with the steps of its history, of which the last one of a rolling contact is the only one."""
+    """A problem with the steps of its history, of which the last one of a rolling contact is the
+    only one."""
 
     seed: int
     kind: str
@@ -69,7 +71,8 @@ def _chosen(rng: np.random.Generator, options: tuple[Any, ...]) -> Any:
 
 
 def _shape(rng: np.random.Generator, largest: int, *, line: float = 0.15) -> tuple[int, int]:
-    """Up to ``largest`` points a side, most of them few; one point wide with the probability ``line``."""
+    """Up to ``largest`` points a side, most of them few; one point wide with the probability
+    ``line``."""
     nx, ny = (round(4.0 * (0.25 * largest) ** rng.random()) for _ in range(2))
     return nx, 1 if rng.random() < line else ny
 
@@ -88,7 +91,8 @@ def _surface(
     *,
     periodic: bool = False,
 ) -> asp.Surface:
-    """Surface of random pixels, 1 nm to 1 mm wide, of 1 : 4 to 4 : 1, with a largest difference of neighbours over pixels of ten to the powers ``slope``."""
+    """Surface of random pixels, 1 nm to 1 mm wide, of 1 : 4 to 4 : 1, with a largest difference of
+    neighbours over pixels of ten to the powers ``slope``."""
     pixel = _log(rng, -9.0, -3.0)
     dy = pixel * float(rng.choice([1.0, 1.0, 0.25, 0.7, 4.0]))
     found = _chosen(rng, shapes)(rng, shape)
@@ -113,7 +117,8 @@ def _load(rng: np.random.Generator, mean: float, grid: asp.Grid) -> Control:
 
 
 def _position(rng: np.random.Generator, surface: asp.Surface, boundary: object, depth: tuple[float, float]) -> Control:
-    """Approach or mean gap nearer than first touch by ten to the powers ``depth`` of the way to full contact of rigid bodies."""
+    """Approach or mean gap nearer than first touch by ten to the powers ``depth`` of the way to
+    full contact of rigid bodies."""
     heights_ = np.asarray(surface.heights)
     touch = float(heights_.max() - heights_.mean())
     closer = touch * _log(rng, *depth)
@@ -160,7 +165,8 @@ def _normal(seed: int, rng: np.random.Generator) -> Case:
 
 
 def layered_body(rng: np.random.Generator, pixel: float, *, least: float = -2.5) -> asp.Layered:
-    """One to three layers, softer or stiffer by up to thousand times, a hundredth to a hundred pixels thick, on a half-space or a rigid base."""
+    """One to three layers, softer or stiffer by up to thousand times, a hundredth to a hundred
+    pixels thick, on a half-space or a rigid base."""
     base = _elastic(rng, most=0.49)
     modulus = base.youngs_modulus
     layers = [
@@ -191,7 +197,8 @@ def _strong(material: asp.Elastic, hardness: float) -> asp.Elastic:
 
 
 def _hardness(seed: int, rng: np.random.Generator) -> Case:
-    """A number, a map, or that of a coated body; loaded, unloaded and loaded again, or to a position."""
+    """A number, a map, or that of a coated body; loaded, unloaded and loaded again, or to a
+    position."""
     shape = _shape(rng, 24)
     surface = _surface(rng, shape, heights.ALL, (-4.0, 0.0))
     body: Body = _elastic(rng)
@@ -227,7 +234,8 @@ def _hardness(seed: int, rng: np.random.Generator) -> Case:
 
 
 def _wet(seed: int, rng: np.random.Generator) -> Case:
-    """Films of a hundredth to the whole of the roughness; menisci that pull by a millionth to a hundredth of E* times the slope."""
+    """Films of a hundredth to the whole of the roughness; menisci that pull by a millionth to a
+    hundredth of E* times the slope."""
     shape = _shape(rng, 24)
     surface = _surface(rng, shape, (heights.rough, heights.waves, heights.sphere), (-4.0, 0.0))
     body = _elastic(rng)
@@ -255,7 +263,8 @@ def _wet(seed: int, rng: np.random.Generator) -> Case:
 
 
 def adhesion_law(rng: np.random.Generator, modulus: float, pixel: float, slope: float) -> asp.ContactProblem | Any:
-    """Law of a range of a hundredth to three pixels, whose cohesive length spans half a pixel to a hundred."""
+    """Law of a range of a hundredth to three pixels, whose cohesive length spans half a pixel to a
+    hundred."""
     reach = pixel * min(slope, 1.0) * _log(rng, -1.0, 0.5)
     length = pixel * _log(rng, 0.3, 2.0)
     strength = modulus * reach / length
@@ -318,7 +327,8 @@ def _adhesive(seed: int, rng: np.random.Generator) -> Case:
 
 
 def friction_law(rng: np.random.Generator, mean: float, shape: tuple[int, int]) -> Any:
-    """Coulomb's law with a number, a map or a limit, a constant strength, or full stick, of a contact under the ``mean`` pressure."""
+    """Coulomb's law with a number, a map or a limit, a constant strength, or full stick, of a
+    contact under the ``mean`` pressure."""
     mu = float(rng.uniform(0.05, 0.8))
     laws: tuple[Callable[[], Any], ...] = (
         lambda: asp.Coulomb(mu),
@@ -332,7 +342,8 @@ def friction_law(rng: np.random.Generator, mean: float, shape: tuple[int, int]) 
 
 
 def _pair(rng: np.random.Generator, pixel: float, *, coupled: bool) -> tuple[Body, Body]:
-    """Bodies whose shear moves the surfaces up and down, or not; some are coated, in layers of more than a third of a ``pixel`` (m)."""
+    """Bodies whose shear moves the surfaces up and down, or not; some are coated, in layers of more
+    than a third of a ``pixel`` (m)."""
     body: Body = _elastic(rng, most=0.49)
     if rng.random() < 0.1:
         coated = layered_body(rng, 10.0 * pixel, least=-1.0)
@@ -420,7 +431,8 @@ def _rolling(seed: int, rng: np.random.Generator) -> Case:
 
 
 def _in_time(seed: int, rng: np.random.Generator) -> Case:
-    """Ramps and holds of solids with one to three relaxation times, some of a fluid; equal steps of time or those by the error."""
+    """Ramps and holds of solids with one to three relaxation times, some of a fluid; equal steps of
+    time or those by the error."""
     shape = _shape(rng, 12)
     surface = _surface(rng, shape, heights.GENTLE, (-3.0, -0.3))
     modulus, nu = _log(rng, 3.0, 10.0), float(rng.uniform(0.0, 0.5))

@@ -1,7 +1,8 @@
-"""Equations of friction: the cone, the direction of slip, points that stick; of steps with stick and slip and of steady rolling.
+"""Equations of friction: the cone, the direction of slip, points that stick; of steps with stick
+and slip and of steady rolling.
 
-Of the step the slip is s = shift - (u - u0), u = C q + D p along the surface; |q| <= B(p), and B |s| = q·s: no slip below the bound, slip along the
-traction at it.
+Of the step the slip is s = shift - (u - u0), u = C q + D p along the surface; |q| <= B(p), and B
+|s| = q·s: no slip below the bound, slip along the traction at it.
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ INACTIVE = 10.0
 """Bounds over the largest traction from which on they count as this many times it."""
 
 TRANSIENT = 100.0
-"""Distance from the steady state over the last change of the transient method, as ``roll`` states it."""
+"""Distance from the steady state over the last change of the transient method, as ``roll`` states
+it."""
 
 
 def operator_of(problem: asp.ContactProblem) -> TangentialOperator:
@@ -51,7 +53,8 @@ def cone(traction: RealArray, bound: RealArray) -> Check:
 def by_friction(
     traction: RealArray, bound: RealArray, slip: RealArray, elastic: float, stated: float, rounding: float
 ) -> Check:
-    """Σ (B |s| - q·s) over the ``elastic`` energy per pixel area (Pa m) and the work of the slip: no slip below the bound, and along the traction at it.
+    """Σ (B |s| - q·s) over the ``elastic`` energy per pixel area (Pa m) and the work of the slip:
+    no slip below the bound, and along the traction at it.
 
     ``rounding`` is that of the slip, in m.
     """
@@ -69,7 +72,8 @@ def _elastic(operator: TangentialOperator, traction: RealArray) -> float:
 
 
 def _moved(result: asp.ContactResult, before: asp.ContactResult | None) -> RealArray:
-    """Displacement (2, nx, ny) in m of the rigid counter body in the step; NaN where it is not determined."""
+    """Displacement (2, nx, ny) in m of the rigid counter body in the step; NaN where it is not
+    determined."""
     now, then = result.require_stick_slip(), None if before is None else before.require_stick_slip()
     values = np.array([now.shift_x, now.shift_y, now.twist])
     if then is not None:
@@ -122,7 +126,8 @@ def lift_error(operator: TangentialOperator, result: asp.ContactResult) -> float
 
 
 def sliding(operator: TangentialOperator, result: asp.ContactResult) -> tuple[RealArray, list[Check]]:
-    """Displacement (nx, ny) in m by the shear of a contact in which everything slides, and that it is the one stated."""
+    """Displacement (nx, ny) in m by the shear of a contact in which everything slides, and that it
+    is the one stated."""
     friction = result.problem.friction
     assert isinstance(friction, asp.Coulomb)
     bound = friction.bound(np.asarray(result.pressure, dtype=float))
@@ -133,7 +138,8 @@ def sliding(operator: TangentialOperator, result: asp.ContactResult) -> tuple[Re
 
 
 def rolling(operator: TangentialOperator, found: asp.rolling.RollingContact, *, transient: bool) -> list[Check]:
-    """Steady traction: what material slips while it moves by a pixel is along the traction where that is at its bound, and nothing elsewhere."""
+    """Steady traction: what material slips while it moves by a pixel is along the traction where
+    that is at its bound, and nothing elsewhere."""
     grid, pressure = found.normal.problem.grid, np.asarray(found.normal.pressure, dtype=float)
     direction = DIRECTIONS[found.direction]
     pixel = grid.spacing[direction.axis]

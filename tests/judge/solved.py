@@ -12,7 +12,8 @@ import asperity as asp
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """Results of the steps that were solved, or why there are none: ``cause`` of a refusal or of no convergence."""
+    """Results of the steps that were solved, or why there are none: ``cause`` of a refusal or of no
+    convergence."""
 
     results: tuple[asp.ContactResult, ...] = ()
     rolling: asp.rolling.RollingContact | None = None

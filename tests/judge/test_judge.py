@@ -1,4 +1,5 @@
-"""Random problems over all physics: what is called converged fulfils its equations, and nearly all are solved."""
+"""Random problems over all physics: what is called converged fulfils its equations, and nearly all
+are solved."""
 
 from __future__ import annotations
 
@@ -159,7 +160,8 @@ def test_all_controls_boundaries_and_laws_come_up() -> None:
 
 @pytest.mark.parametrize("seed", [3484, 4573, 5553])
 def test_steps_that_seem_to_make_energy_state_that_as_error(seed: int) -> None:
-    """Of an edge without range, or beside a hardness, the trapezium may miss more than half of ΔF Δδ: what it finds made is its error."""
+    """Of an edge without range, or beside a hardness, the trapezium may miss more than half of ΔF
+    Δδ: what it finds made is its error."""
     case = problem(seed)
     for step in asp.solve(case.problem, asp.History(case.steps)):
         found = step.require_adhesion()

@@ -1,7 +1,8 @@
-"""The certificate is a bound: for any feasible pressure the duality gap is at least the true error of the energy.
+"""The certificate is a bound: for any feasible pressure the duality gap is at least the true error
+of the energy.
 
-Against the exact dense solution: V(p) - V(p*) <= G and |p - p*|_K² / 2 <= V(p) - V(p*) (weak duality and strong
-convexity of the quadratic programme; Kalker 1977).
+Against the exact dense solution: V(p) - V(p*) <= G and |p - p*|_K² / 2 <= V(p) - V(p*) (weak
+duality and strong convexity of the quadratic programme; Kalker 1977).
 """
 
 from __future__ import annotations
@@ -31,7 +32,8 @@ problems = given(SEEDS, SHAPES, BOUNDARIES, LOADS, CAPS)
 
 
 def posed(seed: int, shape: tuple[int, int], boundary: object, load: float, cap: str) -> ContactQP:
-    """Random problem at prescribed load, E* = 1, heights of unit rms, cap of a few times the load."""
+    """Random problem at prescribed load, E* = 1, heights of unit rms, cap of a few times the
+    load."""
     rng = np.random.default_rng(seed)
     operator = asp.solvers.prepare_operator(HalfSpace(1.0), asp.Grid(shape, (1.0, 1.3)), boundary)  # type: ignore[arg-type]
     heights = rough(shape, seed).heights
@@ -40,7 +42,8 @@ def posed(seed: int, shape: tuple[int, int], boundary: object, load: float, cap:
 
 
 def feasible(qp: ContactQP, exact: RealArray, rng: np.random.Generator) -> RealArray:
-    """Random pressure that carries the load: noise, or the solution with noise of any size, often sparse."""
+    """Random pressure that carries the load: noise, or the solution with noise of any size, often
+    sparse."""
     assert isinstance(qp.constraint, FixedMean)
     noise = rng.exponential(qp.constraint.mean_pressure, exact.shape) * (rng.random(exact.shape) < rng.random())
     weight = 10.0 ** rng.uniform(-6.0, 0.0)

@@ -1,4 +1,5 @@
-"""Laws of contacts in which several physics act at once: agreement with nesting, order, restart, prescribed positions, balances."""
+"""Laws of contacts in which several physics act at once: agreement with nesting, order, restart,
+prescribed positions, balances."""
 
 from __future__ import annotations
 
@@ -127,7 +128,8 @@ def test_the_order_of_couplings_does_not_matter(surface):
 
 @pytest.mark.parametrize("law", LAWS)
 def test_a_history_goes_on_from_its_state_as_if_there_were_no_break(surface, law):
-    """In the middle of a leg too, for which the state keeps both last pressures: the same numbers to the bit."""
+    """In the middle of a leg too, for which the state keeps both last pressures: the same numbers
+    to the bit."""
     posed = problem(surface, law, film=FILM, friction=FRICTION)
     course = asp.contact.ramps(asp.MeanPressure, [20e6, 4e6], steps=3)
     whole = asp.solve(posed, asp.History(course))
@@ -156,7 +158,8 @@ def test_a_history_with_menisci_and_friction_unloads_and_balances_its_energies(s
 
 
 def test_menisci_are_remembered(surface):
-    """On the way back they hold more than on the way up, and what they hold does not depend on the number of steps."""
+    """On the way back they hold more than on the way up, and what they hold does not depend on the
+    number of steps."""
     posed = problem(surface, film=replace(FILM, thickness=2.0 * NM, meniscus_height=2.0 * NM))
     up = asp.solve(posed, asp.MeanPressure(4e6))
     pixels = 4.0 * posed.film.suction * posed.grid.pixel_area + 2e-4 * up.external_force
@@ -259,7 +262,8 @@ def test_an_approach_of_a_millionth_of_the_roughness_is_met(surface):
 
 
 def test_a_position_at_the_hardness_is_answered_or_refused():
-    """The load search used to reach a mean pressure equal to the hardness, and to divide by the load still to be placed."""
+    """The load search used to reach a mean pressure equal to the hardness, and to divide by the
+    load still to be placed."""
     grid = asp.Grid((24, 20), (1.0, 1.0))
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=6.0, shortest_wavelength=4.0
@@ -272,7 +276,8 @@ def test_a_position_at_the_hardness_is_answered_or_refused():
 
 
 def test_a_hard_film_near_full_contact_is_brought_to_its_position(surface):
-    """Beyond the largest load that the softening surface bears, too: the position is searched for at every state of the film."""
+    """Beyond the largest load that the softening surface bears, too: the position is searched for
+    at every state of the film."""
     rougher = asp.generate.gaussian(asp.Grid((48, 48), (25 * NM, 25 * NM)), surface_spectrum(), seed=5)
     posed, loads = problem(rougher, "hard film"), []
     for approach in (6.0 * NM, 6.5 * NM, 7.0 * NM):

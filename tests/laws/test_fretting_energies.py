@@ -1,4 +1,5 @@
-"""Where the work of a tangential cycle goes: into slip, and what the length of the implicit steps takes."""
+"""Where the work of a tangential cycle goes: into slip, and what the length of the implicit steps
+takes."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ def cycle(counter: object, steps: int) -> asp.HistoryResult:
 
 @pytest.mark.parametrize("counter", [asp.Rigid(), COATED])
 def test_a_closed_cycle_balances(counter: object) -> None:
-    """The shift does work; all of it is heat or the loss of the steps, to 1e-4. Equal bodies come back to the same energy (to the tolerance 1e-6)."""
+    """The shift does work; all of it is heat or the loss of the steps, to 1e-4. Equal bodies come
+    back to the same energy (to the tolerance 1e-6)."""
     found = cycle(counter, 3).energies
     work = found.tangential_work[-1] + found.external_work[-1]
     assert work > 0.0

@@ -1,4 +1,5 @@
-"""The equation of the gap, gap = offset + displacement - profile, in every contact whose shear or past moves the surfaces up and down."""
+"""The equation of the gap, gap = offset + displacement - profile, in every contact whose shear or
+past moves the surfaces up and down."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -22,7 +23,8 @@ def pressed(**options: object) -> asp.ContactProblem:
 
 
 def equation(result: asp.ContactResult) -> tuple[float, float]:
-    """Largest error of the equation anywhere and in contact, over the length of deflection plus height."""
+    """Largest error of the equation anywhere and in contact, over the length of deflection plus
+    height."""
     heights = result.problem.profile()
     gap = result.offset + result.displacement - heights + result.permanent_indentation
     touching, length = result.contact, float(np.ptp(heights)) + float(np.ptp(result.displacement))
@@ -68,7 +70,8 @@ def waved() -> asp.ContactProblem:
 
 @pytest.mark.parametrize("name", CASES)
 def test_gap_is_offset_and_displacement_less_profile(name: str) -> None:
-    """Beside the contact to rounding; in contact, where the gap is zero, to the tolerance of the normal solve (1e-8 or finer)."""
+    """Beside the contact to rounding; in contact, where the gap is zero, to the tolerance of the
+    normal solve (1e-8 or finer)."""
     result = CASES[name]()
     beside, inside = equation(result)
     assert beside <= 1e-13
@@ -77,7 +80,8 @@ def test_gap_is_offset_and_displacement_less_profile(name: str) -> None:
 
 @pytest.mark.parametrize("control", [LOAD, asp.Approach(2e-7), asp.MeanGap(3.5e-7)], ids=str)
 def test_numbers_of_rolling_unlike_bodies_are_those_of_its_fields(control: Control) -> None:
-    """Approach from first touch, the control, and half of pressure times displacement; a prescribed approach or gap is the one reached."""
+    """Approach from first touch, the control, and half of pressure times displacement; a prescribed
+    approach or gap is the one reached."""
     result = rolling(control)
     assert result.control == control
     assert result.problem.surface.heights == pytest.approx(BALL.heights, rel=0.0, abs=0.0)
@@ -89,7 +93,8 @@ def test_numbers_of_rolling_unlike_bodies_are_those_of_its_fields(control: Contr
 
 
 def test_rolling_goes_to_the_contact_of_stick_and_slip_at_an_approach() -> None:
-    """Both count the approach from first touch without shear: under a creepage at which all slips rolling is gross sliding along x."""
+    """Both count the approach from first touch without shear: under a creepage at which all slips
+    rolling is gross sliding along x."""
     problem, control = pressed(), asp.Approach(2e-7)
     rolls = asp.roll(problem, control, asp.rolling.Creepage(10.0), tolerance=1e-5).normal
     slides = asp.solve(problem, control)

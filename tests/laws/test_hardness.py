@@ -1,4 +1,5 @@
-"""Hardness-limited contact: bounds, permanent indentation, reload, work, errors (Almqvist et al. 2007)."""
+"""Hardness-limited contact: bounds, permanent indentation, reload, work, errors (Almqvist et al.
+2007)."""
 
 import dataclasses
 
@@ -38,7 +39,8 @@ def test_unloading_is_elastic_and_keeps_the_indentation(seed, boundary):
     problem = posed(seed, boundary=boundary)
     loaded = asp.solve(problem, asp.MeanPressure(0.2), solver=TIGHT)
     unloaded = asp.solve(problem, asp.MeanPressure(0.1), solver=TIGHT, state=loaded.state)
-    # the pressure falls almost everywhere; where neighbours lose contact it may rise, but a cap holds it
+    # the pressure falls almost everywhere; where neighbours lose contact it may rise, but a cap
+    # holds it
     assert unloaded.plastic_work <= 0.05 * loaded.plastic_work
     assert (unloaded.permanent_indentation >= loaded.permanent_indentation).all()
     virgin = asp.solve(problem, asp.MeanPressure(0.1), solver=TIGHT)
@@ -69,7 +71,8 @@ def test_softer_means_more_area_and_more_indentation():
 
 
 def test_fully_plastic_area_is_load_over_hardness():
-    """The rigid-plastic limit: as E*/H grows the real area tends to load over hardness (Bowden & Tabor)."""
+    """The rigid-plastic limit: as E*/H grows the real area tends to load over hardness (Bowden &
+    Tabor)."""
     problem = asp.ContactProblem(rough((64, 64), 2), elastic(1e4), law=asp.Hardness(1.0))
     result = asp.solve(problem, asp.MeanPressure(0.1), solver=TIGHT)
     assert result.is_plastic

@@ -1,4 +1,5 @@
-"""Positions beyond full yield, and between plateaus: where a hardness bounds the pressure, every approach has an answer."""
+"""Positions beyond full yield, and between plateaus: where a hardness bounds the pressure, every
+approach has an answer."""
 
 import numpy as np
 import pytest
@@ -34,7 +35,8 @@ def test_beyond_full_yield_the_indentation_takes_the_rest(beyond: float) -> None
 
 @pytest.mark.parametrize("share", [0.3, 0.9])
 def test_a_plateau_that_yields_sinks_at_one_load(share: float) -> None:
-    """Half of the points at the hardness, half free of load, wherever between first yield and first touch the approach is."""
+    """Half of the points at the hardness, half free of load, wherever between first yield and first
+    touch the approach is."""
     heights = np.zeros((8, 8))
     heights[:4] = 1e-5
     result = asp.solve(posed(heights), asp.Approach(share * 1e-5))

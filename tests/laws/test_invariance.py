@@ -1,4 +1,5 @@
-"""Laws every solution obeys: symmetries, scaling, superposition of bodies, monotonicity. Property-based."""
+"""Laws every solution obeys: symmetries, scaling, superposition of bodies, monotonicity.
+Property-based."""
 
 import dataclasses
 
@@ -17,8 +18,8 @@ BOUNDARIES = st.sampled_from([asp.Periodic(), asp.Free()])
 LOADS = st.floats(0.002, 0.3)
 few = settings(max_examples=25)
 
-# a relative error of 1e-11 in energy is at most its square root, 3e-6, in pressure (K-norm); 1e-4 of the maximum
-# leaves room for the norms' ratio on grids of up to 18 points
+# a relative error of 1e-11 in energy is at most its square root, 3e-6, in pressure (K-norm); 1e-4
+# of the maximum leaves room for the norms' ratio on grids of up to 18 points
 CLOSE = 1e-4
 
 
@@ -89,7 +90,8 @@ def test_scaling_heights_lengths_and_modulus(shape, seed, boundary, load, height
 @few
 @given(SHAPES, SEEDS, SEEDS, BOUNDARIES, LOADS)
 def test_two_bodies_are_one_composite(shape, seed, other, boundary, load):
-    """Two rough elastic bodies = the sum of the surfaces on the sum of the compliances (Peng 2001, appendix D)."""
+    """Two rough elastic bodies = the sum of the surfaces on the sum of the compliances (Peng 2001,
+    appendix D)."""
     one, two = rough(shape, seed), rough(shape, other)
     soft, stiff = asp.Elastic(1.0, 0.2), asp.Elastic(3.0, 0.4)
     pair = asp.ContactProblem(one, soft, counter_surface=two, counter_body=stiff, boundary=boundary)
@@ -103,7 +105,8 @@ def test_two_bodies_are_one_composite(shape, seed, other, boundary, load):
 @few
 @given(SHAPES, SEEDS, BOUNDARIES, st.lists(LOADS, min_size=2, max_size=2, unique=True))
 def test_contact_grows_with_load(shape, seed, boundary, loads):
-    """Area and approach never decrease with load, the mean gap never grows (pixels near zero pressure may flicker)."""
+    """Area and approach never decrease with load, the mean gap never grows (pixels near zero
+    pressure may flicker)."""
     surface = rough(shape, seed)
     low, high = (solved(surface, load, boundary) for load in sorted(loads))
     assert high.approach >= low.approach * (1.0 - 1e-6)
@@ -124,7 +127,8 @@ def test_a_more_compliant_solid_has_no_less_area(shape, seed, boundary, load, ra
 @few
 @given(SHAPES, SEEDS, BOUNDARIES, LOADS, st.sampled_from([np.inf, 4.0, 1.5]))
 def test_contact_conditions_and_balance(shape, seed, boundary, load, cap_over_load):
-    """The solution itself: p >= 0, p <= H, gap >= 0, p gap = 0, load carried, gap identity, certificate honest."""
+    """The solution itself: p >= 0, p <= H, gap >= 0, p gap = 0, load carried, gap identity,
+    certificate honest."""
     law = asp.plasticity.HardWall() if cap_over_load == np.inf else asp.Hardness(cap_over_load * load)
     result = solved(rough(shape, seed), load, boundary, law)
     assert result.pressure.min() >= 0.0
@@ -183,7 +187,8 @@ def test_looser_tolerance_means_fewer_iterations_and_a_larger_certified_error():
     assert loose.certificate.iterations < tight.certificate.iterations
     assert 1e-9 < loose.certificate.field_error <= 1e-3
 
-    # the certificate bounds the energy error: the loose answer's energy lies above the tight one's by at most that
+    # the certificate bounds the energy error: the loose answer's energy lies above the tight one's
+    # by at most that
     def energy(result):
         return 0.5 * (result.pressure * result.displacement).sum() - (result.pressure * problem.profile()).sum()
 

@@ -47,7 +47,8 @@ def test_very_thick_and_very_thin_layers_are_half_spaces(boundary):
 
 
 def test_stretching_everything_scales_the_answer():
-    """Heights, pixels and layers three times as large at the same pressure: lengths triple, pressures stay."""
+    """Heights, pixels and layers three times as large at the same pressure: lengths triple,
+    pressures stay."""
     plain = solved(BODY)
     large = asp.Surface(3.0 * SURFACE.heights, 3.0 * SURFACE.dx, 3.0 * SURFACE.dy, periodic=True)
     layers = [asp.Layer(layer.material, 3.0 * layer.thickness) for layer in BODY.layers]
@@ -58,7 +59,8 @@ def test_stretching_everything_scales_the_answer():
 
 
 def test_a_layer_on_a_rigid_base_is_pressed_by_the_approach():
-    """A uniform pressure on a flat layer compresses it by p h/M: approach, and energy per area half of their product."""
+    """A uniform pressure on a flat layer compresses it by p h/M: approach, and energy per area half
+    of their product."""
     h, material = 2.0, elastic(3.0, 0.25)
     body = asp.Layered([asp.Layer(material, h)], asp.RigidBase())
     problem = asp.ContactProblem(asp.Surface(np.zeros((8, 8)), 1.0, periodic=True), body)
@@ -79,7 +81,8 @@ def self_affine(n=256):
 
 @pytest.mark.parametrize(("ratio", "factor"), [(2.0, 0.5), (0.5, 2.0)])
 def test_a_thick_coating_twice_as_stiff_halves_the_area(ratio, factor):
-    """Area is proportional to load over modulus while it is small (Peng & Bhushan 2001); the base is felt by a few per cent."""
+    """Area is proportional to load over modulus while it is small (Peng & Bhushan 2001); the base
+    is felt by a few per cent."""
     surface = self_affine()
     load = asp.MeanPressure(0.01)
     bare, coated = (
@@ -91,7 +94,8 @@ def test_a_thick_coating_twice_as_stiff_halves_the_area(ratio, factor):
 
 @pytest.mark.parametrize("ratio", [0.5, 2.0])
 def test_layers_cost_hardly_more_transforms(ratio):
-    """The preconditioner follows the compliance; pairs at equal areas, counted, and so the same on every machine."""
+    """The preconditioner follows the compliance; pairs at equal areas, counted, and so the same on
+    every machine."""
     surface = self_affine()
     bare = asp.solve(asp.ContactProblem(surface, elastic(1.0, 0.3)), asp.MeanPressure(0.05), keep=NO_EXTRAS)
     problem = asp.ContactProblem(surface, on_half_space(ratio, 20.0))

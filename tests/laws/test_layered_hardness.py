@@ -1,4 +1,5 @@
-"""Hardness that follows the local indentation of a coated body: limits, agreement of depth and limit, independence of steps."""
+"""Hardness that follows the local indentation of a coated body: limits, agreement of depth and
+limit, independence of steps."""
 
 from __future__ import annotations
 
@@ -49,7 +50,8 @@ def test_much_thicker_than_the_indentation_is_the_film(film, base):
 
 
 def test_much_thinner_than_the_indentation_is_the_base():
-    """A soft film bears nothing: what differs goes with its thickness. A hard one must first be broken; there the base bears."""
+    """A soft film bears nothing: what differs goes with its thickness. A hard one must first be
+    broken; there the base bears."""
     plain = solved(coated(0.3, 0.6, 1.0), law=asp.Hardness(0.6))
     found = [np.abs(solved(coated(0.3, 0.6, t)).pressure - plain.pressure).max() for t in (0.1, 0.03, 0.01)]
     assert found[1] < 0.6 * found[0]
@@ -71,7 +73,8 @@ def test_a_load_above_the_hardness_of_the_film_presses_through_it():
 
 
 def test_soft_films_of_any_thickness_settle():
-    """Random films from a ten-thousandth to the rms height; limits alone as unknowns left half of them unsettled."""
+    """Random films from a ten-thousandth to the rms height; limits alone as unknowns left half of
+    them unsettled."""
     solves = 0
     for seed in (0, 1, 6, 8, 12, 15, 16, 19):
         rng = np.random.default_rng(seed)
@@ -124,7 +127,8 @@ def test_more_film_is_softer_or_harder_as_the_film_is():
 @FILMS
 @pytest.mark.parametrize("thickness", [0.2, 2.0])
 def test_one_step_ends_where_many_do(film, base, thickness):
-    """Limit and depth agree after a step of any size; what little differs are points that yielded on the way."""
+    """Limit and depth agree after a step of any size; what little differs are points that yielded
+    on the way."""
     body = coated(film, base, thickness)
     problem = asp.ContactProblem(rough((24, 20), 3), body, law=asp.plasticity.LayeredHardness(body))
     many = asp.solve(problem, asp.History(asp.contact.ramps(asp.MeanPressure, [0.2], steps=8)), solver=SOLVER).steps[-1]

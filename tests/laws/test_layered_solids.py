@@ -40,7 +40,8 @@ def assert_same(found, expected, rtol):
 @many
 @given(stacks())
 def test_compliance_is_positive_definite(body):
-    """An incompressible layer that slips has a determinant of (alpha h)² only, which rounding may cover."""
+    """An incompressible layer that slips has a determinant of (alpha h)² only, which rounding may
+    cover."""
     found = surface(body)
     for diagonal in (found.LL, found.zz, found.T):
         assert (diagonal > 0.0).all()
@@ -70,7 +71,8 @@ def test_layers_of_no_thickness_vanish(body, material, at):
 @many
 @given(stacks(most=3, interfaces=BONDED), MATERIALS)
 def test_a_thin_layer_changes_little(body, material):
-    """First order in h: its own compliance h/G, and its stiffness G h against the deformation alpha C of what is below."""
+    """First order in h: its own compliance h/G, and its stiffness G h against the deformation alpha
+    C of what is below."""
     alpha, h, G = np.array([1e-3, 1.0]), 1e-12, material.shear_modulus
     thin = surface(asp.Layered([asp.Layer(material, h), *body.layers], body.base), alpha)
     bare = surface(body, alpha)
@@ -117,7 +119,8 @@ def test_scaling_with_length_and_modulus(body, longer, stiffer):
 @many
 @given(stacks(), st.floats(1.01, 100.0), st.integers(0, 4))
 def test_a_stiffer_material_deflects_less_under_normal_and_antiplane_load(body, factor, at):
-    """Minimum of complementary energy: scaling up one modulus lowers every quadratic form of the compliance."""
+    """Minimum of complementary energy: scaling up one modulus lowers every quadratic form of the
+    compliance."""
     layers = list(body.layers)
     at %= len(layers)
     m = layers[at].material
@@ -135,7 +138,8 @@ def test_a_stiffer_material_deflects_less_under_normal_and_antiplane_load(body, 
     st.floats(0.1, 2.0),
 )
 def test_transfer_matrices_agree_where_they_work(body, alpha):
-    """Independent algorithm: the matrix exponential of the equations of elasticity through each layer, from the base up.
+    """Independent algorithm: the matrix exponential of the equations of elasticity through each
+    layer, from the base up.
 
     It loses about exp(2 alpha h) of its digits, at most 1e6 for these thicknesses and wavenumbers.
     """
@@ -161,7 +165,8 @@ def test_transfer_matrices_agree_where_they_work(body, alpha):
 @many
 @given(stacks(most=1), st.tuples(*3 * [st.integers(-9, 9)]), st.floats(-2.0, 2.0))
 def test_energy_balance_of_a_layer(body, load, exponent):
-    """Work of the tractions on top = energy in the layer and below; the part below is never more than the whole."""
+    """Work of the tractions on top = energy in the layer and below; the part below is never more
+    than the whole."""
     alpha = np.array([10.0**exponent])
     layer = body.layers[0]
     solid = layer.material
@@ -219,7 +224,8 @@ def test_surface_tensor_is_reciprocal_positive_and_real(body, nx, ny, seed):
 
 
 def test_opposed_bodies_of_one_material_do_not_couple():
-    """Relative displacements: diagonal terms double, normal and tangential directions decouple (Johnson 1985, sec. 7.1)."""
+    """Relative displacements: diagonal terms double, normal and tangential directions decouple
+    (Johnson 1985, sec. 7.1)."""
     body = asp.Layered([asp.Layer(elastic(5.0, 0.2), 0.4)], elastic(1.0, 0.3))
     grid = asp.Grid((6, 5), (1.0, 0.7))
     one, two = surface_tensor(grid, body), surface_tensor(grid, body, body)

@@ -1,4 +1,5 @@
-"""Loading, unloading and loading again: conservation of energy, reversibility, the surface that is left."""
+"""Loading, unloading and loading again: conservation of energy, reversibility, the surface that is
+left."""
 
 from __future__ import annotations
 
@@ -41,8 +42,8 @@ def posed(law: str = "constant", boundary: asp.Periodic | asp.Free = asp.Periodi
     ids=lambda value: getattr(value, "name", value),
 )
 def test_work_goes_into_elastic_energy_and_plastic_work(boundary, law):
-    """The residual is that of the trapezoidal rule for ∫ F dδ, of second order: measured 1.7 to 2.4 from one halving to the
-    next, 2.0 on average, since pixels come into contact one by one."""
+    """The residual is that of the trapezoidal rule for ∫ F dδ, of second order: measured 1.7 to 2.4
+    from one halving to the next, 2.0 on average, since pixels come into contact one by one."""
     problem = posed(law, boundary)
     errors = []
     for steps in (4, 8, 16):
@@ -103,7 +104,8 @@ def test_a_lower_load_than_before_is_elastic_and_reversible(boundary, law):
     for up, down in zip(again.steps[:2], again.steps[4:2:-1], strict=True):
         assert up.mean_pressure == pytest.approx(down.mean_pressure)
         assert up.approach == pytest.approx(down.approach, rel=1e-4)
-        # energy norm: the square of the pressure error is bounded by field error times load times rms height
+        # energy norm: the square of the pressure error is bounded by field error times load times
+        # rms height
         assert up.elastic_energy == pytest.approx(down.elastic_energy, rel=1e-3)
     assert again.steps[-1].approach == pytest.approx(first.steps[-1].approach, rel=1e-3)
     assert again.steps[-1].total_plastic_work == pytest.approx(work, rel=1e-3)
@@ -111,7 +113,8 @@ def test_a_lower_load_than_before_is_elastic_and_reversible(boundary, law):
 
 @BOUNDARIES
 def test_the_residual_surface_is_a_surface_like_any_other(boundary):
-    """Pressed elastically, it meets the counter body as the indented surface does with its state."""
+    """Pressed elastically, it meets the counter body as the indented surface does with its
+    state."""
     problem = posed(boundary=boundary)
     loaded = asp.solve(problem, asp.MeanPressure(0.2), solver=SOLVER)
     left = loaded.residual_surface()

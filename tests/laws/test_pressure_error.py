@@ -1,4 +1,5 @@
-"""The certificate bounds the error of the pressure, also where a stiff plate on something soft hides it from the energy."""
+"""The certificate bounds the error of the pressure, also where a stiff plate on something soft
+hides it from the energy."""
 
 import numpy as np
 import pytest
@@ -23,7 +24,8 @@ def stiff_plate() -> asp.ContactProblem:
 
 
 def layered(seed: int) -> tuple[asp.ContactProblem, asp.MeanPressure]:
-    """Moduli over six decades, thickness over four, on soft, stiff and rigid bases; half of them stiff plates on something soft."""
+    """Moduli over six decades, thickness over four, on soft, stiff and rigid bases; half of them
+    stiff plates on something soft."""
     rng = np.random.default_rng([seed, 41])
     shape = int(rng.integers(4, 25)), int(rng.integers(4, 25))
     rough = rng.standard_normal(shape)
@@ -42,7 +44,8 @@ def layered(seed: int) -> tuple[asp.ContactProblem, asp.MeanPressure]:
 
 
 def errors(problem: asp.ContactProblem, control: asp.MeanPressure) -> tuple[float, float, float]:
-    """Of the largest pressure, of all pressures in the L2 norm, and the most that both certificates allow of the latter."""
+    """Of the largest pressure, of all pressures in the L2 norm, and the most that both certificates
+    allow of the latter."""
     found = asp.solve(problem, control)
     close = asp.solve(problem, control, solver=CLOSE, on_failure="return")
     p, right = found.pressure, close.pressure
@@ -60,7 +63,8 @@ def test_a_stiff_plate_on_a_soft_layer_has_the_right_pressures() -> None:
 
 
 def test_a_loose_solution_of_it_states_its_error() -> None:
-    """Without asking for more, the energy is right to 5e-7 and the largest pressure wrong by 3 %: the bound shows it."""
+    """Without asking for more, the energy is right to 5e-7 and the largest pressure wrong by 3 %:
+    the bound shows it."""
     problem = stiff_plate()
     operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
     qp = ContactQP(operator, problem.profile(), np.inf, FixedMean(1.0), float(problem.profile().std()))

@@ -1,4 +1,5 @@
-"""Laws that hold for every surface: turning, shifting, scaling, tilting and levelling, Parseval, holes."""
+"""Laws that hold for every surface: turning, shifting, scaling, tilting and levelling, Parseval,
+holes."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ X_AND_Y = ("_x", "_y")
 
 @st.composite
 def surfaces(draw, *, holes: bool = True) -> asp.Surface:
-    """Rough maps of any side and pixel, periodic or not, smooth over some pixels, with or without holes."""
+    """Rough maps of any side and pixel, periodic or not, smooth over some pixels, with or without
+    holes."""
     shape = (draw(st.integers(12, 40)), draw(st.integers(12, 40)))
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     heights = rng.standard_normal(shape)
@@ -43,7 +45,8 @@ def exchanged(path: str) -> str:
 
 @pytest.fixture(scope="module", autouse=True)
 def without_fit() -> Iterator[None]:
-    """The fit takes nine tenths of the time and is equal only to the accuracy of an optimum; it has tests of its own."""
+    """The fit takes nine tenths of the time and is equal only to the accuracy of an optimum; it has
+    tests of its own."""
 
     def refused(*_: object, **__: object) -> None:
         raise asp.InputError("the spectrum is not fitted here")
@@ -81,7 +84,8 @@ def test_turning_by_a_right_angle(surface):
     turned = asp.Surface(np.rot90(surface.heights), surface.dy, surface.dx, periodic=surface.periodic)
     before, after = numbers(surface), numbers(turned)
     for path, value in before.items():
-        # the Hann window is that of periodic sequences, largest at n/2 and zero at 0 but not at n - 1
+        # the Hann window is that of periodic sequences, largest at n/2 and zero at 0 but not at n -
+        # 1
         windowed = path.startswith(("moments.spectral", "sampling")) and not surface.periodic
         if comparable(path) and not windowed:
             assert after[exchanged(path)] == pytest.approx(value, rel=1e-7, abs=1e-9, nan_ok=True), path
@@ -99,7 +103,8 @@ def test_shifting(surface, shift, offset):
     before, after = numbers(surface), numbers(other)
     for path, value in before.items():
         if comparable(path):
-            # an offset of 50 rounds heights of 1 by 1e-14, which counts where summits or crossings decide
+            # an offset of 50 rounds heights of 1 by 1e-14, which counts where summits or crossings
+            # decide
             assert after[path] == pytest.approx(value, rel=1e-7, abs=1e-9, nan_ok=True), path
 
 
@@ -167,7 +172,8 @@ def test_turning_over_exchanges_peaks_and_valleys(skew):
     if abs(skew) < 1e-3:
         return  # nearly equal heights
     one, other = (r.functional_parameters(curve) for curve in curves)
-    # near its least value the slope of the secant hardly differs between windows some per cent apart
+    # near its least value the slope of the secant hardly differs between windows some per cent
+    # apart
     assert other.Spk == pytest.approx(one.Svk, rel=0.05)
     assert other.Svk == pytest.approx(one.Spk, rel=0.05)
     assert other.Smr1 == pytest.approx(1.0 - one.Smr2, abs=0.02)
@@ -284,7 +290,8 @@ def test_scale_dependence_by_direct_sums(surface, steps):
 @pytest.mark.parametrize("shape", [(32, 32), (128, 128), (64, 48)])
 @pytest.mark.parametrize("factor", [1024.0, 1e-6, 0.3])
 def test_rings_hold_the_same_modes_in_every_unit_of_length(shape, factor):
-    """An edge that falls on a mode must not leave it to rounding which ring the mode is in: 128 = 2·8², the middle edge."""
+    """An edge that falls on a mode must not leave it to rounding which ring the mode is in: 128 =
+    2·8², the middle edge."""
     heights = np.random.default_rng(5).standard_normal(shape)
     rings = [r.radial_spectrum(r.power_spectrum(asp.Surface(heights * k, k * 1e-6))) for k in (1.0, factor)]
     np.testing.assert_array_equal(rings[1].modes, rings[0].modes)
@@ -292,7 +299,8 @@ def test_rings_hold_the_same_modes_in_every_unit_of_length(shape, factor):
 
 
 def test_sectors_and_the_mean_gap_do_not_depend_on_the_unit_of_length():
-    """Modes on the border of two sectors (48 x 64: 1.5 % of the density, 50 x 50: 6 %) and on edges of rings."""
+    """Modes on the border of two sectors (48 x 64: 1.5 % of the density, 50 x 50: 6 %) and on edges
+    of rings."""
     for shape in ((48, 64), (50, 50)):
         heights = np.random.default_rng(5).standard_normal(shape)
         density, gap = [], []

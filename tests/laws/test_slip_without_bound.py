@@ -39,7 +39,8 @@ def posed(friction, body=SOFT, counter=SOFT, **options):
 )
 @pytest.mark.parametrize("name", BARE)
 def test_points_without_bound_slip_by_what_is_left_of_the_shift(name, options):
-    """Their slip is the shift less the elastic displacement along the surface; where nothing bears shear and bodies are alike, the shift."""
+    """Their slip is the shift less the elastic displacement along the surface; where nothing bears
+    shear and bodies are alike, the shift."""
     law = BARE[name]
     problem = posed(law, **options)
     path = asp.solve(problem, asp.History([asp.Step(LOAD, asp.Shift()), asp.Step(LOAD, asp.Shift(0.2, 0.1))]))
@@ -95,7 +96,8 @@ def test_force_without_friction_has_no_solution(law):
 
 @pytest.mark.parametrize("counter", [SOFT, STIFF], ids=["like", "unlike"])
 def test_force_that_friction_just_bears_leaves_the_shift_open(counter):
-    """NaN from there on, with a finding; forces and energies stay, and a smaller force after it slips back by a known amount."""
+    """NaN from there on, with a finding; forces and energies stay, and a smaller force after it
+    slips back by a known amount."""
     problem = posed(asp.Coulomb(0.4), counter=counter)
     limit = 0.4 * 0.1 * problem.grid.area
     forces = (0.0, 0.5, 1.0, -0.5)

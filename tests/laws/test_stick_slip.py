@@ -42,7 +42,8 @@ def test_large_shifts_slide_everything_as_gross_sliding_does():
     gross = asp.solve(problem, LOAD, solver=ActiveSet(tolerance=1e-13))
     assert last.stick_slip.slipping[last.contact].all()
     assert np.linalg.norm(last.pressure - gross.pressure) <= 1e-5 * np.linalg.norm(gross.pressure)
-    # the traction follows the slip, which at points turns a little out of the direction of the shift
+    # the traction follows the slip, which at points turns a little out of the direction of the
+    # shift
     assert last.stick_slip.force_x == pytest.approx(last.stick_slip.friction_limit, rel=1e-3)
 
 
@@ -79,7 +80,8 @@ def test_a_mirror_reverses_one_component():
 
 
 def test_exchanged_bodies_and_opposite_shift_give_the_opposite_traction():
-    """Seen from the other body the coupling changes its sign, and so does the traction that acts on it."""
+    """Seen from the other body the coupling changes its sign, and so does the traction that acts on
+    it."""
     stiff = asp.Elastic(5.0, 0.1)
     first = solved(posed(SOFT, counter_body=stiff), SHIFTED).last
     other = solved(posed(stiff, counter_body=SOFT), asp.Step(LOAD, asp.Shift(-0.2, -0.1))).last
@@ -106,9 +108,11 @@ def test_lengths_and_moduli_scale(length, modulus):
 
 @pytest.mark.parametrize(("body", "tolerance"), [(asp.Elastic(1.0, 0.0), 1e-7), (COATED, 0.03)], ids=["nu 0", "coated"])
 def test_a_closed_cycle_returns(body, tolerance):
-    """Return-point memory: after a smaller cycle the tractions are those before it; every increment of work is >= 0.
+    """Return-point memory: after a smaller cycle the tractions are those before it; every increment
+    of work is >= 0.
 
-    Exact where tractions are along the shift (ν = 0); else slip turns within a step, of which implicit steps make an error.
+    Exact where tractions are along the shift (ν = 0); else slip turns within a step, of which
+    implicit steps make an error.
     """
     mirror = posed(body, counter_body=body)
     shifts = (0.3, 0.0, 0.3, -0.3, 0.3)
@@ -185,7 +189,8 @@ def test_prescribed_forces_up_to_the_limit():
 
 @pytest.mark.parametrize(("seed", "points"), [(3, 48), (5, 24), (5, 48)])
 def test_forces_just_below_the_limit_settle(seed, points):
-    """Surfaces on which neither the mean residual of the few sticking points nor the duality gap alone finds the shift."""
+    """Surfaces on which neither the mean residual of the few sticking points nor the duality gap
+    alone finds the shift."""
     problem = asp.ContactProblem(
         rough((points, points), seed, power=1.6), SOFT, counter_body=SOFT, friction=asp.Coulomb(MU)
     )
@@ -195,7 +200,8 @@ def test_forces_just_below_the_limit_settle(seed, points):
 
 
 def test_a_strength_that_begins_at_once_may_leave_no_solution():
-    """Unlike bodies pressed and shifted at once: most settle; where a point opens under its own shear, the message says so."""
+    """Unlike bodies pressed and shifted at once: most settle; where a point opens under its own
+    shear, the message says so."""
     settles = posed(friction=asp.friction.TrescaFriction(0.03))
     assert asp.solve(settles, asp.Step(LOAD, asp.Shift(2.0))).converged
     has_none = posed(friction=asp.friction.TrescaFriction(0.05))
@@ -283,7 +289,8 @@ def test_random_problems_converge():
 
 
 def pressed(law: asp.Coulomb | asp.friction.FullStick, points: int = 24) -> asp.HistoryResult:
-    """A rigid sphere of unit radius pressed in twelve steps on a body of Poisson's ratio zero, whose shear lifts the edge most."""
+    """A rigid sphere of unit radius pressed in twelve steps on a body of Poisson's ratio zero,
+    whose shear lifts the edge most."""
     places = (np.arange(points) - (points - 1) / 2) * 0.24 / points
     sphere = asp.Surface(-(places[:, None] ** 2 + places**2) / 2, 0.24 / points, periodic=False)
     problem = asp.ContactProblem(sphere, asp.Elastic(1.0, 0.0), boundary=asp.Free(), friction=law)
@@ -292,7 +299,8 @@ def pressed(law: asp.Coulomb | asp.friction.FullStick, points: int = 24) -> asp.
 
 
 def test_full_stick_without_solution_names_the_friction_that_serves():
-    """Points at the edge open by the shear that they would bear: the error says so and which Coulomb's law stands for it."""
+    """Points at the edge open by the shear that they would bear: the error says so and which
+    Coulomb's law stands for it."""
     with pytest.raises(asp.ConvergenceError) as caught:
         pressed(asp.friction.FullStick())
     assert f"Coulomb({SERVES:g})" in str(caught.value)

@@ -1,4 +1,5 @@
-"""Balance of forces in wet contacts: what the bodies press with is the load and what the menisci pull, whatever the contact."""
+"""Balance of forces in wet contacts: what the bodies press with is the load and what the menisci
+pull, whatever the contact."""
 
 from __future__ import annotations
 
@@ -32,7 +33,8 @@ def imbalance(result: asp.ContactResult) -> float:
 
 
 def random_case(number: int, *, fine: bool = False) -> tuple[asp.ContactProblem, asp.MeanPressure]:
-    """Rough or stepped surface, soft to stiff body, film of 0.2 to 3 rms heights, 1 kPa to 1 MPa; free or with a hardness as well.
+    """Rough or stepped surface, soft to stiff body, film of 0.2 to 3 rms heights, 1 kPa to 1 MPa;
+    free or with a hardness as well.
 
     ``fine``: 128² points of a rough surface under water.
     """
@@ -60,7 +62,8 @@ def random_case(number: int, *, fine: bool = False) -> tuple[asp.ContactProblem,
 
 
 def test_a_plateau_whose_last_pixels_are_in_contact_and_liquid_in_part():
-    """One pixel of liquid pulls 240 times the load: its share in the corners that touch last is what balances the forces."""
+    """One pixel of liquid pulls 240 times the load: its share in the corners that touch last is
+    what balances the forces."""
     heights = np.zeros((8, 8))
     heights[:5, :5] = 1e-7
     film = asp.LiquidFilm(surface_tension=0.07, thickness=0.9e-7)
@@ -84,7 +87,8 @@ def test_a_plateau_whose_last_pixels_are_in_contact_and_liquid_in_part():
 
 @pytest.mark.parametrize(("fine", "count"), [(False, 150), (True, 24)], ids=["small", "rough 128²"])
 def test_random_wet_contacts_are_in_balance_or_say_what_jumps(fine, count):
-    """What is called converged is in balance, and at least 95 % of the contacts that are not closed by their liquid are."""
+    """What is called converged is in balance, and at least 95 % of the contacts that are not closed
+    by their liquid are."""
     borne, jumping = 0, 0
     for number in range(count):
         problem, load = random_case(number, fine=fine)
@@ -105,7 +109,8 @@ def test_random_wet_contacts_are_in_balance_or_say_what_jumps(fine, count):
 
 
 def test_the_balance_is_the_first_that_a_growing_load_meets():
-    """Beside a scan of dry contacts: below the force found the liquid always pulls more than is left to it."""
+    """Beside a scan of dry contacts: below the force found the liquid always pulls more than is
+    left to it."""
     surface = rough((32, 32), 3, spacing=(1e-7, 1e-7))
     problem = asp.ContactProblem(
         asp.Surface(5e-9 * surface.heights, 1e-7, periodic=True),
@@ -139,7 +144,8 @@ FIXED = asp.generate.gaussian(
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda boundary: boundary.name)
 @pytest.mark.parametrize("hardness", [np.inf, 2e8], ids=["elastic", "hardness"])
 def test_every_control_is_in_balance(body, boundary, hardness):
-    """Load and mean pressure are the same; at the position they come to the same external force is found, but for pixels in part under liquid."""
+    """Load and mean pressure are the same; at the position they come to the same external force is
+    found, but for pixels in part under liquid."""
     film = asp.LiquidFilm(surface_tension=0.07, thickness=1e-8, meniscus_height=1.4e-8, contact_angles=(0.4, 0.0))
     law = asp.plasticity.HardWall() if np.isinf(hardness) else asp.Hardness(hardness)
     problem = asp.ContactProblem(FIXED, BODIES[body], boundary=boundary, law=law, film=film)
@@ -159,7 +165,8 @@ def test_every_control_is_in_balance(body, boundary, hardness):
 
 
 def test_the_imbalance_is_that_of_the_whole_interface():
-    """Given up on the way, the contact bears load and liquid of the round before; the certificate says by how much they miss."""
+    """Given up on the way, the contact bears load and liquid of the round before; the certificate
+    says by how much they miss."""
     film = asp.LiquidFilm(surface_tension=0.07, thickness=1e-8)
     early = wetted(
         asp.ContactProblem(FIXED, BODIES["elastic"]),
@@ -174,7 +181,8 @@ def test_the_imbalance_is_that_of_the_whole_interface():
 
 
 def test_no_tolerance_makes_an_imbalance_converged():
-    """Rounds with a loose tolerance of the menisci end out of balance, and are not called converged."""
+    """Rounds with a loose tolerance of the menisci end out of balance, and are not called
+    converged."""
     film = asp.LiquidFilm(surface_tension=0.07, thickness=1e-8)
     options = {"rounds": asp.solvers.Rounds(tolerances={"menisci": 0.5}), "on_failure": "return"}
     loose = wetted(asp.ContactProblem(FIXED, BODIES["elastic"]), asp.MeanPressure(3e5), film, **options)
@@ -184,7 +192,8 @@ def test_no_tolerance_makes_an_imbalance_converged():
 
 
 def test_menisci_near_the_hardness_are_in_balance_up_to_it():
-    """Points that yield touch instead of the liquid: a load below the hardness finds its balance, one that the liquid lifts above it does not."""
+    """Points that yield touch instead of the liquid: a load below the hardness finds its balance,
+    one that the liquid lifts above it does not."""
     problem = asp.ContactProblem(FIXED, elastic(100e9), law=asp.Hardness(8e6))
     film = asp.LiquidFilm(surface_tension=0.025, thickness=4e-9)
     found = wetted(problem, asp.MeanPressure(7e6), film)

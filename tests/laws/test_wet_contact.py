@@ -56,7 +56,8 @@ def test_the_force_grows_with_the_humidity(problem):
 
 
 def test_the_steady_force_is_the_balance(problem):
-    """Found by repeated solution; the same contact, posed by its position, needs the same external force."""
+    """Found by repeated solution; the same contact, posed by its position, needs the same external
+    force."""
     film = lubricant(2.0 * NM)
     wet = wetted(problem, LOAD, film, friction=asp.Coulomb(0.3, coupled=False))
     slack = 1e-4 * wet.force
@@ -79,7 +80,8 @@ def test_the_steady_force_is_the_balance(problem):
 
 
 def test_stiffness_is_that_of_the_last_contact(problem):
-    """Rounds leave it out; that of the contact at its end is the one of the same dry contact under load and menisci."""
+    """Rounds leave it out; that of the contact at its end is the one of the same dry contact under
+    load and menisci."""
     wet = wetted(problem, LOAD, lubricant(1.0 * NM))
     direct = asp.solve(problem, asp.Force(wet.force), state=asp.solvers.InterfaceState(wet.pressure))
     assert wet.normal_stiffness == pytest.approx(direct.normal_stiffness, rel=1e-4)

@@ -1,4 +1,5 @@
-"""Bad problem documents, whose messages are written down in messages.txt: tables that replace those of a good one, None removes one."""
+"""Bad problem documents, whose messages are written down in messages.txt: tables that replace those
+of a good one, None removes one."""
 
 from __future__ import annotations
 

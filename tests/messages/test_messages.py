@@ -1,8 +1,10 @@
-"""What users read when their input is wrong, and what they read else: two files, compared as a whole.
+"""What users read when their input is wrong, and what they read else: two files, compared as a
+whole.
 
-Tests elsewhere check kinds of exceptions and their fields, exit codes, files and numbers; the words stand in messages.txt and
-printed.txt alone. After a change that is meant, ``ASPERITY_WRITE_MESSAGES=1 pytest tests/messages`` writes both anew, and the
-difference is read like any other.
+Tests elsewhere check kinds of exceptions and their fields, exit codes, files and numbers; the words
+stand in messages.txt and printed.txt alone. After a change that is meant,
+``ASPERITY_WRITE_MESSAGES=1 pytest tests/messages`` writes both anew, and the difference is read
+like any other.
 """
 
 from __future__ import annotations
@@ -133,7 +135,8 @@ def test_messages_are_those_of_the_file(folder: Path) -> None:
 
 
 def words(arguments: tuple[str, ...]) -> str:
-    """What the program prints, numbers as #, rules of tables left out, the rest in lines of one width."""
+    """What the program prints, numbers as #, rules of tables left out, the rest in lines of one
+    width."""
     result = CliRunner().invoke(app, list(arguments))
     assert result.exit_code in {0, 1}, result.output
     text = re.sub(r"# (?:[µm]s|min)\b", "# s", NUMBER.sub("#", re.sub(r"[─━│]", " ", result.stdout)))

@@ -1,6 +1,8 @@
-"""The verdict on some fifty documents, compared with verdicts.txt as a whole, and the same at every door.
+"""The verdict on some fifty documents, compared with verdicts.txt as a whole, and the same at every
+door.
 
-``ASPERITY_WRITE_MESSAGES=1 pytest tests/messages/test_verdicts.py`` writes the file anew; the difference is read like any other.
+``ASPERITY_WRITE_MESSAGES=1 pytest tests/messages/test_verdicts.py`` writes the file anew; the
+difference is read like any other.
 """
 
 from __future__ import annotations

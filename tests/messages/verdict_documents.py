@@ -1,4 +1,5 @@
-"""Problem documents of every kind, whose verdicts are written down in verdicts.txt: one that is right, and what is changed in it."""
+"""Problem documents of every kind, whose verdicts are written down in verdicts.txt: one that is
+right, and what is changed in it."""
 
 from __future__ import annotations
 

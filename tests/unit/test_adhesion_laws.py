@@ -1,4 +1,5 @@
-"""Adhesion laws: σ, its energy and slope belong together, the integral is the work, and the rows of the reference hold."""
+"""Adhesion laws: σ, its energy and slope belong together, the integral is the work, and the rows of
+the reference hold."""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ from asperity.physics.adhesion.law import (
 
 WORK, RANGE = 0.05, 2e-9
 CUT_WORK = 0.84375
-"""Work of the van der Waals law cut at 4 D0 over that of the uncut one, in whose units the rows are."""
+"""Work of the van der Waals law cut at 4 D0 over that of the uncut one, in whose units the rows
+are."""
 
 LAWS = {
     "dugdale": DugdaleAdhesion(WORK, RANGE, smoothing=0.0),

@@ -95,7 +95,8 @@ def test_the_examples_of_loading_and_unloading(scan, tmp_path, monkeypatch):
     first, second, *rest = blocks(ROOT / "docs/how-to/loading-and-unloading.md", "python")
     names = {"scan": scan}
     exec(compile(first, "first block", "exec"), names)  # noqa: S102 - running the page is the test
-    # each of the two solves is uncertain in energy by its field error times load times rms height, some times over
+    # each of the two solves is uncertain in energy by its field error times load times rms height,
+    # some times over
     again, rms = names["again"], scan.heights.std()
     assert again.plastic_work <= 10.0 * again.certificate.tolerance * again.force * rms
     assert names["loaded"].plastic_work > 0.0
@@ -220,7 +221,8 @@ def test_the_examples_of_single_contacts(capsys):
 
 
 def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
-    """On a surface as smooth as the films are thin; the table of options and keys has everything twice."""
+    """On a surface as smooth as the films are thin; the table of options and keys has everything
+    twice."""
     monkeypatch.chdir(tmp_path)
     waves = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsHeight(2e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=0.1e-6
@@ -239,7 +241,10 @@ def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
         assert result.exit_code == 0, result.output
         assert "Liquid film and menisci" in result.stdout
     film, own = blocks(page, "toml")
-    head = 'version = 1\nbody = "DLC"\nsurface = { kind = "flat", points = [8, 8], size = "1 um" }\ncontrol = { force = "1 mN" }\n'
+    head = (
+        'version = 1\nbody = "DLC"\nsurface = { kind = "flat", points = [8, 8], size = "1 um" }\ncontrol '
+        '= { force = "1 mN" }\n'
+    )
     assert loads(head + film).film.contact_angle == pytest.approx((math.pi / 3, math.pi / 3))
     (tmp_path / "own.toml").write_text(own, encoding="utf-8")
     assert asp.liquid("our lubricant", library=tmp_path / "own.toml").viscosity == 0.08
@@ -247,7 +252,8 @@ def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.slow
 def test_the_examples_of_stick_and_slip(tmp_path, monkeypatch, capsys):
-    """On a small smooth scan: Python and the second command give the same heat; the steps of the document are solved."""
+    """On a small smooth scan: Python and the second command give the same heat; the steps of the
+    document are solved."""
     monkeypatch.chdir(tmp_path)
     waves = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsHeight(2e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=0.2e-6
@@ -266,7 +272,10 @@ def test_the_examples_of_stick_and_slip(tmp_path, monkeypatch, capsys):
     heat = names["loop_of"](names["history"].steps).cycle_energies[0]
     assert float(saved["cycle_dissipation"]) == pytest.approx(heat, rel=1e-3)
     (steps,) = blocks(page, "toml")
-    head = 'version = 2\nbody = "DLC"\nsurface = { kind = "file", path = "scan.nc" }\ncontrol = { mean_pressure = "50 MPa" }\n'
+    head = (
+        'version = 2\nbody = "DLC"\nsurface = { kind = "file", path = "scan.nc" }\ncontrol = { '
+        'mean_pressure = "50 MPa" }\n'
+    )
     outcome = asp.run(tomllib.loads(head + steps))
     assert len(outcome.path.steps) == 4
     assert outcome.values["force_x"] == pytest.approx(0.1e-6, rel=1e-4)
@@ -460,7 +469,8 @@ def test_links_lead_somewhere(page):
 
 @pytest.mark.parametrize("package", ["tamaas", "ContactMechanics"])
 def test_the_same_problem_in_other_packages(package, capsys):
-    """Where they are installed they give the pressures of asperity, with the numbers that the page states."""
+    """Where they are installed they give the pressures of asperity, with the numbers that the page
+    states."""
     pytest.importorskip(package, reason=f"{package} is not installed, whose pressures would be compared")
     page = ROOT / "docs/reference/other-packages.md"
     problem, ours, *scripts = blocks(page, "python")
@@ -478,7 +488,8 @@ def test_the_same_problem_in_other_packages(package, capsys):
 
 
 def test_the_same_problem_for_asperity_and_contact(tmp_path, monkeypatch, capsys):
-    """Pixels and pressure as stated; the file for CONTACT has a distance for each element, none of them negative, x first."""
+    """Pixels and pressure as stated; the file for CONTACT has a distance for each element, none of
+    them negative, x first."""
     monkeypatch.chdir(tmp_path)
     page = ROOT / "docs/reference/other-packages.md"
     problem, ours, *_, written = blocks(page, "python")

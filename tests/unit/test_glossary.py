@@ -21,11 +21,13 @@ NAMES = {name: getattr(place, name) for place in PLACES for name in dir(place) i
 """Public names, with what they stand for; of names in several modules the last."""
 
 TECHNICAL = ("dynamics", "fem", "generate", "plots", "roughness", "solvers", "theories")
-"""Modules with words of their own, such as the names of authors, shapes and methods, which their pages explain."""
+"""Modules with words of their own, such as the names of authors, shapes and methods, which their
+pages explain."""
 
 
 def words(name: str) -> list[str]:
-    """Words of an identifier or of a term, in small letters and without the ending of the plural."""
+    """Words of an identifier or of a term, in small letters and without the ending of the
+    plural."""
     found = re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)
     return [singular(word.lower()) for word in found]
 

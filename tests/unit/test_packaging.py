@@ -1,4 +1,5 @@
-"""What pyproject.toml, the constraints of the lowest versions and the commands of a developer say agrees."""
+"""What pyproject.toml, the constraints of the lowest versions and the commands of a developer say
+agrees."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""The paper quotes benchmarks and validation as they stand, and its sources are those of the package."""
+"""The paper quotes benchmarks and validation as they stand, and its sources are those of the
+package."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
 
 
 def numbers(text: str) -> list[float]:
-    """Numbers of a text in the order they stand; powers of ten in TeX, in raised digits or after an e."""
+    """Numbers of a text in the order they stand; powers of ten in TeX, in raised digits or after an
+    e."""
     plain = re.sub(r"10\^\{?(-?\d+)\}?", r"1e\1", text.replace(r"\cdot10", "·10"))
     plain = re.sub(r"·1e", "e", plain)
     plain = re.sub(r"10([⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda m: f"1e{m[1].translate(RAISED)}", plain)
@@ -33,7 +35,8 @@ def test_every_figure_stands_in_its_source():
 
 
 def test_numbers_of_benchmarks_and_validation_all_have_a_source():
-    """Sentences of these sections hold no other decimal fractions than quoted ones and the loads."""
+    """Sentences of these sections hold no other decimal fractions than quoted ones and the
+    loads."""
     part = PAPER.split("# Benchmarks\n")[1].split("# Acknowledgements")[0]
     left = re.sub(r"\S+(?: s)?<!-- .+? -->", "", part, flags=re.DOTALL)
     assert set(re.findall(r"\d+\.\d+", left)) == {"0.01", "0.05", "0.2"}

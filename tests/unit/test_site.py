@@ -1,4 +1,5 @@
-"""What the site is made of is sound: links resolve, contents reach every page, and what is declared is on a page."""
+"""What the site is made of is sound: links resolve, contents reach every page, and what is declared
+is on a page."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ THEORIES = [kind for kinds in FAMILIES.values() for kind in kinds]
 
 @pytest.fixture(scope="module")
 def pages() -> dict[str, str]:
-    """Every page of the site; a link that leads nowhere in the repository is an error already here."""
+    """Every page of the site; a link that leads nowhere in the repository is an error already
+    here."""
     found = assemble.pages()
     if assemble.examples():
         found[assemble.gallery()] = assemble.examples()["GALLERY_HEADER.rst"]  # the gallery makes its own page

@@ -1,4 +1,5 @@
-"""Pages of validation on the review of Bhushan (1998), on fewer surfaces, points, films and humidities: all their claims hold, and they are the scripts'."""
+"""Pages of validation on the review of Bhushan (1998), on fewer surfaces, points, films and
+humidities: all their claims hold, and they are the scripts'."""
 
 from __future__ import annotations
 
@@ -75,7 +76,8 @@ def test_index_of_elastic_contact_is_that_whose_onset_is_at_the_mean_summit():
 
 
 def test_sphere_beyond_first_yield_bears_the_load_that_is_asked():
-    """Mean pressure and contact radius over those at first yield, as found on the page, make 300 times its load."""
+    """Mean pressure and contact radius over those at first yield, as found on the page, make 300
+    times its load."""
     onset = 1.0752
     mean, radius = (one.ours for one in list(bhushan_sphere._plastic(onset))[-2:])
     assert mean / onset * radius**2 == pytest.approx(bhushan_sphere.KRAL_LOAD, rel=2e-3)

@@ -1,4 +1,5 @@
-"""Pages on the applications of Peng (2001): their scripts say on small grids what the pages say, and claims hold."""
+"""Pages on the applications of Peng (2001): their scripts say on small grids what the pages say,
+and claims hold."""
 
 from __future__ import annotations
 
@@ -52,7 +53,8 @@ def test_published_rows_of_the_load_page():
 
 
 def test_floor_of_the_dry_disk_on_a_small_grid_is_that_of_the_page():
-    """About 5 nm, within a factor of three; the page has the largest displacement without liquid in its third table."""
+    """About 5 nm, within a factor of three; the page has the largest displacement without liquid in
+    its third table."""
     table = without(ready("head_disk_interface", points=48, seeds=1), "film")
     axis(table, "modulus")["values"] = ["150 GPa", "350 GPa"]
     found = peng_head_disk.Curves(results(table), peng_head_disk.DISK)
@@ -65,7 +67,8 @@ def test_floor_of_the_dry_disk_on_a_small_grid_is_that_of_the_page():
 
 
 def test_contacts_without_feedback_are_the_dry_ones_of_the_ready_study():
-    """Same bodies, hardness, surface and load, posed by the document and in Python; the menisci are those of the steady film's first pass."""
+    """Same bodies, hardness, surface and load, posed by the document and in Python; the menisci are
+    those of the steady film's first pass."""
     table = without(ready("head_disk_interface", points=32, seeds=1), "film")
     table["critical_thickness"]["count"] = 2
     axis(table, "modulus")["values"] = ["20 GPa"]
@@ -78,7 +81,8 @@ def test_contacts_without_feedback_are_the_dry_ones_of_the_ready_study():
 
 
 def test_critical_thicknesses_scatter_as_much_as_surfaces_differ():
-    """Values that rise with log h up to 10 µm: 95 % are reached at 10^3.8 nm on all surfaces, or at ten times less on half of them."""
+    """Values that rise with log h up to 10 µm: 95 % are reached at 10^3.8 nm on all surfaces, or at
+    ten times less on half of them."""
     depth = head_disk_unfed.thicknesses(26)
     rise = np.concatenate([[0.0], np.clip(np.log10(depth[1:-1] / 1e-9) / 4.0, 0.0, 1.0), [1.0]])
     early = np.concatenate([[0.0], np.clip(np.log10(depth[1:-1] / 1e-9) / 3.0, 0.0, 1.0), [1.0]])
@@ -96,7 +100,8 @@ def test_critical_thicknesses_scatter_as_much_as_surfaces_differ():
 
 
 def test_menisci_under_the_load_alone_are_those_of_the_figure():
-    """(Fm/W)/X of about 2000 on the base at X = 2e-3 and σ = 1 nm; the steady force is several times as large."""
+    """(Fm/W)/X of about 2000 on the base at X = 2e-3 and σ = 1 nm; the steady force is several
+    times as large."""
     shape = surfaces(1, grid(128, 128 * PIXEL))[0]
     found = peng_menisci.forces(shape, 1.0, 2e-3, rms=1e-9)
     assert found.alone / 2e-3 == pytest.approx(peng_menisci.ORDINATE, rel=0.4)

@@ -1,4 +1,5 @@
-"""The page on printed constants of elementary contacts: theirs and ours are near the closed forms, and it is the script's."""
+"""The page on printed constants of elementary contacts: theirs and ours are near the closed forms,
+and it is the script's."""
 
 import elementary_contacts
 import pytest
@@ -10,7 +11,8 @@ NUMBERS = summary.numbers("elementary_contacts", written_page("elementary_contac
 
 @pytest.mark.parametrize(("number", "exact"), list(zip(NUMBERS, elementary_contacts.EXACT, strict=True)))
 def test_number_of_the_page_is_its_closed_form(number, exact):
-    """Theirs but for the last digit, which some texts cut instead of rounding it; ours within the pixels and three digits."""
+    """Theirs but for the last digit, which some texts cut instead of rounding it; ours within the
+    pixels and three digits."""
     digits = len(number.theirs.partition(".")[2])
     assert abs(float(number.theirs) - exact) < 10.0**-digits
     assert float(number.ours) == pytest.approx(exact, rel=0.0025 + 0.005)

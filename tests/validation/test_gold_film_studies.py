@@ -1,4 +1,5 @@
-"""Pages on the contact of the gold film, on fewer surfaces and points: all claims hold, and they belong to their scripts."""
+"""Pages on the contact of the gold film, on fewer surfaces and points: all claims hold, and they
+belong to their scripts."""
 
 from __future__ import annotations
 
@@ -47,7 +48,8 @@ def test_page_belongs_to_the_script(name):
 
 
 def test_the_area_of_the_page_is_that_of_a_contact_of_its_own(tmp_path):
-    """The study at one of its loads against one solve of the surface with its seed, to the default tolerance."""
+    """The study at one of its loads against one solve of the surface with its seed, to the default
+    tolerance."""
     campaign = run_here(gold_film_area.study(1, 64), tmp_path / "study")
     data = campaign.dataset().isel(sample=0, load=5)
     shape = gold_film_area.spectrum(asp.generate.RmsHeight(gold_film_area.RMS))
@@ -62,7 +64,8 @@ def test_the_area_of_the_page_is_that_of_a_contact_of_its_own(tmp_path):
 
 
 def test_gradient_of_the_surfaces_is_that_of_the_spectrum():
-    """512² points show the waves down to two pixels and, in the corners, some beyond: between the integrals to both."""
+    """512² points show the waves down to two pixels and, in the corners, some beyond: between the
+    integrals to both."""
     ratio = gold_film_area.RMS**2 / gold_film_area.MODEL.moments(1e-10, gold_film_area.SIDE)[0]
     below, above = (
         np.sqrt(2.0 * ratio * gold_film_area.MODEL.moments(2.0 * pixel, gold_film_area.SIDE)[1])

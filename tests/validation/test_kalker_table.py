@@ -1,4 +1,5 @@
-"""The page on Kalker's coefficients: a smaller run keeps its claim, and the page is the script's."""
+"""The page on Kalker's coefficients: a smaller run keeps its claim, and the page is the
+script's."""
 
 import kalker_table
 import numpy as np

@@ -1,4 +1,5 @@
-"""Every page of validation on layered solids, on smaller grids: the stated agreement holds and the page is up to date."""
+"""Every page of validation on layered solids, on smaller grids: the stated agreement holds and the
+page is up to date."""
 
 from dataclasses import replace
 
@@ -53,7 +54,8 @@ STRESSES = {
 @pytest.mark.slow  # about 10 s each
 @pytest.mark.parametrize("name", STRESSES)
 def test_stresses_agree_and_the_page_belongs_to_the_script(name):
-    """On a coarser grid the cusp at the edge is rounded off more: the numbers of sliding contacts are not asked of it."""
+    """On a coarser grid the cusp at the edge is rounded off more: the numbers of sliding contacts
+    are not asked of it."""
     page = STRESSES[name]()
     assert_claims_hold(replace(page, claims=tuple(one for one in page.claims if not one.text.startswith("numbers of"))))
     assert [one.what for one in page.published if not one.agrees and not one.what.endswith("0.5")] == []

@@ -1,4 +1,5 @@
-"""The pages of plastic indentation and sliding, on coarser meshes: what they claim holds, and the pages are those of the scripts."""
+"""The pages of plastic indentation and sliding, on coarser meshes: what they claim holds, and the
+pages are those of the scripts."""
 
 import layered_indentation
 import layered_sliding
@@ -24,7 +25,8 @@ def test_layered_solids_indented_again_and_again():
 
 @pytest.mark.slow  # a sphere slid at 100 times first yield, 8 s
 def test_sphere_sliding_over_a_layered_half_space():
-    """The first slide again on elements half as large again: approach within 2 %, plastic strains within the 13 % that the page states, and rounding."""
+    """The first slide again on elements half as large again: approach within 2 %, plastic strains
+    within the 13 % that the page states, and rounding."""
     coarse = layered_sliding_runs.run(
         layered_sliding_runs.Case(2.0, 0.1, radius=6.7, across=4, passes=1, far=2.0, step=1.0)
     )

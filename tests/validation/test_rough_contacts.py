@@ -1,4 +1,5 @@
-"""Every page of validation on rough contacts, on fewer surfaces and points: all its claims hold, and it is the script's."""
+"""Every page of validation on rough contacts, on fewer surfaces and points: all its claims hold,
+and it is the script's."""
 
 import contextlib
 from functools import cache
@@ -53,7 +54,8 @@ def test_page_belongs_to_the_script(name):
 
 @cache
 def slid_lightly():
-    """A fifth of the load of the figure, pressed and lifted at once, on its mesh with longer elements, in few steps."""
+    """A fifth of the load of the figure, pressed and lifted at once, on its mesh with longer
+    elements, in few steps."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(layered_sliding_runs, "PUSHED", (0.3, 1.0))
         patch.setattr(layered_sliding_runs, "LIFTED", (0.3,))
@@ -67,7 +69,8 @@ GRID = peng.grid
 
 @pytest.fixture
 def cheap_cases(monkeypatch):
-    """The pictures are those of few points, steps and surfaces: how they are drawn is the same, and what they show is on the pages."""
+    """The pictures are those of few points, steps and surfaces: how they are drawn is the same, and
+    what they show is on the pages."""
     monkeypatch.setattr(sliding_pictures, "sliding", slid_lightly)
     monkeypatch.setattr(peng, "grid", lambda: GRID(96))
     for name, value in {"SURFACES": 3, "POINTS": 192, "PER_REGION": 4}.items():

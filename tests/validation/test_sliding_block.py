@@ -1,4 +1,5 @@
-"""The page on a sliding block: the statements of Martins, Oden and Simoes hold, and the page is the script's."""
+"""The page on a sliding block: the statements of Martins, Oden and Simoes hold, and the page is the
+script's."""
 
 import pytest
 import sliding_block

@@ -1,4 +1,5 @@
-"""The page on the punch that sticks: displacements alone give the closed form, and the page is the script's."""
+"""The page on the punch that sticks: displacements alone give the closed form, and the page is the
+script's."""
 
 from pathlib import Path
 

@@ -1,4 +1,5 @@
-"""The page of all pages: numbers are found in tables and claims, judged as stated, and the page is that of the pages as they are."""
+"""The page of all pages: numbers are found in tables and claims, judged as stated, and the page is
+that of the pages as they are."""
 
 import pytest
 import summary

@@ -1,4 +1,5 @@
-"""Pages on surfaces: what they claim holds on fewer realisations, and they belong to their scripts."""
+"""Pages on surfaces: what they claim holds on fewer realisations, and they belong to their
+scripts."""
 
 from __future__ import annotations
 
@@ -44,7 +45,8 @@ def test_what_is_claimed_holds(name):
 
 
 def test_waves_of_one_length_have_the_least_nayak_parameter():
-    """Between the 3/2 of endlessly many waves of one length and that of a ring 2 % wide and of finitely many, a few per cent."""
+    """Between the 3/2 of endlessly many waves of one length and that of a ring 2 % wide and of
+    finitely many, a few per cent."""
     assert 1.49 < standard_surface.least_alpha(256) < 1.56
 
 

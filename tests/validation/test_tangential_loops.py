@@ -1,4 +1,5 @@
-"""The page on loops, torsion and rolling: memory and fields give the printed formulas, and the page is the script's."""
+"""The page on loops, torsion and rolling: memory and fields give the printed formulas, and the page
+is the script's."""
 
 import pytest
 import tangential_loops

@@ -16,7 +16,8 @@ from urllib.parse import quote, urlsplit
 
 @dataclass
 class AppServer:
-    """``asperity app`` with these ``arguments``; ``packages`` is a folder of further ones, ``address`` is what it printed."""
+    """``asperity app`` with these ``arguments``; ``packages`` is a folder of further ones,
+    ``address`` is what it printed."""
 
     arguments: tuple[str, ...] = ()
     folder: Path | None = None
@@ -61,7 +62,8 @@ class AppServer:
     def ask(
         self, method: str, path: str, *, body: Any = None, cookie: str = "", **headers: str
     ) -> tuple[int, dict[str, str], bytes]:
-        """Status, headers and body of the answer to one request; ``headers`` with underscores for dashes."""
+        """Status, headers and body of the answer to one request; ``headers`` with underscores for
+        dashes."""
         connection = http.client.HTTPConnection(self.host, timeout=30)
         named = {key.replace("_", "-"): value for key, value in headers.items()}
         if cookie:

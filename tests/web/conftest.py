@@ -1,4 +1,5 @@
-"""A real browser for tests of pages: the system's chromium, driven by Playwright, cut off from every network."""
+"""A real browser for tests of pages: the system's chromium, driven by Playwright, cut off from
+every network."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ HERE = frozenset({"", "127.0.0.1", "localhost", "::1"})
 
 
 def unavailable(what: str) -> None:
-    """Skip the test for want of ``what``, but fail in continuous integration, where it must be there."""
+    """Skip the test for want of ``what``, but fail in continuous integration, where it must be
+    there."""
     if IN_CI:
         pytest.fail(f"{what}; continuous integration must provide it: .ci/run installs Debian's chromium")
     pytest.skip(what)
@@ -35,8 +37,8 @@ def unavailable(what: str) -> None:
 class Watched:
     """A page with what it has said and asked for since it was opened.
 
-    ``errors`` are those of the console and those that no script caught, ``outside`` the addresses of other machines that were
-    asked for; both must stay empty.
+    ``errors`` are those of the console and those that no script caught, ``outside`` the addresses
+    of other machines that were asked for; both must stay empty.
     """
 
     page: Any
@@ -84,7 +86,8 @@ def browser(chromium: Path) -> Iterator[Any]:
 
 @pytest.fixture
 def open_page(browser: Any) -> Iterator[Callable[..., Watched]]:
-    """Opens an address, or the file of a path, in a fresh window and watches it; options are those of Playwright's contexts.
+    """Opens an address, or the file of a path, in a fresh window and watches it; options are those
+    of Playwright's contexts.
 
     What every window said and asked for is checked at the end of the test.
     """

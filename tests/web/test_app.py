@@ -204,7 +204,8 @@ def test_a_viscoelastic_body_held_under_its_load(demo: AppServer, open_page: Cal
 def test_moduli_are_dropped_on_a_measured_relaxation(
     demo: AppServer, open_page: Callable[..., Any], tmp_path: Path
 ) -> None:
-    """A sound table becomes that of the body; one with a wrong unit is refused in words, under the name that it was given."""
+    """A sound table becomes that of the body; one with a wrong unit is refused in words, under the
+    name that it was given."""
     sound, wrong = tmp_path / "rubber.csv", tmp_path / "wrong.csv"
     rubber = asp.Viscoelastic.prony(3e6, ((10e6, 0.01),), 0.5)
     frequency = np.geomspace(0.1, 1e3, 12)
@@ -302,6 +303,7 @@ def test_keys_reach_the_steps_and_the_drop_area(demo: AppServer, open_page: Call
     page.keyboard.press("Enter")
     page.wait_for_url("**/bodies")
     names = page.evaluate(
-        "[...document.querySelectorAll('button')].filter(b => !b.innerText.trim() && !b.getAttribute('aria-label')).length"
+        "[...document.querySelectorAll('button')].filter(b => !b.innerText.trim() && "
+        "!b.getAttribute('aria-label')).length"
     )
     assert names == 0, "every button has a name"

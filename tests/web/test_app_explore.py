@@ -1,4 +1,5 @@
-"""What a page shows of a solved contact, and sweeps, in a real browser; a part of another package appears everywhere."""
+"""What a page shows of a solved contact, and sweeps, in a real browser; a part of another package
+appears everywhere."""
 
 from __future__ import annotations
 
@@ -97,7 +98,8 @@ def opened(app: AppServer, open_page: Callable[..., Any], step: str) -> Any:
 
 
 def one_load(page: Any) -> None:
-    """Give one load instead of a path, on the page of the load; tests share the problem and run in any order."""
+    """Give one load instead of a path, on the page of the load; tests share the problem and run in
+    any order."""
     load = page.locator('input[data-key="control.mean_pressure"]')
     if not load.input_value():
         load.fill("40 MPa")

@@ -1,4 +1,5 @@
-"""Nobody but the owner reaches the application, and nothing that is sent to it gets further than it may."""
+"""Nobody but the owner reaches the application, and nothing that is sent to it gets further than it
+may."""
 
 from __future__ import annotations
 

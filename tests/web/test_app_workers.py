@@ -1,4 +1,5 @@
-"""Workers of the application end at their limits, and what the pages show of hostile text is text."""
+"""Workers of the application end at their limits, and what the pages show of hostile text is
+text."""
 
 from __future__ import annotations
 

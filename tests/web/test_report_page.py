@@ -1,4 +1,5 @@
-"""The page of a result in a real browser: what it shows is what was stored, by mouse, touch and keyboard, and nothing is fetched."""
+"""The page of a result in a real browser: what it shows is what was stored, by mouse, touch and
+keyboard, and nothing is fetched."""
 
 from __future__ import annotations
 
@@ -262,7 +263,10 @@ def test_a_contact_spot_is_marked_as_measured(report: Report, open_page: Open) -
     page, result = opened(report, open_page), report.outcome.result
     dx, dy = result.problem.grid.spacing
     i, j = np.unravel_index(np.argmax(result.pressure), result.pressure.shape)
-    code = f"(() => {{ const m = v.highlight({{ x: {(i + 0.5) * dx}, y: {(j + 0.5) * dy} }}); return [m.area, m.largest]; }})()"
+    code = (
+        f"(() => {{ const m = v.highlight({{ x: {(i + 0.5) * dx}, y: {(j + 0.5) * dy} }}); return [m.area, "
+        f"m.largest]; }})()"
+    )
     area, largest = viewer(page, code)
     assert np.isclose(area, result.spot_areas, rtol=1e-9).any()
     assert largest == pytest.approx(result.max_pressure, rel=1e-4)
@@ -370,9 +374,12 @@ def test_text_is_readable_in_both_schemes(scheme: str, report: Report, open_page
     page = opened(report, open_page, color_scheme=scheme)
     background = page.evaluate("getComputedStyle(document.body).backgroundColor")
     assert (sum(map(int, re.findall(r"\d+", background))) < 200) == (scheme == "dark")
-    code = """all => all.filter(e => e.offsetHeight && [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim())).map(e => {
-        let b = e; while (b && ["rgba(0, 0, 0, 0)", "transparent"].includes(getComputedStyle(b).backgroundColor)) b = b.parentElement;
-        return [getComputedStyle(e).color, b ? getComputedStyle(b).backgroundColor : "rgb(255, 255, 255)", e.outerHTML.slice(0, 80)]; })"""
+    code = """all => all.filter(e => e.offsetHeight &&
+        [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim())).map(e => {
+        const clear = b => ["rgba(0, 0, 0, 0)", "transparent"].includes(getComputedStyle(b).backgroundColor);
+        let b = e; while (b && clear(b)) b = b.parentElement;
+        const behind = b ? getComputedStyle(b).backgroundColor : "rgb(255, 255, 255)";
+        return [getComputedStyle(e).color, behind, e.outerHTML.slice(0, 80)]; })"""
     pairs = page.eval_on_selector_all("body *:not(script):not(canvas)", code)
     poor = {text for colour, behind, text in pairs if contrast(colour, behind) < 4.5}
     assert poor == set()

@@ -1,1 +1,2 @@
-"""Layer 8: the command line. It parses options into a problem document, calls the library and prints."""
+"""Layer 8: the command line. It parses options into a problem document, calls the library and
+prints."""

@@ -43,7 +43,8 @@ def app(
     ] = None,
     threads: Annotated[int | None, typer.Option("--threads", help="Threads of one run; all cores by default.")] = None,
 ) -> None:
-    """Explore a contact in the browser, on this machine only: no account, nothing leaves it, works offline.
+    """Explore a contact in the browser, on this machine only: no account, nothing leaves it, works
+    offline.
 
     Examples: asperity app; asperity app scan.x3p; asperity app --demo; asperity app --folder disk
 
@@ -67,7 +68,10 @@ def _opened(address: str, host: str, *, browser: bool) -> None:
     """Print the address, and open it."""
     say(f"asperity is at {address}")
     if not is_loopback(host):
-        text = f"Others reach it at {host}, without encryption: whoever has this address with its token may use it as you do."
+        text = (
+            f"Others reach it at {host}, without encryption: whoever has this address with its token may "
+            "use it as you do."
+        )
         say(text, "yellow", warning=True)
     say("It ends with Ctrl-C.", "dim")
     if browser:

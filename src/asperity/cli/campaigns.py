@@ -62,8 +62,8 @@ def run(
 
     Example: asperity run study.toml
 
-    Exit code 0: all cases done; 1: some failed (the others are there, and the causes are listed); 2: bad input;
-    130: interrupted by Ctrl-C (all finished cases are kept: run it again to resume).
+    Exit code 0: all cases done; 1: some failed (the others are there, and the causes are listed);
+    2: bad input; 130: interrupted by Ctrl-C (all finished cases are kept: run it again to resume).
     """
     with speaking("command"):  # of a document, whose keys have no options here
         campaign = prepare_study(study, out, confirm=partial(confirmed, yes=yes))
@@ -86,7 +86,8 @@ def _run(campaign: Campaign, again: str, **options: Any) -> None:
 
 
 def solve_files(document: ProblemDocument, files: Sequence[Path], out: Path | None, *, yes: bool) -> int:
-    """Solve ``document`` for each of the ``files`` as a study in the folder ``out``, or one of no duration; the exit code."""
+    """Solve ``document`` for each of the ``files`` as a study in the folder ``out``, or one of no
+    duration; the exit code."""
     with TemporaryDirectory() if out is None else nullcontext(out) as name:
         place = Path(name)
         paths = [str(file.absolute()) if out is None else os.path.relpath(file, place) for file in files]
@@ -160,7 +161,8 @@ BETWEEN_LINES = 10.0
 
 @contextmanager
 def watched(title: str) -> Iterator[Watch]:
-    """Watch that shows the progress of a study on stderr, on a bar or in lines that begin with its ``title``.
+    """Watch that shows the progress of a study on stderr, on a bar or in lines that begin with its
+    ``title``.
 
     It shows nothing where answers are dropped (``--quiet``).
     """

@@ -95,10 +95,11 @@ def compare(
 ) -> None:
     """Compare every theory of rough contact with the numerical solution, on one surface.
 
-    Examples: asperity compare scan.di --body DLC --out run;
-    asperity compare scan.di --body steel --pressures 1MPa..1GPa --loads 20 --theories persson,bush-gibson-thomas
+    Examples: asperity compare scan.di --body DLC --out run; asperity compare scan.di --body steel
+    --pressures 1MPa..1GPa --loads 20 --theories persson,bush-gibson-thomas
 
-    Exit code 0: done; 1: a load did not converge (it is empty and named); 2: input that cannot be used; 130: interrupted.
+    Exit code 0: done; 1: a load did not converge (it is empty and named); 2: input that cannot be
+    used; 130: interrupted.
     """
     placed = Given({**given.values, ("control", "mean_pressure"): _PLACEHOLDER}, given.options)
     made, names, base = asked_table(file, from_, placed)

@@ -34,7 +34,8 @@ Document = Annotated[
     Path | None,
     typer.Option(
         "--from",
-        help="Problem document (TOML or JSON); options replace parts of it. Of the literature: head-disk, disk-and-slider, mems.",
+        help="Problem document (TOML or JSON); options replace parts of it. Of the literature: head-disk, "
+        "disk-and-slider, mems.",
         metavar="DOCUMENT",
     ),
 ]
@@ -80,7 +81,8 @@ def file_options(*names: str) -> list[Option]:
 
 
 def files_in(given: Given, *, force: bool) -> dict[str, Path]:
-    """The single files that are asked for; none of them exists, unless they are replaced by ``force``."""
+    """The single files that are asked for; none of them exists, unless they are replaced by
+    ``force``."""
     files = {name: Path(path) for name, path in given.under("output").table().items()}
     if files:
         require_new_files([*files.values()], overwrite=force)
@@ -112,13 +114,14 @@ def contact(
 ) -> None:
     """Press rough surfaces against a body: contact area, pressure, gap; menisci and stresses.
 
-    Examples: asperity contact scan.di --body DLC --periodise --pressure 50kPa --hardness body --out run;
-    asperity contact scan.di --body DLC:5nm/steel --periodise --pressure 50MPa --friction 0.3 --section y=max --out run;
-    asperity contact scan.di --body DLC --periodise --pressure 1MPa --liquid water --humidity 80% --friction 0.3;
-    asperity contact scans/*.di --body DLC --periodise --pressure 50MPa --out all
+    Examples: asperity contact scan.di --body DLC --periodise --pressure 50kPa --hardness body --out
+    run; asperity contact scan.di --body DLC:5nm/steel --periodise --pressure 50MPa --friction 0.3
+    --section y=max --out run; asperity contact scan.di --body DLC --periodise --pressure 1MPa
+    --liquid water --humidity 80% --friction 0.3; asperity contact scans/*.di --body DLC --periodise
+    --pressure 50MPa --out all
 
-    Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot be used;
-    130: interrupted by Ctrl-C (nothing is left half-written).
+    Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot
+    be used; 130: interrupted by Ctrl-C (nothing is left half-written).
     """
     table, names, base = asked_table(file[0] if file else None, from_, given)
     files = files_in(given, force=force)
@@ -132,7 +135,8 @@ def contact(
     if file and len(file) > 1:
         if files:
             raise InputError(
-                f"{' and '.join(f'--{name.replace(chr(95), chr(45))}' for name in files)} must be left out with many files: --out DIR holds the table of all."
+                f"{' and '.join(f'--{name.replace(chr(95), chr(45))}' for name in files)} must be left out "
+                "with many files: --out DIR holds the table of all."
             )
         from .campaigns import solve_files
 
@@ -158,13 +162,15 @@ def dynamics(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Motion on the interface that a contact gives: vibration, stick-slip, apparent friction of a sliding block.
+    """Motion on the interface that a contact gives: vibration, stick-slip, apparent friction of a
+    sliding block.
 
-    Examples: asperity dynamics scan.di --body steel --pressure 50kPa --mass 1kg --base 10cmx2cm --block-height 5cm --spring 200N/mm
-    --speed 1mm/s --friction 0.3 --out run
+    Examples: asperity dynamics scan.di --body steel --pressure 50kPa --mass 1kg --base 10cmx2cm
+    --block-height 5cm --spring 200N/mm --speed 1mm/s --friction 0.3 --out run
 
-    The contact is solved as by `asperity contact`, its pressure against approach gives the law of the interface.
-    Exit code 0: converged; 1: not converged; 2: input that cannot be used; 130: interrupted by Ctrl-C.
+    The contact is solved as by `asperity contact`, its pressure against approach gives the law of
+    the interface. Exit code 0: converged; 1: not converged; 2: input that cannot be used; 130:
+    interrupted by Ctrl-C.
     """
     contact(given, None if file is None else [file], from_, out, force, ["dynamics"])
 
@@ -183,12 +189,14 @@ OVER = frozenset({"control", "path", "body", "counter_body", "bodies", "law", "b
 
 
 def asked_table(file: Path | None, document: Path | None, given: Given) -> tuple[dict[str, Any], dict[str, str], Path]:
-    """Document without its parts, what the user calls its keys, and the folder at which its paths start.
+    """Document without its parts, what the user calls its keys, and the folder at which its paths
+    start.
 
     Raises
     ------
     InputError
-        If neither a ``file`` nor a ``document`` is named, or a surface is given beside that of the document.
+        If neither a ``file`` nor a ``document`` is named, or a surface is given beside that of the
+        document.
     """
     if document is None:
         if file is None:
@@ -209,7 +217,8 @@ def asked_table(file: Path | None, document: Path | None, given: Given) -> tuple
 
 
 def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dict[str, Path], *, force: bool) -> int:
-    """Run ``document``, whose relative paths start at ``base``; write what is asked for, print; the exit code."""
+    """Run ``document``, whose relative paths start at ``base``; write what is asked for, print; the
+    exit code."""
     case, in_folder = build(document, base), []
     with output_folder(out, force=force) as folder:
         outcome = execute(case, lines=folder is not None or bool(case.path), stage=stage)
@@ -250,7 +259,8 @@ def write_volume(outcome: Outcome, files: Mapping[str, Path], *, force: bool) ->
 
 @contextmanager
 def output_folder(out: Path | None, *, force: bool) -> Iterator[Path | None]:
-    """Temporary folder that becomes the folder ``out`` when all has gone well; None if none is wanted."""
+    """Temporary folder that becomes the folder ``out`` when all has gone well; None if none is
+    wanted."""
     if out is None:
         yield None
         return

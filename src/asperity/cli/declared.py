@@ -1,6 +1,7 @@
 """Options of commands, made from the declarations of parameters when a command is asked for them.
 
-A command takes ``given: Given`` and ``@offers`` the options that fill it; ``built`` makes both a command of typer.
+A command takes ``given: Given`` and ``@offers`` the options that fill it; ``built`` makes both a
+command of typer.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ from .show import silence
 
 @dataclass(frozen=True)
 class Option:
-    """One option: its ``name``, the key it fills by its ``path``, the declaration behind it, and the ``panel`` it is shown in."""
+    """One option: its ``name``, the key it fills by its ``path``, the declaration behind it, and
+    the ``panel`` it is shown in."""
 
     name: str
     path: tuple[str, ...]
@@ -106,10 +108,11 @@ def options_of(
     only: Iterable[str] = (),
     prefix: str = "",
 ) -> tuple[Option, ...]:
-    """One option for every parameter of ``declared``, a function, a dataclass or a table, that fills the key below ``path``.
+    """One option for every parameter of ``declared``, a function, a dataclass or a table, that
+    fills the key below ``path``.
 
-    It is called as its declaration says, or else after the parameter with ``prefix``; those to ``leave`` have none, or all
-    but ``only`` some.
+    It is called as its declaration says, or else after the parameter with ``prefix``; those to
+    ``leave`` have none, or all but ``only`` some.
     """
     left, kept = set(leave), set(only)
     found = [item for item in declarations(declared) if item.name not in left and (not kept or item.name in kept)]
@@ -157,7 +160,8 @@ def sorted_out(options: Iterable[Option], basic: Iterable[str]) -> list[Option]:
 
 
 def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = ()) -> dict[str, Any]:
-    """``table`` of a document with what is ``given`` over it; the tables that are ``asked`` for are there in any case.
+    """``table`` of a document with what is ``given`` over it; the tables that are ``asked`` for are
+    there in any case.
 
     Friction alone, without a film, a shift or a motion, requests the stresses that it causes.
 
@@ -182,7 +186,8 @@ def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = 
 
 
 def part_names(given: Given, *, everything: bool) -> dict[str, str]:
-    """What the user calls the keys of the parts: those that are ``given``, or with ``everything`` all of them."""
+    """What the user calls the keys of the parts: those that are ``given``, or with ``everything``
+    all of them."""
     known = {part.table for part in parts() if part.settings is not None}
     names = {
         ".".join(option.path): option.name
@@ -208,7 +213,8 @@ ADVANCED = "Advanced: "
 
 
 class Command(TyperCommand):
-    """A command whose page leaves the advanced options to ``--help-all``, and which names all missing options at once."""
+    """A command whose page leaves the advanced options to ``--help-all``, and which names all
+    missing options at once."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Take ``args`` apart."""
@@ -228,7 +234,8 @@ class Command(TyperCommand):
         return rest
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
-        """Write arguments and options by panel, names in full; the advanced ones only if they are asked for."""
+        """Write arguments and options by panel, names in full; the advanced ones only if they are
+        asked for."""
         panels: dict[str, list[tuple[str, str]]] = {"Arguments": [], "Options": []}
         left = 0
         for param in self.get_params(ctx):
@@ -259,7 +266,8 @@ def _whole_page(ctx: typer.Context, wanted: bool) -> None:
 
 
 def built(command: Callable[..., None], name: str, options: Sequence[Option] | None = None) -> Any:
-    """Command of typer that calls ``command`` with what is given by the ``options``, by default those it offers.
+    """Command of typer that calls ``command`` with what is given by the ``options``, by default
+    those it offers.
 
     Raises
     ------

@@ -1,8 +1,8 @@
-"""The command ``generate``: one subcommand for every kind of surface, whose options follow from what makes it."""
+"""The command ``generate``: one subcommand for every kind of surface, whose options follow from
+what makes it."""
 
 from __future__ import annotations
 
-import inspect
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,6 +15,7 @@ from ..core.parameters import REQUIRED, Parameter, parameters, taken_apart
 from ..core.settings import COMMAND_LINE, validated
 from ..core.units import parse, show
 from ..core.values import Choice, Number
+from ..core.words import first_paragraph
 from ..io.atomic import require_new_files
 from ..io.schemas.surfaces import AMPLITUDES, HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnySurface, FileSurface
 from ..io.surface_files import require_ending, save_endless, save_gaussian, save_surface
@@ -48,10 +49,7 @@ class Kinds(Listing):
     @staticmethod
     def lines() -> Mapping[str, str]:
         """Names of all kinds and what they are."""
-        return {
-            kind: inspect.cleandoc(made.__doc__ or "").partition("\n")[0].replace("``", "")
-            for kind, made in SURFACE_TABLES.items()
-        }
+        return {kind: first_paragraph(made).replace("``", "") for kind, made in SURFACE_TABLES.items()}
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """Subcommand of one kind, with dashes or underscores; None if there is none of the name."""
@@ -66,8 +64,8 @@ app = typer.Typer(name="generate", cls=Kinds, no_args_is_help=True, add_completi
 def generate() -> None:
     """Generate a rough surface, a texture or an indenter and write it to a file.
 
-    Example: asperity generate rough --points 512 --size 10um --spectrum self_affine --rms-height 5nm --hurst 0.8
-    --rolloff-wavelength 2um --shortest-wavelength 80nm --seed 1 --out rough.nc
+    Example: asperity generate rough --points 512 --size 10um --spectrum self_affine --rms-height
+    5nm --hurst 0.8 --rolloff-wavelength 2um --shortest-wavelength 80nm --seed 1 --out rough.nc
 
     asperity generate KIND --help lists the options of a kind.
     """
@@ -129,7 +127,8 @@ def _command(kind: str) -> Any:
 
 
 def _checked(kind: str, asked: dict[str, Any], names: Mapping[str, str]) -> Any:
-    """The table of a surface of ``kind`` as ``asked``; a missing amplitude of a spectrum is named with all else that is missing.
+    """The table of a surface of ``kind`` as ``asked``; a missing amplitude of a spectrum is named
+    with all else that is missing.
 
     Raises
     ------
@@ -162,7 +161,8 @@ def _checked(kind: str, asked: dict[str, Any], names: Mapping[str, str]) -> Any:
 
 
 def _slope(surface: Surface) -> str:
-    """Rms slope between neighbouring points, and of a periodic surface that of the waves themselves, where a spectrum prescribes it."""
+    """Rms slope between neighbouring points, and of a periodic surface that of the waves
+    themselves, where a spectrum prescribes it."""
     if min(surface.shape) < 2:
         return "of a profile: none"
     between = rms_slope(surface)
@@ -191,7 +191,8 @@ def options(kind: str) -> list[Option]:
 
 
 def _part_options(item: Parameter, tables: Any) -> list[Option]:
-    """Options of a table within the table, of whatever kind it may be; its kinds share options of the same name."""
+    """Options of a table within the table, of whatever kind it may be; its kinds share options of
+    the same name."""
     kinds = Choice({kind: kind for kind in tables})
     choice = Parameter("kind", str, kinds, REQUIRED, f"kind of the {item.help}")
     found = {"--" + item.name: Option("--" + item.name, (item.name, "kind"), choice, required=True)}
@@ -211,13 +212,15 @@ def _part_options(item: Parameter, tables: Any) -> list[Option]:
 
 
 def _stream(table: Any, out: Path, memory: str, force: bool) -> None:
-    """Write a surface beyond the memory: an endless one tile by tile, a Gaussian one by transforms on the disk."""
+    """Write a surface beyond the memory: an endless one tile by tile, a Gaussian one by transforms
+    on the disk."""
     if table.kind == "digital_filter" and table.periodic:
         raise InputError("--memory must be left out with --periodic: this periodic surface is generated as a whole.")
     if table.kind == "rough" and (table.variant != "random" or table.exact_rms or not table.periodic):
         raise InputError(
-            "--memory must be left out with --variant, --exact-rms and --no-periodic: beyond the memory Gaussian surfaces are "
-            "periodic, with random waves. Use digital_filter for a window without period."
+            "--memory must be left out with --variant, --exact-rms and --no-periodic: beyond the memory "
+            "Gaussian surfaces are periodic, with random waves. Use digital_filter for a window without "
+            "period."
         )
     grid = table_grid(table)
     spectrum = build_part(table.spectrum, Path())

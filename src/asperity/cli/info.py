@@ -54,7 +54,8 @@ def info(
         str,
         typer.Option(
             "--level",
-            help="Removed before: mean, plane, quadratic or a polynomial of the degree given; by default the mean of a periodic surface, the plane of any other.",
+            help="Removed before: mean, plane, quadratic or a polynomial of the degree given; by default "
+            "the mean of a periodic surface, the plane of any other.",
             metavar="WORD",
         ),
     ] = "auto",
@@ -65,7 +66,8 @@ def info(
 
     Examples: asperity info scan.di --full; asperity info scans/*.di --report page.html
 
-    Roughness values are those after levelling: by the least-squares plane, of a periodic surface by its mean, unless another level is chosen.
+    Roughness values are those after levelling: by the least-squares plane, of a periodic surface by
+    its mean, unless another level is chosen.
     """
     paths = {name: Path(path) for name, path in given.under("output").table().items()}
     report, plot, plots = (paths.get(name) for name in ("report", "plot", "plots"))
@@ -115,7 +117,8 @@ HEADINGS = ("file", "points", "size", "missing", "Sq", "Sa", "Sz", "Sdq", "level
 
 
 def _many(files: Sequence[Path], given: Given, level: str, report: Path | None, *, as_json: bool, force: bool) -> int:
-    """Print one row for each file, and write them as a page; the exit code shows whether all could be read."""
+    """Print one row for each file, and write them as a page; the exit code shows whether all could
+    be read."""
     rows, records, lost = [], [], []
     for file, name in zip(files, short_names(files), strict=True):
         try:

@@ -1,4 +1,5 @@
-"""The program ``asperity``. A command is imported when it is asked for, so that the list of all commands is immediate."""
+"""The program ``asperity``. A command is imported when it is asked for, so that the list of all
+commands is immediate."""
 
 from __future__ import annotations
 
@@ -27,8 +28,9 @@ INTERNAL_ERROR = 3
 """Exit codes, beside that of an interrupt."""
 
 GARBAGE = (10_000, 20, 20)
-"""Allocations between two searches for garbage, and searches between two of older objects. Python's (700, 10, 10) suits programs with small
-libraries: here searches through what has just been imported, which stays, took 5 % of the time of a contact."""
+"""Allocations between two searches for garbage, and searches between two of older objects. Python's
+(700, 10, 10) suits programs with small libraries: here searches through what has just been
+imported, which stays, took 5 % of the time of a contact."""
 
 COMMANDS: Mapping[str, str] = MappingProxyType(
     {
@@ -48,7 +50,8 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
 
 
 class Listing(TyperGroup):
-    """Group of commands that are made when they are asked for; its page lists them with one line each."""
+    """Group of commands that are made when they are asked for; its page lists them with one line
+    each."""
 
     lines: ClassVar[Callable[[], Mapping[str, str]]]
 
@@ -63,11 +66,13 @@ class Listing(TyperGroup):
 
 
 class Program(Listing):
-    """The commands, each made when it is asked for; every exception ends as a sentence on stderr and an exit code."""
+    """The commands, each made when it is asked for; every exception ends as a sentence on stderr
+    and an exit code."""
 
     @staticmethod
     def lines() -> Mapping[str, str]:
-        """Names of the commands and the first lines of their docstrings, read from the text: modules take long to import."""
+        """Names of the commands and the first lines of their docstrings, read from the text:
+        modules take long to import."""
         folder = importlib.resources.files(__package__)
         texts = {module: folder.joinpath(f"{module}.py").read_text(encoding="utf-8") for module in COMMANDS.values()}
         begin = {name: texts[module].partition(f"\ndef {name}(")[2] for name, module in COMMANDS.items()}
@@ -150,9 +155,10 @@ app = typer.Typer(
     name="asperity",
     cls=Program,
     help="Contact mechanics of layered rough surfaces.",
-    epilog="`asperity COMMAND -h` explains a command. The environment variable ASPERITY_THREADS sets the number of threads of "
-    "all commands (all cores by default; --threads of a command goes before). Exit codes: 0 done, 1 not converged or failed "
-    "cases, 2 bad input, 3 internal error, 130 interrupted.",
+    epilog="`asperity COMMAND -h` explains a command. The environment variable ASPERITY_THREADS sets the "
+    "number of threads of all commands (all cores by default; --threads of a command goes before). "
+    "Exit codes: 0 done, 1 not converged or failed cases, 2 bad input, 3 internal error, 130 "
+    "interrupted.",
     no_args_is_help=True,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,

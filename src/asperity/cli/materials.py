@@ -1,4 +1,5 @@
-"""The commands ``materials`` and ``liquids``: libraries of named substances and where their values come from."""
+"""The commands ``materials`` and ``liquids``: libraries of named substances and where their values
+come from."""
 
 from __future__ import annotations
 
@@ -42,7 +43,8 @@ def _print(records: Sequence[MaterialRecord | LiquidRecord], wanted: str | None,
     if wanted is not None:
         records = [record for record in records if record.name == wanted]
     if as_json:
-        # of a viscoelastic one with relaxed modulus (Pa), terms (Pa, s), whether the bulk is elastic, and the shift
+        # of a viscoelastic one with relaxed modulus (Pa), terms (Pa, s), whether the bulk is
+        # elastic, and the shift
         described = []
         for record in records:
             values = {key: {"value": item.value, "source": item.source} for key, item in record.values.items()}

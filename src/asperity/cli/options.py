@@ -1,4 +1,5 @@
-"""Options of the core of a problem document, and the document that they fill; messages name the option that was given."""
+"""Options of the core of a problem document, and the document that they fill; messages name the
+option that was given."""
 
 from __future__ import annotations
 
@@ -73,7 +74,8 @@ def own_option(
 
 
 def _step_option(name: str, step: str, key: str, what: str) -> Option:
-    """Option for the parameter ``key`` of a preparation step; without a value of its own there is no such step."""
+    """Option for the parameter ``key`` of a preparation step; without a value of its own there is
+    no such step."""
     item = next(item for item in parameters(STEPS[step]) if item.name == key)
     usual = f", such as {item.default:g}" if isinstance(item.default, float) else ""
     words = "" if not item.words or isinstance(item.values, Flag) else f"; {', '.join(item.words)}"
@@ -84,7 +86,8 @@ def _step_option(name: str, step: str, key: str, what: str) -> Option:
 
 
 def preparation_options() -> tuple[Option, ...]:
-    """Options of the steps between the file and the contact, in their order; they apply to a counter surface too."""
+    """Options of the steps between the file and the contact, in their order; they apply to a
+    counter surface too."""
     make, step = own_option, _step_option
     return (
         make("--crop", ("prepare", "crop", "range"), 'part to keep: "0um:5um,0um:4um"', PREPARATION, "X0:X1,Y0:Y1"),
@@ -93,7 +96,8 @@ def preparation_options() -> tuple[Option, ...]:
         make(
             "--level",
             ("prepare", "level", "form"),
-            "remove mean, plane, quadratic or a polynomial of the degree given; or none; by default the mean of a periodic surface, the plane of any other",
+            "remove mean, plane, quadratic or a polynomial of the degree given; or none; by default the mean "
+            "of a periodic surface, the plane of any other",
             PREPARATION,
             "WORD",
         ),
@@ -192,7 +196,8 @@ def read_surface(file: Path, given: Given) -> Surface:
 
 
 def levelled_as(surface: Surface, level: str) -> tuple[Surface, str]:
-    """``surface`` after levelling and what was removed: left to itself (auto) the mean of a periodic one, else the plane."""
+    """``surface`` after levelling and what was removed: left to itself (auto) the mean of a
+    periodic one, else the plane."""
     found = level if level != "auto" else usual_form(surface)
     return levelled(surface, int(found) if found.isdecimal() and len(found) < 10 else found), found
 
@@ -240,7 +245,8 @@ def composed(file: Path, given: Given) -> dict[str, Any]:
 
 
 def overlaid(table: Mapping[str, Any], given: Given, base: Path = Path()) -> dict[str, Any]:
-    """``table`` with the bodies, boundary, law, load and solver settings that are given; materials files start at ``base``.
+    """``table`` with the bodies, boundary, law, load and solver settings that are given; materials
+    files start at ``base``.
 
     The unit of the first value other than zero of a load path decides what it prescribes.
     """
@@ -295,7 +301,8 @@ def overlaid(table: Mapping[str, Any], given: Given, base: Path = Path()) -> dic
 
 
 PATH_KINDS = (("mean_pressure", "pressure"), ("force", "force"), ("force", "surface tension"), ("approach", "length"))
-"""What the points of a load path may be, and the kind of their unit; forces per length are those of line contacts."""
+"""What the points of a load path may be, and the kind of their unit; forces per length are those of
+line contacts."""
 
 
 def _from(base: Path, table: Any) -> Any:
@@ -308,7 +315,8 @@ def _from(base: Path, table: Any) -> Any:
 
 
 def names_in(table: Mapping[str, Any], given: Given) -> dict[str, str]:
-    """What the user calls the keys of the document ``table`` that was composed of what is ``given``."""
+    """What the user calls the keys of the document ``table`` that was composed of what is
+    ``given``."""
     names = {**given.names, "control.path.steps": "--path-steps", "counter_surface.path": "--counter-surface"}
     names |= {f"counter_surface.{option.path[-1]}": option.name for option in reading_options()}
     words = (*SYMBOLS.items(), ("material", "material"), ("thickness", "thickness"), ("relaxation", "relaxation"))
@@ -328,9 +336,11 @@ def names_in(table: Mapping[str, Any], given: Given) -> dict[str, str]:
 
 
 def steps(given: Given) -> list[dict[str, Any]]:
-    """Preparation steps in the order of the options; a sharp filter needs a periodic surface, so that it comes after that.
+    """Preparation steps in the order of the options; a sharp filter needs a periodic surface, so
+    that it comes after that.
 
-    Every surface is levelled and filled unless that is turned off. An empty part of the range of ``--crop`` keeps the full side.
+    Every surface is levelled and filled unless that is turned off. An empty part of the range of
+    ``--crop`` keeps the full side.
     """
     chosen: dict[str, Any] = {"level": {}, "fill": {}, **given.under("prepare").table()}
     sieve = chosen.get("filter", {})

@@ -1,4 +1,5 @@
-"""The command ``contact`` for notebooks and scripts: one call from a file of heights to everything that is computed of the contact."""
+"""The command ``contact`` for notebooks and scripts: one call from a file of heights to everything
+that is computed of the contact."""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ def press(
     on_failure: Literal["raise", "return"] = "raise",
     **options: Any,
 ) -> Outcome:
-    """Press the rough surface in a file against a body: the same as the command ``asperity contact``, by the same executor.
+    """Press the rough surface in a file against a body: the same as the command
+    ``asperity contact``, by the same executor.
 
     Parameters
     ----------
@@ -33,21 +35,24 @@ def press(
     compute
         Parts to compute with their defaults: ``"stress"``, ``"plastic_load"``, …
     on_failure
-        ``"raise"`` a ConvergenceError if the solve does not converge, or ``"return"`` the outcome with its status.
+        ``"raise"`` a ConvergenceError if the solve does not converge, or ``"return"`` the outcome
+        with its status.
     options
-        The options of ``asperity contact``, hyphens as underscores: ``body="DLC:5nm/steel"``, ``pressure="50 MPa"``, ``friction=0.3``,
-        ``periodise=True``. Text with units, as there; numbers where there is no unit.
+        The options of ``asperity contact``, hyphens as underscores: ``body="DLC:5nm/steel"``,
+        ``pressure="50 MPa"``, ``friction=0.3``, ``periodise=True``. Text with units, as there;
+        numbers where there is no unit.
 
     Returns
     -------
     Outcome
-        With ``verdict``, ``result``, ``path``, ``values`` and ``findings``; a card in notebooks. ``write_report(outcome, "report.html")``
-        writes its page.
+        With ``verdict``, ``result``, ``path``, ``values`` and ``findings``; a card in notebooks.
+        ``write_report(outcome, "report.html")`` writes its page.
 
     Raises
     ------
     InputError
-        If an option does not exist, has a value that it cannot have, or the body or the load is not given.
+        If an option does not exist, has a value that it cannot have, or the body or the load is not
+        given.
     NoSolutionError
         If the load has no solution.
     ConvergenceError
@@ -55,7 +60,9 @@ def press(
 
     Examples
     --------
-    >>> outcome = asp.press("scan.di", body="DLC:5nm/steel", pressure="50 MPa", friction=0.3)  # doctest: +SKIP
+    >>> outcome = asp.press(  # doctest: +SKIP
+    ...     "scan.di", body="DLC:5nm/steel", pressure="50 MPa", friction=0.3
+    ... )
     >>> outcome.verdict.what  # doctest: +SKIP
     """
     offered = contact_options()

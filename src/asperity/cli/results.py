@@ -54,8 +54,8 @@ def plot(
         str,
         typer.Option(
             "--kind",
-            help="all, heights, pressure, pressure_log, contact, gap, section, histogram or gap_histogram; of an indented surface "
-            "also indentation and residual, of a wet contact menisci.",
+            help="all, heights, pressure, pressure_log, contact, gap, section, histogram or gap_histogram; "
+            "of an indented surface also indentation and residual, of a wet contact menisci.",
         ),
     ] = "all",
     out: Annotated[Path, typer.Option("--out", help="Folder of the pictures, made if missing.")] = Path(),
@@ -130,14 +130,16 @@ def _options() -> list[Option]:
 
 @offers(_options)
 def stress(file: Loaded, given: Given, out: Out = None, force: Force = False) -> None:
-    """Compute the stresses in a saved contact, without solving it again, or under prescribed tractions.
+    """Compute the stresses in a saved contact, without solving it again, or under prescribed
+    tractions.
 
-    A document with the table [tractions] prescribes point, line and patch loads and arrays of pressure and shear on a body.
-    Of a result, what the result's own problem document requests is computed, with the options in place of its parts; without either, the
-    section y=max. The pressure stays that of the result, whatever the friction.
+    A document with the table [tractions] prescribes point, line and patch loads and arrays of
+    pressure and shear on a body. Of a result, what the result's own problem document requests is
+    computed, with the options in place of its parts; without either, the section y=max. The
+    pressure stays that of the result, whatever the friction.
 
-    Examples: asperity stress run/result.nc --friction 0.3 --section y=max --depths 0nm,5nm --out stresses;
-    asperity stress loads.toml --section y=max --out stresses
+    Examples: asperity stress run/result.nc --friction 0.3 --section y=max --depths 0nm,5nm --out
+    stresses; asperity stress loads.toml --section y=max --out stresses
 
     Exit code 1 if the saved contact has not converged; the others as for `contact`.
     """
@@ -166,12 +168,13 @@ def stress(file: Loaded, given: Given, out: Out = None, force: Force = False) ->
 
 
 def _under_tractions(file: Path, given: Given, out: Path | None, files: Mapping[str, Path], *, force: bool) -> None:
-    """The stresses under the tractions of the document ``file``, with the options in place of its table [stress]."""
+    """The stresses under the tractions of the document ``file``, with the options in place of its
+    table [stress]."""
     table = read_table(file)
     if TRACTIONS not in table:
         raise InputError(
-            f"document for `asperity stress` must have a table [tractions], but {file} has none; a contact is solved by "
-            "`asperity contact --from`.",
+            f"document for `asperity stress` must have a table [tractions], but {file} has none; a contact is "
+            "solved by `asperity contact --from`.",
             subject="document for `asperity stress`",
         )
     if given.under("friction").values:
@@ -200,7 +203,8 @@ def _under_tractions(file: Path, given: Given, out: Path | None, files: Mapping[
 
 
 def _asked(text: str | None, given: Given) -> tuple[StressRequest, ProblemDocument | None, int | None]:
-    """What is asked for, the document in the result, whose ``text`` is given, with that in it, and the threads."""
+    """What is asked for, the document in the result, whose ``text`` is given, with that in it, and
+    the threads."""
     document = None if text is None else loads(text)
     before: Any = None if document is None or getattr(document, "stress") is None else document  # noqa: B009
     tables = ("friction", "stress")
@@ -221,8 +225,8 @@ def _asked(text: str | None, given: Given) -> tuple[StressRequest, ProblemDocume
             else f"coupled with friction {had[0]:g} along {math.degrees(had[1]):g} deg"
         )
         raise InputError(
-            f"--coupled must have the pressure under the friction asked for, but that of the result was solved {holds}. "
-            "Solve again: asperity contact --from problem.toml --coupled with that friction.",
+            "--coupled must have the pressure under the friction asked for, but that of the result was solved "
+            f"{holds}. Solve again: asperity contact --from problem.toml --coupled with that friction.",
             subject="--coupled",
         )
     asked = {name: getattr(checked, name) for name in tables}

@@ -36,14 +36,17 @@ WIDTH = 120
 """Width of tables that are not printed on a terminal."""
 
 SHORT, ROOM, NATURAL = 20, 12, 10_000
-"""Letters up to which a cell is not broken, least width of a column of longer ones, and a width that holds any table."""
+"""Letters up to which a cell is not broken, least width of a column of longer ones, and a width
+that holds any table."""
 
 
 class Answers(Console):
-    """Console that drops its text once the program that reads it has ended, as in ``asperity materials | head``."""
+    """Console that drops its text once the program that reads it has ended, as in
+    ``asperity materials | head``."""
 
     def on_broken_pipe(self) -> None:
-        """Drop the rest of the text; the exit code stays that of the work and not that of the reader."""
+        """Drop the rest of the text; the exit code stays that of the work and not that of the
+        reader."""
         self.quiet = True
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())
@@ -64,7 +67,8 @@ def silence() -> Any:
 
 
 def console() -> Console:
-    """Console for answers; lines that go to a file or another program are not broken at 80 characters."""
+    """Console for answers; lines that go to a file or another program are not broken at 80
+    characters."""
     watched = sys.stdout is not None and sys.stdout.isatty()  # None: closed before the start
     return Answers(width=None if watched else WIDTH)
 
@@ -75,7 +79,8 @@ def error_console() -> Console:
 
 
 def say(text: str, style: str = "", *, warning: bool = False) -> None:
-    """Print ``text`` as it is, whatever brackets it holds and however long it is; a ``warning`` also where answers are dropped."""
+    """Print ``text`` as it is, whatever brackets it holds and however long it is; a ``warning``
+    also where answers are dropped."""
     out = error_console() if warning and isinstance(sys.stdout, Nowhere) else console()
     out.print(printable(text, keep="\n\t"), style=style, markup=False, highlight=False, soft_wrap=True)
 
@@ -84,7 +89,8 @@ FIRM = "\N{NO-BREAK SPACE}"
 
 
 class Unbroken(Table):
-    """Table with headings whose numbers are not broken where the terminal is narrow: what all rows share is said below, and if that is not enough each row stands by itself."""
+    """Table with headings whose numbers are not broken where the terminal is narrow: what all rows
+    share is said below, and if that is not enough each row stands by itself."""
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> Iterator[Any]:
         """Lay the table out as the ``console`` has room."""
@@ -143,7 +149,8 @@ def short_names(files: Sequence[Path]) -> list[str]:
 
 
 def scalar_rows(result: ContactResult, doubted: tuple[str, ...] = ()) -> list[tuple[str, str]]:
-    """The scalars of ``result``, with a mark where they begin with a name of ``doubted``, and the checks that bound its error."""
+    """The scalars of ``result``, with a mark where they begin with a name of ``doubted``, and the
+    checks that bound its error."""
     from ..io.words import CERTIFICATE, result_rows
 
     checks = result.certificate
@@ -226,7 +233,8 @@ def print_files(paths: Iterable[Path]) -> None:
 
 
 def confirmed(large: str, *, yes: bool) -> None:
-    """Ask on a terminal whether to go on with what is ``large``; nothing is asked if it is empty or ``yes`` was given.
+    """Ask on a terminal whether to go on with what is ``large``; nothing is asked if it is empty or
+    ``yes`` was given.
 
     Raises
     ------
@@ -288,8 +296,9 @@ class OnBar:
 def interruptible(progress: Progress) -> Iterator[Progress]:
     """``progress`` that raises KeyboardInterrupt if Ctrl-C came since the start.
 
-    An exception raised by a signal inside a compiler's or the interpreter's own callback is printed and dropped by
-    Python, or crashes the compiler; the first solve of a new installation compiles for seconds, and would go on for good.
+    An exception raised by a signal inside a compiler's or the interpreter's own callback is printed
+    and dropped by Python, or crashes the compiler; the first solve of a new installation compiles
+    for seconds, and would go on for good.
     """
     if threading.current_thread() is not threading.main_thread():
         yield progress

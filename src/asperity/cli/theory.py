@@ -1,4 +1,5 @@
-"""The command ``theory``: one subcommand for every theory of the catalogue, whose options follow from its declarations."""
+"""The command ``theory``: one subcommand for every theory of the catalogue, whose options follow
+from its declarations."""
 
 from __future__ import annotations
 
@@ -109,8 +110,9 @@ def theory(
 ) -> None:
     """Evaluate a theory, from numbers or for a measured surface.
 
-    Examples: asperity theory --list; asperity theory hertz --E-star 115GPa --radius 5mm --load 1N..100N;
-    asperity theory bush-gibson-thomas --surface scan.di --body DLC --pressure 1MPa..100MPa --plot curve.png
+    Examples: asperity theory --list; asperity theory hertz --E-star 115GPa --radius 5mm --load
+    1N..100N; asperity theory bush-gibson-thomas --surface scan.di --body DLC --pressure
+    1MPa..100MPa --plot curve.png
 
     asperity theory NAME --help lists the options, results and sources of a theory.
     """
@@ -129,7 +131,8 @@ def theory(
             rows.append((family if number == 0 else "", f"{kind.name}{measured}", kind.title))
     console().print(table("Theories", rows, ("family", "name", "theory")))
     say(
-        "* also from a surface, with --surface FILE. `asperity theory NAME --help` lists inputs, results, limits and sources of one."
+        "* also from a surface, with --surface FILE. `asperity theory NAME --help` lists inputs, results, "
+        "limits and sources of one."
     )
 
 
@@ -184,13 +187,14 @@ def _command(kind: type[Described]) -> Any:
 
 
 def _made(kind: type[Described], given: Given) -> Described:
-    """The theory ``kind`` from the numbers given, those of named bodies, and a surface if there is one, filled and levelled.
+    """The theory ``kind`` from the numbers given, those of named bodies, and a surface if there is
+    one, filled and levelled.
 
     Raises
     ------
     InputError
-        If a parameter is missing, or given twice, a number that is measured is also given, a body is not understood, or its strength is
-        needed and not known.
+        If a parameter is missing, or given twice, a number that is measured is also given, a body
+        is not understood, or its strength is needed and not known.
     """
     texts = given.under("made").table()
     values = {item.name: _read(item, texts) for item in parameters(kind) if item.name in texts}
@@ -250,7 +254,8 @@ def _read(item: Parameter, texts: dict[str, Any]) -> Any:
 
 
 def read_range(item: Parameter, text: str, *, points: int, linear: bool) -> RealArray:
-    """Numbers of an argument: one, several with commas between, or ``points`` from one to another with ``..`` between."""
+    """Numbers of an argument: one, several with commas between, or ``points`` from one to another
+    with ``..`` between."""
     option = option_of(item)
     ends = text.split("..")
     if len(ends) == 1:
@@ -282,7 +287,8 @@ LEFT = "!"
 def print_answer(found: Evaluation, *, as_json: bool) -> None:
     """Print the results of a theory, its limits of validity and its sources.
 
-    Rows beyond a limit that concerns all columns are marked and red. The heading of stress.xx is σ xx.
+    Rows beyond a limit that concerns all columns are marked and red. The heading of stress.xx is σ
+    xx.
     """
     if as_json:
         console().out(json.dumps(answer_record(found), indent=2), highlight=False)

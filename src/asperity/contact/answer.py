@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
 
 class Answer:
-    """What a coupling has found in a contact: base of frozen dataclasses, whose methods say nothing where it has no part in what is asked."""
+    """What a coupling has found in a contact: base of frozen dataclasses, whose methods say nothing
+    where it has no part in what is asked."""
 
     quantities: ClassVar[tuple[Quantity, ...]] = ()
     """Its numbers in the table of a result, stored fields and others that follow from them."""
@@ -29,7 +30,8 @@ class Answer:
         yield from ()
 
     def contradicted(self) -> tuple[str, ...]:
-        """Names of scalars of the result that are not what a reader would take them for beside it."""
+        """Names of scalars of the result that are not what a reader would take them for beside
+        it."""
         return ()
 
     def traction_beside(self) -> RealArray | None:
@@ -37,11 +39,13 @@ class Answer:
         return None
 
     def lifted(self) -> RealArray | None:
-        """Elastic displacement (nx, ny) in m of the surface that is neither by pressure nor by attraction."""
+        """Elastic displacement (nx, ny) in m of the surface that is neither by pressure nor by
+        attraction."""
         return None
 
     def imprint(self, part: str = "composite") -> RealArray | None:
-        """Displacement (nx, ny) in m, into the body, that stays in this ``part``: "body", "counter_body" or the "composite" surface."""
+        """Displacement (nx, ny) in m, into the body, that stays in this ``part``: "body",
+        "counter_body" or the "composite" surface."""
         return None
 
     def pulls(self) -> float:
@@ -49,7 +53,8 @@ class Answer:
         return 0.0
 
     def outside(self, force: float, *, alone: bool) -> float:
-        """Force (N) from outside that with what it pulls makes the ``force``; where it pulls ``alone`` it may know that to the last digit."""
+        """Force (N) from outside that with what it pulls makes the ``force``; where it pulls
+        ``alone`` it may know that to the last digit."""
         return force - self.pulls()
 
     def held_at(self) -> float | None:
@@ -57,11 +62,13 @@ class Answer:
         return None
 
     def stores(self, *, relaxing: bool) -> float:
-        """Energy (J) that it stores, beside the elastic energy of the result, which in ``relaxing`` bodies is that of all their springs."""
+        """Energy (J) that it stores, beside the elastic energy of the result, which in ``relaxing``
+        bodies is that of all their springs."""
         return 0.0
 
     def springs(self) -> float | None:
-        """Elastic energy (J) of the bodies, where that is not half of pressure times displacement."""
+        """Elastic energy (J) of the bodies, where that is not half of pressure times
+        displacement."""
         return None
 
     def retarded(self) -> RealArray | None:
@@ -69,7 +76,8 @@ class Answer:
         return None
 
     def worked(self) -> float | None:
-        """Work (J) of the force between the solids in this step, where it is known better than by the trapezoidal rule."""
+        """Work (J) of the force between the solids in this step, where it is known better than by
+        the trapezoidal rule."""
         return None
 
     def heat(self) -> float:
@@ -85,11 +93,13 @@ class Answer:
         return False
 
     def summed(self, earlier: Sequence[Self]) -> Self:
-        """The answer of a whole step, of which this is that of its last part, and ``earlier`` those of the parts before."""
+        """The answer of a whole step, of which this is that of its last part, and ``earlier`` those
+        of the parts before."""
         return self
 
     def friction_under_load(self) -> float | None:
-        """Static friction force over external force with what it pulls; None where it knows none."""
+        """Static friction force over external force with what it pulls; None where it knows
+        none."""
         return None
 
     def flows(self) -> float:
@@ -109,7 +119,8 @@ class Answer:
         return {}
 
     def remembered(self, approach: float) -> Memory:
-        """What of its coupling's memory for the next step follows from it and from the ``approach`` in m; files do not hold that twice."""
+        """What of its coupling's memory for the next step follows from it and from the ``approach``
+        in m; files do not hold that twice."""
         return {}
 
     def certified(self, certificate: Certificate) -> Certificate:
@@ -117,12 +128,14 @@ class Answer:
         return certificate
 
     def findings(self, certificate: Certificate) -> Iterator[Advice]:
-        """What should be known before the numbers of a result with this ``certificate`` are used."""
+        """What should be known before the numbers of a result with this ``certificate`` are
+        used."""
         yield from ()
 
 
 def outside(answers: Iterable[Answer], force: float) -> float:
-    """Force (N) from outside that with what the ``answers`` pull makes the ``force`` between the solids, attractions first."""
+    """Force (N) from outside that with what the ``answers`` pull makes the ``force`` between the
+    solids, attractions first."""
     pulling = sorted((item for item in answers if item.pulls()), key=lambda item: item.traction_beside() is None)
     for answer in pulling:
         force = answer.outside(force, alone=len(pulling) == 1)

@@ -1,4 +1,5 @@
-"""What lies outside the grid: the same surface again, free half-space, or the same line contact for ever."""
+"""What lies outside the grid: the same surface again, free half-space, or the same line contact for
+ever."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ from ..solids.compliance.halfspace import Compliance
 
 @dataclass(frozen=True)
 class Periodic:
-    """The contact repeats in x and y; pressures and displacements are trigonometric (spectral discretisation).
+    """The contact repeats in x and y; pressures and displacements are trigonometric (spectral
+    discretisation).
 
     On a grid of one point along y nothing varies along y: a plane-strain contact that repeats in x.
     """
@@ -26,9 +28,11 @@ class Periodic:
 
 @dataclass(frozen=True)
 class Free:
-    """No load outside the grid; pressure is constant on each pixel and the displacement exact (DC-FFT).
+    """No load outside the grid; pressure is constant on each pixel and the displacement exact
+    (DC-FFT).
 
-    On a grid of one point along y the contact is a row of rectangles dx x dy; see ``FreeLine`` for a line contact.
+    On a grid of one point along y the contact is a row of rectangles dx x dy; see ``FreeLine`` for
+    a line contact.
     """
 
     name: ClassVar[str] = "free"
@@ -42,18 +46,19 @@ class Free:
 
 @dataclass(frozen=True)
 class FreeLine:
-    """Line contact: no load outside the grid along x, and along y everything goes on unchanged (plane strain).
+    """Line contact: no load outside the grid along x, and along y everything goes on unchanged
+    (plane strain).
 
-    The grid has one point along y; pressure is in Pa as ever, forces and areas are those of the length dy, so that
-    dy = 1 m gives them per metre.
+    The grid has one point along y; pressure is in Pa as ever, forces and areas are those of the
+    length dy, so that dy = 1 m gives them per metre.
 
     Parameters
     ----------
     datum
-        Distance in m from a line load at which the displacement of a half-space is called zero, at least the length of
-        the grid; None takes that length. The plane problem fixes displacements up to a constant only, so approach and
-        elastic energy depend on the datum (pressure and gap do not); on a rigid base there is no such freedom
-        and the datum is the base.
+        Distance in m from a line load at which the displacement of a half-space is called zero, at
+        least the length of the grid; None takes that length. The plane problem fixes displacements
+        up to a constant only, so approach and elastic energy depend on the datum (pressure and gap
+        do not); on a rigid base there is no such freedom and the datum is the base.
 
     Raises
     ------
@@ -71,7 +76,8 @@ class FreeLine:
             require.positive(self.datum, "datum of a line contact (m)")
 
     def require_line(self, grid: Grid) -> None:
-        """Refuse grids that are no line, and a datum within the grid, where a pressure could pull the surface up.
+        """Refuse grids that are no line, and a datum within the grid, where a pressure could pull
+        the surface up.
 
         Raises
         ------
@@ -80,7 +86,8 @@ class FreeLine:
         """
         if grid.shape[1] != 1:
             raise InputError(
-                f"grid of a line contact must have one point along y, but has {grid.shape[0]} x {grid.shape[1]} points. "
+                f"grid of a line contact must have one point along y, but has {grid.shape[0]} x "
+                f"{grid.shape[1]} points. "
                 "Take one line of the map ({slice}), or the free or the periodic boundary ({free}, {periodic})."
             )
         if self.datum is not None and self.datum < grid.size[0] * (1.0 - 1e-9):

@@ -25,7 +25,8 @@ from .solvers.protocol import (
 )
 
 LARGEST_DUALITY_GAP = 1e-3
-"""Bound on the relative error of the energy above which a result is doubtful; a converged one has 1e-6."""
+"""Bound on the relative error of the energy above which a result is doubtful; a converged one has
+1e-6."""
 
 LARGEST_IMBALANCE = 1e-3
 """Imbalance of the forces above which a result is doubtful; a converged one has 1e-4 at most."""
@@ -38,17 +39,17 @@ class Certificate:
     Attributes
     ----------
     duality_gap
-        Rigorous bound on the relative error of the total complementary energy, G / |V|, with V measured at the
-        level of the solution (then |V| is the elastic energy for elastic contact). At prescribed offset the bound
-        holds for the problem with the load reached.
+        Rigorous bound on the relative error of the total complementary energy, G / |V|, with V
+        measured at the level of the solution (then |V| is the elastic energy for elastic contact).
+        At prescribed offset the bound holds for the problem with the load reached.
     field_error
-        The customary error of the field, G / (total load x rms height); for bodies flatter than they deform, see
-        ``solvers.protocol.least_length``.
+        The customary error of the field, G / (total load x rms height); for bodies flatter than
+        they deform, see ``solvers.protocol.least_length``.
     penetration
         Largest overlap of the bodies outside the plastic points, over the rms height.
     load_imbalance
-        Force of the contact less the external one prescribed and what menisci and adhesion pull, over the sum of these; 0 where the position
-        is prescribed.
+        Force of the contact less the external one prescribed and what menisci and adhesion pull,
+        over the sum of these; 0 where the position is prescribed.
     tolerance
         Tolerance the solver was given for its relative error.
     iterations, fft_pairs
@@ -64,10 +65,13 @@ class Certificate:
     rounds
         Number of normal solves that the couplings took.
     complementarity
-        De Saxcé's residual of gap, slip and friction together, see ``StickSlip``; zero without stick and slip.
+        De Saxcé's residual of gap, slip and friction together, see ``StickSlip``; zero without
+        stick and slip.
     pressure_error
-        Rigorous bound on the relative error of the pressure, |p - p*| / |p| over all points, from the duality gap (or its rounding) and the compliance of the wave
-        that gives way least (``solvers.protocol.pressure_error``); infinite where it is not known. Usual contacts have 1e-3, at true errors of 1e-7.
+        Rigorous bound on the relative error of the pressure, |p - p*| / |p| over all points, from
+        the duality gap (or its rounding) and the compliance of the wave that gives way least
+        (``solvers.protocol.pressure_error``); infinite where it is not known. Usual contacts have
+        1e-3, at true errors of 1e-7.
     """
 
     duality_gap: float
@@ -91,7 +95,8 @@ def certify(
 ) -> Certificate:
     """Certificate of ``solution``, whose sums are ``totals`` and which took ``wall_time`` s.
 
-    Of a contact far from the zero of the heights it counts them from near the contact, whose deflection they would round away.
+    Of a contact far from the zero of the heights it counts them from near the contact, whose
+    deflection they would round away.
     """
     if (near := heights_near_contact(qp)) is not qp.profile:
         qp = replace(qp, profile=near)

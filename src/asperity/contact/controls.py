@@ -1,4 +1,5 @@
-"""What may be prescribed to a contact: a load, a position or no load; with what moves along the surface, a step of a history."""
+"""What may be prescribed to a contact: a load, a position or no load; with what moves along the
+surface, a step of a history."""
 
 from __future__ import annotations
 
@@ -40,8 +41,9 @@ class Force:
 class Approach:
     """Approach in m, > 0, measured from first touch of the undeformed surfaces.
 
-    Free boundary: displacement of the bodies' distant parts towards each other. Periodic boundary: there that
-    displacement is unbounded, so approach is the decrease of the mean gap from its value at first touch.
+    Free boundary: displacement of the bodies' distant parts towards each other. Periodic boundary:
+    there that displacement is unbounded, so approach is the decrease of the mean gap from its value
+    at first touch.
     """
 
     value: float
@@ -66,7 +68,8 @@ class MeanGap:
 
 @dataclass(frozen=True)
 class Pull:
-    """Tensile normal force on the grid in N, > 0, that adhesion bears; only for a problem with ``adhesion``."""
+    """Tensile normal force on the grid in N, > 0, that adhesion bears; only for a problem with
+    ``adhesion``."""
 
     value: float
     name: ClassVar[str] = "pull"
@@ -78,14 +81,17 @@ class Pull:
 
 @dataclass(frozen=True)
 class FixedGrips:
-    """Approach of a testing machine that holds the bodies by a spring, of either sign; only for a problem with ``adhesion``.
+    """Approach of a testing machine that holds the bodies by a spring, of either sign; only for a
+    problem with ``adhesion``.
 
-    The bodies are at the approach δ = value - F/stiffness under the force F > 0 that presses them together.
+    The bodies are at the approach δ = value - F/stiffness under the force F > 0 that presses them
+    together.
 
     Parameters
     ----------
     value
-        Approach in m from first touch of the undeformed surfaces (``Approach``); negative where they were apart.
+        Approach in m from first touch of the undeformed surfaces (``Approach``); negative where
+        they were apart.
     stiffness
         Stiffness of the machine in N/m, > 0; infinite by default.
 
@@ -108,7 +114,8 @@ class FixedGrips:
 
 @dataclass(frozen=True)
 class Unloaded:
-    """No load: the bodies, dented as they are, just touch with their highest point. Ends the unloading of a load path."""
+    """No load: the bodies, dented as they are, just touch with their highest point. Ends the
+    unloading of a load path."""
 
     value: ClassVar[float] = 0.0
     name: ClassVar[str] = "mean pressure"
@@ -133,11 +140,13 @@ class Step:
     normal
         ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``.
     tangential
-        ``Shift`` or ``TangentialForce``: surfaces stick and slip by the friction of the problem. None leaves what the step before
-        prescribed, at first no shift; in a history without any, all points slide where the problem has ``Coulomb`` friction.
+        ``Shift`` or ``TangentialForce``: surfaces stick and slip by the friction of the problem.
+        None leaves what the step before prescribed, at first no shift; in a history without any,
+        all points slide where the problem has ``Coulomb`` friction.
     duration
-        Time in s, >= 0, in which the load or position goes in a straight line to ``normal`` from where the step before left it; zero for
-        at once. A hold is a step to the load that is there already. It matters to ``Viscoelastic`` bodies alone.
+        Time in s, >= 0, in which the load or position goes in a straight line to ``normal`` from
+        where the step before left it; zero for at once. A hold is a step to the load that is there
+        already. It matters to ``Viscoelastic`` bodies alone.
 
     Raises
     ------
@@ -152,8 +161,8 @@ class Step:
     def __post_init__(self) -> None:
         if not isinstance(self.normal, Control):
             raise InputError(
-                f"normal control of a step must be a MeanPressure, Force, Approach, MeanGap or Unloaded, but is {self.normal!r}. "
-                "Write for example MeanPressure(50e3)."
+                "normal control of a step must be a MeanPressure, Force, Approach, MeanGap or Unloaded, but "
+                f"is {self.normal!r}. Write for example MeanPressure(50e3)."
             )
         if not isinstance(self.tangential, Tangential | None):
             raise InputError(

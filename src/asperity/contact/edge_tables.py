@@ -1,7 +1,8 @@
-"""Pixels at a straight edge of a contact along the grid, by the place of the edge: tables of the discretisations.
+"""Pixels at a straight edge of a contact along the grid, by the place of the edge: tables of the
+discretisations.
 
-Computed by asperity from contacts of exact pressure k √δ near the edge: Hertz' line with 150 pixels in its half-width (``PATCHES``), and
-Westergaard's wave with 80 of 512 pixels in it (``WAVES``).
+Computed by asperity from contacts of exact pressure k √δ near the edge: Hertz' line with 150 pixels
+in its half-width (``PATCHES``), and Westergaard's wave with 80 of 512 pixels in it (``WAVES``).
 """
 
 from __future__ import annotations
@@ -14,10 +15,12 @@ from ..core.arrays import RealArray
 
 
 class EdgePixels(NamedTuple):
-    """What pixels at an edge hold that lies ``distance`` (n,) pixels beyond the centre of the last one in contact, in the units of the edge.
+    """What pixels at an edge hold that lies ``distance`` (n,) pixels beyond the centre of the last
+    one in contact, in the units of the edge.
 
-    ``last`` and ``second`` (n,) are p²/(k² Δ) of the last pixel in contact and of the next one inwards, ``gap`` (n,) is (3 E* g/(4 k Δ^(3/2)))^(2/3) of
-    the first one outside; Δ is the pixel, k that of the pressure k √δ at a small distance δ from the edge. Accurate to 0.003.
+    ``last`` and ``second`` (n,) are p²/(k² Δ) of the last pixel in contact and of the next one
+    inwards, ``gap`` (n,) is (3 E* g/(4 k Δ^(3/2)))^(2/3) of the first one outside; Δ is the pixel,
+    k that of the pressure k √δ at a small distance δ from the edge. Accurate to 0.003.
     """
 
     distance: RealArray
@@ -74,7 +77,8 @@ PATCHES = EdgePixels(
         ]
     ).T
 )
-"""Constant pressure on pixels, as of the boundaries ``Free`` and ``FreeLine``; the ends follow from √last and gap^(3/2), linear there."""
+"""Constant pressure on pixels, as of the boundaries ``Free`` and ``FreeLine``; the ends follow from
+√last and gap^(3/2), linear there."""
 
 WAVES = EdgePixels(
     *np.array(

@@ -1,9 +1,12 @@
-"""Where the edge of a contact runs between pixels, and the real area, perimeter and spots that follow, freed of the size of the pixels; the largest pressure between them.
+"""Where the edge of a contact runs between pixels, and the real area, perimeter and spots that
+follow, freed of the size of the pixels; the largest pressure between them.
 
-Near its edge the pressure of a contact without adhesion is k √δ and the gap 4k/(3E*) δ^(3/2) at a distance δ inside and outside. What pixels hold there
-depends on the place of the edge between their centres alone (``edge_tables``). It follows from the ratio of the last two pressures, which looks inwards, and
-from that of the first gap to a pressure, which looks across the edge; errors by the curvature of the profile are opposite in the two and nearly cancel in their
-mean. Half of their difference is the error.
+Near its edge the pressure of a contact without adhesion is k √δ and the gap 4k/(3E*) δ^(3/2) at a
+distance δ inside and outside. What pixels hold there depends on the place of the edge between their
+centres alone (``edge_tables``). It follows from the ratio of the last two pressures, which looks
+inwards, and from that of the first gap to a pressure, which looks across the edge; errors by the
+curvature of the profile are opposite in the two and nearly cancel in their mean. Half of their
+difference is the error.
 """
 
 from __future__ import annotations
@@ -28,16 +31,19 @@ REACH = 2
 """Pixels to each side of an edge pixel from which the normal of the edge is taken."""
 
 LEAST_COSINE = 0.3
-"""Least cosine of edge normal and grid axis with which a gap is scaled: along an edge it tells nothing of its place."""
+"""Least cosine of edge normal and grid axis with which a gap is scaled: along an edge it tells
+nothing of its place."""
 
 FACTOR = 0.04
-"""Error in pixels of the tables for edges that are oblique and curved, of one sign along a whole edge."""
+"""Error in pixels of the tables for edges that are oblique and curved, of one sign along a whole
+edge."""
 
 SINGLE, SINGLE_FACTOR = 0.25, 0.2
 """Errors in pixels of the place, random and of one sign, where a contact is one pixel across."""
 
 CAPPED, CAPPED_FACTOR = 0.06, 0.01
-"""Errors in pixels of the place, random and of one sign, at a pixel whose pressure is at its limit: the edge may lie anywhere in it."""
+"""Errors in pixels of the place, random and of one sign, at a pixel whose pressure is at its limit:
+the edge may lie anywhere in it."""
 
 LEAST_RIGID = -0.3
 """Least place in pixels of an edge that the pressure reaches at its limit."""
@@ -46,22 +52,25 @@ RANDOM = 0.05
 """Random error in pixels of each place beside the spread of its estimates."""
 
 PINNED, PINNED_ERROR = -0.17, 0.33
-"""Pixels per edge between counted and true area of a contact whose attraction has no range, and their error: the grid holds its edge, and what it
-does depends on the history (spheres of 4 to 24 pixels against the exact JKR)."""
+"""Pixels per edge between counted and true area of a contact whose attraction has no range, and
+their error: the grid holds its edge, and what it does depends on the history (spheres of 4 to 24
+pixels against the exact JKR)."""
 
 
 SAME_LIMIT = 1e-6
 """Relative difference of two pressures at the same limit."""
 
 LEAST_SPOT = 1.0 / 16.0
-"""Least area in pixels of a spot: what single pixels, barely in contact, hold is not told apart from nothing."""
+"""Least area in pixels of a spot: what single pixels, barely in contact, hold is not told apart
+from nothing."""
 
 
 LARGEST_SHIFT = 0.7
 """Pixels that the vertex may lie from the largest pixel along an axis."""
 
 LEAST_ERROR, CURVED = 0.005, 0.25
-"""Error over the pressure at the pixel: the least one, and by the relative fall of its square to the four neighbours."""
+"""Error over the pressure at the pixel: the least one, and by the relative fall of its square to
+the four neighbours."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +82,8 @@ class Edges:
     grid
         The grid.
     inner, outer
-        Number of the pixel in contact and of the one that is not, in the flat order of the grid; ``outer`` is that of ``inner`` where beyond
-        the border of a free boundary there is none.
+        Number of the pixel in contact and of the one that is not, in the flat order of the grid;
+        ``outer`` is that of ``inner`` where beyond the border of a free boundary there is none.
     axis
         0 for neighbours along x, 1 along y.
     sign
@@ -84,17 +93,20 @@ class Edges:
     distance
         Distance along the axis of the edge beyond the centre of the pixel in contact, in pixels.
     spread
-        Random error of that in pixels; half the difference of two estimates with its sign where there are two.
+        Random error of that in pixels; half the difference of two estimates with its sign where
+        there are two.
     factor
         Error in pixels that the pairs along an edge share.
     two
-        Whether both estimates were there: the next pixel inwards is in contact too, and this one is not at the limit of the pressure.
+        Whether both estimates were there: the next pixel inwards is in contact too, and this one is
+        not at the limit of the pressure.
     deep
         Whether the next pixel inwards is in contact too.
     beyond
         Whether there is no pixel outside.
     weight
-        Share of the area between edge and pixel border that a pair counts: pairs along both axes measure the same edge.
+        Share of the area between edge and pixel border that a pair counts: pairs along both axes
+        measure the same edge.
     """
 
     grid: Grid
@@ -137,7 +149,8 @@ class Edges:
         return float((self.cosine * np.where(self.axis == 0, dy, dx)).sum())
 
     def area_error(self) -> float:
-        """Error in pixels of the area: what all pairs share, and what is random, two standard deviations."""
+        """Error in pixels of the area: what all pairs share, and what is random, two standard
+        deviations."""
         weight, spread = self.weight, np.where(self.two, self.spread, 0.0)
         shared = abs(float((weight * spread).sum())) + float((weight * self.factor).sum())
         scatter = np.where(self.beyond, 0.0, weight**2 * (self.spread**2 + RANDOM**2))
@@ -180,7 +193,8 @@ def _pairs(contact: BoolArray, wraps: tuple[bool, bool]) -> Outside:
 def neighbours(
     at: Indices, steps: tuple[Any, Any], shape: tuple[int, int], wraps: tuple[bool, bool]
 ) -> tuple[Indices, BoolArray]:
-    """Numbers (n,) of the pixels some ``steps`` (along x, along y) from those ``at`` (n,), and whether they are on the grid."""
+    """Numbers (n,) of the pixels some ``steps`` (along x, along y) from those ``at`` (n,), and
+    whether they are on the grid."""
     inside, places = np.ones(at.size, dtype=bool), []
     for place, step, size, wrap in zip(np.divmod(at, shape[1]), steps, shape, wraps, strict=True):
         moved = place + step
@@ -194,9 +208,11 @@ def neighbours(
 
 
 def _normals(at: Indices, p: RealArray, grid: Grid, wraps: tuple[bool, bool]) -> RealArray:
-    """Outward normals (n, 2) at pixels of contact: down the plane through p² of the pixels in contact around, (5, 5).
+    """Outward normals (n, 2) at pixels of contact: down the plane through p² of the pixels in
+    contact around, (5, 5).
 
-    Where p² is level, as at the limit of the pressure, away from the middle of the pixels in contact; zero where that tells nothing either.
+    Where p² is level, as at the limit of the pressure, away from the middle of the pixels in
+    contact; zero where that tells nothing either.
     """
     n, (dx, dy) = at.size, grid.spacing
     reach = [REACH if size > 1 else 0 for size in grid.shape]
@@ -247,8 +263,9 @@ class Kind(Enum):
 class Setting(NamedTuple):
     """What the edges of a contact depend on beside its fields.
 
-    ``wraps``: whether the opposite side lies beyond the border, along x and along y; else nothing. ``modulus``: E* in Pa of both bodies at the
-    surface, of viscoelastic ones that of the first instant, for at an edge the stress changes fastest. ``table``: of the discretisation.
+    ``wraps``: whether the opposite side lies beyond the border, along x and along y; else nothing.
+    ``modulus``: E* in Pa of both bodies at the surface, of viscoelastic ones that of the first
+    instant, for at an edge the stress changes fastest. ``table``: of the discretisation.
     """
 
     grid: Grid
@@ -259,7 +276,8 @@ class Setting(NamedTuple):
 
 
 def edges_of(p: RealArray, gap: RealArray, plastic: BoolArray, setting: Setting) -> Edges:
-    """Edges of a contact of the pressure ``p`` (nx, ny) in Pa and the ``gap`` (nx, ny) in m, whose pressure is at its limit where it is ``plastic``.
+    """Edges of a contact of the pressure ``p`` (nx, ny) in Pa and the ``gap`` (nx, ny) in m, whose
+    pressure is at its limit where it is ``plastic``.
 
     The place of all but elastic edges is known by their mean alone.
     """
@@ -288,7 +306,8 @@ def edges_of(p: RealArray, gap: RealArray, plastic: BoolArray, setting: Setting)
 
 
 class Places(NamedTuple):
-    """Distance of the edge, its random error and that of one sign, whether there were two estimates, and a second pixel, (n,) each as in ``Edges``."""
+    """Distance of the edge, its random error and that of one sign, whether there were two
+    estimates, and a second pixel, (n,) each as in ``Edges``."""
 
     distance: RealArray
     spread: RealArray
@@ -300,7 +319,8 @@ class Places(NamedTuple):
 def _pressed(
     pairs: Outside, cosine: RealArray, setting: Setting, p: RealArray, gap: RealArray, plastic: BoolArray
 ) -> Places:
-    """Where the edges of a pressed contact are, from the ``cosine`` of their normals, in pixels beyond the centre of the last one in contact."""
+    """Where the edges of a pressed contact are, from the ``cosine`` of their normals, in pixels
+    beyond the centre of the last one in contact."""
     flat, (grid, wraps, modulus, table, _) = plastic.ravel(), setting
     steps = -pairs.sign * (pairs.axis == 0), -pairs.sign * (pairs.axis == 1)
     behind, inside = neighbours(pairs.inner, steps, grid.shape, wraps)
@@ -308,8 +328,9 @@ def _pressed(
     deep = inside & (second > 0.0)
     pixel = np.asarray(grid.spacing)[pairs.axis]
     opening = 0.75 * modulus * gap.ravel()[pairs.outer] / (np.maximum(cosine, LEAST_COSINE) * pixel)
-    # by ratios that do not contain k of the edge: of the last two pressures, of the gap of the first pixel outside, as the square root of its
-    # cube in units of pressure, and the second pressure, and of that and the last pressure
+    # by ratios that do not contain k of the edge: of the last two pressures, of the gap of the
+    # first pixel outside, as the square root of its cube in units of pressure, and the second
+    # pressure, and of that and the last pressure
     beyond, one, two, free = table
     below = np.where(deep, second, last)
     inwards = np.interp(last / below, np.sqrt(one / two), beyond)
@@ -338,7 +359,8 @@ class RealArea:
     spots
         Area in m² of every contact spot (pixels joined by their sides), largest first.
     error
-        Error in m² of the sum: what all edges share in the worst case, and two standard deviations of what is random.
+        Error in m² of the sum: what all edges share in the worst case, and two standard deviations
+        of what is random.
     perimeter
         Length of all edges in m.
     """
@@ -354,9 +376,11 @@ class RealArea:
 
 
 def real_area(pressure: RealArray, plastic: BoolArray, edges: Edges, wraps: tuple[bool, bool]) -> RealArea:
-    """Real area of a contact with these fields, (nx, ny) each, and its ``edges`` in a map that ``wraps`` along x and along y.
+    """Real area of a contact with these fields, (nx, ny) each, and its ``edges`` in a map that
+    ``wraps`` along x and along y.
 
-    A spot with pixels at the limit H of the pressure is at least as large as its force over H, which is exact for any contact.
+    A spot with pixels at the limit H of the pressure is at least as large as its force over H,
+    which is exact for any contact.
     """
     grid, contact = edges.grid, pressure > 0.0
     labels, count = labelled(contact, wraps=wraps)
@@ -368,7 +392,8 @@ def real_area(pressure: RealArray, plastic: BoolArray, edges: Edges, wraps: tupl
     least = np.full(count + 1, LEAST_SPOT)
     if plastic.any():
         force = np.bincount(flat, pressure.ravel().astype(np.float64), minlength=count + 1)
-        # pressure (count + 1,) that no point of a spot exceeds; infinite where the limit varies and none of its pixels is at it
+        # pressure (count + 1,) that no point of a spot exceeds; infinite where the limit varies and
+        # none of its pixels is at it
         p, capped = pressure.ravel(), plastic.ravel()
         at_limit = p[capped].astype(np.float64)
         limits = np.full(count + 1, float(at_limit.max()))
@@ -387,7 +412,8 @@ def real_area(pressure: RealArray, plastic: BoolArray, edges: Edges, wraps: tupl
 
 
 class PeakPressure(NamedTuple):
-    """Largest pressure ``value`` in Pa, its ``error`` (zero at a hardness, NaN in ``doubt``), and where it is, x and y in m as those of the grid's nodes.
+    """Largest pressure ``value`` in Pa, its ``error`` (zero at a hardness, NaN in ``doubt``), and
+    where it is, x and y in m as those of the grid's nodes.
 
     ``doubt`` is empty, or says why the value is but that of the largest pixel.
     """
@@ -402,7 +428,8 @@ class PeakPressure(NamedTuple):
 def peak_pressure(p: RealArray, plastic: BoolArray, grid: Grid, wraps: tuple[bool, bool]) -> PeakPressure:
     """Largest of the pressure ``p`` (nx, ny) in Pa, which is at its limit where it is ``plastic``.
 
-    Of p² at the largest pixel and its neighbours the vertex of the quadratic. The error held the truth in all of 546 spheres from 1.5 pixels in the radius on.
+    Of p² at the largest pixel and its neighbours the vertex of the quadratic. The error held the
+    truth in all of 546 spheres from 1.5 pixels in the radius on.
     """
     place = tuple(int(k) for k in np.unravel_index(int(np.argmax(p)), p.shape))
     highest, (dx, dy) = float(p[place]), grid.spacing

@@ -1,4 +1,5 @@
-"""Names by which results give what their physics have found, with their types: for type checkers and editors alone."""
+"""Names by which results give what their physics have found, with their types: for type checkers
+and editors alone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""A history of steps on one contact: loading, unloading and loading again; results in order, and where the work goes."""
+"""A history of steps on one contact: loading, unloading and loading again; results in order, and
+where the work goes."""
 
 from __future__ import annotations
 
@@ -81,14 +82,16 @@ class History:
 def shear_cycles(
     normal: Control, amplitude: Shift | TangentialForce, *, cycles: int = 1, steps: int = 8
 ) -> tuple[Step, ...]:
-    """Steps of a tangential cycle at a constant normal control: to ``amplitude``, to its opposite and back, and so on.
+    """Steps of a tangential cycle at a constant normal control: to ``amplitude``, to its opposite
+    and back, and so on.
 
     Parameters
     ----------
     normal
         Control along the normal, held throughout.
     amplitude
-        ``Shift`` or ``TangentialForce`` of the first turning point; the others are its opposite and itself.
+        ``Shift`` or ``TangentialForce`` of the first turning point; the others are its opposite and
+        itself.
     cycles
         Number of closed cycles after the first loading.
     steps
@@ -117,16 +120,19 @@ def ramps(kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> 
     kind
         ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``.
     turning_points
-        Values in SI units, >= 0, in order; for example ``[50e6, 0, 80e6]`` to load, unload and load again. Zero is no
-        load (``Unloaded``). A path starts at zero, except of ``MeanGap``, which starts at its first value.
+        Values in SI units, >= 0, in order; for example ``[50e6, 0, 80e6]`` to load, unload and load
+        again. Zero is no load (``Unloaded``). A path starts at zero, except of ``MeanGap``, which
+        starts at its first value.
     steps
-        Number of steps from each turning point to the next. They are equal, but where a load begins or ends at zero they
-        grow with the distance from it, load = (k/steps)² of the other end: a light contact changes fastest.
+        Number of steps from each turning point to the next. They are equal, but where a load begins
+        or ends at zero they grow with the distance from it, load = (k/steps)² of the other end: a
+        light contact changes fastest.
 
     Raises
     ------
     InputError
-        If there is no turning point, two neighbours are equal, one is negative, or a mean gap is zero.
+        If there is no turning point, two neighbours are equal, one is negative, or a mean gap is
+        zero.
     """
     require.integer(steps, 1, "number of steps")
     if not isinstance(kind, type) or kind not in (MeanPressure, Force, Approach, MeanGap):
@@ -152,7 +158,8 @@ def ramps(kind: Ramped, turning_points: Sequence[float], *, steps: int = 10) -> 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HistoryResult(Advised, Stored):
-    """Results of the steps of a history, in order: ``len``, iteration, ``history[i]`` and ``history[i:j]`` are those of ``steps``.
+    """Results of the steps of a history, in order: ``len``, iteration, ``history[i]`` and
+    ``history[i:j]`` are those of ``steps``.
 
     Parameters
     ----------
@@ -179,7 +186,8 @@ class HistoryResult(Advised, Stored):
     def __getitem__(self, index: slice) -> tuple[ContactResult, ...]: ...
 
     def __getitem__(self, index: int | slice) -> ContactResult | tuple[ContactResult, ...]:
-        """Result of step ``index``, counted from zero or, if negative, from the end; of a slice the tuple of its results.
+        """Result of step ``index``, counted from zero or, if negative, from the end; of a slice the
+        tuple of its results.
 
         Raises
         ------
@@ -190,7 +198,8 @@ class HistoryResult(Advised, Stored):
 
     @property
     def peak(self) -> int:
-        """Number from 0 of the step of the largest force, of the last such step where a load is held."""
+        """Number from 0 of the step of the largest force, of the last such step where a load is
+        held."""
         force = self.force
         return int(np.flatnonzero(force >= force.max() - SAME_FORCE * abs(force).max())[-1])
 
@@ -320,45 +329,56 @@ class HistoryResult(Advised, Stored):
 
 @dataclass(frozen=True, eq=False)
 class EnergyBalance(EnergyNames):
-    """Energies after each step of a history in J, counted from the touching of the unloaded bodies, dented as it found them.
+    """Energies after each step of a history in J, counted from the touching of the unloaded bodies,
+    dented as it found them.
 
-    A history that goes on from a loaded interface, or with adhesion, is counted from its first step instead. Integrals are trapezia through
-    the steps. With adhesion F is less the attraction, and the work is that of ``adhesion_loop`` and of the menisci. Where the bodies touch, gap = offset + u - h + w = 0 and dδ = du + dw, so that F dδ = Σ p du + Σ p dw: the
-    change of the elastic energy, K being symmetric, the work of the displacement by shear, which is part of u, and the
-    plastic work, p being the hardness where dw > 0. F is the external force and that of the menisci. Periodic
-    bodies are measured without the mean mode on both sides.
+    A history that goes on from a loaded interface, or with adhesion, is counted from its first step
+    instead. Integrals are trapezia through the steps. With adhesion F is less the attraction, and
+    the work is that of ``adhesion_loop`` and of the menisci. Where the bodies touch, gap = offset +
+    u - h + w = 0 and dδ = du + dw, so that F dδ = Σ p du + Σ p dw: the change of the elastic
+    energy, K being symmetric, the work of the displacement by shear, which is part of u, and the
+    plastic work, p being the hardness where dw > 0. F is the external force and that of the
+    menisci. Periodic bodies are measured without the mean mode on both sides.
 
-    Along the surface Q dδ = Σ q du + Σ q ds in the same way, s being the slip. Steps with stick and slip are implicit, so that
-    their work and dissipation are those of the traction at the end of the step: Q Δδ = Σ q Δu + Σ q Δs, of which half of
-    Σ Δq Δu is neither stored nor dissipated by slip; it falls with the length of the steps.
+    Along the surface Q dδ = Σ q du + Σ q ds in the same way, s being the slip. Steps with stick and
+    slip are implicit, so that their work and dissipation are those of the traction at the end of
+    the step: Q Δδ = Σ q Δu + Σ q Δs, of which half of Σ Δq Δu is neither stored nor dissipated by
+    slip; it falls with the length of the steps.
 
     Parameters
     ----------
     external_work
         ∫ F dδ of the force between the solids over the approach, so of external load and menisci.
     elastic_energy
-        Half of pressure times displacement, and of shear traction times tangential displacement, less that at the start; with
-        adhesion the energy of the interface too.
+        Half of pressure times displacement, and of shear traction times tangential displacement,
+        less that at the start; with adhesion the energy of the interface too.
     plastic_work
-        Sum of the plastic works of the steps, at the surface and in the volume; of the latter stress at the end of each step times plastic strain.
+        Sum of the plastic works of the steps, at the surface and in the volume; of the latter
+        stress at the end of each step times plastic strain.
     shear_work
-        ∫ Σ p du of the displacement by shear: what gross sliding takes, or gives, by lifting the surfaces.
+        ∫ Σ p du of the displacement by shear: what gross sliding takes, or gives, by lifting the
+        surfaces.
     tangential_work
-        Σ Q·Δδ of tangential force and shift, and of torque and twist, those at the end of each step.
+        Σ Q·Δδ of tangential force and shift, and of torque and twist, those at the end of each
+        step.
     slip_work
         Energy dissipated by slip.
     step_work
-        Σ ½ Σ Δq·Δu of shear traction and tangential displacement: what the length of implicit steps takes.
+        Σ ½ Σ Δq·Δu of shear traction and tangential displacement: what the length of implicit steps
+        takes.
     viscous_work
-        Heat of viscoelastic bodies. Their external work is that of all steps of time, of a step at once what is stored and taken
-        (``Creeping.work``), and the elastic energy what their springs store.
+        Heat of viscoelastic bodies. Their external work is that of all steps of time, of a step at
+        once what is stored and taken (``Creeping.work``), and the elastic energy what their springs
+        store.
     supplied, taken, included
-        What the physics of the problem add by name, each an attribute as well, zero where the problem has none: works beside the external
-        one, ``tangential_work``; what else is stored or lost; and parts of the external work, ``meniscus_work``.
+        What the physics of the problem add by name, each an attribute as well, zero where the
+        problem has none: works beside the external one, ``tangential_work``; what else is stored or
+        lost; and parts of the external work, ``meniscus_work``.
     meniscus_work
         The part of the external work that the menisci do.
     jump_work
-        What adhesive contacts lose as they jump: in the steps with a jump all that nothing else takes.
+        What adhesive contacts lose as they jump: in the steps with a jump all that nothing else
+        takes.
     """
 
     external_work: RealArray
@@ -381,12 +401,14 @@ class EnergyBalance(EnergyNames):
 
     @property
     def residual(self) -> RealArray:
-        """Works less all that is stored or taken: the error of the trapezoidal rule, or of the steps of time, of second order."""
+        """Works less all that is stored or taken: the error of the trapezoidal rule, or of the
+        steps of time, of second order."""
         left = self.external_work + sum(self.supplied.values(), np.zeros(self.external_work.shape))
         return left - sum(self.taken.values(), self.elastic_energy + self.plastic_work + self.viscous_work)
 
     @property
     def relative_error(self) -> float:
-        """Largest magnitude of the residual over the largest external or tangential work; zero where no work was done."""
+        """Largest magnitude of the residual over the largest external or tangential work; zero
+        where no work was done."""
         largest = max(float(np.abs(work).max()) for work in (self.external_work, *self.supplied.values()))
         return float(np.abs(self.residual).max()) / largest if largest > 0.0 else 0.0

@@ -1,4 +1,5 @@
-"""Names by which problems give their physics and histories their energies, with their types: for type checkers and editors alone."""
+"""Names by which problems give their physics and histories their energies, with their types: for
+type checkers and editors alone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Interface laws: bounds on the pressure, which may change with the permanent indentation; what is beyond a bound stays as one."""
+"""Interface laws: bounds on the pressure, which may change with the permanent indentation; what is
+beyond a bound stays as one."""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ class InterfaceLaw(Protocol):
 
 @dataclass(frozen=True)
 class HardWall:
-    """Frictionless, non-adhesive, elastic: the Hertz-Signorini-Moreau conditions (Johnson 1985, sec. 5.6)."""
+    """Frictionless, non-adhesive, elastic: the Hertz-Signorini-Moreau conditions (Johnson 1985,
+    sec. 5.6)."""
 
     name: ClassVar[str] = "hard wall"
     citation_keys: ClassVar[tuple[str, ...]] = ("Johnson1985",)
@@ -43,12 +45,14 @@ class HardWall:
 
 @dataclass(frozen=True, eq=False)
 class Hardness:
-    """0 <= p <= H; where p = H the surface is permanently indented (Tian & Bhushan 1996; Almqvist et al. 2007).
+    """0 <= p <= H; where p = H the surface is permanently indented (Tian & Bhushan 1996; Almqvist
+    et al. 2007).
 
     Parameters
     ----------
     value
-        Hardness H of the softer solid in Pa: a positive number, or an (nx, ny) array of positive numbers.
+        Hardness H of the softer solid in Pa: a positive number, or an (nx, ny) array of positive
+        numbers.
 
     Raises
     ------
@@ -82,7 +86,8 @@ class Hardness:
 
 @runtime_checkable
 class LimitByDepth(InterfaceLaw, Protocol):
-    """Law with a limit of the pressure that depends on the permanent indentation of each point, on nothing else and everywhere alike.
+    """Law with a limit of the pressure that depends on the permanent indentation of each point, on
+    nothing else and everywhere alike.
 
     Both methods take any selection of points as a two-dimensional array.
     """
@@ -98,7 +103,8 @@ class LimitByDepth(InterfaceLaw, Protocol):
 
 
 def added_indentation(contact: Contact) -> RealArray:
-    """Permanent indentation (nx, ny) in m that ``contact`` adds: the overlap of the bodies where the pressure is at its limit."""
+    """Permanent indentation (nx, ny) in m that ``contact`` adds: the overlap of the bodies where
+    the pressure is at its limit."""
     if contact.qp.elastic:
         return np.zeros_like(contact.qp.profile)
     p = contact.pressure
@@ -111,7 +117,8 @@ def indentation_before(posed: Posed, memory: Memory) -> RealArray:
 
 
 def indented(law: InterfaceLaw, memory: Memory, contact: Contact) -> Memory:
-    """Indentation (m), left out where there is none, and plastic work (J) since the virgin surface, after ``contact``; ``memory`` is what they were before."""
+    """Indentation (m), left out where there is none, and plastic work (J) since the virgin surface,
+    after ``contact``; ``memory`` is what they were before."""
     if contact.qp.elastic:
         return {"work": np.zeros(()), **memory}
     first = indentation_before(contact.posed, memory)

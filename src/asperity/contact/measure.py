@@ -22,8 +22,8 @@ Labels = NDArray[np.integer[Any]]
 def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = False) -> tuple[Labels, int]:
     """Label the islands of ``mask`` (nx, ny) and count them.
 
-    Pixels are joined by edges, with ``diagonal`` by corners too; along x and along y also across the border where the
-    map ``wraps``.
+    Pixels are joined by edges, with ``diagonal`` by corners too; along x and along y also across
+    the border where the map ``wraps``.
     """
     from scipy.ndimage import label
 
@@ -65,7 +65,8 @@ def labelled(mask: BoolArray, *, wraps: tuple[bool, bool], diagonal: bool = Fals
 
 
 def island_sizes(mask: BoolArray, *, wraps: tuple[bool, bool]) -> Labels:
-    """Number of pixels of every island of ``mask`` (nx, ny), joined by edges, in the order of their labels.
+    """Number of pixels of every island of ``mask`` (nx, ny), joined by edges, in the order of their
+    labels.
 
     The same as to count the pixels of each label, in one compiled pass and without a map of labels.
     """
@@ -79,9 +80,11 @@ def island_sizes(mask: BoolArray, *, wraps: tuple[bool, bool]) -> Labels:
 
 
 def spans(labels: Labels, *, wraps: tuple[bool, bool]) -> BoolArray:
-    """Whether each island, (count,) in the order of the labels, reaches all across the map along x or along y.
+    """Whether each island, (count,) in the order of the labels, reaches all across the map along x
+    or along y.
 
-    Where the map wraps, an island that has pixels in every row or column goes round it or nearly so.
+    Where the map wraps, an island that has pixels in every row or column goes round it or nearly
+    so.
     """
     count = int(labels.max(initial=0))
     reaching = np.zeros(count + 1, dtype=bool)
@@ -105,14 +108,16 @@ def contact_spots(contact: BoolArray, *, wraps: tuple[bool, bool]) -> RealArray:
 
 @dataclass(frozen=True, eq=False)
 class Distribution:
-    """Histogram: bin ``edges`` (n + 1) and probability ``density`` (n) per unit of the quantity; integrates to one."""
+    """Histogram: bin ``edges`` (n + 1) and probability ``density`` (n) per unit of the quantity;
+    integrates to one."""
 
     edges: RealArray
     density: RealArray
 
 
 def distribution(values: RealArray, bins: int = 50) -> Distribution:
-    """Probability density of ``values`` (any shape, at least one) from 0 to their maximum in equal ``bins``.
+    """Probability density of ``values`` (any shape, at least one) from 0 to their maximum in equal
+    ``bins``.
 
     Serves the gap (``distribution(result.gap[~result.contact])``) and the contact pressure alike.
 
@@ -134,11 +139,13 @@ _STIFFNESS_STOPPING = Stopping(reduction=1e-4, max_steps=500)
 
 
 def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
-    """Incremental stiffness d(mean pressure)/d(approach) in Pa/m, from one linear solve on the points ``moving`` (nx, ny).
+    """Incremental stiffness d(mean pressure)/d(approach) in Pa/m, from one linear solve on the
+    points ``moving`` (nx, ny).
 
-    Infinite for full contact on a periodic half-space, zero without elastic contact points, NaN if the linear solve
-    does not converge. They are the points of elastic contact: those at the cap yield and carry no increment (loading). The error is of second order in the
-    relative residual, which is 1e-4: what remains is the rounding of single precision, below 1e-6.
+    Infinite for full contact on a periodic half-space, zero without elastic contact points, NaN if
+    the linear solve does not converge. They are the points of elastic contact: those at the cap
+    yield and carry no increment (loading). The error is of second order in the relative residual,
+    which is 1e-4: what remains is the rounding of single precision, below 1e-6.
     """
     engine, shape = operator.engine, operator.grid.shape
     scaled = ScaledOperator.of(operator, "float32", operator.largest or 1.0)

@@ -35,7 +35,8 @@ if TYPE_CHECKING:
     from .state import InterfaceState
 
 Result: TypeAlias = Any
-"""A ``ContactResult``, which knows its problem: its type is named by the physics, so that the problem needs not know it."""
+"""A ``ContactResult``, which knows its problem: its type is named by the physics, so that the
+problem needs not know it."""
 
 Solved: TypeAlias = "Callable[[Control, InterfaceState | None], Result]"
 """Gives the contact under a control, started from a state."""
@@ -43,7 +44,8 @@ Solved: TypeAlias = "Callable[[Control, InterfaceState | None], Result]"
 
 @dataclass(frozen=True)
 class Preparing:
-    """What is known when couplings are prepared: tolerances by name, whether surfaces stick and slip, number of threads."""
+    """What is known when couplings are prepared: tolerances by name, whether surfaces stick and
+    slip, number of threads."""
 
     tolerances: Mapping[str, float]
     sticks: bool
@@ -51,7 +53,8 @@ class Preparing:
 
 
 class Physics:
-    """One physics of the interface: frozen settings, given to a ``ContactProblem`` by its ``keyword`` or in ``physics``."""
+    """One physics of the interface: frozen settings, given to a ``ContactProblem`` by its
+    ``keyword`` or in ``physics``."""
 
     keyword: ClassVar[str] = ""
     attracts: ClassVar[bool] = False
@@ -101,23 +104,28 @@ class Physics:
 
     @property
     def slides(self) -> bool | None:
-        """Whether all points slide by it in steps without a tangential control; None where it does not shear the surfaces."""
+        """Whether all points slide by it in steps without a tangential control; None where it does
+        not shear the surfaces."""
         return None
 
     def shear(self, pressure: RealArray) -> RealArray | None:
-        """Shear traction (2, nx, ny) in Pa on the body where all points slide by it under a ``pressure`` (nx, ny) in Pa; None for none."""
+        """Shear traction (2, nx, ny) in Pa on the body where all points slide by it under a
+        ``pressure`` (nx, ny) in Pa; None for none."""
         return None
 
     def sticks(self, state: InterfaceState | None, *, tangential: bool) -> bool:
-        """Whether surfaces stick and slip, in steps from ``state`` of which one or more are ``tangential``."""
+        """Whether surfaces stick and slip, in steps from ``state`` of which one or more are
+        ``tangential``."""
         return False
 
     def normal_tolerance(self, *, sticks: bool) -> float | None:
-        """Tolerance that normal solves need beside it, where that is less than usual; in steps where surfaces may stick."""
+        """Tolerance that normal solves need beside it, where that is less than usual; in steps
+        where surfaces may stick."""
         return None
 
     def followed(self, problem: ContactProblem, step: Step, solved: Solved) -> Solved:
-        """How results under the normal control of ``step`` are ``solved``, where the step may have to be divided."""
+        """How results under the normal control of ``step`` are ``solved``, where the step may have
+        to be divided."""
         return solved
 
     def edges(self, problem: ContactProblem) -> Kind | None:
@@ -134,15 +142,18 @@ class Physics:
         return []
 
     def work(self, steps: Sequence[Result]) -> RealArray | None:
-        """Work (J) of the force between the solids up to each of the ``steps`` of a history, where it is known better than by the trapezoidal rule."""
+        """Work (J) of the force between the solids up to each of the ``steps`` of a history, where
+        it is known better than by the trapezoidal rule."""
         return None
 
     def works(self, steps: Sequence[Result]) -> Mapping[str, RealArray]:
-        """Energies (J) in each of the ``steps`` of a history that it adds to the balance, by their names in ``EnergyBalance``."""
+        """Energies (J) in each of the ``steps`` of a history that it adds to the balance, by their
+        names in ``EnergyBalance``."""
         return {}
 
     def losses(self, steps: Sequence[Result], left: RealArray) -> Mapping[str, RealArray]:
-        """Energies (J) up to each of the ``steps``, by name, that it takes of what nothing else takes, ``left`` (J)."""
+        """Energies (J) up to each of the ``steps``, by name, that it takes of what nothing else
+        takes, ``left`` (J)."""
         return {}
 
 
@@ -180,8 +191,9 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
     body
         The body under the surface: ``Elastic``, ``Layered`` or ``Rigid``.
     counter_surface
-        Surface of the counter body on the same grid, heights positive out of *that* body and already laid in the
-        lateral frame of ``surface`` (see ``composite`` for the mirror a measured map needs). Flat by default.
+        Surface of the counter body on the same grid, heights positive out of *that* body and
+        already laid in the lateral frame of ``surface`` (see ``composite`` for the mirror a
+        measured map needs). Flat by default.
     counter_body
         The counter body; rigid by default. Only one of the two may be rigid.
     boundary
@@ -191,24 +203,29 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
     film
         Film of liquid whose menisci pull the surfaces together; None for a dry contact.
     friction
-        ``Coulomb(mu)``, ``TrescaFriction(strength)`` or ``FullStick()``; None for none. Under Coulomb friction all points slide unless a
-        step prescribes a ``Shift`` or ``TangentialForce``; under the others the counter body does not shift until then.
+        ``Coulomb(mu)``, ``TrescaFriction(strength)`` or ``FullStick()``; None for none. Under
+        Coulomb friction all points slide unless a step prescribes a ``Shift`` or
+        ``TangentialForce``; under the others the counter body does not shift until then.
     adhesion
         Attraction of the surfaces, such as ``ExponentialAdhesion(0.05, 1e-9)``; None for none.
     plastic_flow
-        Plastic flow in the volume of ``body``, or where that is rigid of the counter body: ``PlasticFlow(J2(...))``; None for none.
+        Plastic flow in the volume of ``body``, or where that is rigid of the counter body:
+        ``PlasticFlow(J2(...))``; None for none.
     physics
-        Further ``Physics`` of the interface, also of one's own. Those given by keyword are among them afterwards.
+        Further ``Physics`` of the interface, also of one's own. Those given by keyword are among
+        them afterwards.
 
     Notes
     -----
-    Only the sum of the two surfaces and the sum of the two compliances enter (Peng 2001, eq. 3.32 and app. D).
+    Only the sum of the two surfaces and the sum of the two compliances enter (Peng 2001, eq. 3.32
+    and app. D).
 
     Raises
     ------
     InputError
-        If a surface has missing points, grids differ, both bodies are rigid, a hardness array has another shape,
-        the grid does not suit the boundary, or a length or modulus is out of the range 1e-41 to 1e40.
+        If a surface has missing points, grids differ, both bodies are rigid, a hardness array has
+        another shape, the grid does not suit the boundary, or a length or modulus is out of the
+        range 1e-41 to 1e40.
     """
 
     surface: Surface
@@ -231,7 +248,8 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
         physics: Iterable[Physics] = (),
         **given: Unpack[Keywords],
     ) -> None:
-        # in the order of the registry, those of one's own last; what is given by keyword takes the place of others
+        # in the order of the registry, those of one's own last; what is given by keyword takes the
+        # place of others
         found: dict[str, Physics] = {}
         for item in physics:
             if not isinstance(item, Physics):
@@ -261,7 +279,8 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
         self._check()
 
     def with_physics(self, **given: Unpack[Keywords]) -> ContactProblem:
-        """The same problem with what is ``given`` by keyword, None to leave it out, in place of what it has."""
+        """The same problem with what is ``given`` by keyword, None to leave it out, in place of
+        what it has."""
         return replace(self, **given)  # type: ignore[misc]
 
     def _check(self) -> None:
@@ -315,7 +334,8 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
         return any(physics.bears_pull for physics in self.physics)
 
     def shear(self, pressure: RealArray) -> RealArray | None:
-        """Shear traction (2, nx, ny) in Pa on the body under a ``pressure`` (nx, ny) in Pa, where all points slide; None for none."""
+        """Shear traction (2, nx, ny) in Pa on the body under a ``pressure`` (nx, ny) in Pa, where
+        all points slide; None for none."""
         return next((found for item in self.physics if (found := item.shear(pressure)) is not None), None)
 
     @property
@@ -342,7 +362,8 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
         return (*parts, *pair, "Kalker1977", "Yastrebov2017")
 
     def profile(self) -> RealArray:
-        """Heights (nx, ny) in m of the composite surface, float64, positive towards the counter body."""
+        """Heights (nx, ny) in m of the composite surface, float64, positive towards the counter
+        body."""
         if isinstance(self.counter_surface, Surface):
             return np.asarray(composite(self.surface, self.counter_surface).heights, dtype=np.float64)
         return np.asarray(self.surface.heights, dtype=np.float64)

@@ -32,7 +32,8 @@ from .problem import ContactProblem
 from .state import InterfaceState
 
 PLASTIC_FRACTION = 0.02
-"""Share of plastic in real area above which a contact is called plastic (Greenwood & Williamson 1966)."""
+"""Share of plastic in real area above which a contact is called plastic (Greenwood & Williamson
+1966)."""
 
 
 AREA_ERROR = Quantity("area_fraction_error", "1", "error of the real contact area / nominal area (95 %)")
@@ -85,7 +86,8 @@ class Later:
 
 
 class Late(Generic[Value]):
-    """Field of a dataclass that takes a value or a ``Later``, which is computed when the field is first read."""
+    """Field of a dataclass that takes a value or a ``Later``, which is computed when the field is
+    first read."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
@@ -104,7 +106,8 @@ class Late(Generic[Value]):
 
 
 class WithOutcomes:
-    """Attributes of a result by the names of its couplings, None where it has none; ``require_name()`` refuses None."""
+    """Attributes of a result by the names of its couplings, None where it has none;
+    ``require_name()`` refuses None."""
 
     couplings: Mapping[str, Any]
 
@@ -152,7 +155,8 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
     pressure
         Contact pressure in Pa, >= 0.
     displacement
-        Sum of the normal displacements of both surfaces in m; relative to its mean for periodic half-spaces.
+        Sum of the normal displacements of both surfaces in m; relative to its mean for periodic
+        half-spaces.
     gap
         Distance of the deformed surfaces in m, >= 0, zero in contact.
     permanent_indentation
@@ -164,26 +168,29 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
     mean_pressure, force
         Load per nominal area (Pa) and load (N) reached.
     area_fraction, area_fraction_corrected, contact_area
-        Real over nominal area by counting pixels; the same by the place of the edges between the pixels (``edges``), not less than force over hardness;
-        that area in m². The last two, and what follows from them, are computed when one is first read.
+        Real over nominal area by counting pixels; the same by the place of the edges between the
+        pixels (``edges``), not less than force over hardness; that area in m². The last two, and
+        what follows from them, are computed when one is first read.
     mean_real_pressure, max_pressure
         Force over ``contact_area``; largest pressure; Pa.
     approach, mean_gap
         Approach from first touch of the virgin surfaces (see ``Approach``); mean of the gap; m.
     elastic_energy
-        Half of pressure times displacement, J; periodic: without the (unbounded) part of the mean mode.
+        Half of pressure times displacement, J; periodic: without the (unbounded) part of the mean
+        mode.
     plastic_work, total_plastic_work
-        Integral of the hardness over the volume of the indentation: of what this load added, and since the virgin surface, J.
+        Integral of the hardness over the volume of the indentation: of what this load added, and
+        since the virgin surface, J.
     plastic_area_fraction
         Area at the pressure cap over real contact area.
     indented_area, plastic_volume
-        Area (m²) of the pixels with permanent indentation, so ever at the cap; volume (m³) below the surface before of the indentation
-        and of the imprint of plastic flow in the volume.
+        Area (m²) of the pixels with permanent indentation, so ever at the cap; volume (m³) below
+        the surface before of the indentation and of the imprint of plastic flow in the volume.
     max_permanent_indentation
         Largest depth of both, m.
     normal_stiffness
-        d(mean pressure)/d(approach), Pa/m, computed when it is first read; NaN where left out (``Keep``); infinite in periodic
-        full contact.
+        d(mean pressure)/d(approach), Pa/m, computed when it is first read; NaN where left out
+        (``Keep``); infinite in periodic full contact.
     contact_perimeter
         Length of the edges, m.
     spot_areas
@@ -191,13 +198,16 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
     certificate, status
         Error bounds and work; how the solver and the couplings ended.
     couplings
-        What each coupling found, by its name: ``adhesion``, ``menisci``, ``plastic_flow``, ``sliding``, ``stick_slip``.
+        What each coupling found, by its name: ``adhesion``, ``menisci``, ``plastic_flow``,
+        ``sliding``, ``stick_slip``.
     memory
         Memory of each coupling for the next step, by its name, beside the fields here.
     earlier
-        Pressure (nx, ny) in Pa of the load before, from which the next one is extrapolated; None for a first load.
+        Pressure (nx, ny) in Pa of the load before, from which the next one is extrapolated; None
+        for a first load.
     deflections
-        Displacements by ``pressure`` and by ``earlier`` for the next load (see ``InterfaceState``); not saved.
+        Displacements by ``pressure`` and by ``earlier`` for the next load (see ``InterfaceState``);
+        not saved.
     """
 
     problem: ContactProblem
@@ -231,7 +241,8 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
     deflections: Deflections | None = field(default=None, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
-        """What a pickle or a copy is made from: all numbers, for the machine that would compute one cannot go with them."""
+        """What a pickle or a copy is made from: all numbers, for the machine that would compute one
+        cannot go with them."""
         late = ("displacement", "gap", "mean_gap", "normal_stiffness", "permanent_indentation")
         return vars(self) | {name: getattr(self, name) for name in late}
 
@@ -247,7 +258,8 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
 
     @property
     def external_force(self) -> float:
-        """Force in N that is applied from outside: ``force`` less what menisci and adhesion pull."""
+        """Force in N that is applied from outside: ``force`` less what menisci and adhesion
+        pull."""
         return outside(self.answers, self.force)
 
     @property
@@ -287,7 +299,8 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
 
     @property
     def peak_pressure(self) -> PeakPressure:
-        """Largest pressure between the pixels with its error and place; ``max_pressure`` is that of the largest pixel."""
+        """Largest pressure between the pixels with its error and place; ``max_pressure`` is that of
+        the largest pixel."""
         return peak_pressure(self.pressure, self.plastic, self.problem.grid, self.problem.boundary.wraps)
 
     @property
@@ -322,28 +335,32 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
         Raises
         ------
         InputError
-            If it is one of the earlier steps of a viscoelastic history from a file, which keeps the past of the last step only.
+            If it is one of the earlier steps of a viscoelastic history from a file, which keeps the
+            past of the last step only.
         """
         if self.creep is not None and "creep" not in self.memory:
             raise InputError(
-                "step to go on from must be the last one of a viscoelastic history from a file, but is an earlier one, whose past "
-                "the file does not hold. Solve the history up to it again."
+                "step to go on from must be the last one of a viscoelastic history from a file, but is an "
+                "earlier one, whose past the file does not hold. Solve the history up to it again."
             )
         indentation = {"indentation": self.permanent_indentation, "work": np.asarray(self.total_plastic_work)}
         return InterfaceState(self.pressure, {**self.memory, "hardness": indentation}, self.earlier, self.deflections)
 
     def residual_surface(self, part: Literal["composite", "body", "counter_body"] = "composite") -> Surface:
-        """Surface that is left when the load is taken away: the one before less the permanent indentation and the imprint of plastic flow.
+        """Surface that is left when the load is taken away: the one before less the permanent
+        indentation and the imprint of plastic flow.
 
-        The imprint is that of the plastic strain so far: what flows in reverse while the load is taken away is not in it. Its zero is that
-        of the displacement by plastic strain, and around it the surface may be piled up.
+        The imprint is that of the plastic strain so far: what flows in reverse while the load is
+        taken away is not in it. Its zero is that of the displacement by plastic strain, and around
+        it the surface may be piled up.
 
         Parameters
         ----------
         part
-            ``"composite"``, the sum of both surfaces, which holds whichever body yields; or the surface of the
-            ``"body"`` or ``"counter_body"`` if that is the softer one, which takes all of the indentation. Of plastic flow in
-            the volume the body that flows takes the imprint, and the other one keeps its surface.
+            ``"composite"``, the sum of both surfaces, which holds whichever body yields; or the
+            surface of the ``"body"`` or ``"counter_body"`` if that is the softer one, which takes
+            all of the indentation. Of plastic flow in the volume the body that flows takes the
+            imprint, and the other one keeps its surface.
 
         Raises
         ------
@@ -386,9 +403,10 @@ def assemble(
 ) -> ContactResult:
     """Fields and scalars of the contact ``found``.
 
-    ``before`` is the interface before this load, ``memories`` what the couplings leave, ``outcomes`` what they found, ``lift`` the
-    elastic displacement (nx, ny) in m that is not by pressure; with one the stiffness is left out, which would follow from both.
-    ``attraction`` (nx, ny) in Pa is the part of the traction beside the pressure.
+    ``before`` is the interface before this load, ``memories`` what the couplings leave,
+    ``outcomes`` what they found, ``lift`` the elastic displacement (nx, ny) in m that is not by
+    pressure; with one the stiffness is left out, which would follow from both. ``attraction`` (nx,
+    ny) in Pa is the part of the traction beside the pressure.
     """
     p, u, grid, operator = found.pressure, found.solution.state.deflection, problem.grid, found.qp.operator
     answers = [outcome for outcome in outcomes.values() if isinstance(outcome, Answer)]
@@ -440,7 +458,8 @@ def assemble(
 
 
 def _gap(deflection: RealArray, profile: RealArray, result: ContactResult) -> RealArray:
-    """Distance of the surfaces whose pressed ``profile`` rises by the ``deflection`` less; not below zero, where the error of a solve takes it."""
+    """Distance of the surfaces whose pressed ``profile`` rises by the ``deflection`` less; not
+    below zero, where the error of a solve takes it."""
     gap = deflection - profile
     gap += result.offset
     return np.maximum(gap, 0.0, out=gap)
@@ -452,21 +471,24 @@ def unindented(result: ContactResult) -> RealArray:
 
 
 def _passing_gap(result: ContactResult) -> RealArray:
-    """Gap (nx, ny) in m; one that is not at hand is not kept, nor are the edges that follow: a path may hold many."""
+    """Gap (nx, ny) in m; one that is not at hand is not kept, nor are the edges that follow: a path
+    may hold many."""
     gap = vars(result)["gap"]
     found: RealArray = gap.compute(result) if isinstance(gap, Later) else gap
     return found
 
 
 def stiffness_of(result: ContactResult, *, engine: Engine | None = None, operator: Operator | None = None) -> float:
-    """Incremental stiffness of ``result`` in Pa/m, from one linear solve by its ``operator``, made on ``engine`` if there is none."""
+    """Incremental stiffness of ``result`` in Pa/m, from one linear solve by its ``operator``, made
+    on ``engine`` if there is none."""
     problem = result.problem
     operator = operator or prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     return measure.normal_stiffness(operator, result.contact & ~result.plastic)
 
 
 def follows_from_pressure(result: ContactResult) -> bool:
-    """Whether the displacement of ``result`` is by the pressure alone, so that it has a ``stiffness_of`` its own."""
+    """Whether the displacement of ``result`` is by the pressure alone, so that it has a
+    ``stiffness_of`` its own."""
     lifts = (answer.lifted() for answer in result.answers)
     sheared = any(lift is not None and lift.any() for lift in lifts)
     return not sheared and all(answer.traction_beside() is None for answer in result.answers)
@@ -475,7 +497,8 @@ def follows_from_pressure(result: ContactResult) -> bool:
 def _indentation(
     problem: ContactProblem, state: InterfaceState | None, memory: Memory, imprint: RealArray | None
 ) -> dict[str, Any]:
-    """Values of a result for the permanent indentation in ``memory``, which takes the place of that of ``state``, and the ``imprint`` (nx, ny) in m of flow in the volume."""
+    """Values of a result for the permanent indentation in ``memory``, which takes the place of that
+    of ``state``, and the ``imprint`` (nx, ny) in m of flow in the volume."""
     known, total, pixel = memory.get("indentation"), float(memory["work"]), problem.grid.pixel_area
     permanent = np.zeros(1) if known is None else known
     dent = permanent if imprint is None else np.maximum(permanent + imprint, 0.0)

@@ -20,18 +20,21 @@ MOMENTS = ("auto", "spectrum", "differences")
 
 
 def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8) -> Roughness:
-    """Measure on ``surface`` what theories of rough contact need: moments, spectrum, summits, heights.
+    """Measure on ``surface`` what theories of rough contact need: moments, spectrum, summits,
+    heights.
 
-    Nothing is levelled or filtered: prepare the surface first. Missing points are filled for the spectrum.
+    Nothing is levelled or filtered: prepare the surface first. Missing points are filled for the
+    spectrum.
 
     Parameters
     ----------
     surface
-        Heights positive out of the solid, facing the counter body. For two rough bodies give their ``composite``.
+        Heights positive out of the solid, facing the counter body. For two rough bodies give their
+        ``composite``.
     moments
-        ``"spectrum"``: sums over the modes, those of the trigonometric interpolation of a periodic map;
-        ``"differences"``: finite differences between its pixels; ``"auto"``: the first for a periodic
-        map, the second for a measured one, whose spectrum bears the traces of its window.
+        ``"spectrum"``: sums over the modes, those of the trigonometric interpolation of a periodic
+        map; ``"differences"``: finite differences between its pixels; ``"auto"``: the first for a
+        periodic map, the second for a measured one, whose spectrum bears the traces of its window.
     neighbours
         4 or 8, how many neighbours a summit exceeds.
 
@@ -81,7 +84,8 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
 
 
 def _fractal(surface: Surface) -> Fractal | None:
-    """Mean dimension and geometric mean of the fractal roughness along x and y; None unless both are self-affine."""
+    """Mean dimension and geometric mean of the fractal roughness along x and y; None unless both
+    are self-affine."""
     try:
         found = [fractal_parameters(surface, axis=axis) for axis in ("x", "y")]
     except InputError:  # a line, or too few lags

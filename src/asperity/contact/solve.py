@@ -51,7 +51,8 @@ from .time_division import TimeSteps
 
 @dataclass(frozen=True)
 class Keep:
-    """What a result gives beyond its fields: the ``stiffness``, which costs about half a further solve when it is first read."""
+    """What a result gives beyond its fields: the ``stiffness``, which costs about half a further
+    solve when it is first read."""
 
     stiffness: bool = True
 
@@ -87,52 +88,62 @@ def solve(
 ) -> ContactResult | HistoryResult:
     """Solve a contact problem for one load or position, or for a history of them.
 
-    Normal contact, hardness, menisci and sliding friction are balanced together, whatever the problem holds. Where a
-    physics gives back more the more it gets (menisci, softening films), the balance found is the first that a growing
-    load meets from the interface it started with; others may exist.
+    Normal contact, hardness, menisci and sliding friction are balanced together, whatever the
+    problem holds. Where a physics gives back more the more it gets (menisci, softening films), the
+    balance found is the first that a growing load meets from the interface it started with; others
+    may exist.
 
     Parameters
     ----------
     problem
         Surfaces, bodies, boundary, physics of the interface.
     control
-        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``, with adhesion also ``Pull`` or ``FixedGrips``; a ``Step`` with one of these and a ``Shift`` or
-        ``TangentialForce``, under which the surfaces stick and slip; or a ``History`` of such steps, each of which starts from the interface the last one left, so that it takes a fraction of the work of a solve on its own.
-        All results of a history are held in memory; see ``steps`` for one of which only a few numbers are wanted. Sixteen loads and more of an
+        ``MeanPressure``, ``Force``, ``Approach``, ``MeanGap`` or ``Unloaded``, with adhesion also
+        ``Pull`` or ``FixedGrips``; a ``Step`` with one of these and a ``Shift`` or
+        ``TangentialForce``, under which the surfaces stick and slip; or a ``History`` of such
+        steps, each of which starts from the interface the last one left, so that it takes a
+        fraction of the work of a solve on its own. All results of a history are held in memory; see
+        ``steps`` for one of which only a few numbers are wanted. Sixteen loads and more of an
         elastic contact are solved in two to four chains, as many at a time as there are threads.
     solver
         Method of the normal solves with its tolerance; chosen by ``default_solver`` if not given.
     state
         State of an earlier result: its memory is kept, its pressure is the first guess.
     keep
-        What the result gives beyond its fields; by default the stiffness of a single load, computed when it is first read.
+        What the result gives beyond its fields; by default the stiffness of a single load, computed
+        when it is first read.
     operator
-        Prepared operator (``prepare_operator``) of the same problem, to spare the set-up in repeated solves.
+        Prepared operator (``prepare_operator``) of the same problem, to spare the set-up in
+        repeated solves.
     progress
         Receives the error after every iteration; the steps of a history then follow one another.
     engine
-        Machine to compute on, such as ``CpuEngine(threads=2)``; the CPU with ASPERITY_THREADS or all cores by default.
+        Machine to compute on, such as ``CpuEngine(threads=2)``; the CPU with ASPERITY_THREADS or
+        all cores by default.
     rounds
         When to give up the iteration between contact and couplings.
     time_steps
         How durations of steps are divided for viscoelastic bodies, see ``TimeSteps``.
     on_failure
-        ``"raise"`` a ConvergenceError holding the result (of the first step that fails), or ``"return"`` it with its
-        status, when not converged; a history then goes on from the last step that did converge.
+        ``"raise"`` a ConvergenceError holding the result (of the first step that fails), or
+        ``"return"`` it with its status, when not converged; a history then goes on from the last
+        step that did converge.
 
     Raises
     ------
     NoSolutionError
-        If a load exceeds what the pressure cap bears or menisci run away, or a position has no solution.
+        If a load exceeds what the pressure cap bears or menisci run away, or a position has no
+        solution.
     ConvergenceError
         If the tolerance is not reached and ``on_failure`` is ``"raise"``.
     InputError
-        If the control is none, state or operator do not belong to the problem, or a keyword is none of these.
+        If the control is none, state or operator do not belong to the problem, or a keyword is none
+        of these.
     """
     if not isinstance(problem, ContactProblem):
         raise InputError(
-            f"problem must be a ContactProblem, but is a {type(problem).__name__}. Write ContactProblem(surface, body), such as "
-            'ContactProblem(surface, material("steel")).'
+            f"problem must be a ContactProblem, but is a {type(problem).__name__}. Write "
+            'ContactProblem(surface, body), such as ContactProblem(surface, material("steel")).'
         )
     for name in options:
         require.one_of(name, _Options.__annotations__, "keyword of solve")
@@ -160,9 +171,11 @@ def steps(
     on_failure: Literal["raise", "return"] = "raise",
     **options: Any,
 ) -> Iterator[ContactResult]:
-    """Results of the steps of ``history`` one by one, each when it is solved; only the last is held here.
+    """Results of the steps of ``history`` one by one, each when it is solved; only the last is held
+    here.
 
-    Arguments and errors are those of ``solve``; what is wrong with them is raised at the call, before any step.
+    Arguments and errors are those of ``solve``; what is wrong with them is raised at the call,
+    before any step.
     """
     for name in options:
         require.one_of(name, _Options.__annotations__, "keyword of solve")
@@ -191,8 +204,9 @@ def _results(
 
 
 _CHAIN, _MOST_CHAINS = 8, 4
-"""Least number of loads in a chain, and most chains. The first load of a chain takes 8 FFT pairs at 512², each of the others 6: two chains of ten loads
-take 2 % more than one of twenty. Their number does not depend on that of the threads, nor do the results."""
+"""Least number of loads in a chain, and most chains. The first load of a chain takes 8 FFT pairs at
+512², each of the others 6: two chains of ten loads take 2 % more than one of twenty. Their number
+does not depend on that of the threads, nor do the results."""
 
 
 def _all_results(
@@ -203,9 +217,11 @@ def _all_results(
     keep: Keep | None = None,
     **options: Any,
 ) -> tuple[ContactResult, ...]:
-    """Results of all steps of ``history``; loads of a contact that remembers nothing in chains, each on a thread of its own.
+    """Results of all steps of ``history``; loads of a contact that remembers nothing in chains,
+    each on a thread of its own.
 
-    A chain begins from coarser grids, as a single load does. If one fails the others end with the step at which they are.
+    A chain begins from coarser grids, as a single load does. If one fails the others end with the
+    step at which they are.
     """
     keep = keep or Keep(stiffness=False)
     prepared = Prepared(problem, keep=keep, sticks=sticks(problem, history, state), **options)
@@ -290,9 +306,11 @@ class Prepared:
         ahead: float | None = None,
         couplings: tuple[Coupling, ...] | None = None,
     ) -> Settled:
-        """Contact under ``step`` that agrees with all couplings, started from ``state``; its duration does not matter.
+        """Contact under ``step`` that agrees with all couplings, started from ``state``; its
+        duration does not matter.
 
-        A step of time gives its own ``operator`` and ``couplings``, and the displacement that the past leaves at its end; ``ahead`` as of ``Posed``.
+        A step of time gives its own ``operator`` and ``couplings``, and the displacement that the
+        past leaves at its end; ``ahead`` as of ``Posed``.
         """
         control, dented, start = step.normal, self.profile, None
         if state is not None:
@@ -353,7 +371,8 @@ class Prepared:
         seconds: float,
         ends: Mapping[str, tuple[Memory, object]] | None = None,
     ) -> ContactResult:
-        """Result of what ``settled`` in so many ``seconds``, started from ``state``; ``ends`` of all couplings where they are known."""
+        """Result of what ``settled`` in so many ``seconds``, started from ``state``; ``ends`` of
+        all couplings where they are known."""
         if ends is None:
             ends = {c.name: c.end(settled.exchanges[c.name], settled.contact) for c in self.couplings}
         found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items()}
@@ -373,7 +392,8 @@ class Prepared:
 def settled_with(
     couplings: tuple[Coupling, ...], posed: Posed, memories: Mapping[str, Memory], solver: Solver, **options: Any
 ) -> Settled:
-    """Contact that agrees with all ``couplings``; where two of them carry a force together, in the way that the registry names for the pair.
+    """Contact that agrees with all ``couplings``; where two of them carry a force together, in the
+    way that the registry names for the pair.
 
     Arguments and errors are those of ``settle``.
     """
@@ -398,9 +418,11 @@ def finished(
     seconds: float,
     stiffness: bool = False,
 ) -> ContactResult:
-    """Result of what ``settled`` by ``solver`` in so many ``seconds`` from the interface ``before``, and of the ``ends`` of all couplings.
+    """Result of what ``settled`` by ``solver`` in so many ``seconds`` from the interface
+    ``before``, and of the ``ends`` of all couplings.
 
-    ``lift`` (nx, ny) in m is the elastic displacement that is neither by pressure nor by attraction.
+    ``lift`` (nx, ny) in m is the elastic displacement that is neither by pressure nor by
+    attraction.
     """
     contact = settled.contact
     found: dict[str, Any] = {name: outcome for name, (_, outcome) in ends.items() if outcome is not None}
@@ -442,7 +464,8 @@ def finished(
 
 
 def sticks(problem: ContactProblem, ordered: Iterable[Step], state: InterfaceState | None) -> bool:
-    """Whether surfaces stick and slip: where a step prescribes it, the interface remembers it, or the law knows no gross sliding.
+    """Whether surfaces stick and slip: where a step prescribes it, the interface remembers it, or
+    the law knows no gross sliding.
 
     InputError if a step is tangential and the problem has no friction.
     """
@@ -458,7 +481,8 @@ def sticks(problem: ContactProblem, ordered: Iterable[Step], state: InterfaceSta
 
 
 def default_solver(problem: ContactProblem, *, sticks: bool = False) -> Solver:
-    """Method for ``problem``: the inexact active set, which handles every boundary, control, cap and size, as tight as its physics need."""
+    """Method for ``problem``: the inexact active set, which handles every boundary, control, cap
+    and size, as tight as its physics need."""
     wanted = (physics.normal_tolerance(sticks=sticks) for physics in problem.physics)
     tolerance = min((each for each in wanted if each is not None), default=None)
     return _USUAL if tolerance is None else ActiveSet(tolerance=tolerance)
@@ -470,7 +494,8 @@ _USUAL = ActiveSet()
 def couplings_of(
     problem: ContactProblem, operator: Operator, rounds: Rounds = Rounds(), *, sticks: bool = False
 ) -> tuple[Coupling, ...]:
-    """Couplings of the physics that ``problem`` holds, prepared for ``operator``; friction with stick and slip if it ``sticks``."""
+    """Couplings of the physics that ``problem`` holds, prepared for ``operator``; friction with
+    stick and slip if it ``sticks``."""
     law, tolerances = problem.law, rounds.tolerances
     first: Coupling = ConstantHardness(law)
     if isinstance(law, LimitByDepth) and np.ndim(law.cap_at(np.zeros(problem.grid.shape))):
@@ -480,7 +505,8 @@ def couplings_of(
 
 
 _GAPS = 1e3
-"""Largest duality gap over the tolerance, where that is loose: it bounds the gap to 30 times itself (``solvers.protocol.scaled_error``)."""
+"""Largest duality gap over the tolerance, where that is loose: it bounds the gap to 30 times itself
+(``solvers.protocol.scaled_error``)."""
 
 
 def doubted(status: Status, certificate: Certificate) -> Status:

@@ -1,4 +1,5 @@
-"""Memory of an interface: passed into a solve, returned with its result, never stored on the inputs."""
+"""Memory of an interface: passed into a solve, returned with its result, never stored on the
+inputs."""
 
 from __future__ import annotations
 
@@ -16,20 +17,23 @@ from .couplings.protocol import Deflections, Memory
 
 @dataclass(frozen=True, eq=False)
 class InterfaceState:
-    """State of the interface after a load; a value that a later solve can start from, with the same answer as without a break.
+    """State of the interface after a load; a value that a later solve can start from, with the same
+    answer as without a break.
 
     Parameters
     ----------
     pressure
         (nx, ny), Pa, >= 0: last pressure, where the next solve starts from.
     memory
-        Named arrays of every coupling by its name: of ``hardness`` the permanent ``indentation`` (nx, ny) in m, >= 0, and
-        the plastic ``work`` in J, >= 0; of ``menisci`` their ``force`` in N. Couplings that a problem does not have are
-        left out of its solve and forgotten.
+        Named arrays of every coupling by its name: of ``hardness`` the permanent ``indentation``
+        (nx, ny) in m, >= 0, and the plastic ``work`` in J, >= 0; of ``menisci`` their ``force`` in
+        N. Couplings that a problem does not have are left out of its solve and forgotten.
     earlier
-        (nx, ny), Pa: pressure of the load before the last, from which the next guess is extrapolated; None if there is none.
+        (nx, ny), Pa: pressure of the load before the last, from which the next guess is
+        extrapolated; None if there is none.
     deflections
-        Displacements by ``pressure`` and by ``earlier``, which spare the next solve their products; not saved, and the answer is the same without.
+        Displacements by ``pressure`` and by ``earlier``, which spare the next solve their products;
+        not saved, and the answer is the same without.
 
     Raises
     ------
@@ -57,7 +61,8 @@ class InterfaceState:
 
     @classmethod
     def dented(cls, permanent_indentation: RealArray, pressure: RealArray, plastic_work: float = 0.0) -> Self:
-        """State of a dry interface with this indentation (nx, ny) in m, last pressure (nx, ny) in Pa and plastic work in J."""
+        """State of a dry interface with this indentation (nx, ny) in m, last pressure (nx, ny) in
+        Pa and plastic work in J."""
         memory = {"indentation": permanent_indentation, "work": np.asarray(plastic_work)}
         return cls(pressure, {"hardness": memory})
 
@@ -69,7 +74,8 @@ class InterfaceState:
 
     @property
     def imprint(self) -> RealArray:
-        """(nx, ny), m: displacement of the surface, into the body, by plastic strain in the volume."""
+        """(nx, ny), m: displacement of the surface, into the body, by plastic strain in the
+        volume."""
         found = self.memory.get("plastic_flow", {}).get("lift")
         return np.zeros(np.shape(self.pressure)) if found is None else found
 

@@ -1,4 +1,5 @@
-"""What is prescribed along the surfaces: a shift of the counter body, or a force on it; and histories of them."""
+"""What is prescribed along the surfaces: a shift of the counter body, or a force on it; and
+histories of them."""
 
 from __future__ import annotations
 
@@ -15,15 +16,16 @@ from ..core.grid import Grid
 
 @dataclass(frozen=True)
 class Shift:
-    """Rigid displacement of the counter body since the surfaces first touched; it drags the body with it.
+    """Rigid displacement of the counter body since the surfaces first touched; it drags the body
+    with it.
 
     Parameters
     ----------
     x, y
         Displacement in m along x and along y, of either sign.
     twist
-        Rotation in rad about the normal through the centre of the grid, from x towards y; only where the contact does not
-        repeat.
+        Rotation in rad about the normal through the centre of the grid, from x towards y; only
+        where the contact does not repeat.
 
     Raises
     ------
@@ -49,7 +51,8 @@ class TangentialForce:
     Parameters
     ----------
     x, y
-        Force in N along x and along y, of either sign; its magnitude must stay below what friction bears.
+        Force in N along x and along y, of either sign; its magnitude must stay below what friction
+        bears.
 
     Raises
     ------
@@ -76,7 +79,8 @@ Tangential: TypeAlias = Shift | TangentialForce
 
 
 def shift_field(grid: Grid, shift: RealArray) -> RealArray:
-    """Displacement in m of the points of a rigid body that has moved by ``shift``: x, y (m) and twist (rad).
+    """Displacement in m of the points of a rigid body that has moved by ``shift``: x, y (m) and
+    twist (rad).
 
     Of the shape (2, nx, ny), or (2, 1, 1) without a twist.
     """
@@ -90,7 +94,8 @@ def shift_field(grid: Grid, shift: RealArray) -> RealArray:
 
 
 def resultant(grid: Grid, traction: RealArray) -> tuple[float, float, float]:
-    """Force along x and y (N) and torque about the centre (N·m) of a ``traction`` (2, nx, ny) in Pa on ``grid``."""
+    """Force along x and y (N) and torque about the centre (N·m) of a ``traction`` (2, nx, ny) in Pa
+    on ``grid``."""
     x, y = about_centre(grid)
     torque = (x * traction[1] - y * traction[0]).sum()
     along, across, turning = (

@@ -25,7 +25,8 @@ class TimeSteps:
     Parameters
     ----------
     tolerance
-        Error of the displacement that a step of time may add, over the displacement; the lengths follow from it.
+        Error of the displacement that a step of time may add, over the displacement; the lengths
+        follow from it.
     number
         Number of equal steps instead; None for steps by their error.
     most
@@ -52,7 +53,8 @@ class TimeSteps:
         return duration / self.number if self.number is not None else _FIRST * duration
 
     def factor(self, error: float) -> float:
-        """Length of the next step, or of the same one again, over the last, after one with this ``error``; it is of third order."""
+        """Length of the next step, or of the same one again, over the last, after one with this
+        ``error``; it is of third order."""
         if error <= 0.0:
             return _LARGEST
         return float(np.clip(_SAFE * (self.tolerance / error) ** (1.0 / 3.0), _SMALLEST, _LARGEST))

@@ -1,1 +1,2 @@
-"""Layer 0: grids, transforms, units, errors, status, citations and progress, shared by everything above."""
+"""Layer 0: grids, transforms, units, errors, status, citations and progress, shared by everything
+above."""

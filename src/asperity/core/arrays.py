@@ -32,7 +32,8 @@ def array_digest(array: RealArray | BoolArray) -> str:
 
 
 def content_digest(value: Any) -> str:
-    """SHA-256 (hex) of nested dictionaries, lists, text and numbers, whatever the order of keys; exact in every float."""
+    """SHA-256 (hex) of nested dictionaries, lists, text and numbers, whatever the order of keys;
+    exact in every float."""
     text = json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()
 

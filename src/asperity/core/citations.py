@@ -1,4 +1,5 @@
-"""The papers behind the numbers. Objects name keys in ``citation_keys``; ``cite`` turns them into text."""
+"""The papers behind the numbers. Objects name keys in ``citation_keys``; ``cite`` turns them into
+text."""
 
 from __future__ import annotations
 
@@ -186,7 +187,8 @@ def reference(key: str) -> str:
 
 
 def cite(*objects: object) -> str:
-    """Text with one full reference a line for everything the ``objects`` (surface, problem, result, …) rest on.
+    """Text with one full reference a line for everything the ``objects`` (surface, problem, result,
+    …) rest on.
 
     Raises
     ------

@@ -1,4 +1,5 @@
-"""Exceptions. Every message names the input, what it must be, what was received and the usual fix."""
+"""Exceptions. Every message names the input, what it must be, what was received and the usual
+fix."""
 
 from __future__ import annotations
 
@@ -6,9 +7,11 @@ from .words import in_words
 
 
 class AsperityError(Exception):
-    """Base of every exception that asperity raises on purpose; ``subject`` where it does not stand before "must".
+    """Base of every exception that asperity raises on purpose; ``subject`` where it does not stand
+    before "must".
 
-    What can be done, as ``{fill}`` in the message, is said in the words of the door that speaks: see ``words.ACTIONS``.
+    What can be done, as ``{fill}`` in the message, is said in the words of the door that speaks:
+    see ``words.ACTIONS``.
     """
 
     def __init__(self, message: str, *, subject: str = "") -> None:
@@ -17,7 +20,8 @@ class AsperityError(Exception):
 
     @property
     def subject(self) -> str:
-        """Name of the input that is wrong, such as ``"load (N)"`` or ``"control.force"``; empty if none is."""
+        """Name of the input that is wrong, such as ``"load (N)"`` or ``"control.force"``; empty if
+        none is."""
         before, must, _ = str(self).partition(" must ")
         return self._subject or (before if must else "")
 
@@ -43,7 +47,8 @@ class OutputError(AsperityError, OSError):
 
 
 class ConvergenceError(AsperityError, RuntimeError):
-    """A solver did not reach its tolerance; ``result`` holds the unconverged answer, flagged as such."""
+    """A solver did not reach its tolerance; ``result`` holds the unconverged answer, flagged as
+    such."""
 
     def __init__(self, message: str, result: object = None, *, subject: str = "") -> None:
         super().__init__(message, subject=subject)

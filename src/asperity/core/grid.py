@@ -12,14 +12,17 @@ from .arrays import RealArray
 
 @dataclass(frozen=True)
 class Grid:
-    """Regular grid of ``shape`` (nx, ny) pixels of ``spacing`` (dx, dy) metres; array axis 0 is x, axis 1 is y.
+    """Regular grid of ``shape`` (nx, ny) pixels of ``spacing`` (dx, dy) metres; array axis 0 is x,
+    axis 1 is y.
 
-    Every node owns one pixel, so the physical size is ``n * d`` per axis for periodic and for other maps alike.
+    Every node owns one pixel, so the physical size is ``n * d`` per axis for periodic and for other
+    maps alike.
 
     Raises
     ------
     InputError
-        If there are not two counts and two spacings, a count is not a whole number >= 1 or a spacing not within 1e-41 to 1e40 m.
+        If there are not two counts and two spacings, a count is not a whole number >= 1 or a
+        spacing not within 1e-41 to 1e40 m.
     """
 
     shape: tuple[int, int]
@@ -74,9 +77,11 @@ class Grid:
         return x - x[self.shape[0] // 2, 0], y - y[0, self.shape[1] // 2]
 
     def wavevector(self, *, odd: bool = False) -> tuple[RealArray, RealArray]:
-        """Wavevector components qx (nx, 1) and qy (1, ny // 2 + 1) in rad/m, in the order of a real 2-D FFT.
+        """Wavevector components qx (nx, 1) and qy (1, ny // 2 + 1) in rad/m, in the order of a real
+        2-D FFT.
 
-        With ``odd`` zero at the Nyquist wavenumbers of even sizes, whose sign is undefined: for odd functions of them.
+        With ``odd`` zero at the Nyquist wavenumbers of even sizes, whose sign is undefined: for odd
+        functions of them.
         """
         (nx, ny), (dx, dy) = self.shape, self.spacing
         qx = 2.0 * np.pi * np.fft.fftfreq(nx, dx)[:, None]

@@ -7,16 +7,19 @@ from typing import Any
 from .errors import FileFormatError
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
-"""First bytes of the superblock, which stands at byte 0, 512, 1024 and so on, doubling (HDF5 file format specification, II.A)."""
+"""First bytes of the superblock, which stands at byte 0, 512, 1024 and so on, doubling (HDF5 file
+format specification, II.A)."""
 
 
 def require_own_data(group: Any, what: str) -> None:
-    """Refuse an open h5py ``group`` that takes anything, at any depth, from another file; ``what`` names the file in the message.
+    """Refuse an open h5py ``group`` that takes anything, at any depth, from another file; ``what``
+    names the file in the message.
 
     Raises
     ------
     FileFormatError
-        If it holds a link to another file, a dataset with external storage or of a virtual kind, or damaged references.
+        If it holds a link to another file, a dataset with external storage or of a virtual kind, or
+        damaged references.
     """
     import h5py
 
@@ -28,7 +31,9 @@ def require_own_data(group: Any, what: str) -> None:
             if isinstance(link, h5py.ExternalLink):
                 raise FileFormatError(f"{what} must hold its data itself, but {name!r} is a link to {link.filename!r}.")
             if not isinstance(link, h5py.HardLink):
-                continue  # a soft link leads to an object of this file, which its hard link shows, or across an external link
+                # a soft link leads to an object of this file, which its hard link shows, or across
+                # an external link
+                continue
             item = parent[name]
             place = h5py.h5o.get_info(item.id).addr
             if place in seen:
@@ -54,10 +59,12 @@ def require_own_dataset(dataset: Any, what: str, name: str) -> None:
 
 
 def require_sound_references(dataset: Any, what: str, name: str) -> None:
-    """Refuse an h5py ``dataset`` called ``name`` whose attributes of dimension scales have another type or size than they must.
+    """Refuse an h5py ``dataset`` called ``name`` whose attributes of dimension scales have another
+    type or size than they must.
 
-    The library takes ``DIMENSION_LIST`` for one list of references for each axis and ``REFERENCE_LIST`` for pairs of reference and
-    axis (HDF5 Dimension Scale Specification, 4.2) without looking, and writes beyond its memory where they are not.
+    The library takes ``DIMENSION_LIST`` for one list of references for each axis and
+    ``REFERENCE_LIST`` for pairs of reference and axis (HDF5 Dimension Scale Specification, 4.2)
+    without looking, and writes beyond its memory where they are not.
 
     Raises
     ------

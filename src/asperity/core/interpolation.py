@@ -1,9 +1,11 @@
-"""Functions of a positive number as polynomials on panels that grow geometrically: the one interpolator.
+"""Functions of a positive number as polynomials on panels that grow geometrically: the one
+interpolator.
 
-Responses of layered bodies are analytic on scales that themselves grow with the wavenumber or the distance (exponentials,
-quotients with complex poles), so that equal panels in ln x serve all thicknesses at once. Functions that can be computed
-anywhere are fitted at Chebyshev points of wide panels; functions known on a logarithmic grid only, such as Hankel
-transforms, are interpolated through ten of its nodes about every narrow one.
+Responses of layered bodies are analytic on scales that themselves grow with the wavenumber or the
+distance (exponentials, quotients with complex poles), so that equal panels in ln x serve all
+thicknesses at once. Functions that can be computed anywhere are fitted at Chebyshev points of wide
+panels; functions known on a logarithmic grid only, such as Hankel transforms, are interpolated
+through ten of its nodes about every narrow one.
 """
 
 from __future__ import annotations
@@ -23,21 +25,25 @@ TERMS = 10
 """Polynomial coefficients in a panel."""
 
 WIDE = 0.125 * math.log(2.0)
-"""Width in ln x of fitted panels: ten terms leave 1e-13 of e^-x at x = 10, less than 1e-15 of its value at 0 everywhere."""
+"""Width in ln x of fitted panels: ten terms leave 1e-13 of e^-x at x = 10, less than 1e-15 of its
+value at 0 everywhere."""
 
 STEP = 1.0 / 96.0
-"""Spacing of the nodes of a logarithmic grid. The error of the ten-point polynomial is 870 (STEP/w)^10 relative for a function
-of ln x without singularities nearer to the real axis than w: 1e-14 at w = 0.5, about the least of responses of layered bodies."""
+"""Spacing of the nodes of a logarithmic grid. The error of the ten-point polynomial is 870
+(STEP/w)^10 relative for a function of ln x without singularities nearer to the real axis than w:
+1e-14 at w = 0.5, about the least of responses of layered bodies."""
 
 _LOST = 0.125 * float(np.finfo(float).eps)
-"""Sum of terms over the first one that is lost in rounding: narrow panels of responses need two to eight terms."""
+"""Sum of terms over the first one that is lost in rounding: narrow panels of responses need two to
+eight terms."""
 
 _BEFORE, _AFTER = 4, 5  # nodes below and above the node that starts a panel
 _CHUNK = 16384  # points whose temporaries stay in the second-level cache
 
 
 def _through_nodes() -> RealArray:
-    """Matrix (power, node) from values at the ten nodes about a panel [1, e^STEP] to coefficients of t in [-1, 1]."""
+    """Matrix (power, node) from values at the ten nodes about a panel [1, e^STEP] to coefficients
+    of t in [-1, 1]."""
     half, middle = 0.5 * math.expm1(STEP), 1.0 + 0.5 * math.expm1(STEP)
     nodes = (np.exp(np.arange(-_BEFORE, _AFTER + 1) * STEP) - middle) / half
     others = [np.delete(nodes, k) for k in range(TERMS)]
@@ -45,7 +51,8 @@ def _through_nodes() -> RealArray:
 
 
 def _through_chebyshev() -> RealArray:
-    """Matrix from values at Chebyshev points, through Chebyshev coefficients, to coefficients of powers."""
+    """Matrix from values at Chebyshev points, through Chebyshev coefficients, to coefficients of
+    powers."""
     weights = np.where(np.arange(TERMS) == 0, 1.0, 2.0) / TERMS
     powers = np.zeros((TERMS, TERMS))
     for k in range(TERMS):
@@ -59,7 +66,8 @@ _FROM_NODES, _FROM_POINTS = _through_nodes(), _through_chebyshev()
 
 @dataclass(frozen=True)
 class Panels:
-    """``count`` panels from ``start`` upwards, each ``width`` wide in ln x; in each t runs from -1 to 1, linear in x."""
+    """``count`` panels from ``start`` upwards, each ``width`` wide in ln x; in each t runs from -1
+    to 1, linear in x."""
 
     start: float
     width: float
@@ -77,7 +85,8 @@ class Panels:
         return (0.5 * (low + high) + 0.5 * (high - low) * _CHEBYSHEV).ravel()
 
     def fitted(self, values: RealArray) -> RealArray:
-        """Coefficients (count, m, TERMS) of the powers of t of m functions with ``values`` (m, count · TERMS) at ``points``."""
+        """Coefficients (count, m, TERMS) of the powers of t of m functions with ``values`` (m,
+        count · TERMS) at ``points``."""
         by_panel = values.reshape(values.shape[0], -1, TERMS)
         return np.ascontiguousarray(np.moveaxis(by_panel @ _FROM_POINTS, 1, 0))
 
@@ -147,7 +156,8 @@ class LogTable:
     def integral(self, first: float = 0.0) -> LogTable:
         """Table of the integral over ln x, which is ``first`` at the start.
 
-        d ln x = e dt / (1 + e t) with e = tanh(width/2); terms beyond e^10 are below rounding in narrow panels.
+        d ln x = e dt / (1 + e t) with e = tanh(width/2); terms beyond e^10 are below rounding in
+        narrow panels.
         """
         e = math.tanh(0.5 * self.panels.width)
         weights = e * (-e) ** np.arange(TERMS)
@@ -180,12 +190,14 @@ def log_table(start: float, values: RealArray) -> LogTable:
 
 
 def log_hankel(values: RealArray, order: float) -> RealArray:
-    """A(r) = ∫ a(k) J_order(kr) r dk for ``values`` (n,) of a at k_j = k_0 exp(j·STEP), n even, by SciPy's FFTLog (Hamilton 2000).
+    """A(r) = ∫ a(k) J_order(kr) r dk for ``values`` (n,) of a at k_j = k_0 exp(j·STEP), n even, by
+    SciPy's FFTLog (Hamilton 2000).
 
-    The function must fall to zero towards both ends of the grid. Returns A (n,) at r_j = exp((j + 1 - n)·STEP)/k_0, which
-    begins at the reciprocal of the largest k. On a logarithmic scale the transform is a convolution whose spectrum has modulus
-    one, so it neither loses nor amplifies; its error is the alias of A and a beyond the ends, and rounding of the largest
-    value (1e-15 for k exp(-k)). ``order`` > -1.
+    The function must fall to zero towards both ends of the grid. Returns A (n,) at r_j = exp((j +
+    1 - n)·STEP)/k_0, which begins at the reciprocal of the largest k. On a logarithmic scale the
+    transform is a convolution whose spectrum has modulus one, so it neither loses nor amplifies;
+    its error is the alias of A and a beyond the ends, and rounding of the largest value (1e-15 for
+    k exp(-k)). ``order`` > -1.
     """
     from scipy.fft import fht
 

@@ -1,4 +1,5 @@
-"""Names and methods that are looked up, and values that are computed, at their first use, so that what is not used costs no time."""
+"""Names and methods that are looked up, and values that are computed, at their first use, so that
+what is not used costs no time."""
 
 from __future__ import annotations
 
@@ -19,9 +20,11 @@ if TYPE_CHECKING:
 
 
 class LateNames:
-    """Names of ``package`` by the module below it that defines them; an empty module stands for the package itself, whose names are modules.
+    """Names of ``package`` by the module below it that defines them; an empty module stands for the
+    package itself, whose names are modules.
 
-    Module and names read like ``from .module import names``, so that ``.module`` is one beside the package.
+    Module and names read like ``from .module import names``, so that ``.module`` is one beside the
+    package.
     """
 
     def __init__(self, package: str, by_module: Mapping[str, tuple[str, ...]]) -> None:
@@ -39,7 +42,8 @@ class LateNames:
 
 
 def names_of_stub(stub: Path) -> dict[str, tuple[str, ...]]:
-    """Public names of a module by the module that defines them, from the lines ``from .module import names`` of its ``stub``."""
+    """Public names of a module by the module that defines them, from the lines
+    ``from .module import names`` of its ``stub``."""
     lines = re.findall(r"^from \.(\S*) import (?:\(([^)]*)\)|(.*))$", stub.read_text(encoding="utf-8"), re.MULTILINE)
     found: dict[str, tuple[str, ...]] = {}
     for module, several, one in lines:
@@ -61,7 +65,8 @@ class LateModule(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        """Set an attribute; a module that is imported does not take the place of the public name that it is called like."""
+        """Set an attribute; a module that is imported does not take the place of the public name
+        that it is called like."""
         if not (isinstance(value, ModuleType) and self._names.home.get(name)):
             super().__setattr__(name, value)
 
@@ -70,7 +75,8 @@ class LateModule(ModuleType):
 
 
 def late_names(name: str, file: str) -> Mapping[str, str]:
-    """Give the module ``name`` the names in the stub beside its ``file``, as its ``__all__`` too, and return where each is; they are imported at first use."""
+    """Give the module ``name`` the names in the stub beside its ``file``, as its ``__all__`` too,
+    and return where each is; they are imported at first use."""
     module = sys.modules[name]
     names = LateNames(str(module.__package__), names_of_stub(Path(file).with_suffix(".pyi")))
     vars(module).update(_names=names, __all__=sorted(names.home))
@@ -79,17 +85,20 @@ def late_names(name: str, file: str) -> Mapping[str, str]:
 
 
 class Shown:
-    """Base of surfaces, bodies, problems and all results: how they show themselves on a screen and in a notebook.
+    """Base of surfaces, bodies, problems and all results: how they show themselves on a screen and
+    in a notebook.
 
-    Words and pictures are made by the layers ``io`` and ``plots``, which the classes of lower layers may not import. The package
-    itself stands above all layers, and when it is imported it gives with ``supply`` where these functions are found.
+    Words and pictures are made by the layers ``io`` and ``plots``, which the classes of lower
+    layers may not import. The package itself stands above all layers, and when it is imported it
+    gives with ``supply`` where these functions are found.
     """
 
     _find: ClassVar[Any]
 
     @classmethod
     def supply(cls, find: Callable[[str], Any]) -> None:
-        """Take ``find``, which gives the functions ``text``, ``card``, ``plot`` and ``to_xarray``."""
+        """Take ``find``, which gives the functions ``text``, ``card``, ``plot`` and
+        ``to_xarray``."""
         cls._find = staticmethod(find)
 
     def __repr__(self) -> str:
@@ -97,7 +106,8 @@ class Shown:
 
 
 class Drawn(Shown):
-    """What notebooks show with a picture: surfaces and their roughness, results, stress fields and comparisons."""
+    """What notebooks show with a picture: surfaces and their roughness, results, stress fields and
+    comparisons."""
 
     def _repr_html_(self) -> str:
         return str(self._find("card")(self))
@@ -108,10 +118,11 @@ class Drawn(Shown):
         Parameters
         ----------
         kind
-            What to draw, the most telling figure by default. Surfaces: ``heights`` or ``view``. Results: the names of their
-            figures, such as ``pressure``, ``contact``, ``gap``, ``section`` or ``menisci``. Stress fields: a stress, such as ``von_mises``.
-            Roughness: ``distribution``, ``spectrum`` and the other figures of its report. Comparisons: ``area``, ``kappa``,
-            ``local_slope``, ``gap`` or ``deviation``.
+            What to draw, the most telling figure by default. Surfaces: ``heights`` or ``view``.
+            Results: the names of their figures, such as ``pressure``, ``contact``, ``gap``,
+            ``section`` or ``menisci``. Stress fields: a stress, such as ``von_mises``. Roughness:
+            ``distribution``, ``spectrum`` and the other figures of its report. Comparisons:
+            ``area``, ``kappa``, ``local_slope``, ``gap`` or ``deviation``.
         ax
             Axes of matplotlib.
         options
@@ -137,7 +148,8 @@ class Judged(Shown):
 
 
 class Tabled(Shown):
-    """Base of answers of theories, measured roughness and libraries of substances: rows of numbers, which notebooks show as a table."""
+    """Base of answers of theories, measured roughness and libraries of substances: rows of numbers,
+    which notebooks show as a table."""
 
     def __repr__(self) -> str:
         return str(self._find("lines")(self))
@@ -147,11 +159,13 @@ class Tabled(Shown):
 
 
 class Advised(Judged):
-    """Base of results and histories: they say what should be known before their numbers are used."""
+    """Base of results and histories: they say what should be known before their numbers are
+    used."""
 
     @property
     def advice(self) -> tuple[Advice, ...]:
-        """Findings, warnings that the answer may be wrong and notes: each with its criterion, its numbers and a remedy in the message."""
+        """Findings, warnings that the answer may be wrong and notes: each with its criterion, its
+        numbers and a remedy in the message."""
         found: tuple[Advice, ...] = self._find("findings")(self)
         return found
 
@@ -160,6 +174,7 @@ class Stored(Drawn):
     """What result files hold: results and stress fields."""
 
     def to_xarray(self) -> xarray.DataTree:
-        """All values as a labelled tree: one group for each part, units and long names on every variable."""
+        """All values as a labelled tree: one group for each part, units and long names on every
+        variable."""
         tree: xarray.DataTree = self._find("to_xarray")(self)
         return tree

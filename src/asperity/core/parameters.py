@@ -1,12 +1,19 @@
-"""Parameters declared once, where they stand in a signature: unit, range, choices, default and one line of help.
+"""Parameters declared once, where they stand in a signature: unit, range, choices, default and one
+line of help.
 
 A function or a frozen dataclass declares with ``Annotated`` what its parameters may be:
 
-    def sphere(grid: Grid, *, radius: Annotated[Length, "Radius."], exact: Annotated[bool, "A circle."] = False)
+    def sphere(
+        grid: Grid,
+        *,
+        radius: Annotated[Length, "Radius."],
+        exact: Annotated[bool, "A circle."] = False,
+    )
 
-From this alone follow the checks of values (``Declared``, ``checked``), the keys and messages of documents
-(``core.settings``), options and help of the command line, and the pages of reference. Inside the package values are SI
-numbers; text such as ``"5 nm"`` of documents and options becomes one by ``read``.
+From this alone follow the checks of values (``Declared``, ``checked``), the keys and messages of
+documents (``core.settings``), options and help of the command line, and the pages of reference.
+Inside the package values are SI numbers; text such as ``"5 nm"`` of documents and options becomes
+one by ``read``.
 """
 
 from __future__ import annotations
@@ -31,7 +38,8 @@ REQUIRED: Any = inspect.Parameter.empty
 
 @dataclass(frozen=True)
 class Help:
-    """What a parameter is, in one line; ``option`` names it on the command line, ``of`` is what it belongs to."""
+    """What a parameter is, in one line; ``option`` names it on the command line, ``of`` is what it
+    belongs to."""
 
     text: str
     option: str | None = None
@@ -40,7 +48,8 @@ class Help:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A declared parameter: its ``name``, type, what ``values`` it takes, its ``default`` and one line of ``help``."""
+    """A declared parameter: its ``name``, type, what ``values`` it takes, its ``default`` and one
+    line of ``help``."""
 
     name: str
     annotation: Any
@@ -71,7 +80,8 @@ class Parameter:
         return isinstance(self.values, Several) and self.values.count is None
 
     def check(self, value: Any, owner: str) -> Any:
-        """``value`` as its values are checked, or what a word stands for; None where that is the default."""
+        """``value`` as its values are checked, or what a word stands for; None where that is the
+        default."""
         if value is None and self.default is None:
             return None
         unit = f" ({self.unit})" if self.unit else ""
@@ -81,7 +91,8 @@ class Parameter:
 
 @functools.cache
 def parameters(declared: Any) -> tuple[Parameter, ...]:
-    """The declared parameters of a function or dataclass, in their order; those without any declaration are left out."""
+    """The declared parameters of a function or dataclass, in their order; those without any
+    declaration are left out."""
     if isinstance(declared, type) and is_dataclass(declared):
         defaults = {
             f.name: f.default
@@ -115,7 +126,8 @@ def parameter(name: str, annotation: Any, default: Any = REQUIRED) -> Parameter 
 
 
 def values_of(base: Any, marks: tuple[Any, ...] = ()) -> Values:
-    """What values an annotation allows: those of the last mark with values, else those of its type."""
+    """What values an annotation allows: those of the last mark with values, else those of its
+    type."""
     for mark in reversed(marks):
         if isinstance(mark, Values):
             return mark
@@ -158,7 +170,8 @@ def _objects(function: Any) -> tuple[tuple[str, type], ...]:
 
 
 class Declared:
-    """Base of a frozen dataclass whose parameters are checked against their declarations when it is made."""
+    """Base of a frozen dataclass whose parameters are checked against their declarations when it is
+    made."""
 
     def __post_init__(self) -> None:
         """Check all parameters; a word is replaced by what it stands for.
@@ -186,7 +199,8 @@ def _called(signature: inspect.Signature) -> str:
 
 
 def checked(function: Callable[P, R]) -> Callable[P, R]:
-    """``function`` whose arguments are checked against their declarations, and passed on in their canonical type."""
+    """``function`` whose arguments are checked against their declarations, and passed on in their
+    canonical type."""
     signature, owner = inspect.signature(function), f"{function.__name__}()"
 
     @functools.wraps(function)

@@ -1,8 +1,9 @@
-"""Pearson's system of distributions: the one with given skewness and kurtosis, of zero mean and unit variance.
+"""Pearson's system of distributions: the one with given skewness and kurtosis, of zero mean and
+unit variance.
 
-With β1 = skewness² and β2 = kurtosis the density obeys f'/f = -(x + c1)/(c0 + c1 x + c2 x²) with c0 = (4 β2 - 3 β1)/Δ,
-c1 = sqrt(β1) (β2 + 3)/Δ, c2 = (2 β2 - 3 β1 - 6)/Δ and Δ = 10 β2 - 12 β1 - 18 (Pearson 1895, 1916). The sign of
-ϰ = c1²/(4 c0 c2) and whether it exceeds 1 decide the type.
+With β1 = skewness² and β2 = kurtosis the density obeys f'/f = -(x + c1)/(c0 + c1 x + c2 x²) with
+c0 = (4 β2 - 3 β1)/Δ, c1 = sqrt(β1) (β2 + 3)/Δ, c2 = (2 β2 - 3 β1 - 6)/Δ and Δ = 10 β2 - 12 β1 - 18
+(Pearson 1895, 1916). The sign of ϰ = c1²/(4 c0 c2) and whether it exceeds 1 decide the type.
 """
 
 from __future__ import annotations
@@ -38,11 +39,14 @@ _NEWTON = 4  # steps, each of which squares an error that starts below 1e-2
 
 @dataclass(frozen=True)
 class Pearson:
-    """Distribution of Pearson's system with zero mean, unit variance and the given ``skewness`` and ``kurtosis``.
+    """Distribution of Pearson's system with zero mean, unit variance and the given ``skewness`` and
+    ``kurtosis``.
 
-    Types I and II have bounds on both sides, III, V and VI on one side, IV, VII and the normal on none.
+    Types I and II have bounds on both sides, III, V and VI on one side, IV, VII and the normal on
+    none.
 
-    InputError if kurtosis <= 1 + skewness², where there is no distribution, or only one of two values.
+    InputError if kurtosis <= 1 + skewness², where there is no distribution, or only one of two
+    values.
 
     Parameters
     ----------
@@ -61,13 +65,14 @@ class Pearson:
         least = 1.0 + self.skewness**2
         if self.kurtosis <= least * (1.0 + _ON_LINE):
             raise InputError(
-                f"kurtosis of the heights must exceed its limit 1 + skewness² = {least:.4g}, at which there are only two "
-                f"heights, but is {self.kurtosis:.4g}."
+                f"kurtosis of the heights must exceed its limit 1 + skewness² = {least:.4g}, at which there "
+                f"are only two heights, but is {self.kurtosis:.4g}."
             )
 
     @property
     def coefficients(self) -> tuple[float, float, float]:
-        """c0, c1, c2 of the differential equation, c1 with the sign of the skewness; infinite where Δ = 0."""
+        """c0, c1, c2 of the differential equation, c1 with the sign of the skewness; infinite where
+        Δ = 0."""
         c0, c1, c2, delta = self._scaled
         with np.errstate(divide="ignore", invalid="ignore"):
             values = np.array([c0, math.copysign(c1, self.skewness), c2]) / np.float64(delta)
@@ -81,7 +86,8 @@ class Pearson:
 
     @property
     def mode(self) -> float:
-        """Where the slope of the density vanishes, -c1: a maximum, or the minimum of a U-shaped density."""
+        """Where the slope of the density vanishes, -c1: a maximum, or the minimum of a U-shaped
+        density."""
         return -self.coefficients[1]
 
     @cached_property
@@ -134,9 +140,11 @@ class Pearson:
         return np.asarray(-law.isf(given) if self.skewness < 0.0 else law.ppf(given))
 
     def of_normal(self, normal: ArrayLike) -> RealArray:
-        """The number of this distribution for each standard ``normal`` number (any shape); increasing.
+        """The number of this distribution for each standard ``normal`` number (any shape);
+        increasing.
 
-        Numbers between -10 and 10, which hold all but 1e-23 of the probability, are taken from a table with cubic splines.
+        Numbers between -10 and 10, which hold all but 1e-23 of the probability, are taken from a
+        table with cubic splines.
         """
         given = np.asarray(normal, dtype=np.float64)
         values = np.array(self._table(np.clip(given, -_TABLE_REACH, _TABLE_REACH)))
@@ -162,7 +170,8 @@ class Pearson:
 
     @cached_property
     def _curve(self) -> _Curve:
-        """The curve of the skewness without its sign; the distribution of negative skewness is that of -x."""
+        """The curve of the skewness without its sign; the distribution of negative skewness is that
+        of -x."""
         return _curve(self.type, *self._scaled)
 
     def _log_density(self, x: RealArray, from_low: RealArray, from_high: RealArray) -> RealArray:
@@ -199,12 +208,14 @@ def require_possible(skewness: float, kurtosis: float) -> None:
         )
 
 
-# The curves, of positive skewness. Distribution functions and most quantiles are SciPy's; its densities lose 1e-8 where shape
-# parameters reach 1e6 (skewness 1e-3 on the line of type III), whereas ln f(x)/f(0) with a norm by quadrature keeps its digits.
+# The curves, of positive skewness. Distribution functions and most quantiles are SciPy's; its
+# densities lose 1e-8 where shape parameters reach 1e6 (skewness 1e-3 on the line of type III),
+# whereas ln f(x)/f(0) with a norm by quadrature keeps its digits.
 
 
 class _Law(Protocol):
-    """Distribution function and quantiles from below and from above, as ``scipy.stats`` names them."""
+    """Distribution function and quantiles from below and from above, as ``scipy.stats`` names
+    them."""
 
     def cdf(self, x: RealArray, /) -> RealArray: ...
     def sf(self, x: RealArray, /) -> RealArray: ...
@@ -223,7 +234,8 @@ class _Curve:
 
     @cached_property
     def log_norm(self) -> float:
-        """Logarithm of the integral of f(x)/f(0); without a lower end, of the part above 0 and of that below, mirrored."""
+        """Logarithm of the integral of f(x)/f(0); without a lower end, of the part above 0 and of
+        that below, mirrored."""
         if math.isfinite(self.low):
             return math.log(partial_moment(self.relative, (self.low, self.high), 0.0, np.array(self.low)))
         ends, zero = (-math.inf, math.inf), np.zeros(())
@@ -279,7 +291,8 @@ def _log_ratio(x: RealArray, from_end: RealArray, distance: float) -> RealArray:
 
 
 class _Beta:
-    """Types I and II, where z = (x - low)/width has a beta distribution of p and q, and VI, where z/(1 - z) is that ratio."""
+    """Types I and II, where z = (x - low)/width has a beta distribution of p and q, and VI, where
+    z/(1 - z) is that ratio."""
 
     def __init__(self, p: float, q: float, low: float, width: float, *, prime: bool = False) -> None:
         from scipy import stats
@@ -304,9 +317,11 @@ class _Beta:
 
 
 def _beta_quantiles(a: float, b: float, probability: RealArray) -> tuple[RealArray, RealArray]:
-    """z below which a number with the beta distribution of a, b lies, and 1 - z; by the first term of the series at small z.
+    """z below which a number with the beta distribution of a, b lies, and 1 - z; by the first term
+    of the series at small z.
 
-    SciPy's inverses are nan or far off for some probabilities below 1e-15 (a = 1.03, b = 0.44), where that term is all that counts.
+    SciPy's inverses are nan or far off for some probabilities below 1e-15 (a = 1.03, b = 0.44),
+    where that term is all that counts.
     """
     from scipy.special import betainccinv, betaincinv, betaln
 
@@ -318,9 +333,11 @@ def _beta_quantiles(a: float, b: float, probability: RealArray) -> tuple[RealArr
 
 @dataclass(frozen=True)
 class _TypeIV:
-    """(1 + u²)^(-m) exp(-ν arctan u), u = (x - λ)/a, m = 1/(2 c2), λ = -c1/(2 c2), a² = c0/c2 - λ², ν = (c1 + λ)/(c2 a).
+    """(1 + u²)^(-m) exp(-ν arctan u), u = (x - λ)/a, m = 1/(2 c2), λ = -c1/(2 c2), a² = c0/c2 - λ²,
+    ν = (c1 + λ)/(c2 a).
 
-    Its distribution function is integrated over t, x = sinh t, in which the algebraic tails are exponential ones.
+    Its distribution function is integrated over t, x = sinh t, in which the algebraic tails are
+    exponential ones.
     """
 
     c0: float
@@ -347,7 +364,8 @@ class _TypeIV:
         return -self._mirrored.ppf(q)
 
     def relative(self, x: RealArray) -> RealArray:
-        """ln f(x)/f(0); the arctangents at x and 0 are taken together, which leaves digits where m and ν are large."""
+        """ln f(x)/f(0); the arctangents at x and 0 are taken together, which leaves digits where m
+        and ν are large."""
         shift = 0.5 * self.c1 / self.c2
         a = math.sqrt(self.c0 / self.c2 - shift**2)
         turn = np.arctan2(2.0 * a * self.c2 * x, 2.0 * self.c0 + self.c1 * x)
@@ -383,7 +401,8 @@ class _TypeIV:
         return self._sums[panel] + self._integral(self._edges[panel], t)
 
     def _in_lower_half(self, probability: RealArray) -> RealArray:
-        """The x below which values have a ``probability`` (n,) of at most a half: Newton's method for its logarithm."""
+        """The x below which values have a ``probability`` (n,) of at most a half: Newton's method
+        for its logarithm."""
         p, known = np.maximum(probability, _LEAST), self._sums > _LEAST**1.02
         t: RealArray = np.interp(np.log(p), np.log(self._sums[known] / self._sums[-1]), self._edges[known])
         for _ in range(_NEWTON):

@@ -20,7 +20,8 @@ def rule(nodes: int) -> tuple[RealArray, RealArray]:
 
 
 def gauss(breaks: RealArray, nodes: int) -> tuple[RealArray, RealArray]:
-    """Gauss-Legendre nodes and weights, (…, n · nodes) each, on the panels between ``breaks``, ``nodes`` in each panel.
+    """Gauss-Legendre nodes and weights, (…, n · nodes) each, on the panels between ``breaks``,
+    ``nodes`` in each panel.
 
     ``breaks`` (…, n + 1) do not fall along the last axis; a panel of no width contributes nothing.
     """
@@ -32,7 +33,8 @@ def gauss(breaks: RealArray, nodes: int) -> tuple[RealArray, RealArray]:
 
 
 def running(nodes: int) -> tuple[RealArray, RealArray]:
-    """Chebyshev nodes (nodes,) on [-1, 1], both ends among them, and the matrix that makes integrals from -1 to each node of values there.
+    """Chebyshev nodes (nodes,) on [-1, 1], both ends among them, and the matrix that makes
+    integrals from -1 to each node of values there.
 
     Exact for polynomials of degree below ``nodes`` >= 2 (Clenshaw & Curtis 1960).
     """
@@ -47,9 +49,11 @@ _PANELS, _PANEL_NODES, _START = 12, 24, 1e-9
 
 
 def geometric(low: RealArray, high: RealArray) -> tuple[RealArray, RealArray]:
-    """Nodes and weights (…, n) between ``low`` and ``high``, 0 <= low < high, for powers and logarithms at zero.
+    """Nodes and weights (…, n) between ``low`` and ``high``, 0 <= low < high, for powers and
+    logarithms at zero.
 
-    Gauss-Legendre rules on twelve panels that grow with the distance from zero; from 1e-9 of ``high`` if ``low`` is less.
+    Gauss-Legendre rules on twelve panels that grow with the distance from zero; from 1e-9 of
+    ``high`` if ``low`` is less.
     """
     start = np.maximum(low, _START * high)[..., None]
     breaks = start * (np.asarray(high)[..., None] / start) ** (np.arange(_PANELS + 1) / _PANELS)
@@ -57,9 +61,10 @@ def geometric(low: RealArray, high: RealArray) -> tuple[RealArray, RealArray]:
     return gauss(breaks, _PANEL_NODES)
 
 
-# Moments of the part of a distribution above a level: ∫ (s - D)^m f(s) ds over s > D. scipy.integrate.tanhsinh (1.17) over the
-# same pieces stops early at some levels of some curves (errors up to 8e-10 at rtol = 1e-13, against 1e-12 here); made as exact
-# by minlevel = 5 it takes two to six times as long.
+# Moments of the part of a distribution above a level: ∫ (s - D)^m f(s) ds over s > D.
+# scipy.integrate.tanhsinh (1.17) over the same pieces stops early at some levels of some curves
+# (errors up to 8e-10 at rtol = 1e-13, against 1e-12 here); made as exact by minlevel = 5 it takes
+# two to six times as long.
 
 _STEP = 0.02  # of the trapezoidal rule over τ; half of it changes no moment by more than 1e-11 of itself
 _REACH = 6.5  # |τ| beyond which a node lies within 1e-400 of its end
@@ -68,14 +73,17 @@ _FARTHEST = 1e100  # beyond, a density with four moments adds nothing
 _CHUNK = 64  # levels whose temporaries fit into the cache
 
 LogDensity = Callable[[RealArray, RealArray, RealArray], RealArray]
-"""ln f at x, of which the distances to the lower and the upper end are given, too: close to an end they keep their digits."""
+"""ln f at x, of which the distances to the lower and the upper end are given, too: close to an end
+they keep their digits."""
 
 
 def partial_moment(log_density: LogDensity, ends: tuple[float, float], order: float, level: RealArray) -> RealArray:
-    """∫ (s - level)^order f(s) ds over s > ``level`` (any shape), by double exponential quadrature (Takahasi & Mori 1974).
+    """∫ (s - level)^order f(s) ds over s > ``level`` (any shape), by double exponential quadrature
+    (Takahasi & Mori 1974).
 
-    The interval is divided at the mean and four standard deviations below, for a density of zero mean and unit variance.
-    Either of the ``ends`` between which it is positive may be infinite; order > -1.
+    The interval is divided at the mean and four standard deviations below, for a density of zero
+    mean and unit variance. Either of the ``ends`` between which it is positive may be infinite;
+    order > -1.
     """
     flat, moments = level.ravel(), np.zeros(level.size)
     edges = [ends[0], *(edge for edge in _EDGES if ends[0] < edge < ends[1]), ends[1]]

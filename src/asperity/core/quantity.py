@@ -6,7 +6,8 @@ from dataclasses import MISSING, dataclass, field, fields
 from typing import Any
 
 WHAT, GIVEN, COLUMNS = "what", "given", "columns"
-"""Keys of the metadata of fields: what a field is, that it was given with the problem, and what the columns of its array are."""
+"""Keys of the metadata of fields: what a field is, that it was given with the problem, and what the
+columns of its array are."""
 
 
 @dataclass(frozen=True)
@@ -16,7 +17,8 @@ class Quantity:
     Parameters
     ----------
     name
-        Name of the attribute, variable or column that holds it; with dots for an attribute of an attribute.
+        Name of the attribute, variable or column that holds it; with dots for an attribute of an
+        attribute.
     unit
         SI unit, "1" for plain numbers, "" for text.
     label
@@ -64,10 +66,12 @@ class Labelled:
 def measured(
     unit: str, label: str, *dims: str, default: Any = MISSING, columns: tuple[Quantity, ...] = (), repr: bool = True
 ) -> Any:
-    """Field of a dataclass with what it is: SI unit ("1" for plain numbers, "" for text), words, and the names of the axes of an array.
+    """Field of a dataclass with what it is: SI unit ("1" for plain numbers, "" for text), words,
+    and the names of the axes of an array.
 
-    Files, tables and pictures take them from here. Axes ``x`` and ``y`` are those of the grid; an array that has none of them may have another length in
-    every step of a history. ``columns`` are what the columns of an array with two axes are, where each is something else, or arrays by name.
+    Files, tables and pictures take them from here. Axes ``x`` and ``y`` are those of the grid; an
+    array that has none of them may have another length in every step of a history. ``columns`` are
+    what the columns of an array with two axes are, where each is something else, or arrays by name.
     """
     return field(default=default, repr=repr, metadata={WHAT: (unit, label, dims), COLUMNS: columns})
 
@@ -78,12 +82,14 @@ def measured_as(quantity: Quantity) -> Any:
 
 
 def given(**options: Any) -> Any:
-    """Field of a dataclass that was given with the problem, so that files take it from there; ``options`` are those of ``dataclasses.field``."""
+    """Field of a dataclass that was given with the problem, so that files take it from there;
+    ``options`` are those of ``dataclasses.field``."""
     return field(**options, metadata={GIVEN: True})
 
 
 def stored_quantities(kind: type) -> tuple[Quantity, ...]:
-    """What the stored fields of the dataclass ``kind`` are, in their order; one without words is called by its name."""
+    """What the stored fields of the dataclass ``kind`` are, in their order; one without words is
+    called by its name."""
     found = []
     for item in fields(kind):
         if GIVEN not in item.metadata and item.init:

@@ -1,4 +1,5 @@
-"""Which physics and parts there are: the lists of those of this package, in plain text, so that nothing is imported before it is used."""
+"""Which physics and parts there are: the lists of those of this package, in plain text, so that
+nothing is imported before it is used."""
 
 from __future__ import annotations
 
@@ -18,9 +19,11 @@ class Known(NamedTuple):
     must_be
         What the keyword takes, for messages.
     absent
-        What is said where a result is asked for what a coupling of it finds, but has none: a sentence by the name of the coupling.
+        What is said where a result is asked for what a coupling of it finds, but has none: a
+        sentence by the name of the coupling.
     figures
-        Where the figures of a result stand that has what a coupling of it finds, by the name of the coupling.
+        Where the figures of a result stand that has what a coupling of it finds, by the name of the
+        coupling.
     """
 
     home: str
@@ -37,7 +40,8 @@ class Drawn(NamedTuple):
     home
         Where the type stands.
     figure
-        Where the function stands that gives the figure of a name: what draws it on axes, and its size in inches.
+        Where the function stands that gives the figure of a name: what draws it on axes, and its
+        size in inches.
     """
 
     home: str
@@ -56,7 +60,8 @@ class Kept(NamedTuple):
     contact
         Name of its field that is a contact, which stands in a group beside; empty if it has none.
     writes, reads
-        Where the functions stand that make the group of it, and it of the group; empty where the codec does so from what its fields say.
+        Where the functions stand that make the group of it, and it of the group; empty where the
+        codec does so from what its fields say.
     """
 
     home: str
@@ -72,7 +77,10 @@ PHYSICS: Mapping[str, Known] = MappingProxyType(
             "physics.menisci.physics:Wet",
             "LiquidFilm.of(liquid, thickness)",
             {
-                "menisci": "problem of the result must have a film of liquid, but has none. Give it as film=LiquidFilm.of(...)."
+                "menisci": (
+                    "problem of the result must have a film of liquid, but has none. Give it as "
+                    "film=LiquidFilm.of(...)."
+                )
             },
             {"menisci": "physics.menisci.figures:PLOTS"},
         ),
@@ -80,23 +88,32 @@ PHYSICS: Mapping[str, Known] = MappingProxyType(
             "physics.adhesion.physics:Adhesive",
             "a law such as ExponentialAdhesion(work, range)",
             {
-                "adhesion": "problem of the result must have adhesion, but has none. Give it as adhesion=ExponentialAdhesion(work, range)."
+                "adhesion": (
+                    "problem of the result must have adhesion, but has none. Give it as "
+                    "adhesion=ExponentialAdhesion(work, range)."
+                )
             },
         ),
         "plastic_flow": Known(
             "physics.plastic_flow.physics:Flowing",
             "PlasticFlow(J2(...))",
             {
-                "plastic_flow": "problem of the result must have a plastic flow, but has none. Give it as plastic_flow=PlasticFlow(J2(...))."
+                "plastic_flow": (
+                    "problem of the result must have a plastic flow, but has none. Give it as "
+                    "plastic_flow=PlasticFlow(J2(...))."
+                )
             },
         ),
         "friction": Known(
             "physics.friction.physics:Rubbing",
             "Coulomb(coefficient), TrescaFriction(strength), FullStick()",
             {
-                "sliding": "result must be one of gross sliding with Coulomb friction, but is not. Give the problem friction=Coulomb(0.3).",
-                "stick_slip": "result must be one of a step with stick and slip, but has none. Solve ContactProblem(..., friction=Coulomb(0.3)) "
-                "under Step(normal, Shift(5e-9)).",
+                "sliding": (
+                    "result must be one of gross sliding with Coulomb friction, but is not. Give the "
+                    "problem friction=Coulomb(0.3)."
+                ),
+                "stick_slip": "result must be one of a step with stick and slip, but has none. Solve "
+                "ContactProblem(..., friction=Coulomb(0.3)) under Step(normal, Shift(5e-9)).",
             },
         ),
     }
@@ -124,7 +141,8 @@ PARTS = (
     "physics.indentation.part:Indentation",
     "physics.indentation.part_passes:Passes",
 )
-"""The parts of this package, by which physics and analyses are asked for in documents, in the order in which they are computed and shown."""
+"""The parts of this package, by which physics and analyses are asked for in documents, in the order
+in which they are computed and shown."""
 
 PAIRS: Mapping[frozenset[str], str] = MappingProxyType(
     {frozenset({"adhesion", "menisci"}): "physics.pairs.adhesion_menisci:settle_forces"}
@@ -148,7 +166,8 @@ NEEDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "pairs": ("adhesion", "menisci"),
     }
 )
-"""Folders of physics without which that of another cannot be, by its name; every other can be left out by itself."""
+"""Folders of physics without which that of another cannot be, by its name; every other can be left
+out by itself."""
 
 ROLES: Mapping[str, str] = MappingProxyType(
     {
@@ -157,8 +176,9 @@ ROLES: Mapping[str, str] = MappingProxyType(
         "in_time": "physics.viscoelastic.in_time:InTime",
     }
 )
-"""What the machinery takes from a physics, by what that is: the law of coated bodies, the coupling of a limit of the pressure that changes with depth, and what
-takes over the steps of a prepared problem whose bodies relax."""
+"""What the machinery takes from a physics, by what that is: the law of coated bodies, the coupling
+of a limit of the pressure that changes with depth, and what takes over the steps of a prepared
+problem whose bodies relax."""
 
 DESCRIBED = ("physics.hardness.layered:LayeredHardness", "physics.stress.regions:Region")
 """Types that files describe beside those of the keywords."""
@@ -186,7 +206,8 @@ OLDER: Mapping[str, str] = MappingProxyType(
         "plastic_flow": "physics.plastic_flow.files:older",
     }
 )
-"""Where what a coupling found, by its name, is read from files of format 2, which were written until the codec."""
+"""Where what a coupling found, by its name, is read from files of format 2, which were written
+until the codec."""
 
 RESULTS: Mapping[str, Kept] = MappingProxyType(
     {
@@ -211,7 +232,8 @@ MORE_FIGURES = ("physics.friction.figures:SHEAR_PLOTS",)
 """Where figures of a contact stand that notebooks draw on request alone."""
 
 PATH_FIGURES: Mapping[str, str] = MappingProxyType({"stick_slip": "physics.friction.figures:LOOP_PLOTS"})
-"""Where figures of a load path stand, by the name of the coupling of which they are; the first is the most telling where the path has that."""
+"""Where figures of a load path stand, by the name of the coupling of which they are; the first is
+the most telling where the path has that."""
 
 STEP_TEXTS: Mapping[str, str] = MappingProxyType({"stick_slip": "physics.friction.fretting:step_texts"})
 """What a load path says of each step beside its load, by the name of the coupling that it is of."""

@@ -1,4 +1,5 @@
-"""Checks of single input values; each returns the value in its canonical type or raises ``InputError``."""
+"""Checks of single input values; each returns the value in its canonical type or raises
+``InputError``."""
 
 from __future__ import annotations
 
@@ -74,7 +75,8 @@ def at_most(value: float, high: float, what: str, fix: str = "") -> float:
 
 
 def magnitude(value: float, what: str) -> float:
-    """Return the length, modulus or pressure ``value`` if it is within ``values.LEAST`` and ``LARGEST``."""
+    """Return the length, modulus or pressure ``value`` if it is within ``values.LEAST`` and
+    ``LARGEST``."""
     number = positive(value, what)
     if not LEAST < number <= LARGEST:
         must_be = f"greater than {LEAST:g} and at most {LARGEST:g}"
@@ -115,7 +117,8 @@ def instance(value: T, kind: type, what: str, fix: str = "") -> T:
 
 
 def field(values: ArrayLike, what: str, shape: tuple[int, int] | None = None) -> RealArray:
-    """Return ``values`` as a two-dimensional floating-point array (float32 is kept, all else becomes float64)."""
+    """Return ``values`` as a two-dimensional floating-point array (float32 is kept, all else
+    becomes float64)."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         raise InputError(_sentence(what, "an array of real numbers", f"an array of type {array.dtype}"))

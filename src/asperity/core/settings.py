@@ -1,4 +1,5 @@
-"""Tables of a document: pydantic models whose values are declared by ``core.parameters``, and what is wrong with a table.
+"""Tables of a document: pydantic models whose values are declared by ``core.parameters``, and what
+is wrong with a table.
 
 Import this where documents are read, not in the physics: pydantic takes a tenth of a second.
 """
@@ -26,9 +27,11 @@ T = TypeVar("T", bound="Settings")
 
 
 class Settings(BaseModel):
-    """Base of all tables: unknown keys are errors, nothing changes after loading, defaults are checked too.
+    """Base of all tables: unknown keys are errors, nothing changes after loading, defaults are
+    checked too.
 
-    Every value may be the text that the command line takes: ``"5 nm"``, ``"0.3"``, ``"1nm,5nm"`` for a list.
+    Every value may be the text that the command line takes: ``"5 nm"``, ``"0.3"``, ``"1nm,5nm"``
+    for a list.
     """
 
     model_config = ConfigDict(
@@ -41,7 +44,8 @@ class Settings(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _from_text(cls, table: Any) -> Any:
-        """Text and lists as what the types of the fields ask for; what cannot be read is left to their checks."""
+        """Text and lists as what the types of the fields ask for; what cannot be read is left to
+        their checks."""
         if not isinstance(table, Mapping):
             return table
         made = dict(table)
@@ -56,7 +60,8 @@ class Settings(BaseModel):
 
 
 def setting(default: Any = ..., *, help: str = "", option: str | None = None, of: str = "") -> Any:
-    """Field of a table with one line of ``help`` and, if it is not the usual one, the name of its ``option``."""
+    """Field of a table with one line of ``help`` and, if it is not the usual one, the name of its
+    ``option``."""
     extra: Any = {key: value for key, value in (("option", option), ("of", of)) if value}
     return Field(default, description=help or None, json_schema_extra=extra or None)
 
@@ -82,7 +87,8 @@ def table_of(
     *,
     tables: Mapping[Any, Any] | None = None,
 ) -> type[T]:
-    """Table with a key for every declared parameter of a ``function`` or dataclass, beside those of ``base``.
+    """Table with a key for every declared parameter of a ``function`` or dataclass, beside those of
+    ``base``.
 
     Parameters
     ----------
@@ -91,11 +97,14 @@ def table_of(
     base
         Table whose keys are added.
     kind
-        Name of the key that distinguishes this table from others, and its only value: ``"kind=sphere"``.
+        Name of the key that distinguishes this table from others, and its only value:
+        ``"kind=sphere"``.
     tables
-        What stands in a document for parameters of types that are no numbers: annotations by type, None for no key.
+        What stands in a document for parameters of types that are no numbers: annotations by type,
+        None for no key.
 
-    A default with a unit, and one that has no text, stays that of the function: None in the document.
+    A default with a unit, and one that has no text, stays that of the function: None in the
+    document.
     """
     tag, _, value = kind.partition("=")
     made: dict[str, Any] = {tag: (Literal[value], ...)}
@@ -114,16 +123,19 @@ def table_of(
 
 
 COMMAND_LINE = "command line"
-"""What is checked if options are: they name themselves, so that a message on one problem does not begin with it."""
+"""What is checked if options are: they name themselves, so that a message on one problem does not
+begin with it."""
 
 
 def validated(model: type[T], table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> T:
-    """The ``model`` made of the nested ``table``; ``names`` replaces dotted keys in messages, such as by an option.
+    """The ``model`` made of the nested ``table``; ``names`` replaces dotted keys in messages, such
+    as by an option.
 
     Raises
     ------
     InputError
-        If anything is missing, unknown or out of range; the message names ``where`` and has one line for each problem.
+        If anything is missing, unknown or out of range; the message names ``where`` and has one
+        line for each problem.
     """
     try:
         return model.model_validate(dict(table))
@@ -138,7 +150,8 @@ def validated(model: type[T], table: Mapping[str, Any], where: str, names: Mappi
 
 
 def _as_meant(table: Mapping[str, Any], error: ValidationError) -> dict[str, Any] | None:
-    """``table`` with the words that are known but for capitals, spaces, hyphens and underscores; None if there are none in the ``error``."""
+    """``table`` with the words that are known but for capitals, spaces, hyphens and underscores;
+    None if there are none in the ``error``."""
     found, changed = copy.deepcopy(dict(table)), False
     for detail in error.errors():
         place, context = list(detail["loc"]), detail.get("ctx", {})
@@ -170,7 +183,8 @@ def json_schema(model: type[BaseModel]) -> Mapping[str, Any]:
 
 
 def _prepared(value: Any, values: Values) -> Any:
-    """``value`` of a table with text taken apart where a list is expected, and as a number where one is."""
+    """``value`` of a table with text taken apart where a list is expected, and as a number where
+    one is."""
     if isinstance(values, Several):
         if isinstance(value, str) and type(values.item) is not Values:
             return tuple(part.strip() for part in value.split(","))
@@ -201,8 +215,8 @@ _TYPES = {
 def problems(error: ValidationError, schema: Mapping[str, Any], names: Mapping[str, str]) -> list[str]:
     """One sentence for each problem in ``error``, in the order of the document.
 
-    ``schema`` is the JSON schema of the document; ``names`` replaces dotted keys by what the user wrote instead, such
-    as the option of a command.
+    ``schema`` is the JSON schema of the document; ``names`` replaces dotted keys by what the user
+    wrote instead, such as the option of a command.
     """
     found: dict[str, None] = {}
     for detail in error.errors():
@@ -230,14 +244,16 @@ def problems(error: ValidationError, schema: Mapping[str, Any], names: Mapping[s
 
 
 def _plain(value: Any) -> Any:
-    """``value`` without the texts of its numbers; a size keeps its own, which distinguishes one length from two."""
+    """``value`` without the texts of its numbers; a size keeps its own, which distinguishes one
+    length from two."""
     if isinstance(value, tuple) and not isinstance(value, WrittenPair):
         return tuple(_plain(item) for item in value)
     return float(value) if isinstance(value, float) else value
 
 
 def _called(key: str, names: Mapping[str, str], *, unknown: bool = False) -> str:
-    """What the user calls the dotted ``key``: its name, or that of the list or table it is in and its place there; an ``unknown`` one as it is written."""
+    """What the user calls the dotted ``key``: its name, or that of the list or table it is in and
+    its place there; an ``unknown`` one as it is written."""
     parts, whole = [], key
     while whole not in names:
         match = re.fullmatch(r"(.+)(?:\[(\d+)\]|\.(\w+))", whole)
@@ -274,7 +290,8 @@ def _sentence(detail: Mapping[str, Any], key: str, allowed: Sequence[str]) -> st
 
 
 def _resolved(node: Mapping[str, Any], schema: Mapping[str, Any]) -> Mapping[str, Any]:
-    """``node`` with references followed, and of alternatives the one that is neither null nor text taken."""
+    """``node`` with references followed, and of alternatives the one that is neither null nor text
+    taken."""
     while True:
         alternatives = [item for item in node.get("anyOf", ()) if item.get("type") not in ("null", "string")]
         if "$ref" in node:

@@ -1,7 +1,7 @@
 """Real two-dimensional Fourier transforms, prepared once and applied many times.
 
-The only module that touches an FFT library: ducc0 (extra ``fast``) when it is installed, NumPy otherwise.
-The forward transform is unnormalised, the backward one carries 1/(nx·ny).
+The only module that touches an FFT library: ducc0 (extra ``fast``) when it is installed, NumPy
+otherwise. The forward transform is unnormalised, the backward one carries 1/(nx·ny).
 """
 
 from __future__ import annotations
@@ -22,14 +22,16 @@ from .grid import Grid
 from .values import Whole
 
 _CACHE_LINE = 64  # bytes
-# Data so many bytes apart share one of about ten places in the cache: enough for the eight rows of double precision that
-# are transformed at once, not for sixteen of single precision, which take 2.6 times as long.
+# Data so many bytes apart share one of about ten places in the cache: enough for the eight rows of
+# double precision that are transformed at once, not for sixteen of single precision, which take 2.6
+# times as long.
 _SAME_PLACE = 4096
 _ROWS = 64  # of single precision that go through rows elsewhere at a time
 
 
 def thread_count(threads: int | None = None) -> int:
-    """Number of threads: ``threads``, else the environment variable ASPERITY_THREADS, else the usable cores."""
+    """Number of threads: ``threads``, else the environment variable ASPERITY_THREADS, else the
+    usable cores."""
     if threads is not None:
         return require.integer(threads, 1, "number of threads")
     from_environment = os.environ.get("ASPERITY_THREADS")
@@ -41,7 +43,8 @@ def thread_count(threads: int | None = None) -> int:
 
 
 def mode_sum(grid: Grid, half: RealArray) -> float:
-    """(1/A) Σ over all modes of ``grid`` of a quantity given on the half spectrum (nx, ny // 2 + 1).
+    """(1/A) Σ over all modes of ``grid`` of a quantity given on the half spectrum (nx, ny // 2 +
+    1).
 
     For the spectrum C (m⁴) this is the mean square height (m²); for q²C the mean square gradient.
     """
@@ -84,7 +87,8 @@ def fast_length(minimum: int) -> int:
 
 
 def line_transform(field: RealArray, axis: int, threads: int = 1, out: ComplexArray | None = None) -> ComplexArray:
-    """Unnormalised real transform of every line of ``field`` along ``axis``, whose length becomes n // 2 + 1, into ``out``."""
+    """Unnormalised real transform of every line of ``field`` along ``axis``, whose length becomes
+    n // 2 + 1, into ``out``."""
     ducc = _ducc_transforms()
     lines: ComplexArray
     if ducc is None:
@@ -97,7 +101,8 @@ def line_transform(field: RealArray, axis: int, threads: int = 1, out: ComplexAr
 def complex_lines(
     values: ComplexArray, axis: int, *, backward: bool = False, threads: int = 1, out: ComplexArray | None = None
 ) -> ComplexArray:
-    """Unnormalised, or if ``backward`` normalised inverse, transform of every line of ``values`` along ``axis``.
+    """Unnormalised, or if ``backward`` normalised inverse, transform of every line of ``values``
+    along ``axis``.
 
     Written into ``out`` if given, which may be ``values``.
     """
@@ -112,7 +117,8 @@ def complex_lines(
 
 
 def real_lines(spectrum: ComplexArray, length: int, threads: int = 1, out: RealArray | None = None) -> RealArray:
-    """Normalised inverse of :func:`line_transform` along the last axis, for lines of ``length`` points, into ``out``."""
+    """Normalised inverse of :func:`line_transform` along the last axis, for lines of ``length``
+    points, into ``out``."""
     ducc = _ducc_transforms()
     lines: RealArray
     if ducc is None:
@@ -179,10 +185,12 @@ class RealTransform:
 
 @dataclass(frozen=True)
 class SplitTransform:
-    """Transform pair between real fields (nx, ny) and half spectra turned over, (ny // 2 + 1, nx), the inverse in two steps.
+    """Transform pair between real fields (nx, ny) and half spectra turned over, (ny // 2 + 1, nx),
+    the inverse in two steps.
 
-    Lines of a spectrum, which run along x, can so be transformed while they are in the cache of whoever made them. Both
-    steps use one thread and take a part of the whole, for callers to share out.
+    Lines of a spectrum, which run along x, can so be transformed while they are in the cache of
+    whoever made them. Both steps use one thread and take a part of the whole, for callers to share
+    out.
     """
 
     shape: tuple[int, int]
@@ -194,15 +202,18 @@ class SplitTransform:
         return np.ascontiguousarray(spectrum)
 
     def lines(self, fields: int, count: int, dtype: Any) -> ComplexArray:
-        """Uninitialised array for ``count`` lines of ``fields`` to be made in, (fields, count, nx and a few)."""
+        """Uninitialised array for ``count`` lines of ``fields`` to be made in, (fields, count, nx
+        and a few)."""
         return np.asarray(_apart((fields, count, self.shape[0]), dtype))
 
     def between(self, fields: int, dtype: Any) -> ComplexArray:
-        """Uninitialised array for ``fields`` between the steps, (fields, nx, ny // 2 + 1 and a few)."""
+        """Uninitialised array for ``fields`` between the steps, (fields, nx, ny // 2 + 1 and a
+        few)."""
         return np.asarray(_apart((fields, self.shape[0], self.shape[1] // 2 + 1), dtype))
 
     def lines_back(self, made: ComplexArray, span: tuple[int, int], out: ComplexArray) -> None:
-        """Step one: put the lines ``span`` (first, last + 1) of spectra, the first ones ``made``, between the steps."""
+        """Step one: put the lines ``span`` (first, last + 1) of spectra, the first ones ``made``,
+        between the steps."""
         start, stop = span
         lines = made[..., : stop - start, : self.shape[0]]
         complex_lines(lines, lines.ndim - 1, backward=True, out=np.swapaxes(out[..., start:stop], -1, -2))
@@ -225,7 +236,8 @@ class SplitTransform:
 def _apart(shape: tuple[int, ...], dtype: Any) -> Any:
     """Uninitialised lines, the last axis of ``shape``, each a little longer.
 
-    By an odd number of cache lines, since lines a power of two apart would share places in the cache.
+    By an odd number of cache lines, since lines a power of two apart would share places in the
+    cache.
     """
     together = _CACHE_LINE // np.dtype(dtype).itemsize
     return np.empty((*shape[:-1], (-(-shape[-1] // together) | 1) * together), dtype)
@@ -233,9 +245,11 @@ def _apart(shape: tuple[int, ...], dtype: Any) -> Any:
 
 @dataclass(frozen=True)
 class PaddedTransform:
-    """Transform pair between fields (nx, ny), zero beyond, and half spectra of the larger grid ``padded``.
+    """Transform pair between fields (nx, ny), zero beyond, and half spectra of the larger grid
+    ``padded``.
 
-    Pruned: along y only the nx rows that hold data are transformed, and back only the rows that are kept.
+    Pruned: along y only the nx rows that hold data are transformed, and back only the rows that are
+    kept.
     """
 
     shape: tuple[int, int]
@@ -257,7 +271,8 @@ class PaddedTransform:
         return complex_lines(out, 0, threads=self.threads, out=out)
 
     def backward(self, spectrum: ComplexArray, out: RealArray) -> RealArray:
-        """First (nx, ny) points of the normalised inverse transform of ``spectrum``, which is overwritten."""
+        """First (nx, ny) points of the normalised inverse transform of ``spectrum``, which is
+        overwritten."""
         nx, ny = self.shape
         complex_lines(spectrum, 0, backward=True, threads=self.threads, out=spectrum)
         out[...] = real_lines(spectrum[:nx], self.padded[1], self.threads)[:, :ny]
@@ -265,9 +280,11 @@ class PaddedTransform:
 
 
 def wrapped(coefficients: RealArray, padded: tuple[int, int], *, odd_x: bool = False, odd_y: bool = False) -> RealArray:
-    """Kernel of a cyclic convolution on the grid ``padded`` from coefficients at offsets (0…nx-1, 0…ny-1).
+    """Kernel of a cyclic convolution on the grid ``padded`` from coefficients at offsets (0…nx-1,
+    0…ny-1).
 
-    Those at negative offsets follow by symmetry; the kernel is zero at offsets that fields (nx, ny) never reach.
+    Those at negative offsets follow by symmetry; the kernel is zero at offsets that fields (nx, ny)
+    never reach.
     """
     nx, ny = coefficients.shape
     kernel = np.zeros(padded)

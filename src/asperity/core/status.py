@@ -27,7 +27,8 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True)
 class Status:
-    """Outcome with a sentence for the user and the usual remedy (empty when converged), in the words of the door that speaks."""
+    """Outcome with a sentence for the user and the usual remedy (empty when converged), in the
+    words of the door that speaks."""
 
     outcome: Outcome
     message: str
@@ -56,11 +57,13 @@ class Advice:
     fact
         One or two sentences with what was found.
     remedy
-        What to do about it, with the names of ``words.ACTIONS`` in braces; empty where there is nothing to do.
+        What to do about it, with the names of ``words.ACTIONS`` in braces; empty where there is
+        nothing to do.
     numbers
         What the criterion compares, by name, SI.
     concerns
-        Names of the quantities, or beginnings of such names, whose values it puts in doubt; empty where it is about the whole.
+        Names of the quantities, or beginnings of such names, whose values it puts in doubt; empty
+        where it is about the whole.
     """
 
     level: Literal["note", "warning"]
@@ -90,9 +93,11 @@ class Verdict:
     Attributes
     ----------
     what
-        Area, load and approach at the decisive step, and what each physics that was asked for found.
+        Area, load and approach at the decisive step, and what each physics that was asked for
+        found.
     holds
-        What yields, flows or cracks, where and by which factor; or that it was not checked, and why.
+        What yields, flows or cracks, where and by which factor; or that it was not checked, and
+        why.
     trust
         The grade, with the reason that matters most and its remedy.
     grade
@@ -146,7 +151,8 @@ class NoProgress:
 
 
 def share_done(error: float, largest: float, tolerance: float) -> float:
-    """Share of the way from the ``largest`` error to the ``tolerance`` on a logarithmic scale, between 0 and 1."""
+    """Share of the way from the ``largest`` error to the ``tolerance`` on a logarithmic scale,
+    between 0 and 1."""
     if error <= tolerance:
         return 1.0
     if not tolerance > 0.0 or not tolerance < largest < math.inf or not error < math.inf:
@@ -155,7 +161,8 @@ def share_done(error: float, largest: float, tolerance: float) -> float:
 
 
 def peak_memory() -> float:
-    """Largest resident memory of the process so far in bytes; NaN where it is not known (Windows)."""
+    """Largest resident memory of the process so far in bytes; NaN where it is not known
+    (Windows)."""
     if importlib.util.find_spec("resource") is None:
         return math.nan
     import resource
@@ -204,7 +211,8 @@ def room_text(needed: float, free: float | None = None) -> str:
 
 
 def is_large(needed: float, free: float | None = None) -> bool:
-    """Whether the bytes ``needed`` are more than half of those that are ``free``, by default in the memory.
+    """Whether the bytes ``needed`` are more than half of those that are ``free``, by default in the
+    memory.
 
     Work that takes as much is confirmed; the other half is for whatever else runs.
     """
@@ -212,6 +220,7 @@ def is_large(needed: float, free: float | None = None) -> bool:
 
 
 def compiling() -> bool:
-    """Whether this thread is inside the compiler of the passes: an exception raised there by a signal may crash it."""
+    """Whether this thread is inside the compiler of the passes: an exception raised there by a
+    signal may crash it."""
     lock = sys.modules.get("numba.core.compiler_lock")
     return lock is not None and bool(lock.global_compiler_lock.is_locked())

@@ -1,4 +1,5 @@
-"""Displacement and stress at points as values: named components, sums and multiples, nothing of their physics."""
+"""Displacement and stress at points as values: named components, sums and multiples, nothing of
+their physics."""
 
 from __future__ import annotations
 
@@ -30,7 +31,8 @@ class _Components:
 
 @dataclass(frozen=True, eq=False)
 class StressTensor(_Components):
-    """Six components of the symmetric stress in Pa, tension positive: arrays of one shape, any shape."""
+    """Six components of the symmetric stress in Pa, tension positive: arrays of one shape, any
+    shape."""
 
     xx: RealArray
     yy: RealArray

@@ -1,4 +1,5 @@
-"""Physical quantities as text with units, for input and output; all computation is with SI floats."""
+"""Physical quantities as text with units, for input and output; all computation is with SI
+floats."""
 
 from __future__ import annotations
 
@@ -61,8 +62,8 @@ _PREFIXES = {
 _SYMBOLS = {power: symbol for symbol, power in _PREFIXES.items()}
 
 _PREFIXED = ("m", "Pa", "N", "J", "s", "B", "N/m", "Pa/m")
-"""Units that are read and printed with ``_PREFIXES`` here, to the bit as pint does, which takes 0.5 s to import and to set up.
-Powers of a length are printed here too; all others are left to pint."""
+"""Units that are read and printed with ``_PREFIXES`` here, to the bit as pint does, which takes 0.5
+s to import and to set up. Powers of a length are printed here too; all others are left to pint."""
 
 _DIRECT = {("deg", "rad"): math.pi / 180.0, ("%", "dimensionless"): 0.01}
 """Factors of two more usual units (the contact angle of liquids has a default in degrees)."""
@@ -85,7 +86,8 @@ def parse(text: str | float, kind: str, what: str, instead: str = "") -> float:
     Parameters
     ----------
     text
-        Number followed by a unit, or a hardness number. A unit is never guessed. What has been read already stays as it is.
+        Number followed by a unit, or a hardness number. A unit is never guessed. What has been read
+        already stays as it is.
     kind
         One of ``DIMENSIONS``, or an SI unit such as ``"N/m"`` for a quantity that is none of them.
     what
@@ -110,7 +112,8 @@ def parse(text: str | float, kind: str, what: str, instead: str = "") -> float:
 
 
 def parse_in(text: str, unit: str, what: str, instead: str = "") -> float:
-    """Return the value in ``unit`` of a quantity such as ``"3 um**-2"``, for ``unit`` = ``"1/m^2"``; no unit is a plain number.
+    """Return the value in ``unit`` of a quantity such as ``"3 um**-2"``, for ``unit`` =
+    ``"1/m^2"``; no unit is a plain number.
 
     Raises
     ------
@@ -173,7 +176,8 @@ def unit_factor(name: str, kind: str, what: str) -> float:
 
 
 def _meant(name: str, unit: str) -> str:
-    """What may be meant by a ``name`` that is no unit: one that differs in the case of letters, or ``unit`` itself."""
+    """What may be meant by a ``name`` that is no unit: one that differs in the case of letters, or
+    ``unit`` itself."""
     known = [
         f"{prefix}{base}"
         for base in ("Pa", "N", "m", "J", "N/m", "rad", "s")
@@ -185,7 +189,8 @@ def _meant(name: str, unit: str) -> str:
 
 _FACTOR = r"[^\W\d_]{1,20}(?: ?(?:\*\*|\^) ?[+-]?\d(?:\.\d)?)?"
 _GRAMMAR = re.compile(rf"(?:1 ?/ ?)?\(?{_FACTOR}\)?(?: ?[*/· ] ?\(?{_FACTOR}\)?){{0,5}}|[%°1]|")
-"""What the library of units is given, which computes whatever stands in a text: names with small powers."""
+"""What the library of units is given, which computes whatever stands in a text: names with small
+powers."""
 
 
 @cache
@@ -233,7 +238,8 @@ _LARGEST = 1e21
 
 
 def show(value: float, unit: str, digits: int = 4) -> str:
-    """Text of an SI ``value`` with an SI-prefixed ``unit``, for example ``show(5e-9, "m")`` → ``"5 nm"``."""
+    """Text of an SI ``value`` with an SI-prefixed ``unit``, for example ``show(5e-9, "m")`` →
+    ``"5 nm"``."""
     if not unit or unit == "1":
         return f"{value:.{digits}g}"
     if value != value or value in (float("inf"), float("-inf")):
@@ -253,7 +259,8 @@ def show(value: float, unit: str, digits: int = 4) -> str:
 
 
 def _inverse(power: int, times: int = 1) -> float:
-    """One over a prefix to the power ``times``, computed as pint does: 1e-9 is rounded, and 1e9 differs from it in the last bit."""
+    """One over a prefix to the power ``times``, computed as pint does: 1e-9 is rounded, and 1e9
+    differs from it in the last bit."""
     return float(math.pow(float(f"1e{power}"), -times))
 
 
@@ -262,7 +269,8 @@ _PLAIN = re.compile(rf"""(?<![\w.'"+-])(?:({_DIGITS}) x )?({_DIGITS}) (Pa|N|m|J|
 
 
 def prefixed(text: str) -> str:
-    """``text`` with its long SI numbers as ``show`` writes them: "1.5e+10 Pa" is "15 GPa", of two sides both; what is quoted stays."""
+    """``text`` with its long SI numbers as ``show`` writes them: "1.5e+10 Pa" is "15 GPa", of two
+    sides both; what is quoted stays."""
 
     def shown(match: re.Match[str]) -> str:
         numbers = [float(number) for number in match.groups()[:2] if number]
@@ -273,7 +281,8 @@ def prefixed(text: str) -> str:
 
 
 def times(ratio: float, digits: int = 2) -> str:
-    """Text of a ``ratio`` in a sentence, without a power of ten up to a million: ``times(412.3)`` → ``"410"``."""
+    """Text of a ``ratio`` in a sentence, without a power of ten up to a million: ``times(412.3)`` →
+    ``"410"``."""
     text = f"{ratio:.{digits}g}"
     return f"{float(text):.0f}" if "e" in text and 1.0 <= ratio < 1e6 else text
 
@@ -284,19 +293,25 @@ def percent(share: float, digits: int = 3) -> str:
 
 
 _POWERS = {"m**2": (2, "²", 0.01), "m**3": (3, "³", 1e-3), "m**4": (4, "⁴", 0.01)}
-"""For powers of a length, whose prefixes are factors of a million and more apart: the largest unit from m to nm in which a value
-is at least the number given serves, else the smallest."""
+"""For powers of a length, whose prefixes are factors of a million and more apart: the largest unit
+from m to nm in which a value is at least the number given serves, else the smallest."""
 
 
-# Hardness numbers of Vickers, Brinell and Rockwell as the pressure that this package calls hardness: force over *projected* area.
+# Hardness numbers of Vickers, Brinell and Rockwell as the pressure that this package calls
+# hardness: force over *projected* area.
 #
-# Vickers and Brinell numbers are forces over the curved or inclined area of the imprint itself, in kgf/mm².
+# Vickers and Brinell numbers are forces over the curved or inclined area of the imprint itself, in
+# kgf/mm².
 #
-# HV, HV10        HV 9.80665 MPa / sin 68°: the faces of the pyramid stand at 68° to its axis, so that HV is 0.927 of the pressure.
-# HB, HBW         HB 9.80665 MPa / (1 - t/D): the ball of diameter D leaves a cap of depth t, of area π D t and projected area π t (D - t);
-#                 from HB = F/(π D t) is t/D = (F/D²)/(π HB). A number like HBW10/3000 gives D in mm and F in kgf, else F/D² is 30 kgf/mm²
-#                 as for steel and cast iron, below 95.5 HB 10 kgf/mm² as for softer metals. Valid for imprints of 0.24 D to 0.6 D (ISO 6506-1).
-# HRC             by the Vickers numbers of non-austenitic steels in ASTM E140, table 1, from 20 to 68 HRC; other materials differ.
+# HV, HV10        HV 9.80665 MPa / sin 68°: the faces of the pyramid stand at 68° to its axis, so
+#                 that HV is 0.927 of the pressure.
+# HB, HBW         HB 9.80665 MPa / (1 - t/D): the ball of diameter D leaves a cap of depth t, of
+#                 area π D t and projected area π t (D - t); from HB = F/(π D t) is t/D = (F/D²)/(π
+#                 HB). A number like HBW10/3000 gives D in mm and F in kgf, else F/D² is 30 kgf/mm²
+#                 as for steel and cast iron, below 95.5 HB 10 kgf/mm² as for softer metals. Valid
+#                 for imprints of 0.24 D to 0.6 D (ISO 6506-1).
+# HRC             by the Vickers numbers of non-austenitic steels in ASTM E140, table 1, from 20 to
+#                 68 HRC; other materials differ.
 
 KILOPOND = 9.80665e6
 """1 kgf/mm² in Pa."""
@@ -321,7 +336,8 @@ _HARDNESS_NUMBER = re.compile(
 
 
 def hardness_of(text: str, what: str) -> float | None:
-    """Hardness in Pa that a number such as ``"700 HV"``, ``"200 HB"``, ``"187 HBW10/3000"`` or ``"60 HRC"`` stands for; None for any other text.
+    """Hardness in Pa that a number such as ``"700 HV"``, ``"200 HB"``, ``"187 HBW10/3000"`` or
+    ``"60 HRC"`` stands for; None for any other text.
 
     Raises
     ------
@@ -343,7 +359,8 @@ def hardness_of(text: str, what: str) -> float | None:
         last = 20 + 2 * (len(VICKERS_OF_ROCKWELL_C) - 1)
         if not 20.0 <= number <= last:
             raise UnitError(
-                f"{what} must be from 20 to {last} HRC, the range of the table of steels, but is {text!r}. Give HV, HB or a pressure."
+                f"{what} must be from 20 to {last} HRC, the range of the table of steels, but is {text!r}. "
+                "Give HV, HB or a pressure."
             )
         row = min(int((number - 20.0) / 2.0), len(VICKERS_OF_ROCKWELL_C) - 2)
         low, high = VICKERS_OF_ROCKWELL_C[row : row + 2]
@@ -358,8 +375,9 @@ def hardness_of(text: str, what: str) -> float | None:
         if not given:
             least, most = _SOFTER / (math.pi * _DEEPEST), _HARDEST_BRINELL
         raise UnitError(
-            f"{what} must be from {least:.3g} to {min(most, _HARDEST_BRINELL):.3g} HB, for imprints of 0.24 to 0.6 of the ball, but is {text!r}. "
-            "Give the ball and the force, such as HBW10/500, HV or a pressure."
+            f"{what} must be from {least:.3g} to {min(most, _HARDEST_BRINELL):.3g} HB, for imprints of 0.24 to "
+            f"0.6 of the ball, but is {text!r}. Give the ball and the force, such as HBW10/500, HV or a "
+            "pressure."
         )
     return number * KILOPOND / (1.0 - depth)
 

@@ -1,6 +1,8 @@
-"""What may stand for a parameter: numbers of a quantity between bounds, whole numbers, choices, several of them.
+"""What may stand for a parameter: numbers of a quantity between bounds, whole numbers, choices,
+several of them.
 
-Each kind of values checks a value, reads one from text such as ``"5 nm"``, and describes itself to documents, forms and commands.
+Each kind of values checks a value, reads one from text such as ``"5 nm"``, and describes itself to
+documents, forms and commands.
 """
 
 from __future__ import annotations
@@ -16,11 +18,13 @@ from .errors import InputError
 from .words import alike
 
 LEAST, LARGEST = 1e-41, 1e40
-"""Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range of floating-point numbers."""
+"""Lengths (m), moduli and pressures (Pa) beyond which products of several of them leave the range
+of floating-point numbers."""
 
 
 class Written(float):
-    """An SI number that keeps the ``text`` in which it was written, so that a document can be written again."""
+    """An SI number that keeps the ``text`` in which it was written, so that a document can be
+    written again."""
 
     text: str
 
@@ -72,7 +76,8 @@ class Values:
         return value
 
     def read(self, value: Any, what: str) -> Any:
-        """What ``value``, mostly text with a unit as in a document or a command, stands for; errors as of ``check``."""
+        """What ``value``, mostly text with a unit as in a document or a command, stands for; errors
+        as of ``check``."""
         return value
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
@@ -94,7 +99,8 @@ class Number(Values):
     Parameters
     ----------
     quantity
-        Kind of quantity of ``core.units.DIMENSIONS`` such as ``"length"``, or an SI unit such as ``"N/m^2"``; "" for none.
+        Kind of quantity of ``core.units.DIMENSIONS`` such as ``"length"``, or an SI unit such as
+        ``"N/m^2"``; "" for none.
     above, least, below, most
         Bounds: > ``above`` or >= ``least``, < ``below`` or <= ``most``.
     words
@@ -149,14 +155,16 @@ class Number(Values):
         return self._checked(value, what, repr(getattr(value, "text", value)))
 
     def read(self, value: Any, what: str) -> float | str:
-        """Number for text with a unit, which is kept; numbers may stand as they are where there is no unit."""
+        """Number for text with a unit, which is kept; numbers may stand as they are where there is
+        no unit."""
         if isinstance(value, Written) or (isinstance(value, str) and value in self.words):
             self.check(value, what)
             return value
         if not isinstance(value, str):
             if self.unit and isinstance(value, int | float):
                 raise InputError(
-                    f"{what} must be text with a number and a unit, such as {self._example!r}, but is the bare number {value!r}."
+                    f"{what} must be text with a number and a unit, such as {self._example!r}, but is the bare "
+                    f"number {value!r}."
                 )
             return self._checked(value, what, repr(value))
         if self.infinite and value.strip() == "inf":
@@ -215,7 +223,8 @@ class Number(Values):
 
 @dataclass(frozen=True)
 class Whole(Values):
-    """Whole numbers of at least ``least`` and at most ``most``, the ``odd`` ones only if so chosen."""
+    """Whole numbers of at least ``least`` and at most ``most``, the ``odd`` ones only if so
+    chosen."""
 
     least: int = 1
     most: int | None = None
@@ -258,7 +267,8 @@ class Whole(Values):
 
 @dataclass(frozen=True, eq=False)
 class Choice(Values):
-    """One of a few ``words``, each with what it stands for; in Python any others too, if ``others`` is true."""
+    """One of a few ``words``, each with what it stands for; in Python any others too, if ``others``
+    is true."""
 
     words: Mapping[str, Any]
     others: bool = False
@@ -367,7 +377,8 @@ class Lengths(Values):
 
 @dataclass(frozen=True)
 class Numbers(Values):
-    """Numbers of points along x and y, at least 1 each: ``[256, 128]``, ``"256x128"``, or ``"256"`` for both."""
+    """Numbers of points along x and y, at least 1 each: ``[256, 128]``, ``"256x128"``, or ``"256"``
+    for both."""
 
     metavar = "NX[xNY]"
 
@@ -452,13 +463,15 @@ class Text(Values):
         """The text."""
         if not isinstance(value, str) or not value.strip():
             raise InputError(
-                f"{what} must be {'text' if not isinstance(value, str) else 'text that is not empty'}, but is {value!r}."
+                f"{what} must be {'text' if not isinstance(value, str) else 'text that is not empty'}, but is "
+                f"{value!r}."
             )
         return value
 
 
 def _digits(number: int) -> str:
-    """Words for an integer that is too long to be shown; Python writes none of more than 4300 digits."""
+    """Words for an integer that is too long to be shown; Python writes none of more than 4300
+    digits."""
     return f"an integer of {int(math.log10(abs(number))) + 1} digits"
 
 

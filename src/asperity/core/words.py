@@ -1,7 +1,10 @@
-"""Words that people read: what can be done, as it is named in Python, on the command line or in the form of the application; printable text, words alike.
+"""Words that people read: what can be done, as it is named in Python, on the command line or in the
+form of the application; printable text, words alike.
 
-Findings and errors say ``{periodise}``; a reader in Python is told ``periodised(surface)``, one of the command line ``--periodise``, one of the form
-the page and the field. ``{friction.law=full stick}`` is the value of a key of documents, which is called by its key, its option or its field.
+Findings and errors say ``{periodise}``; a reader in Python is told ``periodised(surface)``, one of
+the command line ``--periodise``, one of the form the page and the field.
+``{friction.law=full stick}`` is the value of a key of documents, which is called by its key, its
+option or its field.
 """
 
 from __future__ import annotations
@@ -115,7 +118,8 @@ _NAMED = re.compile(r"\{(\w+(?:\.\w+)*)(?:=([^{}]*))?\}")
 
 @contextmanager
 def speaking(door: Door, options: Options = dict) -> Iterator[None]:
-    """Context in which findings and errors name what can be done at this ``door``; a command line has ``options`` by the keys of documents."""
+    """Context in which findings and errors name what can be done at this ``door``; a command line
+    has ``options`` by the keys of documents."""
     before = _DOOR.set(_Speaking(door, options))
     try:
         yield
@@ -124,7 +128,8 @@ def speaking(door: Door, options: Options = dict) -> Iterator[None]:
 
 
 def in_words(text: str, door: Door | None = None) -> str:
-    """``text`` with every ``{action}`` in the words of ``door``, by default the one that is speaking; other braces stay."""
+    """``text`` with every ``{action}`` in the words of ``door``, by default the one that is
+    speaking; other braces stay."""
     here = _DOOR.get()
     return _NAMED.sub(lambda found: _said(found, door or here.door, here), text)
 
@@ -149,7 +154,8 @@ def _said(found: re.Match[str], door: Door, here: _Speaking) -> str:
 
 
 def key_in_words(key: str) -> str:
-    """What the dotted ``key`` of a document is called: a form shows fields, the other doors take documents as they are written."""
+    """What the dotted ``key`` of a document is called: a form shows fields, the other doors take
+    documents as they are written."""
     return field_of(key) if _DOOR.get().door == "form" else key
 
 
@@ -157,6 +163,11 @@ def field_of(key: str) -> str:
     """What a form calls the field of a dotted ``key`` of documents: its tables and its label."""
     *tables, last = map(label_of, re.sub(r"\[(\d+)\]", r" \1", key.removesuffix(".kind")).split("."))
     return f"{', '.join(tables)}: {last}" if tables else last
+
+
+def first_paragraph(item: object) -> str:
+    """What the docstring of ``item`` says first, as one line; empty without one."""
+    return " ".join((item.__doc__ or "").strip().partition("\n\n")[0].split())
 
 
 def label_of(name: str) -> str:
@@ -168,16 +179,19 @@ def label_of(name: str) -> str:
 # How text is shown and compared.
 
 _HIDDEN = ("Cc", "Cf", "Cn", "Co", "Cs", "Zl", "Zp")
-"""Categories of characters that move the cursor, hide or turn text, have no agreed shape, or cannot be written."""
+"""Categories of characters that move the cursor, hide or turn text, have no agreed shape, or cannot
+be written."""
 
 
 def alike(word: str) -> str:
-    """``word`` in the form in which capitals, spaces, hyphens and underscores make no difference."""
+    """``word`` in the form in which capitals, spaces, hyphens and underscores make no
+    difference."""
     return re.sub(r"[\s_-]+", "_", word.strip().lower())
 
 
 def printable(text: str, *, keep: str = "") -> str:
-    """``text`` with control and format characters, but those to ``keep``, as escapes such as ``\\x1b``."""
+    """``text`` with control and format characters, but those to ``keep``, as escapes such as
+    ``\\x1b``."""
     if text.isprintable():
         return text
     return "".join(

@@ -1,4 +1,5 @@
-"""Bodies in space: bricks between three sets of planes, graded beneath a track, halved by a plane of symmetry."""
+"""Bodies in space: bricks between three sets of planes, graded beneath a track, halved by a plane
+of symmetry."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ BRICK = np.array([[i, j, k] for i in (-1.0, 1.0) for j in (-1.0, 1.0) for k in (
 
 
 def brick_mesh(x: RealArray, y: RealArray, z: RealArray, region: IntArray) -> Mesh:
-    """Bricks between the planes ``x``, ``y`` and ``z`` (m); ``region`` (len(z) - 1,) is that of each layer of bricks. Points run down first, then along y."""
+    """Bricks between the planes ``x``, ``y`` and ``z`` (m); ``region`` (len(z) - 1,) is that of
+    each layer of bricks. Points run down first, then along y."""
     points = np.stack(np.meshgrid(x, y, z, indexing="ij"), axis=-1).reshape(-1, 3)
     ny, nz = len(y), len(z)
     i, j, k = np.meshgrid(np.arange(len(x) - 1), np.arange(ny - 1), np.arange(nz - 1), indexing="ij")
@@ -31,9 +33,11 @@ def brick_mesh(x: RealArray, y: RealArray, z: RealArray, region: IntArray) -> Me
 def track_lines(
     body: Layered, radius: float, resolution: Resolution, ends: tuple[float, float]
 ) -> tuple[RealArray, RealArray, RealArray, IntArray]:
-    """Lines x, y >= 0 and z of a mesh beneath contacts of at most ``radius`` (m) centred between the ``ends`` (m) of a track along x, and the region of each row.
+    """Lines x, y >= 0 and z of a mesh beneath contacts of at most ``radius`` (m) centred between
+    the ``ends`` (m) of a track along x, and the region of each row.
 
-    Elements have their finest size a/across up to a quarter radius beside the track and down to ``depth`` radii.
+    Elements have their finest size a/across up to a quarter radius beside the track and down to
+    ``depth`` radii.
 
     Raises
     ------
@@ -83,7 +87,8 @@ def track_lines(
 
 
 def bricks(mesh: Mesh) -> Elements:
-    """Bricks of a ``mesh`` in space with 2 x 2 x 2 Gauss points, free of locking (B-bar); unknowns u_x, u_y, u_z of each point."""
+    """Bricks of a ``mesh`` in space with 2 x 2 x 2 Gauss points, free of locking (B-bar); unknowns
+    u_x, u_y, u_z of each point."""
     corners = mesh.points[mesh.cells]
     places = BRICK * GAUSS
     linear = 1.0 + places[:, None, :] * BRICK
@@ -112,7 +117,8 @@ def bricks(mesh: Mesh) -> Elements:
 
 
 def tributary(lines: tuple[RealArray, ...]) -> RealArray:
-    """Area (length in the plane) in m² that each point of a surface between ``lines`` stands for, x first."""
+    """Area (length in the plane) in m² that each point of a surface between ``lines`` stands for, x
+    first."""
     found = np.ones(1)
     for line in lines:
         half = 0.5 * np.diff(line)

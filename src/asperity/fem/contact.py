@@ -1,8 +1,11 @@
-"""Contact of a meshed body with an indenter: Newton's method for plastic flow and for the set of touching points at once, with cut steps.
+"""Contact of a meshed body with an indenter: Newton's method for plastic flow and for the set of
+touching points at once, with cut steps.
 
-Points of the surface may not enter the indenter, u_n >= approach - height, and are pushed, never pulled; each touches or is free. Every iterate of
-Newton's method solves the linear contact problem with the tangent stiffness by changing the sets of touching, sticking and slipping points until they agree with
-its forces (primal-dual active set, a semi-smooth Newton method: Hintermüller, Ito and Kunisch 2002). It starts from the points that touched in the last step.
+Points of the surface may not enter the indenter, u_n >= approach - height, and are pushed, never
+pulled; each touches or is free. Every iterate of Newton's method solves the linear contact problem
+with the tangent stiffness by changing the sets of touching, sticking and slipping points until they
+agree with its forces (primal-dual active set, a semi-smooth Newton method: Hintermüller, Ito and
+Kunisch 2002). It starts from the points that touched in the last step.
 """
 
 from __future__ import annotations
@@ -50,7 +53,8 @@ class ContactSurface:
     friction
         Coefficient μ >= 0; ``inf``: whatever touches sticks.
     relative
-        Matrix that gives the unknowns of the elements from those of the system, in which an elastic indenter moves with the body; None: they are the same.
+        Matrix that gives the unknowns of the elements from those of the system, in which an elastic
+        indenter moves with the body; None: they are the same.
     """
 
     normal: IntArray
@@ -67,7 +71,8 @@ class Target:
     Attributes
     ----------
     heights
-        (points,) gap in m under the undeformed indenter whose lowest point touches the undeformed surface; ``inf`` beyond its edge.
+        (points,) gap in m under the undeformed indenter whose lowest point touches the undeformed
+        surface; ``inf`` beyond its edge.
     approach
         How far the indenter moves into the surface, in m; None: it follows from the ``force``.
     force
@@ -175,12 +180,14 @@ class Pressed:
         )
 
     def advance(self, start: Equilibrium, path: Callable[[float], Target]) -> Equilibrium:
-        """Follow ``path`` from its part 0, at ``start``, to 1: at once, or in halves where Newton's method fails.
+        """Follow ``path`` from its part 0, at ``start``, to 1: at once, or in halves where Newton's
+        method fails.
 
         Raises
         ------
         ConvergenceError
-            If a step of 1/1024 of the path does not converge: near collapse, or the loads are far too large.
+            If a step of 1/1024 of the path does not converge: near collapse, or the loads are far
+            too large.
         """
         done, part, cuts = 0.0, 1.0, 0
         now = start
@@ -192,7 +199,8 @@ class Pressed:
                 cuts, part = cuts + 1, 0.5 * part
                 if part < 0.5**MOST_CUTS:
                     raise ConvergenceError(
-                        f"A step of the indenter is not found even in {2**MOST_CUTS} parts: {error} Take more steps, or give a little hardening.",
+                        f"A step of the indenter is not found even in {2**MOST_CUTS} parts: {error} Take more "
+                        "steps, or give a little hardening.",
                         now,
                     ) from error
                 continue
@@ -217,7 +225,8 @@ class _Newton:
             self._first_touch()
 
     def _first_touch(self) -> None:
-        """The points that touch an elastic body, from those that are deepest in the indenter: one point alone would yield far too much."""
+        """The points that touch an elastic body, from those that are deepest in the indenter: one
+        point alone would yield far too much."""
         gap = self.target.heights + self.u[self.surface.normal]
         self.touching = gap <= gap.min() + 1e-12 * np.ptp(gap[np.isfinite(gap)])
         if self.target.approach is not None:
@@ -240,7 +249,8 @@ class _Newton:
             depth *= min(max((self.target.force / max(found, 1e-300)) ** (2.0 / 3.0), 0.01), 100.0)
 
     def _elastic(self, target: Target) -> float:
-        """Contact force in N at the approach of ``target`` if the body stayed elastic from here; it leaves displacement and touching points there."""
+        """Contact force in N at the approach of ``target`` if the body stayed elastic from here; it
+        leaves displacement and touching points there."""
         wanted, self.target = self.target, target
         self.approach = float(target.approach or 0.0)
         self.u = self.start.displacement.copy()
@@ -250,7 +260,8 @@ class _Newton:
         return float(pushed[self.touching].sum())
 
     def _settle(self, forces: RealArray, stiffness: sparse.csc_array) -> RealArray:
-        """One step of Newton's method, with the sets that belong to its linear forces, which are given back in N."""
+        """One step of Newton's method, with the sets that belong to its linear forces, which are
+        given back in N."""
         base, approach, before = self.u, self.approach, forces
         for _ in range(MOST_SETS):
             self.u, self.approach = base.copy(), approach
@@ -306,7 +317,8 @@ class _Newton:
     # The sets.
 
     def _sort(self, forces: RealArray) -> bool:
-        """Move points between the sets by the forces and displacements of the last iterate; whether one was moved."""
+        """Move points between the sets by the forces and displacements of the last iterate; whether
+        one was moved."""
         surface, normal = self.surface, forces[self.surface.normal]
         depth = self.u[surface.normal] - (self.approach - self.target.heights)
         small = 1e-12 * max(float(np.abs(self.u).max()), 1e-300)
@@ -349,7 +361,8 @@ class _Newton:
         return found
 
     def _slip_rows(self) -> sparse.csc_array | None:
-        """What subtracts the friction μ p from the balance of slipping points; None if no point slips."""
+        """What subtracts the friction μ p from the balance of slipping points; None if no point
+        slips."""
         slipping = self.slipping & self.touching
         if not self.surface.friction or not slipping.any():
             return None

@@ -1,7 +1,9 @@
-"""Elements as arrays: strains from displacements, forces from stresses, stiffness from tangents, for any dimension.
+"""Elements as arrays: strains from displacements, forces from stresses, stiffness from tangents,
+for any dimension.
 
-An element is its matrix B, which gives the strains at its Gauss points, their weights and the numbers of its unknowns. Strains of B are those of
-engineering (shear doubled), so that forces are the sum of B^T stress; strains that are handed out are components of the tensor.
+An element is its matrix B, which gives the strains at its Gauss points, their weights and the
+numbers of its unknowns. Strains of B are those of engineering (shear doubled), so that forces are
+the sum of B^T stress; strains that are handed out are components of the tensor.
 """
 
 from __future__ import annotations
@@ -72,7 +74,8 @@ class Elements:
         return np.bincount(self.unknowns.ravel(), own.ravel(), minlength=self.size).astype(float)
 
     def stiffnesses(self, tangent: RealArray, chosen: IntArray | slice = slice(None)) -> RealArray:
-        """Matrices B^T C B of the ``chosen`` elements; ``tangent`` (chosen, points, 6, 6), or (chosen, 1, 6, 6) for all points of an element."""
+        """Matrices B^T C B of the ``chosen`` elements; ``tangent`` (chosen, points, 6, 6), or
+        (chosen, 1, 6, 6) for all points of an element."""
         rows = list(self.components)
         strain_of = self.strain_of[chosen]
         small = tangent[..., rows, :][..., :, rows]
@@ -126,7 +129,8 @@ CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 
 def mean_dilatation(strain_of: RealArray, weights: RealArray) -> RealArray:
-    """B with the change of volume at every point replaced by its mean over the element (B-bar, Hughes 1980): flow that keeps the volume does not lock.
+    """B with the change of volume at every point replaced by its mean over the element (B-bar,
+    Hughes 1980): flow that keeps the volume does not lock.
 
     The first three components must be xx, yy, zz.
     """
@@ -162,10 +166,12 @@ def _in_the_plane(mesh: Mesh, axisymmetric: bool) -> Elements:
 
 
 def axisymmetric(mesh: Mesh) -> Elements:
-    """Rings of quadrilaterals of a ``mesh`` in (r, z), free of locking; unknowns u_r, u_z of each point; xx, yy, zz, xz are rr, θθ, zz, rz."""
+    """Rings of quadrilaterals of a ``mesh`` in (r, z), free of locking; unknowns u_r, u_z of each
+    point; xx, yy, zz, xz are rr, θθ, zz, rz."""
     return _in_the_plane(mesh, True)
 
 
 def plane_strain(mesh: Mesh) -> Elements:
-    """Quadrilaterals of a ``mesh`` in (x, z) without strain along y, free of locking; unknowns u_x, u_z of each point; weights per metre of y."""
+    """Quadrilaterals of a ``mesh`` in (x, z) without strain along y, free of locking; unknowns u_x,
+    u_z of each point; weights per metre of y."""
     return _in_the_plane(mesh, False)

@@ -1,4 +1,5 @@
-"""What lies beyond the boundary of an axisymmetric mesh: a support by which a point load has exactly its displacement in the half-space."""
+"""What lies beyond the boundary of an axisymmetric mesh: a support by which a point load has
+exactly its displacement in the half-space."""
 
 from __future__ import annotations
 
@@ -12,7 +13,8 @@ from .mesh import Mesh
 
 
 def point_load(r: RealArray, z: RealArray, solid: Elastic) -> tuple[RealArray, RealArray]:
-    """Displacement (…, 2) along r and z in m, and stress (…, 3) rr, zz, rz in Pa, under a unit load into a half-space (Johnson 1985, eqs 3.18, 3.19); r > 0."""
+    """Displacement (…, 2) along r and z in m, and stress (…, 3) rr, zz, rz in Pa, under a unit load
+    into a half-space (Johnson 1985, eqs 3.18, 3.19); r > 0."""
     nu, G = solid.poisson_ratio, solid.shear_modulus
     R, part = np.hypot(r, z), 1.0 - 2.0 * nu
     moved = np.stack([r * z / R**3 - part * (R - z) / (R * r), z**2 / R**3 + 2.0 * (1.0 - nu) / R], axis=-1)
@@ -22,10 +24,12 @@ def point_load(r: RealArray, z: RealArray, solid: Elastic) -> tuple[RealArray, R
 
 
 def exterior(mesh: Mesh, solid: Elastic) -> sparse.csc_array:
-    """Stiffness (unknowns, unknowns) of the half-space ``solid`` outside ``mesh``, in N/m, for the field of a load at the origin.
+    """Stiffness (unknowns, unknowns) of the half-space ``solid`` outside ``mesh``, in N/m, for the
+    field of a load at the origin.
 
-    The boundary is pushed back by its forces f under a unit load when it moves, weighed by f, as far as under a unit load: f f^T/(f^T u). What is left out falls as
-    the square of contact radius over distance or faster, where a fixed boundary errs by 0.6 of the first power.
+    The boundary is pushed back by its forces f under a unit load when it moves, weighed by f, as
+    far as under a unit load: f f^T/(f^T u). What is left out falls as the square of contact radius
+    over distance or faster, where a fixed boundary errs by 0.6 of the first power.
     """
     pushed = np.zeros((len(mesh.points), 2))
     places, weights = rule(4)

@@ -1,4 +1,5 @@
-"""What a history of indentation gives: curves, zones of plastic flow, fields, tractions of interfaces, tension in layers."""
+"""What a history of indentation gives: curves, zones of plastic flow, fields, tractions of
+interfaces, tension in layers."""
 
 from __future__ import annotations
 
@@ -34,11 +35,13 @@ class PlasticZone:
     volume
         In m³.
     top, bottom, radius
-        Smallest and largest depth and largest distance from the axis in m, of points that have flowed; NaN if none has.
+        Smallest and largest depth and largest distance from the axis in m, of points that have
+        flowed; NaN if none has.
     largest
         Largest accumulated plastic strain, at ``place`` (r, z) in m.
     first_place, first_approach
-        (r, z) in m where flow began, and the approach in m at the end of the step in which it did; NaN if it did not.
+        (r, z) in m where flow began, and the approach in m at the end of the step in which it did;
+        NaN if it did not.
     """
 
     region: int = measured("1", "number of the region from the surface down")
@@ -74,7 +77,8 @@ class InterfaceTraction:
 
 @dataclass(frozen=True, eq=False)
 class LayerTension:
-    """Radial stress on the faces of a layer: tension at its surface beside the contact and at its bottom under it opens cracks.
+    """Radial stress on the faces of a layer: tension at its surface beside the contact and at its
+    bottom under it opens cracks.
 
     Attributes
     ----------
@@ -138,7 +142,8 @@ class SolidFields:
         return von_mises(self.stress)
 
     def rows(self) -> tuple[RealArray, RealArray, IntArray]:
-        """Lines r and z (m) between the elements, and numbers (rings, rows) of these, for drawing maps."""
+        """Lines r and z (m) between the elements, and numbers (rings, rows) of these, for drawing
+        maps."""
         r, z = np.unique(self.mesh.points[:, 0]), np.unique(self.mesh.points[:, 1])
         return r, z, np.arange(len(self.mesh.cells)).reshape(len(r) - 1, len(z) - 1)
 
@@ -183,7 +188,8 @@ class SolidFields:
         return LayerTension(number, r, found[0], found[1])
 
     def net_axial_force(self) -> RealArray:
-        """Force ∫ σ_zz dA in N through each row of elements, downwards from the surface: minus the load, and zero for residual stresses."""
+        """Force ∫ σ_zz dA in N through each row of elements, downwards from the surface: minus the
+        load, and zero for residual stresses."""
         _, z, cells = self.rows()
         volume = (self.stress[..., 2] * self.elements.weights).sum(axis=1)
         found: RealArray = volume[cells].sum(axis=0) / np.diff(z)
@@ -200,7 +206,8 @@ class SolidFields:
 
 
 def ring_areas(r: RealArray) -> RealArray:
-    """Area in m² of the surface that belongs to each of the points ``r`` (m), by linear shape functions."""
+    """Area in m² of the surface that belongs to each of the points ``r`` (m), by linear shape
+    functions."""
     found, step = np.zeros_like(r), np.diff(r)
     found[:-1] += 2.0 * np.pi * step * (r[:-1] / 3.0 + r[1:] / 6.0)
     found[1:] += 2.0 * np.pi * step * (r[:-1] / 6.0 + r[1:] / 3.0)
@@ -249,7 +256,8 @@ class IndentationStep:
     contact_stiffness
         dP/dδ in N/m of an elastic change with the contact as it is: that of unloading at its start.
     work, elastic_energy, plastic_work, stored_energy, hardening_work
-        In J, since the virgin state: by the indenter; recoverable; stress times plastic strain; held by back stresses; ∫ Y dq dV of this model.
+        In J, since the virgin state: by the indenter; recoverable; stress times plastic strain;
+        held by back stresses; ∫ Y dq dV of this model.
     zones
         One for each region, from the surface down.
     pressure, surface
@@ -309,7 +317,8 @@ class IndentationHistory:
 
     @property
     def advice(self) -> tuple[Advice, ...]:
-        """What should be known before its numbers are used: contacts of a ball that are too large for small strains."""
+        """What should be known before its numbers are used: contacts of a ball that are too large
+        for small strains."""
         return tuple(beyond_small_strain(float(self.contact_radius.max()), self.ball))
 
     def _of(self, name: str) -> RealArray:
@@ -352,7 +361,8 @@ class IndentationHistory:
 
     @property
     def imprint(self) -> RealArray:
-        """(points,) displacement of the surface into the body at the last step in m: the residual imprint when it is unloaded."""
+        """(points,) displacement of the surface into the body at the last step in m: the residual
+        imprint when it is unloaded."""
         return self.steps[-1].surface
 
     @property
@@ -362,7 +372,8 @@ class IndentationHistory:
 
     @property
     def unloading_stiffness(self) -> float:
-        """dP/dδ in N/m where unloading from the largest load begins, from a power law through the steps that follow above half that load (Oliver and Pharr 1992).
+        """dP/dδ in N/m where unloading from the largest load begins, from a power law through the
+        steps that follow above half that load (Oliver and Pharr 1992).
 
         Raises
         ------
@@ -376,7 +387,8 @@ class IndentationHistory:
         approach, load = approach[load > 0.5 * load[0]], load[load > 0.5 * load[0]]
         if len(load) < 4:
             raise InputError(
-                f"unloading must be at least three steps above half the largest load, but is {len(load) - 1}. Add steps of unloading, or use contact_stiffness."
+                f"unloading must be at least three steps above half the largest load, but is {len(load) - 1}. "
+                "Add steps of unloading, or use contact_stiffness."
             )
 
         def law(residual: float) -> tuple[float, float]:
@@ -392,7 +404,8 @@ class IndentationHistory:
         return law(residual)[1] * float(load[0]) / float(approach[0] - residual)
 
     def oliver_pharr(self, indenter: Indenter, *, shape: float = PARABOLOID) -> OliverPharr:
-        """Hardness and modulus as they are read off a measured curve, with the area that ``indenter`` has at the contact depth.
+        """Hardness and modulus as they are read off a measured curve, with the area that
+        ``indenter`` has at the contact depth.
 
         ``shape``: ε of the contact depth, 0.72 for a cone, 0.75 for a paraboloid, 1 for a punch.
 

@@ -1,4 +1,5 @@
-"""Indentation of a layered elastic-plastic solid by a rigid or elastic indenter of any profile: load, unload, reload, go on."""
+"""Indentation of a layered elastic-plastic solid by a rigid or elastic indenter of any profile:
+load, unload, reload, go on."""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ from .solid import Solid
 
 @dataclass(frozen=True)
 class Depth:
-    """Step to an approach. ``approach``: in m, of the indenter from its first touch of the undeformed surface."""
+    """Step to an approach. ``approach``: in m, of the indenter from its first touch of the
+    undeformed surface."""
 
     approach: float
 
@@ -47,7 +49,8 @@ class Depth:
 
 @dataclass(frozen=True)
 class Load:
-    """Step to a load. ``force``: in N, >= 0; after a step to 0 the approach is that at which the indenter just touches."""
+    """Step to a load. ``force``: in N, >= 0; after a step to 0 the approach is that at which the
+    indenter just touches."""
 
     force: float
 
@@ -78,26 +81,31 @@ def indentation(
     body
         Half-space, coated or not, with bonded layers.
     indenter
-        ``Paraboloid``, ``Sphere``, ``Cone``, ``FlatPunch``, or any function of r (m) that gives its height (m).
+        ``Paraboloid``, ``Sphere``, ``Cone``, ``FlatPunch``, or any function of r (m) that gives its
+        height (m).
     steps
         Approaches in m, or ``Depth`` and ``Load``; smaller steps follow plastic flow more closely.
     counter_body
-        What the indenter is made of: rigid, or a body that stays elastic, meshed as a half-space as in Hertz' theory.
+        What the indenter is made of: rigid, or a body that stays elastic, meshed as a half-space as
+        in Hertz' theory.
     plasticity
-        How the regions flow, from the surface down, then the base; by default at the yield stresses of the materials.
+        How the regions flow, from the surface down, then the base; by default at the yield stresses
+        of the materials.
     friction
         Coefficient of Coulomb's friction, >= 0; ``inf`` for full stick.
     resolution
         Of the mesh.
     start
-        ``state`` of an earlier history of the same body, indenter and mesh, from which to go on; for the same mesh give ``resolution.radius``.
+        ``state`` of an earlier history of the same body, indenter and mesh, from which to go on;
+        for the same mesh give ``resolution.radius``.
     keep
         Numbers of the steps whose fields are kept; negative ones count from the end.
 
     Raises
     ------
     InputError
-        If an input cannot be used, or a ball is pressed in by more than 0.08 of its radius: strains are not small then.
+        If an input cannot be used, or a ball is pressed in by more than 0.08 of its radius: strains
+        are not small then.
     ConvergenceError
         If a step is not found even in small parts.
 
@@ -106,8 +114,13 @@ def indentation(
     >>> from asperity import Elastic, fem
     >>> from asperity.solids.plasticity import LinearHardening
     >>> steel = Elastic(200e9, 0.3)
-    >>> found = fem.indentation(steel, fem.Paraboloid(1e-3), [1e-7, 2e-7], plasticity=LinearHardening(1e9),
-    ...                         resolution=fem.Resolution(across=12))
+    >>> found = fem.indentation(
+    ...     steel,
+    ...     fem.Paraboloid(1e-3),
+    ...     [1e-7, 2e-7],
+    ...     plasticity=LinearHardening(1e9),
+    ...     resolution=fem.Resolution(across=12),
+    ... )
     >>> bool(found.load[1] > found.load[0])
     True
     """
@@ -231,8 +244,9 @@ class Indentation:
         state = start
         if state.equilibrium.displacement.shape != (self.pressed.solid.elements.size,):
             raise InputError(
-                f"start must be a state of the same mesh with {self.pressed.solid.elements.size} unknowns, but is one of "
-                f"{len(state.equilibrium.displacement)}. Use the same Indentation, or the same resolution with its radius."
+                f"start must be a state of the same mesh with {self.pressed.solid.elements.size} unknowns, but "
+                f"is one of {len(state.equilibrium.displacement)}. Use the same Indentation, or the same "
+                "resolution with its radius."
             )
         kept = {number % len(steps) for number in keep}
         taken, fields = [], {}
@@ -282,7 +296,8 @@ class Indentation:
         return Target(self.heights, last.approach + part * (approach - last.approach))
 
     def _report(self, state: IndentationState) -> IndentationStep:
-        """Numbers of a step; energy held by the back stress is 3/(4 H_k) α : α, ∫ Y dq is by Gauss' rule of 8 points."""
+        """Numbers of a step; energy held by the back stress is 3/(4 H_k) α : α, ∫ Y dq is by Gauss'
+        rule of 8 points."""
         now, solid = state.equilibrium, self.pressed.solid
         moved = self.pressed.elements_move(now.displacement)
         elastic = float(solid.elastic_energy(now.stress).sum())
@@ -321,7 +336,8 @@ class Indentation:
     # Numbers of a step.
 
     def _contact_radius(self, now: Equilibrium) -> float:
-        """Where the gap, which grows as the power 3/2 of the distance from the edge of a smooth contact, would be zero."""
+        """Where the gap, which grows as the power 3/2 of the distance from the edge of a smooth
+        contact, would be zero."""
         if not now.touching.any():
             return 0.0
         last = int(np.flatnonzero(now.touching)[-1])
@@ -383,15 +399,16 @@ class Indentation:
 def _largest_radius(indenter: Indenter, steps: Sequence[IndentationTarget], laws: tuple[Elastic | J2, ...]) -> float:
     """Radius in m at which the indenter cuts the undeformed surface at its deepest step.
 
-    The approach under a load is that on the softest region, elastic or fully plastic, by halving; it need only be near.
+    The approach under a load is that on the softest region, elastic or fully plastic, by halving;
+    it need only be near.
     """
     depths = [aim.approach if isinstance(aim, Depth) else aim for aim in steps if not isinstance(aim, Load)]
     deepest = max((require.finite(depth, "approach of a step (m)") for depth in depths), default=0.0)
     ball = ball_radius(indenter)
     if deepest > 0.5 * LARGEST_SLOPE**2 * ball:
         raise InputError(
-            f"depth of indentation (m) must be at most {0.5 * LARGEST_SLOPE**2 * ball:.3g}, 0.08 of the radius of the indenter, but is {deepest:.3g}. "
-            "Beyond that strains are not small.",
+            f"depth of indentation (m) must be at most {0.5 * LARGEST_SLOPE**2 * ball:.3g}, 0.08 of the radius "
+            f"of the indenter, but is {deepest:.3g}. Beyond that strains are not small.",
             subject="depth of indentation (m)",
         )
     force = max((aim.force for aim in steps if isinstance(aim, Load)), default=0.0)
@@ -409,13 +426,15 @@ def _largest_radius(indenter: Indenter, steps: Sequence[IndentationTarget], laws
         deepest = max(deepest, math.exp(high))
     if deepest <= 0.0:
         raise InputError(
-            "steps must be a load or approach greater than zero somewhere, but is none. Give resolution.radius to start from a state."
+            "steps must be a load or approach greater than zero somewhere, but is none. Give "
+            "resolution.radius to start from a state."
         )
     return radius_at(indenter, deepest)
 
 
 def _lower_side(mesh: Mesh, body: Layered) -> tuple[sparse.csc_array, BoolArray]:
-    """Stiffness of what lies beyond the mesh, and unknowns that are zero: u_r on the axis, and all on a rigid base and the far side of a body that has one."""
+    """Stiffness of what lies beyond the mesh, and unknowns that are zero: u_r on the axis, and all
+    on a rigid base and the far side of a body that has one."""
     fixed, base = np.zeros((len(mesh.points), 2), dtype=bool), body.reduced.base
     fixed[mesh.side(-1), 0] = True
     if not isinstance(base, RigidBase):

@@ -1,6 +1,8 @@
-"""Shapes of axisymmetric indenters: the gap under one whose lowest point touches an undeformed surface, as a function of r.
+"""Shapes of axisymmetric indenters: the gap under one whose lowest point touches an undeformed
+surface, as a function of r.
 
-Any function of an array of r (m) that gives heights (m), zero at r = 0 and growing, is an indenter; ``inf`` stands beyond its edge.
+Any function of an array of r (m) that gives heights (m), zero at r = 0 and growing, is an indenter;
+``inf`` stands beyond its edge.
 """
 
 from __future__ import annotations
@@ -18,7 +20,8 @@ from ..core.errors import InputError
 from ..core.status import Advice
 
 LARGEST_SLOPE, SMALL_SLOPE = 0.4, 0.15
-"""Slope of an indenter at the edge of the contact, of a ball contact over indenter radius, beyond which strains are not small, and up to which small strains err by a few per cent."""
+"""Slope of an indenter at the edge of the contact, of a ball contact over indenter radius, beyond
+which strains are not small, and up to which small strains err by a few per cent."""
 
 LARGE_STRAIN = 0.1
 """Accumulated plastic strain from which on small strains err by more than a few per cent."""
@@ -60,7 +63,8 @@ class Sphere(_OfRadius):
 
 @dataclass(frozen=True)
 class Cone:
-    """Cone. ``slope``: height over radius, > 0: the cotangent of half the angle at the apex; 0.3579 displaces as much as Berkovich's pyramid (70.3°)."""
+    """Cone. ``slope``: height over radius, > 0: the cotangent of half the angle at the apex; 0.3579
+    displaces as much as Berkovich's pyramid (70.3°)."""
 
     slope: float
 
@@ -83,14 +87,19 @@ class FlatPunch(_OfRadius):
 
 
 def ball_radius(indenter: Indenter) -> float:
-    """Radius in m of a ball or paraboloid; infinite for other shapes, whose slope does not tell how far they are pressed."""
+    """Radius in m of a ball or paraboloid; infinite for other shapes, whose slope does not tell how
+    far they are pressed."""
     return indenter.radius if isinstance(indenter, Paraboloid | Sphere) else math.inf
 
 
 def beyond_small_strain(contact_radius: float, ball: float) -> Iterator[Advice]:
-    """Warning where the contact of a ``ball`` (its radius in m) is so large that small strains err."""
+    """Warning where the contact of a ``ball`` (its radius in m) is so large that small strains
+    err."""
     if contact_radius > SMALL_SLOPE * ball:
-        fact = f"The contact radius is {contact_radius / ball:.2g} of that of the indenter. Beyond {SMALL_SLOPE:g} small strains err by more than a few per cent."
+        fact = (
+            f"The contact radius is {contact_radius / ball:.2g} of that of the indenter. Beyond "
+            f"{SMALL_SLOPE:g} small strains err by more than a few per cent."
+        )
         numbers = {"share": contact_radius / ball, "largest": SMALL_SLOPE}
         yield Advice(
             "warning", "small strain", fact, "Take a smaller depth ({indentation.depth}).", numbers, ("indent_",)
@@ -98,7 +107,8 @@ def beyond_small_strain(contact_radius: float, ball: float) -> Iterator[Advice]:
 
 
 def require_gentle(indenter: Indenter, places: RealArray) -> None:
-    """Refuse an ``indenter`` over a track that is steeper than 0.4 where it touches: at the ``places`` (points, 1 or 2) in m from its lowest point.
+    """Refuse an ``indenter`` over a track that is steeper than 0.4 where it touches: at the
+    ``places`` (points, 1 or 2) in m from its lowest point.
 
     Raises
     ------
@@ -117,7 +127,8 @@ def require_gentle(indenter: Indenter, places: RealArray) -> None:
     largest = float(np.max(steepest, where=np.isfinite(steepest), initial=0.0))
     if largest > LARGEST_SLOPE:
         raise InputError(
-            f"slope of the indenter must be at most {LARGEST_SLOPE:g} where it touches, but is {largest:.2g}. Beyond that strains are not small: take a smaller load, or a larger radius.",
+            f"slope of the indenter must be at most {LARGEST_SLOPE:g} where it touches, but is {largest:.2g}. "
+            "Beyond that strains are not small: take a smaller load, or a larger radius.",
             subject="slope of the indenter",
         )
 
@@ -128,11 +139,13 @@ def radius_at(indenter: Indenter, height: float) -> float:
     Raises
     ------
     InputError
-        If the indenter does not start at height zero, is no function of r, or stays lower than the height up to 10¹² times it.
+        If the indenter does not start at height zero, is no function of r, or stays lower than the
+        height up to 10¹² times it.
     """
     if not callable(indenter):
         raise InputError(
-            f"indenter must be a function of the distance from the axis, but is {indenter!r}. Write Paraboloid(R), Sphere(R), Cone(slope) or FlatPunch(a)."
+            f"indenter must be a function of the distance from the axis, but is {indenter!r}. Write "
+            "Paraboloid(R), Sphere(R), Cone(slope) or FlatPunch(a)."
         )
     if not float(indenter(np.zeros(1))[0]) == 0.0:
         raise InputError(

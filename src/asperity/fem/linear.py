@@ -1,4 +1,5 @@
-"""Linear systems of finite elements: some unknowns are prescribed, the others follow from a sparse factorisation."""
+"""Linear systems of finite elements: some unknowns are prescribed, the others follow from a sparse
+factorisation."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ from ..core.errors import ConvergenceError
 
 
 def without(matrix: sparse.csc_array, prescribed: BoolArray) -> sparse.csc_array:
-    """``matrix`` with rows and columns of the ``prescribed`` unknowns replaced by those of a diagonal as large as the others."""
+    """``matrix`` with rows and columns of the ``prescribed`` unknowns replaced by those of a
+    diagonal as large as the others."""
     columns = np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.indptr))
     diagonal = matrix.indices == columns
     touched = prescribed[matrix.indices] | prescribed[columns]

@@ -1,4 +1,5 @@
-"""Meshes of layered half-spaces: fine under the contact, growing geometrically to a far boundary, a line at each interface."""
+"""Meshes of layered half-spaces: fine under the contact, growing geometrically to a far boundary, a
+line at each interface."""
 
 from __future__ import annotations
 
@@ -20,12 +21,14 @@ IntArray = NDArray[np.intp]
 
 @dataclass(frozen=True)
 class Resolution:
-    """How fine a mesh is and how far it reaches; lengths in radii a at which the indenter would cut the undeformed surface at its deepest.
+    """How fine a mesh is and how far it reaches; lengths in radii a at which the indenter would cut
+    the undeformed surface at its deepest.
 
     Parameters
     ----------
     across
-        Elements over a, >= 4. The elastic load of a sphere is within 0.1 % at 40, stresses within some per cent.
+        Elements over a, >= 4. The elastic load of a sphere is within 0.1 % at 40, stresses within
+        some per cent.
     per_layer
         Elements over the thickness of each layer, >= 1, unless ``across`` asks for more.
     depth
@@ -33,8 +36,9 @@ class Resolution:
     growth
         Size of an element over that of its inner neighbour, beyond, 1 to 2.
     distance
-        From the axis to the far boundary, at least 4; ten thicknesses of all layers are added. If it is fixed, approaches are too small by some 0.6/distance of
-        themselves; with the support of ``far_field.exterior`` by less than 1/distance².
+        From the axis to the far boundary, at least 4; ten thicknesses of all layers are added. If
+        it is fixed, approaches are too small by some 0.6/distance of themselves; with the support
+        of ``far_field.exterior`` by less than 1/distance².
     radius
         a in m where it shall not follow from the indenter and the steps; None: it does.
     """
@@ -89,13 +93,15 @@ class Mesh:
         return np.flatnonzero(self.points[:, -1] == self.points[:, -1].max())
 
     def side(self, sign: int = 1) -> IntArray:
-        """Points with the largest x, or for ``sign`` -1 the smallest, which is the axis of a mesh in r."""
+        """Points with the largest x, or for ``sign`` -1 the smallest, which is the axis of a mesh
+        in r."""
         x = sign * self.points[:, 0]
         return np.flatnonzero(x == x.max())
 
 
 def layered_mesh(body: Layered, radius: float, resolution: Resolution, *, both_sides: bool = False) -> Mesh:
-    """Quadrilaterals from the axis (``both_sides``: from the far left) to the far boundary, beneath a contact of at most ``radius`` in m.
+    """Quadrilaterals from the axis (``both_sides``: from the far left) to the far boundary, beneath
+    a contact of at most ``radius`` in m.
 
     Raises
     ------
@@ -111,7 +117,8 @@ def layered_mesh(body: Layered, radius: float, resolution: Resolution, *, both_s
     starts = np.append(0.0, ends)
 
     def beside(x: RealArray, reach: float) -> RealArray:
-        """Wanted size of elements in m at the distance ``x`` from the contact, whose fine mesh reaches ``reach`` radii."""
+        """Wanted size of elements in m at the distance ``x`` from the contact, whose fine mesh
+        reaches ``reach`` radii."""
         size: RealArray = fine + (resolution.growth - 1.0) * np.maximum(np.abs(x) - reach * radius, 0.0)
         return size
 
@@ -133,7 +140,8 @@ def layered_mesh(body: Layered, radius: float, resolution: Resolution, *, both_s
 
 
 def graded_line(bounds: RealArray, size: Callable[[RealArray], RealArray]) -> RealArray:
-    """Points from the first of ``bounds`` to the last, all of which are points, whose distances in m follow ``size`` of the place."""
+    """Points from the first of ``bounds`` to the last, all of which are points, whose distances in
+    m follow ``size`` of the place."""
     pieces = [bounds[:1]]
     for low, high in pairwise(bounds):
         inner = np.geomspace(1.0, 1e6, 4001)
@@ -148,7 +156,8 @@ def graded_line(bounds: RealArray, size: Callable[[RealArray], RealArray]) -> Re
 
 
 def tensor_mesh(x: RealArray, z: RealArray, region: IntArray) -> Mesh:
-    """Rectangles between the lines ``x`` and ``z`` (m); ``region`` (len(z) - 1,) is that of each row. Points run down first."""
+    """Rectangles between the lines ``x`` and ``z`` (m); ``region`` (len(z) - 1,) is that of each
+    row. Points run down first."""
     points = np.stack(np.meshgrid(x, z, indexing="ij"), axis=-1).reshape(-1, 2)
     corner = (np.arange(len(x) - 1)[:, None] * len(z) + np.arange(len(z) - 1)).ravel()
     cells = corner[:, None] + np.array([0, len(z), len(z) + 1, 1])

@@ -1,4 +1,5 @@
-"""What a pass leaves or carries: tension of each layer, tractions on its interfaces, plastic zones."""
+"""What a pass leaves or carries: tension of each layer, tractions on its interfaces, plastic
+zones."""
 
 from __future__ import annotations
 
@@ -68,7 +69,8 @@ def region_findings(track: Track, state: PassState) -> tuple[RegionFindings, ...
 class PassInterface:
     """Tractions on an interface at the elements (n,) along it.
 
-    ``places`` (n, 1 or 2) in m; ``peel`` the normal one in Pa, positive in tension; ``shear`` (n, 2) along x and y in Pa.
+    ``places`` (n, 1 or 2) in m; ``peel`` the normal one in Pa, positive in tension; ``shear``
+    (n, 2) along x and y in Pa.
     """
 
     places: RealArray
@@ -77,7 +79,8 @@ class PassInterface:
 
 
 def interface_tractions(track: Track, state: PassState, number: int = 0, *, below: bool = False) -> PassInterface:
-    """Tractions on the interface under layer ``number``, extrapolated from the means of the two rows of elements above it, or ``below`` it.
+    """Tractions on the interface under layer ``number``, extrapolated from the means of the two
+    rows of elements above it, or ``below`` it.
 
     Raises
     ------

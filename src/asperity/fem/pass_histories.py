@@ -1,4 +1,5 @@
-"""Histories of passes: the pressure of Hertz that is given and moves, and rigid indenters that are pressed, slide and are lifted."""
+"""Histories of passes: the pressure of Hertz that is given and moves, and rigid indenters that are
+pressed, slide and are lifted."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ from .passes import PassHistory, PassState, Track
 
 
 def line_load(track: Track, place: float, half_width: float, peak: float) -> RealArray:
-    """Forces (points,) in N/m of the pressure peak sqrt(1 - (x - place)²/a²) on |x - place| < a = ``half_width``, exactly those of its elements.
+    """Forces (points,) in N/m of the pressure peak sqrt(1 - (x - place)²/a²) on |x - place| < a =
+    ``half_width``, exactly those of its elements.
 
     Raises
     ------
@@ -35,9 +37,11 @@ def line_load(track: Track, place: float, half_width: float, peak: float) -> Rea
 
 
 def point_load(track: Track, place: float, radius: float, peak: float) -> RealArray:
-    """Forces (points,) in N of the pressure peak sqrt(1 - r²/a²) on r < a = ``radius`` (m) about (``place``, 0), on the half y >= 0 of the body.
+    """Forces (points,) in N of the pressure peak sqrt(1 - r²/a²) on r < a = ``radius`` (m) about
+    (``place``, 0), on the half y >= 0 of the body.
 
-    Bilinear shape functions, by midpoints of 12 x 12 parts of each element; all are scaled by one factor so that the sum is that of half the load, π a² peak/3.
+    Bilinear shape functions, by midpoints of 12 x 12 parts of each element; all are scaled by one
+    factor so that the sum is that of half the load, π a² peak/3.
 
     Raises
     ------
@@ -72,7 +76,9 @@ def hertz_pass(
     steps: int = 36,
     ramp: int = 3,
 ) -> PassHistory:
-    """One pass of the Hertz pressure with ``peak`` in Pa and the traction ``friction`` times it: put on at the first of the ``ends`` in ``ramp`` steps, moved to the other in ``steps``, taken off.
+    """One pass of the Hertz pressure with ``peak`` in Pa and the traction ``friction`` times it:
+    put on at the first of the ``ends`` in ``ramp`` steps, moved to the other in ``steps``, taken
+    off.
 
     ``half_width``: that of a line contact, or the radius of a point contact, in m.
 
@@ -98,7 +104,8 @@ def hertz_steps(
     steps: int = 36,
     ramp: int = 3,
 ) -> Iterator[PassState]:
-    """The states at the ends of the steps of ``hertz_pass``, one after the other; between equal ends nothing moves."""
+    """The states at the ends of the steps of ``hertz_pass``, one after the other; between equal
+    ends nothing moves."""
     require.positive(peak, "peak pressure (Pa)")
     require.positive(half_width, "half-width of a line load (m)")
     rise = np.linspace(0.0, 1.0, require.integer(ramp, 1, "steps of a ramp") + 1)
@@ -124,9 +131,11 @@ def sliding_pass(
     steps: int = 12,
     ramp: int = 4,
 ) -> PassHistory:
-    """One pass of a rigid ``indenter``: pressed at the first of the ``ends`` up to ``force`` in N (N/m) in ``ramp`` steps, slid to the other in ``steps``, lifted in ``ramp`` steps.
+    """One pass of a rigid ``indenter``: pressed at the first of the ``ends`` up to ``force`` in N
+    (N/m) in ``ramp`` steps, slid to the other in ``steps``, lifted in ``ramp`` steps.
 
-    ``indenter`` and ``friction`` as for ``Track.press``; pressing and lifting are without friction. The force on a sphere is that on the half body.
+    ``indenter`` and ``friction`` as for ``Track.press``; pressing and lifting are without friction.
+    The force on a sphere is that on the half body.
 
     Raises
     ------
@@ -150,7 +159,8 @@ def sliding_steps(
     steps: int = 12,
     ramp: int = 4,
 ) -> Iterator[PassState]:
-    """The states at the ends of the steps of ``sliding_pass``, one after the other; between equal ends the indenter is pressed and lifted alone."""
+    """The states at the ends of the steps of ``sliding_pass``, one after the other; between equal
+    ends the indenter is pressed and lifted alone."""
     require.positive(force, "force of an indenter")
     loads = np.linspace(0.0, force, require.integer(ramp, 1, "steps of a ramp") + 1)
     places = np.linspace(*ends, require.integer(steps, 1, "steps of a pass") + 1)

@@ -1,7 +1,9 @@
-"""Repeated passes over an elastic-plastic body: cylinders in plane strain, spheres on a body halved by its plane of symmetry.
+"""Repeated passes over an elastic-plastic body: cylinders in plane strain, spheres on a body halved
+by its plane of symmetry.
 
-A track runs along x. Over it moves a given traction, or a rigid indenter whose contact is solved, with the traction μp along x on all that touches
-(gross sliding). Steps are implicit; the set of touching points and the plastic flow are iterated together.
+A track runs along x. Over it moves a given traction, or a rigid indenter whose contact is solved,
+with the traction μp along x on all that touches (gross sliding). Steps are implicit; the set of
+touching points and the plastic flow are iterated together.
 """
 
 from __future__ import annotations
@@ -35,12 +37,14 @@ MOST_ITERATIONS = 20
 """Newton iterations before a step is cut; 4 to 8 are usual."""
 
 LATE, FAR = 6, 0.02
-"""After so many iterations an unbalanced force beyond this part of the load is that of a step too long."""
+"""After so many iterations an unbalanced force beyond this part of the load is that of a step too
+long."""
 
 MOST_CUTS = 6
 
 RISE = 1e-2
-"""Tolerance of the displacement by a unit rise of the indenter: what it misses is multiplied by how far the indenter still moves."""
+"""Tolerance of the displacement by a unit rise of the indenter: what it misses is multiplied by how
+far the indenter still moves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +58,8 @@ class PassState:
     plastic
         Plastic strain, back stress and accumulated plastic strain at the Gauss points.
     normal, tangential
-        (points,) forces in N (in plane strain N/m) on the points of the surface, into the body and along x.
+        (points,) forces in N (in plane strain N/m) on the points of the surface, into the body and
+        along x.
     place, approach
         Of the indenter or load in m; the approach is NaN under a given traction.
     work, dissipated
@@ -81,8 +86,9 @@ class PassState:
 class PassHistory:
     """Steps of a history, (n,) each.
 
-    ``place`` and ``approach`` in m, ``force`` and ``pull`` (the sums of the normal and tangential forces) in N or N/m, ``area`` of contact in m² (m), the largest accumulated
-    plastic strain ``flow`` (n, regions), ``work`` and ``dissipated`` in J (J/m); ``state`` is the last one.
+    ``place`` and ``approach`` in m, ``force`` and ``pull`` (the sums of the normal and tangential
+    forces) in N or N/m, ``area`` of contact in m² (m), the largest accumulated plastic strain
+    ``flow`` (n, regions), ``work`` and ``dissipated`` in J (J/m); ``state`` is the last one.
     """
 
     place: RealArray
@@ -101,7 +107,10 @@ class PassHistory:
         strain = float(self.flow.max())
         if not strain > LARGE_STRAIN:
             return ()
-        text = f"The plastic strain reaches {percent(strain)}. Small strains err by more than a few per cent from {percent(LARGE_STRAIN)} on."
+        text = (
+            f"The plastic strain reaches {percent(strain)}. Small strains err by more than a few per cent "
+            f"from {percent(LARGE_STRAIN)} on."
+        )
         return (Advice("warning", "small strain", text),)
 
 
@@ -109,7 +118,8 @@ class PassHistory:
 class Track:
     """A meshed body with the surface on which something moves along x.
 
-    Made by ``cylinder_track`` and ``sphere_track``. Half a body counts: forces and energies of a sphere are those of y >= 0.
+    Made by ``cylinder_track`` and ``sphere_track``. Half a body counts: forces and energies of a
+    sphere are those of y >= 0.
 
     Attributes
     ----------
@@ -122,7 +132,8 @@ class Track:
     fixed
         (unknowns,) those that are zero.
     far_field_error
-        By which part the fixed far boundary lowers the approach of a sphere, about: displacements fall as a/r.
+        By which part the fixed far boundary lowers the approach of a sphere, about: displacements
+        fall as a/r.
     """
 
     solid: Solid
@@ -159,7 +170,8 @@ class Track:
     # Steps.
 
     def carry(self, start: PassState, normal: RealArray, tangential: RealArray, place: float = 0.0) -> PassState:
-        """Step to the forces ``normal`` and ``tangential`` (points,) on the surface points, in N or N/m.
+        """Step to the forces ``normal`` and ``tangential`` (points,) on the surface points, in N or
+        N/m.
 
         Raises
         ------
@@ -188,14 +200,17 @@ class Track:
         force: float | None = None,
         approach: float | None = None,
     ) -> PassState:
-        """Step to a rigid ``indenter`` with its lowest point above x = ``place``, under a ``force`` in N (N/m) or at an ``approach`` in m.
+        """Step to a rigid ``indenter`` with its lowest point above x = ``place``, under a ``force``
+        in N (N/m) or at an ``approach`` in m.
 
-        ``indenter``: height in m over its lowest point at positions (points, 1 or 2) relative to that; ``friction``: coefficient, the indenter drags the surface towards +x.
+        ``indenter``: height in m over its lowest point at positions (points, 1 or 2) relative to
+        that; ``friction``: coefficient, the indenter drags the surface towards +x.
 
         Raises
         ------
         InputError
-            If not exactly one of force and approach is given, or the indenter is steeper than 0.4 where it touches: strains are not small then.
+            If not exactly one of force and approach is given, or the indenter is steeper than 0.4
+            where it touches: strains are not small then.
         ConvergenceError
             If 1/64 of the step does not converge.
         """
@@ -231,7 +246,8 @@ class Track:
         return self.solid.respond(state.displacement, state.plastic)
 
     def column(self, values: RealArray, x: float = 0.0, y: float = 0.0) -> tuple[RealArray, RealArray]:
-        """Depths (n,) in m and means (n, …) over the Gauss points of the elements below (x, y) of ``values`` (elements, points, …)."""
+        """Depths (n,) in m and means (n, …) over the Gauss points of the elements below (x, y) of
+        ``values`` (elements, points, …)."""
         corners = self.mesh.points[self.mesh.cells]
         low, high = corners.min(axis=1), corners.max(axis=1)
         inside = (low[:, 0] <= x) & (x < high[:, 0])
@@ -347,7 +363,8 @@ class _Step:
         raise ConvergenceError(f"Newton's method leaves an unbalanced force of {error:.1e} of the load.")
 
     def _first_touch(self, gaps: RealArray, force: float | None, level: float) -> tuple[BoolArray, float]:
-        """Touching points and level of an indenter on the elastic body: one point alone would yield far too much."""
+        """Touching points and level of an indenter on the elastic body: one point alone would yield
+        far too much."""
         reach = self.track.prepared.reach[self.normal]
         if force is None:
             touching = gaps < level
@@ -447,9 +464,11 @@ def cylinder_track(
     plasticity: Plasticity = OF_STRENGTH,
     resolution: Resolution = Resolution(across=12, growth=1.25, depth=1.5, distance=200.0),
 ) -> Track:
-    """Body in plane strain below line contacts of at most ``half_width`` (m) that move between the ``ends`` (m) of a track.
+    """Body in plane strain below line contacts of at most ``half_width`` (m) that move between the
+    ``ends`` (m) of a track.
 
-    ``plasticity``: law of each region, by default perfect plasticity at the strengths of the materials; ``resolution``: of the mesh, whose far boundary is fixed.
+    ``plasticity``: law of each region, by default perfect plasticity at the strengths of the
+    materials; ``resolution``: of the mesh, whose far boundary is fixed.
 
     Raises
     ------
@@ -474,7 +493,8 @@ def sphere_track(
     plasticity: Plasticity = OF_STRENGTH,
     resolution: Resolution = Resolution(across=6, growth=1.5, depth=1.0, distance=12.0),
 ) -> Track:
-    """Half y >= 0 of a body below point contacts of at most the contact ``radius`` (m) that move along y = 0 between the ``ends`` (m) of a track.
+    """Half y >= 0 of a body below point contacts of at most the contact ``radius`` (m) that move
+    along y = 0 between the ``ends`` (m) of a track.
 
     Arguments and errors as for ``cylinder_track``.
     """

@@ -1,4 +1,5 @@
-"""Linear systems of many steps on one mesh: the elastic stiffness is factorised once and preconditions those of flowing bodies."""
+"""Linear systems of many steps on one mesh: the elastic stiffness is factorised once and
+preconditions those of flowing bodies."""
 
 from __future__ import annotations
 
@@ -17,15 +18,18 @@ from .mesh import IntArray
 from .solid import Solid
 
 MOST_STEPS = 70
-"""Steps of conjugate gradients or minimal residuals with the elastic stiffness; where the body has flowed far, more would cost more than a factorisation of the tangent."""
+"""Steps of conjugate gradients or minimal residuals with the elastic stiffness; where the body has
+flowed far, more would cost more than a factorisation of the tangent."""
 
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """Elastic stiffness of a ``solid`` whose ``fixed`` unknowns are zero, and its inverse for forces at ``pushed`` unknowns.
+    """Elastic stiffness of a ``solid`` whose ``fixed`` unknowns are zero, and its inverse for
+    forces at ``pushed`` unknowns.
 
-    A tangent stiffness K is never stiffer than the elastic one K_0 and differs where the body flows, so that conjugate gradients with K_0
-    converge in few steps. Prescribed displacements of some of the ``pushed`` unknowns are met exactly: the preconditioner subtracts the forces there.
+    A tangent stiffness K is never stiffer than the elastic one K_0 and differs where the body
+    flows, so that conjugate gradients with K_0 converge in few steps. Prescribed displacements of
+    some of the ``pushed`` unknowns are met exactly: the preconditioner subtracts the forces there.
 
     Attributes
     ----------
@@ -63,10 +67,11 @@ class Prepared:
         *,
         rows: Callable[[RealArray], RealArray] | None = None,
     ) -> RealArray:
-        """Displacement (unknowns,) with ``stiffness`` times it equal to ``forces`` but at the ``held`` of the pushed unknowns, where it is ``known`` (held,).
+        """Displacement (unknowns,) with ``stiffness`` times it equal to ``forces`` but at the
+        ``held`` of the pushed unknowns, where it is ``known`` (held,).
 
-        ``tolerance``: relative, in the energy of the elastic body; ``rows``: what combines the rows of stiffness, for unsymmetric systems, which are solved by
-        minimal residuals.
+        ``tolerance``: relative, in the energy of the elastic body; ``rows``: what combines the rows
+        of stiffness, for unsymmetric systems, which are solved by minimal residuals.
 
         Raises
         ------
@@ -162,7 +167,8 @@ class _TooFar(Exception):
 
 
 def _minimal_residual(apply: Callable[[RealArray], RealArray], right: RealArray, tolerance: float) -> RealArray:
-    """Solution of a linear equation near the identity by generalised minimal residuals (Saad and Schultz 1986)."""
+    """Solution of a linear equation near the identity by generalised minimal residuals (Saad and
+    Schultz 1986)."""
     size = float(np.linalg.norm(right))
     if size == 0.0:
         return np.zeros_like(right)

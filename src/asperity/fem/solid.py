@@ -1,4 +1,5 @@
-"""Elastic-plastic bodies of finite elements: forces and consistent stiffness at a displacement, from the state of the last step."""
+"""Elastic-plastic bodies of finite elements: forces and consistent stiffness at a displacement,
+from the state of the last step."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ from ..solids.plasticity import J2, UNIT, WEIGHTS, PlasticState, von_mises
 from .elements import Elements
 
 AT_YIELD = 1e-9
-"""Excess over the yield stress up to which a point counts as elastic: at rounding, points that have flowed would change sides at random where a step begins."""
+"""Excess over the yield stress up to which a point counts as elastic: at rounding, points that have
+flowed would change sides at random where a step begins."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +43,8 @@ class Response:
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """Elements with the law of each region: ``J2`` where it may flow, ``Elastic`` elsewhere; and a ``support``, the stiffness in N/m of what lies beyond them.
+    """Elements with the law of each region: ``J2`` where it may flow, ``Elastic`` elsewhere; and a
+    ``support``, the stiffness in N/m of what lies beyond them.
 
     Raises
     ------

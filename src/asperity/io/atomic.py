@@ -1,4 +1,5 @@
-"""Output appears whole or not at all: write beside the target, rename on success, clean up on failure or in the next run."""
+"""Output appears whole or not at all: write beside the target, rename on success, clean up on
+failure or in the next run."""
 
 from __future__ import annotations
 
@@ -22,15 +23,18 @@ OVERWRITE = "{overwrite}"
 
 @contextmanager
 def atomic_file(path: str | Path, *, overwrite: bool = False) -> Iterator[Path]:
-    """Yield the path of a temporary file beside ``path``; rename it to ``path`` on success, else remove it.
+    """Yield the path of a temporary file beside ``path``; rename it to ``path`` on success, else
+    remove it.
 
-    The temporary file has the suffix of ``path`` and exists already, so an unwritable folder fails before any work. A file
-    that is replaced leaves its mode to the new one; a symbolic link stays and leads to the new file.
+    The temporary file has the suffix of ``path`` and exists already, so an unwritable folder fails
+    before any work. A file that is replaced leaves its mode to the new one; a symbolic link stays
+    and leads to the new file.
 
     Raises
     ------
     OutputError
-        If ``path`` exists and ``overwrite`` is false, is a folder, lies in no folder, or cannot be written.
+        If ``path`` exists and ``overwrite`` is false, is a folder, lies in no folder, or cannot be
+        written.
     """
     target = Path(path)
     require_new_file(target, overwrite=overwrite)
@@ -45,11 +49,12 @@ def atomic_file(path: str | Path, *, overwrite: bool = False) -> Iterator[Path]:
 
 @contextmanager
 def atomic_folder(path: str | Path, *, overwrite: bool = False) -> Iterator[Path]:
-    """Yield the path of a temporary folder beside ``path``; rename it to ``path`` on success, else remove it.
+    """Yield the path of a temporary folder beside ``path``; rename it to ``path`` on success, else
+    remove it.
 
-    Missing folders above ``path`` are made. With ``overwrite``, an existing folder is exchanged at once for the new one, which
-    takes over (by hard links) what it does not replace; only in the working folder files are replaced one by one. An
-    existing empty folder needs no ``overwrite``.
+    Missing folders above ``path`` are made. With ``overwrite``, an existing folder is exchanged at
+    once for the new one, which takes over (by hard links) what it does not replace; only in the
+    working folder files are replaced one by one. An existing empty folder needs no ``overwrite``.
 
     Raises
     ------
@@ -73,9 +78,11 @@ def atomic_folder(path: str | Path, *, overwrite: bool = False) -> Iterator[Path
 
 @contextmanager
 def _partial(target: Path, *, folder: bool = False) -> Iterator[Path]:
-    """A new file or folder beside ``target`` that is gone at the end; a failure to write is one sentence.
+    """A new file or folder beside ``target`` that is gone at the end; a failure to write is one
+    sentence.
 
-    It is locked until this process ends, so that what a killed process has left can be recognised and removed.
+    It is locked until this process ends, so that what a killed process has left can be recognised
+    and removed.
     """
     absolute = target.absolute()
     held, partial = -1, absolute
@@ -119,7 +126,8 @@ def _partial(target: Path, *, folder: bool = False) -> Iterator[Path]:
 
 
 def _lock(path: Path) -> int:
-    """Descriptor that locks ``path`` until it is closed; -1 if another process has it, -2 where there are no locks."""
+    """Descriptor that locks ``path`` until it is closed; -1 if another process has it, -2 where
+    there are no locks."""
     if importlib.util.find_spec("fcntl") is None:  # Windows
         return -2
     import fcntl
@@ -160,7 +168,8 @@ def _exchange(new: Path, old: Path) -> None:
 
 
 def _keep(source: Path, target: Path) -> None:
-    """Give the folder ``target`` all that ``source`` has and it lacks, and the modes of what it replaces."""
+    """Give the folder ``target`` all that ``source`` has and it lacks, and the modes of what it
+    replaces."""
     for entry in source.iterdir():
         kept = target / entry.name
         if entry.is_dir() and not entry.is_symlink():
@@ -183,7 +192,8 @@ def require_new_file(target: Path, *, overwrite: bool) -> None:
     Raises
     ------
     OutputError
-        If ``target`` exists and ``overwrite`` is false, is a folder, lies in no folder, or is no possible name.
+        If ``target`` exists and ``overwrite`` is false, is a folder, lies in no folder, or is no
+        possible name.
     """
     exists = _exists(target)
     if not target.parent.is_dir():
@@ -197,7 +207,8 @@ def require_new_file(target: Path, *, overwrite: bool) -> None:
 
 
 def require_new_files(targets: Sequence[Path], *, overwrite: bool, inputs: Sequence[Path] = ()) -> None:
-    """Refuse ``targets`` of which two are the same, one is among the ``inputs``, or cannot be written as a new file.
+    """Refuse ``targets`` of which two are the same, one is among the ``inputs``, or cannot be
+    written as a new file.
 
     Raises
     ------
@@ -220,7 +231,8 @@ def _require_new_folder(target: Path, *, overwrite: bool) -> None:
 
 
 def _exists(target: Path) -> bool:
-    """Whether there is something; an ``OutputError`` if there cannot be, as its name is too long for one."""
+    """Whether there is something; an ``OutputError`` if there cannot be, as its name is too long
+    for one."""
     try:
         target.stat()
     except (FileNotFoundError, NotADirectoryError):

@@ -1,8 +1,12 @@
-"""Frozen dataclasses as labelled values and back, to the bit: what is stored is told by their fields (``core.quantity.measured``).
+"""Frozen dataclasses as labelled values and back, to the bit: what is stored is told by their
+fields (``core.quantity.measured``).
 
-A field is a number, text, an array with named axes, a tuple of numbers, arrays by name, another dataclass, whose fields follow it as ``field_of``, or a tuple of
-dataclasses, whose fields are columns. One whose type is no dataclass but a protocol or several types, such as a law, is described as JSON. Steps of a history stand along ``step`` where an array is one over the grid or a single number; anything else
-may have another length in each step, and stands in rows one after the other with a count for each step.
+A field is a number, text, an array with named axes, a tuple of numbers, arrays by name, another
+dataclass, whose fields follow it as ``field_of``, or a tuple of dataclasses, whose fields are
+columns. One whose type is no dataclass but a protocol or several types, such as a law, is described
+as JSON. Steps of a history stand along ``step`` where an array is one over the grid or a single
+number; anything else may have another length in each step, and stands in rows one after the other
+with a count for each step.
 """
 
 from __future__ import annotations
@@ -29,7 +33,8 @@ COUNT = "_count"
 """Ending of the name of the lengths of rows."""
 
 HERE = "answered"
-"""Variable of a group of a history: the place of what it holds among all that a step has, from 1; zero where it has none."""
+"""Variable of a group of a history: the place of what it holds among all that a step has, from 1;
+zero where it has none."""
 
 KIND = "kind"
 """Attribute of a group: the qualified name of its dataclass."""
@@ -39,7 +44,8 @@ GRID_AXES = ("x", "y")
 
 
 def answer_kind(name: str) -> type[Answer]:
-    """The kind of answer of this qualified ``name``: one of this package, or one of one's own that has been imported; for no other is anything imported.
+    """The kind of answer of this qualified ``name``: one of this package, or one of one's own that
+    has been imported; for no other is anything imported.
 
     Raises
     ------
@@ -54,7 +60,8 @@ def answer_kind(name: str) -> type[Answer]:
     if name not in kinds:
         known = ", ".join(sorted({*own, *kinds}))
         raise FileFormatError(
-            f"answer in a result file must be one of {known}, but is {name!r}; import what defines it, or update asperity."
+            f"answer in a result file must be one of {known}, but is {name!r}; import what defines it, or "
+            "update asperity."
         )
     return kinds[name]
 
@@ -128,7 +135,8 @@ def made_of(kind: type, values: Mapping[str, Any], known: Mapping[str, Any], pre
 
 
 def _one(hint: Any, value: Any, maps: Mapping[str, Any] = MappingProxyType({})) -> Any:
-    """A single stored ``value`` as what the type ``hint`` of its field asks for; ``maps`` are arrays that a description names."""
+    """A single stored ``value`` as what the type ``hint`` of its field asks for; ``maps`` are
+    arrays that a description names."""
     if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and not value.ndim):
         value = value.item()
     if isinstance(hint, type) and issubclass(hint, Enum):
@@ -172,7 +180,8 @@ def _rows_made(kind: Any, values: Mapping[str, Any], name: str) -> tuple[Any, ..
 
 @cache
 def _hints(kind: Any) -> dict[str, Any]:
-    """Types of the fields of ``kind``; other annotations of it may name what only type checkers import."""
+    """Types of the fields of ``kind``; other annotations of it may name what only type checkers
+    import."""
     names, found = {item.name for item in fields(kind)}, dict[str, Any]()
     for base in reversed(kind.__mro__):
         own = {name: text for name, text in get_annotations(base).items() if name in names}
@@ -205,7 +214,8 @@ def values_in(node: Node) -> dict[str, Any]:
 
 
 def stacked(rows: Sequence[Mapping[str, Labelled] | None]) -> tuple[Labelled, ...]:
-    """Values of every step of a history by name, None for a step without: along ``step``, or in rows with a count for each step."""
+    """Values of every step of a history by name, None for a step without: along ``step``, or in
+    rows with a count for each step."""
     names = dict.fromkeys(name for row in rows if row is not None for name in row)
     found: list[Labelled] = []
     for name in names:
@@ -241,7 +251,8 @@ class Steps:
                 self._along[name] = values
 
     def at(self, step: int) -> dict[str, Any]:
-        """Values of one ``step`` by name; none where no step from it on has what the group holds."""
+        """Values of one ``step`` by name; none where no step from it on has what the group
+        holds."""
         if step >= self._length:
             return {}
         found = {name: values[step] for name, values in self._along.items()}
@@ -249,7 +260,8 @@ class Steps:
 
 
 def steps_group(found: Sequence[Any], kind: type, places: Sequence[int]) -> Node:
-    """Group of the same ``kind`` of dataclass in every step of a history, None where a step has none; ``places`` are those among all that a step has."""
+    """Group of the same ``kind`` of dataclass in every step of a history, None where a step has
+    none; ``places`` are those among all that a step has."""
     rows = [None if each is None else {item.quantity.name: item for item in values_of(each)} for each in found]
     here = Labelled(Quantity(HERE, "1", "place of this in the step, 0 if it has none", ("step",)), np.array(places))
     return Node((here, *stacked(rows)), {KIND: kind_name(kind)})

@@ -1,4 +1,5 @@
-"""A contact as a group of result files, and back to the bit: fields, numbers, problem, and what couplings found and remember."""
+"""A contact as a group of result files, and back to the bit: fields, numbers, problem, and what
+couplings found and remember."""
 
 from __future__ import annotations
 
@@ -53,7 +54,8 @@ MAPS = {
 
 
 def contact_node(result: ContactResult) -> Node:
-    """Group of a contact: heights, fields and scalars; problem, control, certificate and status as attributes; what couplings found and remember as groups."""
+    """Group of a contact: heights, fields and scalars; problem, control, certificate and status as
+    attributes; what couplings found and remember as groups."""
     problem, arrays = result.problem, dict[str, RealArray]()
     owners: dict[str, Any] = {"control": result} | dict.fromkeys(PARTS[:4], problem)
     attributes = {part: json.dumps(describe(getattr(owners[part], part), arrays, part)) for part in PARTS}

@@ -1,4 +1,5 @@
-"""What couplings found and remember in result files: a group for each by its name, and back to the bit."""
+"""What couplings found and remember in result files: a group for each by its name, and back to the
+bit."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ from .codec import HERE, KIND, Steps, answer_kind, group_of, made_of, stacked, s
 from .tree import Node
 
 NAMES, STORED = "memory_names", "memory_stored"
-"""Variables of the group of a memory: names of all its arrays, and of those that do not follow from what the coupling found."""
+"""Variables of the group of a memory: names of all its arrays, and of those that do not follow from
+what the coupling found."""
 
 ORDER = "order"
 """Attribute of the group of all couplings: their names in order."""
@@ -29,7 +31,8 @@ class Remembering(Protocol):
 
 
 def answers_group(steps: Sequence[Any]) -> Node:
-    """Group of what the couplings found in every one of the ``steps``, with a group for each by its name."""
+    """Group of what the couplings found in every one of the ``steps``, with a group for each by its
+    name."""
     kinds = {name: type(found) for step in steps for name, found in step.couplings.items() if isinstance(found, Answer)}
     groups = {}
     for name, kind in kinds.items():
@@ -84,7 +87,8 @@ def answers_in(node: Node, problem: ContactProblem) -> Callable[[int], dict[str,
 
 
 def memories_group(steps: Sequence[Any]) -> Node:
-    """Group of what the couplings remember after every one of the ``steps`` (results or states), with a group for each by its name."""
+    """Group of what the couplings remember after every one of the ``steps`` (results or states),
+    with a group for each by its name."""
     groups = {}
     for name in dict.fromkeys(name for step in steps for name in step.memory):
         rows: list[dict[str, Labelled] | None] = []
@@ -99,7 +103,8 @@ def memories_group(steps: Sequence[Any]) -> Node:
 
 
 def memories_in(node: Node) -> Callable[[int, Mapping[str, Any], float], dict[str, Memory]]:
-    """What the couplings remember after each step by its number, with what they found in it and its approach in m, from such a group."""
+    """What the couplings remember after each step by its number, with what they found in it and its
+    approach in m, from such a group."""
     rows = {name: Steps(child) for name, child in node.children.items()}
 
     def at(step: int, couplings: Mapping[str, Any], approach: float) -> dict[str, Memory]:

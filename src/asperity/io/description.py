@@ -1,4 +1,5 @@
-"""What files say of things: bodies, laws, boundaries and controls as plain dictionaries and back, exact; and where a result comes from."""
+"""What files say of things: bodies, laws, boundaries and controls as plain dictionaries and back,
+exact; and where a result comes from."""
 
 from __future__ import annotations
 
@@ -52,11 +53,13 @@ TYPES: tuple[type, ...] = (
     Viscoelastic,
     Voce,
 )
-"""Types that can be written beside those of the physics: frozen dataclasses of numbers, text, arrays, tuples and one another."""
+"""Types that can be written beside those of the physics: frozen dataclasses of numbers, text,
+arrays, tuples and one another."""
 
 
 def known_types() -> dict[str, type]:
-    """All types that can be written by name, those of a physics of one's own by qualified name; that must have been imported."""
+    """All types that can be written by name, those of a physics of one's own by qualified name;
+    that must have been imported."""
     own = (kind for known in PHYSICS.values() for kind in home(known.home).types())
     found = {kind.__name__: kind for kind in (*TYPES, *map(home, DESCRIBED), *own)}
     for physics in subclasses(Physics):
@@ -78,19 +81,22 @@ def subclasses(kind: type[Kind]) -> Iterator[type[Kind]]:
 
 
 ARRAY = "array"
-"""Key that stands for an (nx, ny) array, which is kept beside the dictionary under the name it holds."""
+"""Key that stands for an (nx, ny) array, which is kept beside the dictionary under the name it
+holds."""
 
 NUMBER = "number"
 """Key that stands for a number that JSON lacks: nan or an infinity, as text."""
 
 
 def describe(value: object, arrays: dict[str, RealArray] | None = None, name: str = "") -> Any:
-    """Plain dictionary ``{"type": ..., field: ...}`` of ``value``; arrays go into ``arrays`` under their field's name.
+    """Plain dictionary ``{"type": ..., field: ...}`` of ``value``; arrays go into ``arrays`` under
+    their field's name.
 
     Raises
     ------
     InputError
-        If ``value`` is of a type that files do not know (for example an interface law of one's own).
+        If ``value`` is of a type that files do not know (for example an interface law of one's
+        own).
     """
     if isinstance(value, np.generic):
         value = value.item()
@@ -171,12 +177,13 @@ def surface_provenance(surface: Surface) -> dict[str, Any]:
 
 
 def provenance(result: ContactResult, packages: Mapping[str, str] = MappingProxyType({})) -> dict[str, Any]:
-    """Provenance of ``result`` as it is written now: a dictionary of text, lists and dictionaries, fit for JSON.
+    """Provenance of ``result`` as it is written now: a dictionary of text, lists and dictionaries,
+    fit for JSON.
 
     ``packages`` are versions of further software by its name.
 
-    Keys: ``created`` (UTC, ISO 8601), ``software``, ``surface``, ``counter_surface`` (only if it is rough) and
-    ``citation_keys``.
+    Keys: ``created`` (UTC, ISO 8601), ``software``, ``surface``, ``counter_surface`` (only if it is
+    rough) and ``citation_keys``.
     """
     described: dict[str, Any] = {
         "created": datetime.now(UTC).isoformat(timespec="seconds"),

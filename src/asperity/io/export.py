@@ -39,9 +39,10 @@ def export_csv(
 ) -> None:
     """Write the numbers of ``result`` to ``path`` as a table, SI, exact.
 
-    Of a contact: scalars, further ``scalars`` such as those of an outcome, certificate and status, with the columns name, value,
-    unit, label. Of a load path: one row a step, with its number, whether it converged, scalars and energies. Of stresses: the
-    maxima of layers and interfaces with their places, and the load factors.
+    Of a contact: scalars, further ``scalars`` such as those of an outcome, certificate and status,
+    with the columns name, value, unit, label. Of a load path: one row a step, with its number,
+    whether it converged, scalars and energies. Of stresses: the maxima of layers and interfaces
+    with their places, and the load factors.
 
     Raises
     ------
@@ -90,7 +91,8 @@ def _numbers(result: ContactResult) -> list[Labelled]:
 
 
 def _columns(path: HistoryResult) -> list[tuple[str, str, Quantity]]:
-    """Coupling, name and quantity of each number that what couplings find has in tables; a name that two have is that of the first."""
+    """Coupling, name and quantity of each number that what couplings find has in tables; a name
+    that two have is that of the first."""
     found: dict[str, tuple[str, str, Quantity]] = {}
     for coupling, answer in path.last.couplings.items():
         for item in answer.quantities if isinstance(answer, Answer) else ():
@@ -100,7 +102,8 @@ def _columns(path: HistoryResult) -> list[tuple[str, str, Quantity]]:
 
 
 def export_vtk(result: ContactResult, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write the fields of ``result`` as point data on the nodes to ``path``, VTK image data (.vti), lengths in m.
+    """Write the fields of ``result`` as point data on the nodes to ``path``, VTK image data (.vti),
+    lengths in m.
 
     Raises
     ------

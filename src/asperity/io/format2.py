@@ -1,7 +1,8 @@
 """Result files of format 2, which were written until the codec: read to the bit, never written.
 
-What couplings found stood in fields, groups and JSON texts of each kind; displacement and gap of every step of a load path were whole. Groups of rolling contacts
-and of states of finite elements stayed so for a while in files of format 3.
+What couplings found stood in fields, groups and JSON texts of each kind; displacement and gap of
+every step of a load path were whole. Groups of rolling contacts and of states of finite elements
+stayed so for a while in files of format 3.
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ _CHECKS = ("couplings", "rounds", "complementarity", "pressure_error")
 
 
 class Older(NamedTuple):
-    """What a file holds of a contact or of one step of a load path, for those who know what their couplings found in it.
+    """What a file holds of a contact or of one step of a load path, for those who know what their
+    couplings found in it.
 
     Attributes
     ----------
@@ -47,7 +49,8 @@ class Older(NamedTuple):
     rows
         Rows of a contact or step by the names of their counts and of the variable.
     memory
-        What couplings remember, where that is known by their names: of a contact, and of the last step.
+        What couplings remember, where that is known by their names: of a contact, and of the last
+        step.
     past
         What relaxing bodies remember after a step before the last; None if it is not there.
     """
@@ -101,7 +104,8 @@ def contact_in(groups: Mapping[str, Node]) -> ContactResult:
 
 
 def path_from(node: Node, last: ContactResult) -> HistoryResult:
-    """The load path of a group; ``last`` is the contact at its end, whose problem all steps share."""
+    """The load path of a group; ``last`` is the contact at its end, whose problem all steps
+    share."""
     count, results = len(node["n_spots"]), list[ContactResult]()
     start = None
     if "start_pressure" in node:
@@ -156,7 +160,8 @@ def _memory(node: Node) -> dict[str, Any]:
 
 
 def kept_from(node: Node, name: str, contact: ContactResult | None) -> Any:
-    """The rolling contact beside a ``contact``, or the state of finite elements, of a group of that ``name``.
+    """The rolling contact beside a ``contact``, or the state of finite elements, of a group of that
+    ``name``.
 
     Raises
     ------
@@ -203,7 +208,8 @@ def _rolling(kind: Any, node: Node, normal: ContactResult | None) -> Any:
 
 
 def _arrays(node: Node, kind: type) -> list[Any]:
-    """Arrays and numbers of the fields of ``kind`` in a group, where empty arrays stood as their shapes."""
+    """Arrays and numbers of the fields of ``kind`` in a group, where empty arrays stood as their
+    shapes."""
     return list(_named(node, kind).values())
 
 

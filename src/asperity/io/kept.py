@@ -1,4 +1,5 @@
-"""Results beside contacts and load paths in files: which group holds each, written by the codec from what the fields of its type say, or by what its physics has for that."""
+"""Results beside contacts and load paths in files: which group holds each, written by the codec
+from what the fields of its type say, or by what its physics has for that."""
 
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ def contact_beside(result: object) -> ContactResult | None:
 
 
 def kept_node(result: Any, name: str) -> Node:
-    """The group of that ``name`` for a ``result``, or for the parts of one, one after the other, where it can be divided."""
+    """The group of that ``name`` for a ``result``, or for the parts of one, one after the other,
+    where it can be divided."""
     kept = RESULTS[name]
     if kept.writes:
         found: Node = home(kept.writes)(result)
@@ -36,7 +38,8 @@ def kept_node(result: Any, name: str) -> Node:
 
 
 def kept_from(node: Node, name: str, contact: ContactResult | None = None) -> Any:
-    """The result of a group of that ``name``, equal to the one it was made of; ``contact`` stands beside it.
+    """The result of a group of that ``name``, equal to the one it was made of; ``contact`` stands
+    beside it.
 
     Raises
     ------

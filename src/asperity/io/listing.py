@@ -1,4 +1,5 @@
-"""Tables of what is rows of numbers: answers of theories, measured roughness, libraries of materials and liquids."""
+"""Tables of what is rows of numbers: answers of theories, measured roughness, libraries of
+materials and liquids."""
 
 from __future__ import annotations
 
@@ -20,11 +21,13 @@ from ..theories.catalogue import FAMILIES
 from ..theories.statistics.roughness import Roughness
 
 MOST, SHOWN = 12, 5
-"""Points of a curve up to which all are shown, and how many of its beginning and end are shown beyond."""
+"""Points of a curve up to which all are shown, and how many of its beginning and end are shown
+beyond."""
 
 
 class Listing(NamedTuple):
-    """What a table holds: its ``heading``, those of its columns (none of a list of names and values), and its rows."""
+    """What a table holds: its ``heading``, those of its columns (none of a list of names and
+    values), and its rows."""
 
     heading: str
     headings: tuple[str, ...]
@@ -49,7 +52,8 @@ RECORDS = {
 
 
 def entry_text(record: MaterialRecord | LiquidRecord, key: str) -> str:
-    """Value of ``key`` with its unit; a star behind an assumed one, a dash where it is not known."""
+    """Value of ``key`` with its unit; a star behind an assumed one, a dash where it is not
+    known."""
     if key not in record.values:
         return "–"
     item = record.values[key]
@@ -116,7 +120,8 @@ def _answer(thing: Tabled) -> Listing:
         values = np.asarray(attrgetter(name)(thing))
         if values.dtype.kind in "fi" and values.ndim <= 1 and values.size and not np.isnan(values).all():
             alike = known.get(name, [])
-            # where theories differ, as in the plane, where loads are per length: numbers without prefixes
+            # where theories differ, as in the plane, where loads are per length: numbers without
+            # prefixes
             one = alike[0].unit if len(alike) == 1 else ""
             unit = f" ({' or '.join(item.unit for item in alike)})" if len(alike) > 1 else ""
             texts = [show(float(value), one) if one else f"{value:.4g}" for value in values.reshape(-1)]
@@ -125,7 +130,8 @@ def _answer(thing: Tabled) -> Listing:
 
 
 def _evaluated(found: Evaluation) -> Listing:
-    """The curve, or of one point or none what depends on the inputs alone beside it; where limits do not hold they are named."""
+    """The curve, or of one point or none what depends on the inputs alone beside it; where limits
+    do not hold they are named."""
     columns = [
         (column.name.replace("_", " "), [show(float(value), column.unit) for value in values])
         for column, values in found.columns
@@ -138,7 +144,8 @@ def _evaluated(found: Evaluation) -> Listing:
 
 
 def _curve(heading: str, found: list[tuple[str, list[str]]]) -> Listing:
-    """Names and texts of quantities, one row a point; of one point one row a quantity; of many points the first and the last."""
+    """Names and texts of quantities, one row a point; of one point one row a quantity; of many
+    points the first and the last."""
     points = max((len(texts) for _, texts in found), default=0)
     if points < 2:
         return Listing(heading, (), [(name, texts[0]) for name, texts in found])
@@ -150,7 +157,8 @@ def _curve(heading: str, found: list[tuple[str, list[str]]]) -> Listing:
 
 
 def _quantities(kind: type) -> dict[str, list[Quantity]]:
-    """What theories that answer with ``kind`` say of its values, by their names; more than one of a name where their units differ."""
+    """What theories that answer with ``kind`` say of its values, by their names; more than one of a
+    name where their units differ."""
     found: dict[str, dict[str, Quantity]] = {}
     names = {base.__name__ for base in kind.__mro__}
     for theory in (theory for family in FAMILIES.values() for theory in family):

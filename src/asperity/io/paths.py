@@ -1,8 +1,10 @@
 """Load paths in result files: of every step what cannot be computed again, and back.
 
-A step of an elastic or plastic contact is its pressures on the contact set, its permanent indentation and its numbers; displacement and gap come back by
-one transform of the pressures when they are first read, within ``rounding``, which the file states of every step. Where couplings displace the surfaces or
-the bodies relax, both are stored whole. The states of all steps are, to the bit.
+A step of an elastic or plastic contact is its pressures on the contact set, its permanent
+indentation and its numbers; displacement and gap come back by one transform of the pressures when
+they are first read, within ``rounding``, which the file states of every step. Where couplings
+displace the surfaces or the bodies relax, both are stored whole. The states of all steps are, to
+the bit.
 """
 
 from __future__ import annotations
@@ -59,7 +61,8 @@ ENERGIES = (
 """Entries of an energy balance."""
 
 NEITHER, STORED, AT_START = -1, -2, -3
-"""What stands for the number of the step whose pressure is the earlier one of a step: there is none, it is stored, or it is that of the start."""
+"""What stands for the number of the step whose pressure is the earlier one of a step: there is
+none, it is stored, or it is that of the start."""
 
 _PRESSURE, _DISPLACEMENT, _GAP, _INDENTATION = (replace(item, dims=("x", "y")) for item in FIELDS)
 _EARLIER = Quantity("earlier_pressure", "Pa", "pressure of the load before, where that is of no other step", ("x", "y"))
@@ -80,9 +83,11 @@ _CHECKS = {f"certificate_{item.name}": item for item in CERTIFICATE}
 def path_node(
     steps: HistoryResult | Iterable[ContactResult], start: InterfaceState | None = None, *, streamed: bool = False
 ) -> Node:
-    """Group of a load path with the axis ``step``; where it is ``streamed`` its steps follow in blocks, which are made as they are written.
+    """Group of a load path with the axis ``step``; where it is ``streamed`` its steps follow in
+    blocks, which are made as they are written.
 
-    Of ``steps`` that are still being solved, from the interface ``start``, no more than a block is held, and the energies are left out: they follow from all.
+    Of ``steps`` that are still being solved, from the interface ``start``, no more than a block is
+    held, and the energies are left out: they follow from all.
 
     Raises
     ------
@@ -103,7 +108,8 @@ def path_node(
         values = [Labelled(_PRESSURE, start.pressure)]
         values += [] if start.earlier is None else [Labelled(_EARLIER, start.earlier)]
         children["start"] = Node(tuple(values), {}, memories_group([start]).children)
-    # axes that may grow cost time for each variable of the group, 0.9 of 1.1 s for 41 steps of 64² points
+    # axes that may grow cost time for each variable of the group, 0.9 of 1.1 s for 41 steps of 64²
+    # points
     following = () if is_all else (node for node, _, _ in blocks)
     lengths = {"step": len(steps)} if isinstance(steps, HistoryResult) else {}
     return replace(first, values=(*lines, *first.values), children=children, rows=following, lengths=lengths)
@@ -112,7 +118,8 @@ def path_node(
 def _blocks(
     steps: Iterator[ContactResult], start: InterfaceState | None, balance: EnergyBalance | None, most: float
 ) -> Iterator[tuple[Node, Grid, bool]]:
-    """Groups of ``steps``, each of fields of ``most`` bytes, or of one step, and their grid; and whether it is known that no other follows."""
+    """Groups of ``steps``, each of fields of ``most`` bytes, or of one step, and their grid; and
+    whether it is known that no other follows."""
     rows, block, size, highest = list[dict[str, Labelled]](), list[ContactResult](), 0.0, math.nan
     pressures = list[weakref.ref[RealArray]]()
     for number, step in enumerate(steps):
@@ -165,10 +172,12 @@ def _fields(step: ContactResult, highest: float) -> Iterator[Labelled]:
 
 
 def rounding(step: ContactResult, highest: float) -> float:
-    """Bound (m) of the errors of displacement and gap that come back by one transform of the pressure; ``highest`` is the largest magnitude (m) of the profile.
+    """Bound (m) of the errors of displacement and gap that come back by one transform of the
+    pressure; ``highest`` is the largest magnitude (m) of the profile.
 
-    The solver adds the displacement up through its iterations, each with the rounding of its transforms: at most log2 of the number of points times that
-    of numbers. The gap has the rounding of three further sums.
+    The solver adds the displacement up through its iterations, each with the rounding of its
+    transforms: at most log2 of the number of points times that of numbers. The gap has the rounding
+    of three further sums.
     """
     eps = float(np.finfo(step.pressure.dtype).eps)
     transforms = (step.certificate.iterations + 2.0) * (math.log2(step.problem.grid.n_points) + 1.0)
@@ -191,7 +200,8 @@ def _numbers(step: ContactResult) -> Iterator[Labelled]:
 def _earlier(
     step: ContactResult, pressures: Sequence[weakref.ref[RealArray]], start: InterfaceState | None
 ) -> Iterator[Labelled]:
-    """Of which step before, by their ``pressures``, the earlier pressure of ``step`` is, and that pressure if it is of none."""
+    """Of which step before, by their ``pressures``, the earlier pressure of ``step`` is, and that
+    pressure if it is of none."""
     earlier = step.earlier
     of = NEITHER if earlier is None else STORED
     if earlier is not None and start is not None and earlier is start.pressure:
@@ -289,7 +299,8 @@ class ComesBack:
         return np.asarray(self._operator.apply(np.asarray(result.pressure, dtype=float)), dtype=result.pressure.dtype)
 
     def gap(self, stated: float, rounding: float, result: ContactResult) -> RealArray:
-        """(nx, ny) in m of the deformed surfaces of ``result``, whose mean is ``stated`` (m) to ``rounding`` (m).
+        """(nx, ny) in m of the deformed surfaces of ``result``, whose mean is ``stated`` (m) to
+        ``rounding`` (m).
 
         Raises
         ------
@@ -302,7 +313,8 @@ class ComesBack:
         found: RealArray = np.maximum(gap, 0.0, out=gap)
         if not agrees(stated, mean := float(found.mean(dtype=np.float64)), result.pressure.dtype, rounding):
             raise FileFormatError(
-                f"mean gap of a step in a result file must be that of its pressures, {mean:g} m, but is stated as {stated:g} m."
+                f"mean gap of a step in a result file must be that of its pressures, {mean:g} m, but is stated "
+                f"as {stated:g} m."
             )
         return found
 

@@ -16,7 +16,8 @@ from ..theories.ask import Evaluation, ways_of
 from ..theories.protocol import Described
 from .tables import write_table
 
-# Answers of theories for other programs: a record for JSON, a table as CSV; and the catalogue as records.
+# Answers of theories for other programs: a record for JSON, a table as CSV; and the catalogue as
+# records.
 
 
 def answer_record(found: Evaluation) -> dict[str, Any]:
@@ -79,7 +80,8 @@ def catalogue_record(kind: type[Described]) -> dict[str, Any]:
 
 
 def save_table(found: Evaluation, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write the columns of ``found`` as CSV with a heading of names and units, and whether the limits hold that concern all; SI, exact.
+    """Write the columns of ``found`` as CSV with a heading of names and units, and whether the
+    limits hold that concern all; SI, exact.
 
     Without columns the numbers are written: name, value, unit, meaning.
 
@@ -126,9 +128,11 @@ _RATIOS = 101  # points of the material ratio curve
 
 
 def roughness_record(found: Characterisation) -> dict[str, Any]:
-    """Dictionary of ``quantities`` (value in SI, unit, symbol, label by path), ``curves`` and ``remarks`` of ``found``.
+    """Dictionary of ``quantities`` (value in SI, unit, symbol, label by path), ``curves`` and
+    ``remarks`` of ``found``.
 
-    What is not defined is None. Curves are lists of SI numbers with their units in the names of the keys.
+    What is not defined is None. Curves are lists of SI numbers with their units in the names of the
+    keys.
     """
     return {
         "quantities": {

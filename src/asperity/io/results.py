@@ -1,7 +1,8 @@
-"""Results as one labelled file: contacts with all their physics, and load paths, written whole, read back exactly.
+"""Results as one labelled file: contacts with all their physics, and load paths, written whole,
+read back exactly.
 
-The physics of a problem are described, and what their couplings found and remember is stored by the codec, from what its fields say of themselves; nothing
-here knows one of them.
+The physics of a problem are described, and what their couplings found and remember is stored by the
+codec, from what its fields say of themselves; nothing here knows one of them.
 """
 
 from __future__ import annotations
@@ -45,12 +46,16 @@ def save(
     overwrite: bool = False,
     start: InterfaceState | None = None,
 ) -> None:
-    """Write ``result``, and the text of the problem ``document`` it came from, to the NetCDF-4 file ``path``.
+    """Write ``result``, and the text of the problem ``document`` it came from, to the NetCDF-4 file
+    ``path``.
 
-    The file has one group for each part of the result, units and long names on every variable; ``load`` gives an equal result.
+    The file has one group for each part of the result, units and long names on every variable;
+    ``load`` gives an equal result.
 
-    Of a path that is longer than the memory give the steps as they are solved, ``save(asperity.contact.steps(problem, history), "path.nc")``, and the
-    interface that they ``start`` from: they are written and forgotten. Such a file is that of the ``HistoryResult`` without the energies, which ``load`` computes when they are read.
+    Of a path that is longer than the memory give the steps as they are solved,
+    ``save(asperity.contact.steps(problem, history), "path.nc")``, and the interface that they
+    ``start`` from: they are written and forgotten. Such a file is that of the ``HistoryResult``
+    without the energies, which ``load`` computes when they are read.
 
     Raises
     ------
@@ -67,7 +72,8 @@ def save(
 
 
 def _tree_of_steps(steps: Steps, start: InterfaceState | None, document: str | None) -> Node:
-    """Tree of a path whose steps are solved as they are written; the last of them follows as the contact."""
+    """Tree of a path whose steps are solved as they are written; the last of them follows as the
+    contact."""
     last = list[ContactResult]()
 
     def passed() -> Steps:
@@ -85,24 +91,30 @@ def _tree_of_steps(steps: Steps, start: InterfaceState | None, document: str | N
 
 
 def load(path: str | Path) -> Any:
-    """The result in the file ``path``, equal to the one that was saved: same fields to the bit, same problem.
+    """The result in the file ``path``, equal to the one that was saved: same fields to the bit,
+    same problem.
 
-    Displacement and gap of the steps of a load path come back by one transform of the pressures when they are first read, to a ``rounding`` that the file
-    states of each step (``open_tree(path)["path/rounding"]``); the states of all steps are those that were saved, to the bit.
+    Displacement and gap of the steps of a load path come back by one transform of the pressures
+    when they are first read, to a ``rounding`` that the file states of each step
+    (``open_tree(path)["path/rounding"]``); the states of all steps are those that were saved, to
+    the bit.
 
-    A ``ContactResult``, ``HistoryResult``, ``RollingContact``, ``StressField`` or ``dynamics.Motion``, or a state of finite elements from which a history goes
-    on; of the outcome of a document the contact.
+    A ``ContactResult``, ``HistoryResult``, ``RollingContact``, ``StressField`` or
+    ``dynamics.Motion``, or a state of finite elements from which a history goes on; of the outcome
+    of a document the contact.
 
     Raises
     ------
     FileFormatError
-        If the file is missing, damaged, not NetCDF-4, not a result of asperity, or of a newer format.
+        If the file is missing, damaged, not NetCDF-4, not a result of asperity, or of a newer
+        format.
     """
     return result_in(read_tree(path, without=("planes", "stress")), path)
 
 
 def open_tree(path: str | Path) -> xarray.DataTree:
-    """The result file ``path`` as ``xarray.DataTree`` in memory, for analysis; the same as ``to_xarray`` of what it holds.
+    """The result file ``path`` as ``xarray.DataTree`` in memory, for analysis; the same as
+    ``to_xarray`` of what it holds.
 
     Raises
     ------
@@ -113,7 +125,8 @@ def open_tree(path: str | Path) -> xarray.DataTree:
 
 
 def to_xarray(result: Result, *, document: str | None = None) -> xarray.DataTree:
-    """``result`` as ``xarray.DataTree``: one group for each part, units and long names on every variable.
+    """``result`` as ``xarray.DataTree``: one group for each part, units and long names on every
+    variable.
 
     Raises
     ------
@@ -145,7 +158,8 @@ def document_in(path: str | Path) -> str | None:
 
 
 def contact_of(result: Any) -> ContactResult:
-    """The contact of a ``result``: of a load path that at its end, of a rolling contact the normal one.
+    """The contact of a ``result``: of a load path that at its end, of a rolling contact the normal
+    one.
 
     Raises
     ------
@@ -171,7 +185,8 @@ def result_in(tree: Node, path: str | Path) -> Any:
     with whole(path):
         if "tractions" in groups:
             raise FileFormatError(
-                f"result file must hold a contact or a stress field, but {path} holds stresses under prescribed tractions; read it with open_tree."
+                f"result file must hold a contact or a stress field, but {path} holds stresses under "
+                "prescribed tractions; read it with open_tree."
             )
         name = next((name for name in RESULTS if name in groups), "")
         if "contact" not in groups and name:
@@ -199,7 +214,8 @@ def contact_in(tree: Node) -> ContactResult:
 
 
 def path_in(tree: Node, last: ContactResult) -> HistoryResult:
-    """The load path that the ``tree`` of a file holds, whose ``last`` step is the contact of the file."""
+    """The load path that the ``tree`` of a file holds, whose ``last`` step is the contact of the
+    file."""
     if old_format(tree):
         from .format2 import path_from as older
 
@@ -209,7 +225,8 @@ def path_in(tree: Node, last: ContactResult) -> HistoryResult:
 
 @contextmanager
 def whole(path: str | Path) -> Iterator[None]:
-    """Within it, whatever is missing or wrong in what the file ``path`` holds is a ``FileFormatError``."""
+    """Within it, whatever is missing or wrong in what the file ``path`` holds is a
+    ``FileFormatError``."""
     try:
         yield
     except FileFormatError:
@@ -222,7 +239,8 @@ def whole(path: str | Path) -> Iterator[None]:
 
 
 def result_tree(result: Result, *, document: str | None = None, streamed: bool = False) -> Node:
-    """Tree of ``result``: what files hold and ``to_xarray`` gives; where it is ``streamed`` the steps of a load path are made as they are written.
+    """Tree of ``result``: what files hold and ``to_xarray`` gives; where it is ``streamed`` the
+    steps of a load path are made as they are written.
 
     Raises
     ------
@@ -238,8 +256,8 @@ def result_tree(result: Result, *, document: str | None = None, streamed: bool =
     name = group_name(result)
     if not name:
         raise InputError(
-            "result to save must be a result of solve or roll, a load path, a stress field, a motion or a state of finite elements, "
-            f"but is {type(result).__name__}."
+            "result to save must be a result of solve or roll, a load path, a stress field, a motion or a "
+            f"state of finite elements, but is {type(result).__name__}."
         )
     own = {name: kept_node(result, name)}
     contact = contact_beside(result)
@@ -252,7 +270,8 @@ def result_tree(result: Result, *, document: str | None = None, streamed: bool =
 def root_attributes(
     result: ContactResult, document: str | None, packages: Mapping[str, str] = MappingProxyType({})
 ) -> dict[str, Any]:
-    """What describes a whole file: title, provenance (with ``packages``), citation keys, and the text of the ``document``."""
+    """What describes a whole file: title, provenance (with ``packages``), citation keys, and the
+    text of the ``document``."""
     attributes = {
         "title": "contact of rough surfaces",
         "provenance": json.dumps(provenance(result, packages)),

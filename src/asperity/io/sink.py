@@ -78,7 +78,8 @@ class Sink(io.RawIOBase):
 
 @contextmanager
 def writable(path: Path) -> Iterator[tuple[h5netcdf.File, Sink]]:
-    """A new file at ``path`` to be written; an error of the disk is raised only after the library has closed it."""
+    """A new file at ``path`` to be written; an error of the disk is raised only after the library
+    has closed it."""
     import h5netcdf
 
     sink = Sink(path)

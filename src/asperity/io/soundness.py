@@ -1,4 +1,5 @@
-"""Whether the numbers of a contact in a file agree with each other: a damaged or forged field must not load as a converged result."""
+"""Whether the numbers of a contact in a file agree with each other: a damaged or forged field must
+not load as a converged result."""
 
 from __future__ import annotations
 
@@ -14,9 +15,11 @@ FIELDS = ("pressure", "gap", "permanent_indentation", "displacement")
 
 
 def sound(result: ContactResult) -> ContactResult:
-    """``result`` if its fields are finite, pressure, gap and indentation not negative, and its scalars those of its fields.
+    """``result`` if its fields are finite, pressure, gap and indentation not negative, and its
+    scalars those of its fields.
 
-    Scalars agree to the root of the rounding of the fields, 1e-8 or, in single precision, 3e-4: they were summed in the order of the solver.
+    Scalars agree to the root of the rounding of the fields, 1e-8 or, in single precision, 3e-4:
+    they were summed in the order of the solver.
 
     Raises
     ------
@@ -52,5 +55,6 @@ def sound(result: ContactResult) -> ContactResult:
 
 
 def agrees(stated: float, value: float, kind: np.dtype[Any], error: float = 0.0) -> bool:
-    """Whether what is ``stated`` is the ``value`` that a field of this ``kind`` gives, to the root of its rounding and an ``error``."""
+    """Whether what is ``stated`` is the ``value`` that a field of this ``kind`` gives, to the root
+    of its rounding and an ``error``."""
     return abs(stated - value) <= math.sqrt(np.finfo(kind).eps) * max(abs(value), abs(stated)) + error

@@ -33,17 +33,18 @@ ENDINGS = (".nc", ".npy", ".txt", ".asc")
 def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False) -> None:
     """Write ``surface`` to ``path``; the ending chooses the form.
 
-    * ``.nc``: classic NetCDF with units, period, missing points and the whole history. ``read`` returns an equal surface;
-      SurfaceTopography and contact.engineering read it too.
-    * ``.txt``, ``.asc``: matrix of heights in m with a header that states size and unit, top row (largest y) first, as Gwyddion
-      exports and reads it; ``read`` needs no further argument. ``nan`` marks a missing point. A text does not tell that a
-      surface is periodic.
+    * ``.nc``: classic NetCDF with units, period, missing points and the whole history. ``read``
+      returns an equal surface; SurfaceTopography and contact.engineering read it too.
+    * ``.txt``, ``.asc``: matrix of heights in m with a header that states size and unit, top row
+      (largest y) first, as Gwyddion exports and reads it; ``read`` needs no further argument.
+      ``nan`` marks a missing point. A text does not tell that a surface is periodic.
     * ``.npy``: the bare array [x, y] of heights in m; ``read`` needs size and unit.
 
     Raises
     ------
     OutputError
-        If the ending is another, the file exists and ``overwrite`` is false, or it cannot be written.
+        If the ending is another, the file exists and ``overwrite`` is false, or it cannot be
+        written.
     """
     target = Path(path)
     require_ending(target)
@@ -55,7 +56,10 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
             np.save(partial, surface.heights)
         else:
             (length_x, length_y), (nx, ny) = surface.size, surface.shape
-            header = f"Channel: heights\nWidth: {length_x!r} m\nHeight: {length_y!r} m\nValue units: m\nx-pixels: {nx}\ny-pixels: {ny}"
+            header = (
+                f"Channel: heights\nWidth: {length_x!r} m\nHeight: {length_y!r} m\nValue units: "
+                f"m\nx-pixels: {nx}\ny-pixels: {ny}"
+            )
             with partial.open("w", encoding="utf-8", newline="\n") as file:
                 np.savetxt(file, np.flipud(surface.heights.T), fmt="%.10g", delimiter="\t", header=header)
 
@@ -76,8 +80,8 @@ def require_ending(path: Path, endings: tuple[str, ...] = ENDINGS) -> None:
 
 
 BYTES_PER_NODE = 56
-"""Memory of a tile over its nodes, those of the margin included: noise and its translation, field, spectrum, transfer
-function and what the transform takes; seven numbers of eight bytes."""
+"""Memory of a tile over its nodes, those of the margin included: noise and its translation, field,
+spectrum, transfer function and what the transform takes; seven numbers of eight bytes."""
 
 PRECISIONS = {"single": np.float32, "double": np.float64}
 """Types of the heights in a file."""
@@ -93,10 +97,12 @@ def save_endless(
     overwrite: bool = False,
     progress: Progress = NoProgress(),
 ) -> None:
-    """Write the window of ``shape`` (nx, ny) at node (0, 0) of an endless ``surface`` to the file ``path``, an .npy array.
+    """Write the window of ``shape`` (nx, ny) at node (0, 0) of an endless ``surface`` to the file
+    ``path``, an .npy array.
 
-    Tiles are generated one after another with a margin of the reach of the kernel, and need no seam: their heights are those
-    of the whole, up to rounding. ``numpy.load(path, mmap_mode="r")`` opens the array without reading it.
+    Tiles are generated one after another with a margin of the reach of the kernel, and need no
+    seam: their heights are those of the whole, up to rounding. ``numpy.load(path, mmap_mode="r")``
+    opens the array without reading it.
 
     Parameters
     ----------
@@ -109,7 +115,8 @@ def save_endless(
     memory
         Bytes that the tiles may take; the fewer, the more of the time goes into margins.
     precision
-        ``double`` or ``single`` (half the file; differences of neighbouring heights keep fewer digits).
+        ``double`` or ``single`` (half the file; differences of neighbouring heights keep fewer
+        digits).
     overwrite
         Replace the file if it exists.
     progress
@@ -132,7 +139,8 @@ def save_endless(
     with atomic_file(target, overwrite=overwrite) as partial:
         np.lib.format.open_memmap(partial, mode="w+", dtype=kind, shape=(nx, ny)).flush()
         for row in range(rows):
-            # opened anew for each row of tiles, so that what is written does not stay in the memory of the process
+            # opened anew for each row of tiles, so that what is written does not stay in the memory
+            # of the process
             heights = np.lib.format.open_memmap(partial, mode="r+")
             for column in range(columns):
                 i, j = row * tile[0], column * tile[1]
@@ -145,7 +153,8 @@ def save_endless(
 
 
 def _tile(surface: EndlessSurface, shape: tuple[int, int], memory: float) -> tuple[int, int]:
-    """Largest tile (tx, ty), as square as the surface allows, whose generation fits into ``memory`` bytes."""
+    """Largest tile (tx, ty), as square as the surface allows, whose generation fits into ``memory``
+    bytes."""
     margins = [2 * reach for reach in surface.kernel.reach]
     nodes = memory / BYTES_PER_NODE
     side = math.isqrt(int(nodes))
@@ -160,11 +169,13 @@ def _tile(surface: EndlessSurface, shape: tuple[int, int], memory: float) -> tup
     return tx, ty
 
 
-# Periodic Gaussian surfaces larger than the memory: white noise filtered by a Fourier transform on the disk.
+# Periodic Gaussian surfaces larger than the memory: white noise filtered by a Fourier transform on
+# the disk.
 
 
 BYTES_PER_MODE = 112
-"""Memory of a block of columns over its modes: three complex fields, the spectrum and what its power laws take."""
+"""Memory of a block of columns over its modes: three complex fields, the spectrum and what its
+power laws take."""
 
 
 def save_gaussian(
@@ -178,10 +189,12 @@ def save_gaussian(
     overwrite: bool = False,
     progress: Progress = NoProgress(),
 ) -> None:
-    """Write the periodic surface ``generate.gaussian(grid, spectrum, seed=seed)`` to the file ``path``, an .npy array.
+    """Write the periodic surface ``generate.gaussian(grid, spectrum, seed=seed)`` to the file
+    ``path``, an .npy array.
 
-    Rows and columns are transformed in turn, block by block; in between the waves lie in a temporary file beside ``path`` of
-    the size of the surface in double precision. Heights are those of ``gaussian``, up to rounding.
+    Rows and columns are transformed in turn, block by block; in between the waves lie in a
+    temporary file beside ``path`` of the size of the surface in double precision. Heights are those
+    of ``gaussian``, up to rounding.
 
     Parameters
     ----------
@@ -196,7 +209,8 @@ def save_gaussian(
     memory
         Bytes that the blocks may take.
     precision
-        ``double`` or ``single`` (half the file; differences of neighbouring heights keep fewer digits).
+        ``double`` or ``single`` (half the file; differences of neighbouring heights keep fewer
+        digits).
     overwrite
         Replace the file if it exists.
     progress
@@ -205,7 +219,8 @@ def save_gaussian(
     Raises
     ------
     InputError
-        If a value is out of range, the memory too small for one row or column, or the spectrum no function of the wavenumber.
+        If a value is out of range, the memory too small for one row or column, or the spectrum no
+        function of the wavenumber.
     OutputError
         If the file cannot be written.
     """

@@ -1,4 +1,5 @@
-"""Tables as text separated by commas, which spreadsheets open: what begins like a formula is written as text."""
+"""Tables as text separated by commas, which spreadsheets open: what begins like a formula is
+written as text."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def cell(value: Any) -> Any:
-    """``value``, with an apostrophe before it if it is text that a spreadsheet would compute; numbers, also written ones, stay numbers."""
+    """``value``, with an apostrophe before it if it is text that a spreadsheet would compute;
+    numbers, also written ones, stay numbers."""
     if not isinstance(value, str) or not value.startswith(_FORMULA):
         return value
     try:

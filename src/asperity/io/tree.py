@@ -28,13 +28,15 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT_VERSION = 3
-"""Version of the layout of result files; raised whenever an older asperity could misread a newer file."""
+"""Version of the layout of result files; raised whenever an older asperity could misread a newer
+file."""
 
 DIGEST = "sha256"
 """Attribute of an array: digest of its values."""
 
 PACKED, SET = "packed", "_set"
-"""Attribute of the bits of a packed array: names of its axes; and ending of the name of the bits."""
+"""Attribute of the bits of a packed array: names of its axes; and ending of the name of the
+bits."""
 
 FIXED = ("x", "y")
 """Axes along which nothing follows."""
@@ -43,7 +45,8 @@ CHUNK = 2**19
 """Bytes of the chunks of arrays that grow."""
 
 SPARSE = 0.5
-"""Share of values that are not zero below which a variable is packed, which then costs little and saves much."""
+"""Share of values that are not zero below which a variable is packed, which then costs little and
+saves much."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,19 +56,22 @@ class Node:
     Attributes
     ----------
     values
-        Numbers, text and arrays with what they are; the ``dims`` of the quantity name the axes of an array. An array named
-        like its only axis is the coordinate of that axis.
+        Numbers, text and arrays with what they are; the ``dims`` of the quantity name the axes of
+        an array. An array named like its only axis is the coordinate of that axis.
     attributes
         Text and numbers that describe the whole.
     children
         Groups within, by name.
     rows
-        Nodes that follow this one along the first axis of its arrays (but those of the grid), written one after the other, so that they need not be in
-        memory together. Groups within follow as well. What only some of them have is zero in the others.
+        Nodes that follow this one along the first axis of its arrays (but those of the grid),
+        written one after the other, so that they need not be in memory together. Groups within
+        follow as well. What only some of them have is zero in the others.
     lengths
-        Lengths of axes of the first kind that are known before the last row; an axis that may grow costs time for each of its variables.
+        Lengths of axes of the first kind that are known before the last row; an axis that may grow
+        costs time for each of its variables.
     packs
-        Whether files hold arrays over grid and steps packed: their values that are not zero, and a bit for each point.
+        Whether files hold arrays over grid and steps packed: their values that are not zero, and a
+        bit for each point.
     """
 
     values: tuple[Labelled, ...] = ()
@@ -104,7 +110,8 @@ class Node:
 
 @dataclass(frozen=True, eq=False)
 class Stack:
-    """Arrays of one shape and type, the ``rows`` of an array that is not laid out before it is needed."""
+    """Arrays of one shape and type, the ``rows`` of an array that is not laid out before it is
+    needed."""
 
     rows: tuple[np.ndarray[Any, Any], ...]
 
@@ -137,7 +144,8 @@ def write_tree(tree: Node, path: str | Path, *, overwrite: bool = False) -> None
     Raises
     ------
     OutputError
-        If the file has another ending than .nc, exists and ``overwrite`` is false, or cannot be written.
+        If the file has another ending than .nc, exists and ``overwrite`` is false, or cannot be
+        written.
     """
     if Path(path).suffix.lower() not in (".nc", ".nc4", ".h5"):
         raise OutputError(
@@ -153,12 +161,14 @@ def write_tree(tree: Node, path: str | Path, *, overwrite: bool = False) -> None
 
 
 def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
-    """The tree in the NetCDF-4 file ``path``, in memory; groups whose name is in ``without`` are left out.
+    """The tree in the NetCDF-4 file ``path``, in memory; groups whose name is in ``without`` are
+    left out.
 
     Raises
     ------
     FileFormatError
-        If the file is missing, damaged, not NetCDF-4, not written by asperity, or of a newer format.
+        If the file is missing, damaged, not NetCDF-4, not written by asperity, or of a newer
+        format.
     """
     import h5netcdf
     import h5py
@@ -196,9 +206,11 @@ def read_tree(path: str | Path, *, without: tuple[str, ...] = ()) -> Node:
 
 
 def require_sound_heaps(path: str | Path) -> None:
-    """Refuse an HDF5 file with a heap of texts in which the library (2.0 and before) would read for ever.
+    """Refuse an HDF5 file with a heap of texts in which the library (2.0 and before) would read for
+    ever.
 
-    A collection ``GCOL`` is a chain of objects; a free one of size zero, as in a damaged file, leads to itself.
+    A collection ``GCOL`` is a chain of objects; a free one of size zero, as in a damaged file,
+    leads to itself.
 
     Raises
     ------
@@ -220,7 +232,8 @@ def require_sound_heaps(path: str | Path) -> None:
 
 
 def _size_of_own(group: Any, seen: set[Any]) -> float:
-    """Bytes of the data of a group; links out of the file, data kept in other files and groups within themselves are refused.
+    """Bytes of the data of a group; links out of the file, data kept in other files and groups
+    within themselves are refused.
 
     Raises
     ------
@@ -249,7 +262,8 @@ def _size_of_own(group: Any, seen: set[Any]) -> float:
 
 
 def datatree(tree: Node) -> xarray.DataTree:
-    """``tree`` as ``xarray.DataTree``: units and long names on every variable, coordinates in each group that has them."""
+    """``tree`` as ``xarray.DataTree``: units and long names on every variable, coordinates in each
+    group that has them."""
     import xarray
 
     return xarray.DataTree.from_dict({place: _dataset(node) for place, node in _walk(tree, "/")})
@@ -289,7 +303,8 @@ def _dataset(node: Node) -> xarray.Dataset:
 
 
 class _Writer:
-    """A group that is being written, with the digest of each array so far; rows follow along the first axis of arrays."""
+    """A group that is being written, with the digest of each array so far; rows follow along the
+    first axis of arrays."""
 
     def __init__(
         self, group: h5netcdf.Group, sink: Sink, *, grows: bool, whole: Mapping[str, int] = MappingProxyType({})
@@ -300,7 +315,8 @@ class _Writer:
         self._children = dict[str, _Writer]()
 
     def add(self, node: Node, begin: int = 0) -> None:
-        """Write the first node, or append a further one, whose steps ``begin`` at least at this number."""
+        """Write the first node, or append a further one, whose steps ``begin`` at least at this
+        number."""
         node = _packed(node) if node.packs else node
         grown = dict[str, int]()
         if self._grows:
@@ -382,7 +398,8 @@ def _bytes(values: np.ndarray[Any, Any]) -> Any:
 
 
 def _packed(node: Node) -> Node:
-    """``node`` whose arrays over grid and steps are their values that are not zero, one after the other, and a bit for each point; exact."""
+    """``node`` whose arrays over grid and steps are their values that are not zero, one after the
+    other, and a bit for each point; exact."""
     values: list[Labelled] = []
     for item in node.values:
         quantity, stack = item.quantity, item.values
@@ -405,7 +422,8 @@ def _packed(node: Node) -> Node:
 
 
 def _bits_and_values(array: np.ndarray[Any, Any]) -> tuple[Any, Any]:
-    """A bit for each point of ``array`` that is not zero, and its values there; a minus before a zero counts."""
+    """A bit for each point of ``array`` that is not zero, and its values there; a minus before a
+    zero counts."""
     flat = np.ascontiguousarray(array).reshape(-1)
     if flat.dtype == bool:
         return np.packbits(flat), flat[:0]
@@ -475,9 +493,11 @@ def _stored(values: Any) -> np.ndarray[Any, Any]:
 
 
 def _arrays(group: h5netcdf.Group, content: h5py.File) -> Iterator[tuple[str, Any, Any]]:
-    """Name, variable and array of what a group holds, arrays that are shorter than an axis that grows filled up with zeros.
+    """Name, variable and array of what a group holds, arrays that are shorter than an axis that
+    grows filled up with zeros.
 
-    h5netcdf does the same, but looks through all variables of a group for the length of each axis of each variable: 1.2 of 1.4 s for 41 steps of 64² points.
+    h5netcdf does the same, but looks through all variables of a group for the length of each axis
+    of each variable: 1.2 of 1.4 s for 41 steps of 64² points.
     """
     found, lengths = list[tuple[str, Any, Any]](), dict[str, int]()
     for name, variable in group.variables.items():

@@ -63,7 +63,8 @@ CERTIFICATE = (
         "load_imbalance",
         "1",
         "imbalance of the forces",
-        description="How far load, menisci and adhesion are from the force of the contact, over their sum; zero where a position was asked for.",
+        description="How far load, menisci and adhesion are from the force of the contact, over their sum; zero "
+        "where a position was asked for.",
     ),
     Quantity(
         "tolerance",
@@ -151,7 +152,8 @@ def body_text(body: object) -> str:
 
 
 def body_rows(body: object) -> Rows:
-    """Elastic constants and strength of ``body``, with the sources of the values; layers one after another."""
+    """Elastic constants and strength of ``body``, with the sources of the values; layers one after
+    another."""
     return _layered_rows(body) if isinstance(body, Layered) else _rows(body)
 
 
@@ -259,7 +261,8 @@ def _prefixed(prefix: str, part: object) -> Rows:
 
 
 def _source_row(source: str) -> tuple[str, str]:
-    """``"youngs_modulus: handbook"`` names the value that it is the source of; any other text stands alone."""
+    """``"youngs_modulus: handbook"`` names the value that it is the source of; any other text
+    stands alone."""
     key, _, text = source.partition(": ")
     return (f"source of {TERMS[key].label}", text) if key in TERMS else ("source", source)
 
@@ -299,7 +302,8 @@ def limit_text(problem: ContactProblem) -> str:
 
 
 def modulus_label(problem: ContactProblem) -> str:
-    """What to call the contact modulus of ``problem``: that of a coated body is of its top layer alone."""
+    """What to call the contact modulus of ``problem``: that of a coated body is of its top layer
+    alone."""
     coated = any(isinstance(body, Layered) for body in (problem.body, problem.counter_body))
     return "contact modulus E* of the materials at the surfaces" if coated else "contact modulus E*"
 
@@ -328,7 +332,8 @@ HEADLINE = {
 
 
 def value_text(quantity: Quantity, value: float | int | str) -> str:
-    """Text of ``value`` with the unit of ``quantity``; whole numbers in full, shares also in percent."""
+    """Text of ``value`` with the unit of ``quantity``; whole numbers in full, shares also in
+    percent."""
     if isinstance(value, str | int):
         return str(value)
     if math.isnan(value):
@@ -351,7 +356,8 @@ PLASTIC = (
 
 
 def result_rows(result: ContactResult, doubted: tuple[str, ...] = ()) -> Rows:
-    """Every scalar of ``result`` that was asked for, but for those that what its couplings found contradicts.
+    """Every scalar of ``result`` that was asked for, but for those that what its couplings found
+    contradicts.
 
     Names that begin with one of ``doubted`` are marked.
     """
@@ -368,7 +374,8 @@ def result_rows(result: ContactResult, doubted: tuple[str, ...] = ()) -> Rows:
 
 
 def peak_text(result: ContactResult) -> str:
-    """Largest pressure between the pixels with its error and place; a lower bound where it is in doubt."""
+    """Largest pressure between the pixels with its error and place; a lower bound where it is in
+    doubt."""
     peak, (dx, dy) = result.peak_pressure, result.problem.grid.spacing
     at = f"at x = {show(peak.x + 0.5 * dx, 'm')}, y = {show(peak.y + 0.5 * dy, 'm')}"
     if peak.doubt:
@@ -396,7 +403,8 @@ def area_text(result: ContactResult) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """``value`` and its ``error`` with one digit, or two below 3: ``with_error(0.03123, 0.00042)`` → ``"0.0312 ± 0.0004"``."""
+    """``value`` and its ``error`` with one digit, or two below 3:
+    ``with_error(0.03123, 0.00042)`` → ``"0.0312 ± 0.0004"``."""
     if not error > 0.0 or not math.isfinite(error):
         return f"{value:.4g}"
     place = math.floor(math.log10(error))
@@ -405,7 +413,8 @@ def with_error(value: float, error: float) -> str:
 
 
 def headline_rows(result: ContactResult, doubted: tuple[str, ...] = ()) -> Rows:
-    """The scalars that people look for first; the real contact area in percent of the nominal area; ``doubted`` as in ``result_rows``."""
+    """The scalars that people look for first; the real contact area in percent of the nominal area;
+    ``doubted`` as in ``result_rows``."""
     chosen = {q.name: scalar_text(q, result) for q in SCALARS}
     chosen["area_fraction_corrected"] = area_text(result)
     return [(label, marked(name, chosen[name], doubted)) for name, label in HEADLINE.items()]
@@ -501,13 +510,15 @@ def heading_and_rows(thing: object) -> tuple[str, Rows]:
 
 
 def finding_rows(given: Verdict) -> Rows:
-    """Warnings and notes that the sentences of the verdict ``given`` do not tell, the warnings first."""
+    """Warnings and notes that the sentences of the verdict ``given`` do not tell, the warnings
+    first."""
     made = sorted(given.others, key=lambda item: item.level != "warning")
     return [("WARNING" if item.level == "warning" else "note", item.message) for item in made]
 
 
 def text(thing: object) -> str:
-    """The ``repr`` of a ``thing``: at most a screen of a surface, problem, result or stress field, one line of anything else."""
+    """The ``repr`` of a ``thing``: at most a screen of a surface, problem, result or stress field,
+    one line of anything else."""
     if not isinstance(thing, Surface | ContactProblem | Stored | Judged):
         return printable(f"<{_line(thing)}>")
     heading, rows = heading_and_rows(thing)
@@ -521,7 +532,8 @@ def text(thing: object) -> str:
 
 
 def _lines(text: str, *, whole: bool) -> Iterator[tuple[bool, str]]:
-    """Lines of a screen, and whether each is the first: one that is cut, or the ``whole`` text in several."""
+    """Lines of a screen, and whether each is the first: one that is cut, or the ``whole`` text in
+    several."""
     for number, line in enumerate(wrap(printable(text), LINE) if whole else [_cut(text)]):
         yield not number, line
 

@@ -1,4 +1,5 @@
-"""Checks of resolution and regime, before and after a solve, each with criterion, numbers and remedy."""
+"""Checks of resolution and regime, before and after a solve, each with criterion, numbers and
+remedy."""
 
 from __future__ import annotations
 
@@ -32,16 +33,20 @@ PIXELS_PER_RADIUS = 2.0
 """An asperity of this radius rises over neighbouring pixels with a slope of one half."""
 
 LARGEST_EDGE_JUMP = 3.0
-"""Rms step across the border in rms steps inside: beyond it the border is a ridge the surface does not have."""
+"""Rms step across the border in rms steps inside: beyond it the border is a ridge the surface does
+not have."""
 
 LARGEST_LOAD_RATIO = 0.1
-"""Mean pressure over contact modulus, about the mean strain; linear elasticity neglects its square."""
+"""Mean pressure over contact modulus, about the mean strain; linear elasticity neglects its
+square."""
 
 NEARLY_FULL = 0.95
-"""Area fraction above which the open area is a few per cent and of the order of the pixel correction."""
+"""Area fraction above which the open area is a few per cent and of the order of the pixel
+correction."""
 
 LARGEST_AREA_CORRECTION = 0.15
-"""Share of the pixel area that the place of the edges between pixels takes, at spots of about ten pixels."""
+"""Share of the pixel area that the place of the edges between pixels takes, at spots of about ten
+pixels."""
 
 FEWEST_CONTACT_PIXELS = 10
 """Number of contact pixels below which their count is inaccurate."""
@@ -50,17 +55,20 @@ LEAST_HEIGHT, LARGEST_HEIGHT = 1e-12, 1e-2
 """Rms heights in m between a hundredth of an atom and what stands on a bench."""
 
 LARGEST_PATCH = 1.0 / 8.0
-"""Contact diameter over period at which images bend the surface by 0.9 % of P/(pi E* L) (see the analytic tests)."""
+"""Contact diameter over period at which images bend the surface by 0.9 % of P/(pi E* L) (see the
+analytic tests)."""
 
 FIELDS_OF_A_SOLVE = 16
 """Real fields of the grid in memory during a solve, result included."""
 
 
 PIXELS_PER_LAYER = 1.0
-"""A pressure that varies from pixel to pixel (wavelength 2 pixels) reaches exp(-pi) = 4 % deep into a layer of one pixel."""
+"""A pressure that varies from pixel to pixel (wavelength 2 pixels) reaches exp(-pi) = 4 % deep into
+a layer of one pixel."""
 
 LARGEST_THICKNESS = 0.5
-"""Thickness over period at which the longest wave has decayed to (1 + pi) exp(-pi) = 18 % of its pressure below the layers."""
+"""Thickness over period at which the longest wave has decayed to (1 + pi) exp(-pi) = 18 % of its
+pressure below the layers."""
 
 AREAS = ("area_fraction", "contact_area", "mean_real_pressure", "n_spots", "mean_spot_area", "contact_perimeter")
 """Numbers of a result that follow from what touches."""
@@ -94,16 +102,19 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
 
 
 def findings(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
-    """Everything that should be known before the numbers of what was ``solved`` are used: ``advise`` on it and ``review`` of it."""
+    """Everything that should be known before the numbers of what was ``solved`` are used:
+    ``advise`` on it and ``review`` of it."""
     peak = solved.steps[solved.peak] if isinstance(solved, HistoryResult) else solved
     found = (*advise(peak.problem, peak.control), *review(solved))
     return tuple(sorted(found, key=lambda item: item.criterion != DOUBT))
 
 
 def review(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:
-    """Findings that need the solution: resolved contacts, near-full contact, edges reached, hardness exceeded, and those of each physics.
+    """Findings that need the solution: resolved contacts, near-full contact, edges reached,
+    hardness exceeded, and those of each physics.
 
-    Of a history they are those of its step of the largest force, and those that its last step has beside these.
+    Of a history they are those of its step of the largest force, and those that its last step has
+    beside these.
     """
     if not isinstance(solved, HistoryResult):
         return _review(solved)
@@ -147,7 +158,8 @@ def _slope(profile: Surface) -> Iterator[Advice]:
 
 
 def _resolution(profile: Surface) -> Iterator[Advice]:
-    """Shortest effective wavelength 2 pi sqrt(m2/m4), of a sine exactly its wavelength, and mean summit radius 3/8 sqrt(pi/m4) of a Gaussian surface (Nayak 1971), against the pixel."""
+    """Shortest effective wavelength 2 pi sqrt(m2/m4), of a sine exactly its wavelength, and mean
+    summit radius 3/8 sqrt(pi/m4) of a Gaussian surface (Nayak 1971), against the pixel."""
     wavelengths = {}
     for axis in "xy":
         m2, m4 = (_mean_square(profile, axis, order) for order in (1, 2))
@@ -159,8 +171,8 @@ def _resolution(profile: Surface) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "resolution",
-            f"The shortest effective wavelength 2π√(m2/m4) is {found} (at least {PIXELS_PER_WAVE:g} wanted): asperities "
-            "are not resolved, so contact area and peak pressure depend on the pixel size.",
+            f"The shortest effective wavelength 2π√(m2/m4) is {found} (at least {PIXELS_PER_WAVE:g} wanted): "
+            "asperities are not resolved, so contact area and peak pressure depend on the pixel size.",
             "Resample to a finer grid ({resample}) or give the surface a short-wavelength cut-off ({smooth}).",
             {f"pixels_{axis}": pixels for axis, pixels in wavelengths.items()} | {"least": PIXELS_PER_WAVE},
             (*AREAS, *PRESSURES, *STRESSES),
@@ -213,8 +225,8 @@ def _load(problem: ContactProblem, control: Control) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "load",
-            f"The mean pressure is {times(ratio)} of the contact modulus E* of the softest materials; linear elasticity holds up to about "
-            f"{LARGEST_LOAD_RATIO:g}.",
+            f"The mean pressure is {times(ratio)} of the contact modulus E* of the softest materials; linear "
+            f"elasticity holds up to about {LARGEST_LOAD_RATIO:g}.",
             "Check unit and value of the load ({load}).",
             {"ratio": ratio, "largest": LARGEST_LOAD_RATIO},
         )
@@ -234,13 +246,14 @@ def _memory(problem: ContactProblem) -> Iterator[Advice]:
 
 
 def doubts(*results: ContactResult) -> tuple[Advice, ...]:
-    """Warning that the elastic energy is hardly known in one of the ``results``; it stands above all other words on them."""
+    """Warning that the elastic energy is hardly known in one of the ``results``; it stands above
+    all other words on them."""
     gap = max(result.certificate.duality_gap for result in results)
     if gap <= LARGEST_DUALITY_GAP:
         return ()
     fact = (
-        f"The elastic energy is known to {gap:.1e} of itself only (duality gap, at most {LARGEST_DUALITY_GAP:g} wanted): pressures "
-        "may be wrong."
+        f"The elastic energy is known to {gap:.1e} of itself only (duality gap, at most "
+        f"{LARGEST_DUALITY_GAP:g} wanted): pressures may be wrong."
     )
     remedy = "Use a smaller tolerance ({tolerance}) or another solver ({solver})."
     return (Advice("warning", DOUBT, fact, remedy, {"duality_gap": gap, "largest": LARGEST_DUALITY_GAP}),)
@@ -252,8 +265,8 @@ def _contact_pixels(result: ContactResult) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "contact pixels",
-            f"The contact has {pixels} pixel{'s' if pixels > 1 else ''} (at least {FEWEST_CONTACT_PIXELS} wanted): area "
-            "and peak pressure are set by the pixel size.",
+            f"The contact has {pixels} pixel{'s' if pixels > 1 else ''} (at least {FEWEST_CONTACT_PIXELS} "
+            "wanted): area and peak pressure are set by the pixel size.",
             "Raise the load ({load}) or refine the grid ({resample}).",
             {"pixels": float(pixels), "least": float(FEWEST_CONTACT_PIXELS)},
             (*AREAS, *PRESSURES, *STRESSES),
@@ -291,8 +304,8 @@ def _room(result: ContactResult) -> Iterator[Advice]:
             yield Advice(
                 "note",
                 "contact at the border",
-                "Contact reaches the border of the grid, beyond which the free boundary has nothing to touch: the map acts "
-                "as a punch of its own outline.",
+                "Contact reaches the border of the grid, beyond which the free boundary has nothing to touch: "
+                "the map acts as a punch of its own outline.",
                 "For a nominally flat surface the periodic boundary ({periodic}) is the usual choice.",
                 concerns=PRESSURES,
             )
@@ -302,8 +315,8 @@ def _room(result: ContactResult) -> Iterator[Advice]:
             yield Advice(
                 "warning",
                 "patch against period",
-                f"The single contact spot is {max(widths):.2f} of the period wide (at most {LARGEST_PATCH:g} wanted): it "
-                "interacts with its periodic images.",
+                f"The single contact spot is {max(widths):.2f} of the period wide (at most {LARGEST_PATCH:g} "
+                "wanted): it interacts with its periodic images.",
                 "Use the free boundary ({free}) or a larger grid.",
                 {"width": float(max(widths)), "largest": LARGEST_PATCH},
                 ("approach", "mean_gap", "elastic_energy", *AREAS, *PRESSURES),
@@ -311,7 +324,8 @@ def _room(result: ContactResult) -> Iterator[Advice]:
 
 
 def _seam(result: ContactResult) -> Iterator[Advice]:
-    """Whether the highest pressure lies where opposite borders of a map meet that does not repeat."""
+    """Whether the highest pressure lies where opposite borders of a map meet that does not
+    repeat."""
     problem, pressure = result.problem, result.pressure
     wrapped = [axis for axis in (0, 1) if problem.boundary.wraps[axis] and pressure.shape[axis] > 2]
     if not wrapped or all(getattr(s, "periodic", True) for s in (problem.surface, problem.counter_surface)):
@@ -325,9 +339,9 @@ def _seam(result: ContactResult) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "pressure at the seam",
-            f"The maximum pressure, {show(highest, 'Pa')}, lies at the seam where opposite borders of the map meet, which does "
-            f"not repeat; elsewhere it is at most {show(inside, 'Pa')}. These border pixels are {percent(float(seam.mean()), 2)} "
-            f"of the area and carry {percent(share, 2)} of the load.",
+            f"The maximum pressure, {show(highest, 'Pa')}, lies at the seam where opposite borders of the map "
+            f"meet, which does not repeat; elsewhere it is at most {show(inside, 'Pa')}. These border pixels "
+            f"are {percent(float(seam.mean()), 2)} of the area and carry {percent(share, 2)} of the load.",
             "Periodise the map ({periodise}).",
             {"seam": highest, "elsewhere": inside, "load_share": share},
             (*PRESSURES, *STRESSES),
@@ -339,8 +353,9 @@ def _plastic(result: ContactResult) -> Iterator[Advice]:
         yield Advice(
             "warning",
             "yield everywhere",
-            f"The pressure is at the hardness on {100 * result.plastic_area_fraction:.0f} % of a contact that covers "
-            f"{100 * result.area_fraction:.0f} % of the nominal area: the pressure distribution hardly depends on position or load.",
+            f"The pressure is at the hardness on {100 * result.plastic_area_fraction:.0f} % of a contact that "
+            f"covers {100 * result.area_fraction:.0f} % of the nominal area: the pressure distribution hardly "
+            "depends on position or load.",
             "Check load or position ({load}) and hardness.",
             {
                 "plastic_area_fraction": result.plastic_area_fraction,
@@ -393,18 +408,21 @@ def _hardness(result: ContactResult) -> Iterator[Advice]:
             "note",
             "yielding",
             f"Yielding of {' and '.join(unknown)} is not checked: neither hardness nor yield stress is known.",
-            f"Give H or Y ({{yield_stress}}), with which the maximum pressure, {show(result.max_pressure, 'Pa')}, is compared.",
+            f"Give H or Y ({{yield_stress}}), with which the maximum pressure, "
+            f"{show(result.max_pressure, 'Pa')}, is compared.",
             {"max_pressure": result.max_pressure},
         )
 
 
 def _mean_square(profile: Surface, axis: str, order: int) -> float:
-    """Mean square of the differences of ``order`` along ``axis`` inside the grid; 0 where there are too few points."""
+    """Mean square of the differences of ``order`` along ``axis`` inside the grid; 0 where there are
+    too few points."""
     return stencil_sums(profile, axis, order, 1).square if profile.shape[axis_index(axis)] > order else 0.0
 
 
 def _layers(problem: ContactProblem) -> Iterator[Advice]:
-    """Layers thinner than a pixel, or so thick that what lies below hardly matters in a periodic cell; softer, harder and unknown ones below."""
+    """Layers thinner than a pixel, or so thick that what lies below hardly matters in a periodic
+    cell; softer, harder and unknown ones below."""
     pixel = max(problem.grid.pixels)
     periods = [
         L
@@ -421,22 +439,23 @@ def _layers(problem: ContactProblem) -> Iterator[Advice]:
             yield Advice(
                 "note",
                 "layer against pixel",
-                f"{count} thinner than a pixel (the thinnest {min(thin) / pixel:.2g} pixels, at least {PIXELS_PER_LAYER:g} wanted): "
-                "deflections of resolved waves are right, but peak pressures and stresses on the scale of the layer are not "
-                "resolved.",
+                f"{count} thinner than a pixel (the thinnest {min(thin) / pixel:.2g} pixels, at least "
+                f"{PIXELS_PER_LAYER:g} wanted): deflections of resolved waves are right, but peak pressures "
+                "and stresses on the scale of the layer are not resolved.",
                 "Refine the grid to the scale of the layer ({resample}).",
                 {"thickness": min(thin), "pixel": pixel, "least_pixels": PIXELS_PER_LAYER},
                 (*PRESSURES, *STRESSES),
             )
-        # the longest wave along an axis that wraps; a base as soft as the lowest layer makes no difference
+        # the longest wave along an axis that wraps; a base as soft as the lowest layer makes no
+        # difference
         share = body.thickness / max(periods) if periods and body.layers else 0.0
         base = body.base.plane_strain_modulus if isinstance(body.base, Elastic) else math.inf
         if share > LARGEST_THICKNESS and base != body.layers[-1].material.plane_strain_modulus:
             yield Advice(
                 "note",
                 "layer against period",
-                f"The layers are {share:.2g} of the period thick (more than {LARGEST_THICKNESS:g}): even the longest wave hardly "
-                "reaches the base, whose material then makes little difference.",
+                f"The layers are {share:.2g} of the period thick (more than {LARGEST_THICKNESS:g}): even the "
+                "longest wave hardly reaches the base, whose material then makes little difference.",
                 "Use a larger map, or the free boundary ({free}) for a single contact.",
                 {"share": share, "largest": LARGEST_THICKNESS},
                 ("approach", "elastic_energy"),
@@ -445,8 +464,10 @@ def _layers(problem: ContactProblem) -> Iterator[Advice]:
 
 
 def _below(law: InterfaceLaw, body: Layered) -> Iterator[Advice]:
-    """Materials under the surface of the layered ``body`` that bear less or more than the limit of the pressure, or of which it is not known."""
-    # a limit does not concern what lies below the surface, where a softer material may yield first and a harder one supports the layer
+    """Materials under the surface of the layered ``body`` that bear less or more than the limit of
+    the pressure, or of which it is not known."""
+    # a limit does not concern what lies below the surface, where a softer material may yield first
+    # and a harder one supports the layer
     limit = math.inf if isinstance(law, LimitByDepth) else float(np.max(law.pressure_cap()))
     surface, *below = (yield_pressure(part.strength).value for part in materials_of(body))
     known = [strength for strength in below if strength is not None]
@@ -457,11 +478,11 @@ def _below(law: InterfaceLaw, body: Layered) -> Iterator[Advice]:
         yield Advice(
             "note",
             "softer layers below",
-            f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a hardness of only "
-            f"{show(min(softer), 'Pa')}: under contacts wide against the layers it yields first, at a "
-            "lower pressure.",
-            "Limit the pressure by the effective hardness ({effective_hardness}), or compute the stresses ({stresses}), which tell "
-            "the load factor of each layer.",
+            f"The pressure is limited to {show(limit, 'Pa')} at the surface, but a material below it has a "
+            f"hardness of only {show(min(softer), 'Pa')}: under contacts wide against the layers it yields "
+            "first, at a lower pressure.",
+            "Limit the pressure by the effective hardness ({effective_hardness}), or compute the stresses "
+            "({stresses}), which tell the load factor of each layer.",
             {"limit": limit, "hardness": min(softer)},
             (*AREAS, *PRESSURES, "plastic_"),
         )
@@ -478,8 +499,9 @@ def _below(law: InterfaceLaw, body: Layered) -> Iterator[Advice]:
         yield Advice(
             "note",
             "harder layers below",
-            f"The pressure is limited to {show(limit, 'Pa')}, the hardness of the top layer, but {most}: where the indentation is not small "
-            "against the layer, the contact bears more, and the layers below make no difference to this limit.",
+            f"The pressure is limited to {show(limit, 'Pa')}, the hardness of the top layer, but {most}: where "
+            "the indentation is not small against the layer, the contact bears more, and the layers below "
+            "make no difference to this limit.",
             f"Limit the pressure by the effective hardness ({{effective_hardness}}){given}.",
             {"limit": limit, "hardness": max(known, default=math.inf)},
             (*AREAS, *PRESSURES, "plastic_"),
@@ -488,8 +510,9 @@ def _below(law: InterfaceLaw, body: Layered) -> Iterator[Advice]:
         yield Advice(
             "note",
             "layers below",
-            f"The pressure is limited to {show(limit, 'Pa')}, the hardness of the top layer; the strength of {' and '.join(missing)} below it is not "
-            "known, and with it not whether contacts that press through the layer yield at more or at less.",
+            f"The pressure is limited to {show(limit, 'Pa')}, the hardness of the top layer; the strength of "
+            f"{' and '.join(missing)} below it is not known, and with it not whether contacts that press "
+            "through the layer yield at more or at less.",
             "Give H or Y of it ({yield_stress}).",
             {"limit": limit},
             (*AREAS, *PRESSURES, "plastic_"),
@@ -504,7 +527,8 @@ def _units(problem: ContactProblem) -> Iterator[Advice]:
             yield Advice(
                 "note",
                 f"height of the {name}",
-                f"The rms height of the {name} is {show(height, 'm', 3)}, outside of {show(LEAST_HEIGHT, 'm')} to {show(LARGEST_HEIGHT, 'm')}.",
+                f"The rms height of the {name} is {show(height, 'm', 3)}, outside of {show(LEAST_HEIGHT, 'm')} "
+                f"to {show(LARGEST_HEIGHT, 'm')}.",
                 "Check the unit of the heights ({height_unit}).",
                 {"rms_height": height, "least": LEAST_HEIGHT, "largest": LARGEST_HEIGHT},
             )
@@ -517,8 +541,8 @@ def _units(problem: ContactProblem) -> Iterator[Advice]:
                     yield Advice(
                         "warning",
                         name,
-                        f"The {name} of {solid.name or 'a material'}, {show(value, 'Pa')}, is above its Young's modulus, {show(modulus, 'Pa')}; "
-                        "solids yield at a tenth of it or less.",
+                        f"The {name} of {solid.name or 'a material'}, {show(value, 'Pa')}, is above its "
+                        f"Young's modulus, {show(modulus, 'Pa')}; solids yield at a tenth of it or less.",
                         "Check the units of both.",
                         {"strength": value, "youngs_modulus": modulus},
                     )

@@ -42,7 +42,8 @@ class Contact(Part):
         return FIELDS
 
 
-# A load path: the state of the contact at every step, where the load turns, and where its work goes.
+# A load path: the state of the contact at every step, where the load turns, and where its work
+# goes.
 
 
 class LoadPath(Part):

@@ -1,4 +1,5 @@
-"""What is computed, shown and said of every contact, of load paths and of what yields on the way."""
+"""What is computed, shown and said of every contact, of load paths and of what yields on the
+way."""
 
 from __future__ import annotations
 
@@ -131,8 +132,8 @@ def path_sentence(path: HistoryResult) -> str:
     in_time = any(result.creep is not None for result in path.steps)
     rule = "the steps of time; smaller ones reduce it" if in_time else "the trapezoidal rule; more steps reduce it"
     text = (
-        f"The load ran through {len(path.steps)} steps, each from the interface the last one left. External work and the sum "
-        f"of {parts} differ by at most {percent(balance.relative_error, 2)} of the largest "
+        f"The load ran through {len(path.steps)} steps, each from the interface the last one left. External "
+        f"work and the sum of {parts} differ by at most {percent(balance.relative_error, 2)} of the largest "
         f"work, by the error of {rule}."
     )
     if failed:

@@ -1,4 +1,5 @@
-"""What a part is: one physics or analysis with its settings, what it computes, its quantities, figures and words."""
+"""What a part is: one physics or analysis with its settings, what it computes, its quantities,
+figures and words."""
 
 from __future__ import annotations
 
@@ -72,7 +73,8 @@ class Found:
     words: Words | None = None
 
     def columns(self, prefix: str) -> dict[str, Any]:
-        """Values whose names begin with ``prefix``, as arrays of one dimension or more by the rest of their names."""
+        """Values whose names begin with ``prefix``, as arrays of one dimension or more by the rest
+        of their names."""
         import numpy as np
 
         return {
@@ -86,8 +88,8 @@ class Found:
 class Stored:
     """What a file keeps of a part beside the values of its quantities, for figures.
 
-    ``fields`` are stress fields by name, or their planes one after the other; ``facts`` are numbers and text by name, as in
-    JSON.
+    ``fields`` are stress fields by name, or their planes one after the other; ``facts`` are numbers
+    and text by name, as in JSON.
     """
 
     fields: Mapping[str, Any] = field(default_factory=dict)
@@ -130,7 +132,8 @@ class Solved:
     stage: Stage = no_stage
 
     def at(self, step: Literal["peak", "last"] | int = "peak") -> Reached:
-        """The contact at a ``step`` of the load path: that of the largest force, the last one, or by its number from 1.
+        """The contact at a ``step`` of the load path: that of the largest force, the last one, or
+        by its number from 1.
 
         Raises
         ------
@@ -182,7 +185,8 @@ class Words:
     alarming
         Whether something does not hold.
     holds
-        Whether the bodies hold: what yields, flows, cracks or wears, and where; empty where this is not what was asked.
+        Whether the bodies hold: what yields, flows, cracks or wears, and where; empty where this is
+        not what was asked.
     """
 
     sentence: str = ""
@@ -198,13 +202,15 @@ class Words:
 
 
 class Work:
-    """What is done for a part that is asked for: check, computation, words and figures. It holds no state."""
+    """What is done for a part that is asked for: check, computation, words and figures. It holds no
+    state."""
 
     def check(self, ask: Any, problem: ContactProblem) -> None:
         """Refuse with an ``InputError`` what ``problem`` does not have, before it is solved."""
 
     def course(self, ask: Any, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
-        """The steps that are solved, for those that the load and the parts before this one ask for."""
+        """The steps that are solved, for those that the load and the parts before this one ask
+        for."""
         return controls
 
     def altered(self, ask: Any, problem: ContactProblem) -> ContactProblem:
@@ -232,7 +238,8 @@ class Work:
         return None
 
     def made_from(self, result: ContactResult) -> Found | None:
-        """What it finds in a ``result`` alone, where that takes no settings; None where it is computed as ever."""
+        """What it finds in a ``result`` alone, where that takes no settings; None where it is
+        computed as ever."""
         return None
 
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
@@ -241,7 +248,8 @@ class Work:
 
 
 class WithFacts(Work):
-    """What is done for a part whose detail is numbers and text by name, which files keep as they are."""
+    """What is done for a part whose detail is numbers and text by name, which files keep as they
+    are."""
 
     def stored(self, found: Found) -> Stored:
         """The detail."""
@@ -255,32 +263,37 @@ class WithFacts(Work):
 class Part(Work):
     """Base of all parts, which hold no state.
 
-    A part is asked for by its ``table`` in the document, of which one part declares the ``settings`` and others may share them;
-    without a table it is always asked for. A table with defaults for everything may be ``in_every_document``. Where
-    what an ``essential`` part asks for cannot be computed, the run fails; of others that is a finding. The part is computed after the
+    A part is asked for by its ``table`` in the document, of which one part declares the
+    ``settings`` and others may share them; without a table it is always asked for. A table with
+    defaults for everything may be ``in_every_document``. Where what an ``essential`` part asks for
+    cannot be computed, the run fails; of others that is a finding. The part is computed after the
     solve, in the order of the registry, and reads what the parts before it have found.
 
-    All parts are imported with the first document, the help of the command line or the form: they declare, and what is done for them
-    stands at ``work``, which is imported where the part is asked for. A part without ``work`` does it itself.
+    All parts are imported with the first document, the help of the command line or the form: they
+    declare, and what is done for them stands at ``work``, which is imported where the part is asked
+    for. A part without ``work`` does it itself.
     """
 
     name: ClassVar[str] = ""
     title: ClassVar[str] = ""
     table: ClassVar[str] = ""
     needs: ClassVar[str] = ""
-    """Key that its table must give for the part to be asked for; empty where the table is enough."""
+    """Key that its table must give for the part to be asked for; empty where the table is
+    enough."""
     settings: ClassVar[type[Settings] | None] = None
     in_every_document: ClassVar[bool] = False
     essential: ClassVar[bool] = False
     quantities: ClassVar[tuple[Quantity, ...]] = ()
     work: ClassVar[str] = ""
-    """Module and name of the ``Work`` of a part of this package, such as ``physics.rolling.work:RollingWork``."""
+    """Module and name of the ``Work`` of a part of this package, such as
+    ``physics.rolling.work:RollingWork``."""
     whole_path: ClassVar[bool] = False
     """Whether it needs all steps of a load path."""
     answers: ClassVar[bool] = True
     """Whether its sentence says what was found, rather than how well."""
     of_result: ClassVar[str] = ""
-    """Name of the coupling whose answer a result must have for the part to be made from the result alone; empty if that is not enough."""
+    """Name of the coupling whose answer a result must have for the part to be made from the result
+    alone; empty if that is not enough."""
 
     @property
     def at_work(self) -> Work:
@@ -290,11 +303,13 @@ class Part(Work):
 
     @staticmethod
     def implied(document: Any, /) -> bool:
-        """Whether a ``document`` without the table of this part asks for it, with the defaults of its settings."""
+        """Whether a ``document`` without the table of this part asks for it, with the defaults of
+        its settings."""
         return False
 
     def settings_in(self, document: Any) -> Any:
-        """The settings that ``document`` holds in the table of this part; None if it holds none, True without a table."""
+        """The settings that ``document`` holds in the table of this part; None if it holds none,
+        True without a table."""
         found = document
         for key in filter(None, self.table.split(".")):
             found = getattr(found, key)
@@ -305,7 +320,8 @@ class Part(Work):
         return found if self.table else True
 
     def asked(self, document: Any, folder: Path) -> Any:
-        """What a ``document`` with the settings of this part, whose relative paths start at ``folder``, requests of it; None for nothing."""
+        """What a ``document`` with the settings of this part, whose relative paths start at
+        ``folder``, requests of it; None for nothing."""
         return self.settings_in(document)
 
     def coupling(self, ask: Any) -> Mapping[str, Any]:

@@ -1,4 +1,5 @@
-"""Which parts there are: those of this package, and those that installed packages add by the entry point ``asperity.parts``."""
+"""Which parts there are: those of this package, and those that installed packages add by the entry
+point ``asperity.parts``."""
 
 from __future__ import annotations
 
@@ -12,12 +13,14 @@ from ..core.registry import PARTS, home
 from .part import Part
 
 GROUP = "asperity.parts"
-"""Entry points of packages that add parts; each names a ``Part``, the class or an instance of it."""
+"""Entry points of packages that add parts; each names a ``Part``, the class or an instance of
+it."""
 
 
 @functools.cache
 def parts() -> tuple[Part, ...]:
-    """All parts: the built-in ones, then those of other packages by name. One that cannot be used is left out with a warning."""
+    """All parts: the built-in ones, then those of other packages by name. One that cannot be used
+    is left out with a warning."""
     found: list[Part] = [home(place)() for place in PARTS]
     for entry in sorted(metadata.entry_points(group=GROUP), key=lambda item: item.name):
         try:
@@ -39,7 +42,8 @@ def versions() -> dict[str, str]:
 
 
 def with_own(own: Iterable[object]) -> tuple[Part, ...]:
-    """All parts, and after them ``own`` ones that no package adds, each a ``Part``, the class or an instance of it.
+    """All parts, and after them ``own`` ones that no package adds, each a ``Part``, the class or an
+    instance of it.
 
     Raises
     ------

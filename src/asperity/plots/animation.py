@@ -16,7 +16,8 @@ KINDS = {".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
 def save_frames(
     path: str | Path, draw: Callable[[], Sequence[bytes]], count: int, *, pause: int, overwrite: bool = False
 ) -> Path:
-    """Write the ``count`` PNG that ``draw`` makes, all of one size, as an animated picture with a ``pause`` of so many ms after each.
+    """Write the ``count`` PNG that ``draw`` makes, all of one size, as an animated picture with a
+    ``pause`` of so many ms after each.
 
     Raises
     ------

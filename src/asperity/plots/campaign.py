@@ -1,4 +1,5 @@
-"""Figures of campaigns: curves on axes, samples, convergence, critical thicknesses, sensitivities."""
+"""Figures of campaigns: curves on axes, samples, convergence, critical thicknesses,
+sensitivities."""
 
 from __future__ import annotations
 
@@ -46,7 +47,8 @@ LINE = 34
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Values (SI) of one curve; ``band`` is the half width of a band around it, of the same shape."""
+    """Values (SI) of one curve; ``band`` is the half width of a band around it, of the same
+    shape."""
 
     label: str
     values: RealArray
@@ -55,7 +57,8 @@ class Curve:
 
 @dataclass(frozen=True, eq=False)
 class Transition:
-    """A quantity between two limits, and the thicknesses (m, NaN where there is none) at which it leaves and reaches them."""
+    """A quantity between two limits, and the thicknesses (m, NaN where there is none) at which it
+    leaves and reaches them."""
 
     label: str
     values: RealArray
@@ -66,7 +69,8 @@ class Transition:
 
 
 def plot_curves(x: Labelled, y: Labelled, curves: Sequence[Curve], ax: Axes) -> Axes:
-    """Draw ``curves`` of the quantity that ``y`` names against ``x`` on ``ax``; ``y.values`` set the scale."""
+    """Draw ``curves`` of the quantity that ``y`` names against ``x`` on ``ax``; ``y.values`` set
+    the scale."""
     along, up = scale(x.values, x.quantity.unit), scale(y.values, y.quantity.unit)
     order = np.argsort(x.values)
     for number, curve in enumerate(curves):
@@ -87,7 +91,8 @@ def plot_curves(x: Labelled, y: Labelled, curves: Sequence[Curve], ax: Axes) -> 
 
 
 def plot_samples(y: Labelled, mean: float, half_width: float, ax: Axes) -> Axes:
-    """Draw the distribution of the samples ``y`` on ``ax``, with their ``mean`` and its confidence interval."""
+    """Draw the distribution of the samples ``y`` on ``ax``, with their ``mean`` and its confidence
+    interval."""
     along = scale(y.values, y.quantity.unit)
     good = along(y.values)[np.isfinite(y.values)]
     if good.size:
@@ -105,7 +110,8 @@ def plot_samples(y: Labelled, mean: float, half_width: float, ax: Axes) -> Axes:
 
 
 def plot_running_mean(y: Labelled, half_widths: RealArray, means: RealArray, ax: Axes) -> Axes:
-    """Draw the mean of the quantity that ``y`` names against the number of samples on ``ax``, with its confidence."""
+    """Draw the mean of the quantity that ``y`` names against the number of samples on ``ax``, with
+    its confidence."""
     counts, up = np.arange(1, means.size + 1), scale(means, y.quantity.unit)
     ax.fill_between(counts, up(means - half_widths), up(means + half_widths), color=SKY, alpha=0.4, linewidth=0.0)
     ax.plot(counts, up(means), color=BLUE)
@@ -113,7 +119,8 @@ def plot_running_mean(y: Labelled, half_widths: RealArray, means: RealArray, ax:
 
 
 def plot_convergence(levels: Labelled, y: Labelled, extrapolated: float, ax: Axes) -> Axes:
-    """Draw the quantity ``y`` from the coarsest to the finest of the ``levels`` on ``ax``, and its extrapolation."""
+    """Draw the quantity ``y`` from the coarsest to the finest of the ``levels`` on ``ax``, and its
+    extrapolation."""
     along, up = scale(levels.values, levels.quantity.unit), scale(y.values, y.quantity.unit)
     ax.plot(along(levels.values), up(y.values), color=BLUE, marker="o", markersize=3.5)
     if math.isfinite(extrapolated):
@@ -129,7 +136,8 @@ def plot_convergence(levels: Labelled, y: Labelled, extrapolated: float, ax: Axe
 
 
 def plot_transitions(thickness: Labelled, y: Labelled, transitions: Sequence[Transition], ax: Axes) -> Axes:
-    """Draw a quantity against the ``thickness`` of a layer on ``ax``: limits as lines, floor and ceiling as triangles."""
+    """Draw a quantity against the ``thickness`` of a layer on ``ax``: limits as lines, floor and
+    ceiling as triangles."""
     along, up = scale(thickness.values, thickness.quantity.unit), scale(y.values, y.quantity.unit)
     for number, item in enumerate(transitions):
         colour = COLOURS[number % len(COLOURS)]
@@ -160,7 +168,8 @@ def plot_transitions(thickness: Labelled, y: Labelled, transitions: Sequence[Tra
 def plot_sensitivities(
     names: Sequence[str], low: RealArray, high: RealArray, y: Labelled, base: float, ax: Axes
 ) -> Axes:
-    """Draw how far low and high values of each scalar in ``names`` move a quantity from its ``base``, largest on top."""
+    """Draw how far low and high values of each scalar in ``names`` move a quantity from its
+    ``base``, largest on top."""
     along = scale(np.concatenate([low, high, [base]]), y.quantity.unit)
     order = np.argsort(np.abs(high - low))
     rows = np.arange(order.size)

@@ -1,4 +1,5 @@
-"""Curves of theories beside the numerical solution: area, its slope, gap, deviations; from the dataset of a comparison."""
+"""Curves of theories beside the numerical solution: area, its slope, gap, deviations; from the
+dataset of a comparison."""
 
 from __future__ import annotations
 
@@ -47,7 +48,8 @@ LABEL_ROOM = 0.042
 """Least distance of the names of curves over the height of the axes."""
 
 SIZE = (CURVE_SIZE[0], 4.2)
-"""Width and height in inches of a comparison, which has room for the names of all theories beside their curves."""
+"""Width and height in inches of a comparison, which has room for the names of all theories beside
+their curves."""
 
 STEEPEST = 5.0
 """Slope at which the axes of slopes end: twice the largest limit of an elastic theory."""
@@ -57,11 +59,13 @@ LARGEST_DEVIATION = 1.0
 
 
 VALID_BY = {"gap": "gap_valid"}
-"""Variable with the loads at which a theory holds, for quantities with another one than the area."""
+"""Variable with the loads at which a theory holds, for quantities with another one than the
+area."""
 
 
 def plot_comparison_area(data: xarray.Dataset, ax: Axes) -> Axes:
-    """Draw the area fraction of every curve of ``data`` against p/E* on ``ax``, both logarithmic."""
+    """Draw the area fraction of every curve of ``data`` against p/E* on ``ax``, both
+    logarithmic."""
     curves = _draw(data, "area_fraction", ax)
     if "numerical_area_fraction" in data:
         pixels = _values(data["numerical_area_fraction"])
@@ -96,7 +100,8 @@ def plot_comparison_gap(data: xarray.Dataset, ax: Axes) -> Axes:
 
 
 def plot_comparison_deviation(data: xarray.Dataset, ax: Axes) -> Axes:
-    """Draw the relative deviation of the area of every theory of ``data`` against the numerical area on ``ax``."""
+    """Draw the relative deviation of the area of every theory of ``data`` against the numerical
+    area on ``ax``."""
     area = 100.0 * _values(data["numerical_area_fraction_corrected"])
     curves = _draw(data, "area_fraction_deviation", ax, unit=0.01, against=area)
     ax.axhline(0.0, color=BLACK, linewidth=0.8)
@@ -112,8 +117,8 @@ COMPARISON_PLOTS = (
     Plot(
         "area",
         "Area against pressure",
-        "Real area per nominal area against nominal pressure over E*. Points: boundary elements, corrected for the pixels "
-        "(small points: pixels counted). Curves are grey where a theory is beyond its limits.",
+        "Real area per nominal area against nominal pressure over E*. Points: boundary elements, corrected "
+        "for the pixels (small points: pixels counted). Curves are grey where a theory is beyond its limits.",
         plot_comparison_area,
         "comparison",
     ),
@@ -147,7 +152,8 @@ COMPARISON_PLOTS = (
         "comparison",
     ),
 )
-"""The figures of a comparison in the order of a report; the last one needs the numerical solution."""
+"""The figures of a comparison in the order of a report; the last one needs the numerical
+solution."""
 
 
 def comparison_plots(data: xarray.Dataset) -> tuple[Plot, ...]:
@@ -206,7 +212,8 @@ def _points(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0) -> 
 
 
 def _named(ax: Axes, curves: list[_Curve]) -> Axes:
-    """Name every curve where it ends or leaves the axes, in its colour and line; names are moved apart, in the order of the ends."""
+    """Name every curve where it ends or leaves the axes, in its colour and line; names are moved
+    apart, in the order of the ends."""
     curves = [curve for curve in curves if np.isfinite(curve.y).any()]
     if curves:
         ax.set_xlim(right=max(float(curve.x.max()) for curve in curves))  # curves end where their names begin
@@ -216,7 +223,8 @@ def _named(ax: Axes, curves: list[_Curve]) -> Axes:
         finite = np.isfinite(curve.y)
         x, y = _last_inside(to_axes.transform(np.column_stack([curve.x[finite], curve.y[finite]])))
         ends.append((y, x, curve))
-    # of curves that leave through the bottom the last one is the highest there, through the top the lowest
+    # of curves that leave through the bottom the last one is the highest there, through the top the
+    # lowest
     ends.sort(key=lambda end: (end[0], end[1] if end[0] < 0.5 else -end[1]))
     for (y, x, curve), place in zip(ends, apart([end[0] for end in ends], LABEL_ROOM), strict=True):
         line = {"arrowstyle": "-", "color": curve.color, "linewidth": 0.5, "linestyle": curve.linestyle}
@@ -234,7 +242,8 @@ def _named(ax: Axes, curves: list[_Curve]) -> Axes:
 
 
 def _last_inside(points: RealArray) -> tuple[float, float]:
-    """Last place of a line through ``points`` (n, 2) within the unit square; where it is all outside, its end moved to the border."""
+    """Last place of a line through ``points`` (n, 2) within the unit square; where it is all
+    outside, its end moved to the border."""
     for start, end in zip(points[-2::-1], points[:0:-1], strict=True):
         step = end - start
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -256,7 +265,8 @@ def _values(variable: xarray.DataArray) -> RealArray:
 
 
 def save_answer_plot(found: Evaluation, path: Path, *, overwrite: bool = False) -> None:
-    """Draw every column of the answer ``found`` of a theory against the first and write it to ``path``; grey beyond its limits.
+    """Draw every column of the answer ``found`` of a theory against the first and write it to
+    ``path``; grey beyond its limits.
 
     Raises
     ------

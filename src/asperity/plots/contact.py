@@ -1,4 +1,5 @@
-"""Figures of a contact: the standard set, sections, distributions, menisci, and the curves of a load path."""
+"""Figures of a contact: the standard set, sections, distributions, menisci, and the curves of a
+load path."""
 
 from __future__ import annotations
 
@@ -63,10 +64,11 @@ SHARE = 0.36
 
 
 def plot_section(result: ContactResult, ax: Axes) -> Axes:
-    """Draw the cut of ``result`` along x through the highest pressure on ``ax``; pressure on a second y axis.
+    """Draw the cut of ``result`` along x through the highest pressure on ``ax``; pressure on a
+    second y axis.
 
-    The composite rough surface carries all deformation of both bodies, so the counter surface is drawn flat.
-    Without contact the cut goes through the smallest gap.
+    The composite rough surface carries all deformation of both bodies, so the counter surface is
+    drawn flat. Without contact the cut goes through the smallest gap.
     """
     from matplotlib.ticker import MaxNLocator
 
@@ -114,7 +116,8 @@ def plot_section(result: ContactResult, ax: Axes) -> Axes:
 
 
 def row_of_section(result: ContactResult) -> int:
-    """Row of the grid along x through the highest pressure, without contact through the smallest gap."""
+    """Row of the grid along x through the highest pressure, without contact through the smallest
+    gap."""
     if result.contact.any():
         return int(np.argmax((result.pressure == result.pressure.max()).sum(axis=0)))  # plastic: many are highest
     return int(np.unravel_index(np.argmin(result.gap), result.gap.shape)[1])
@@ -124,7 +127,8 @@ def row_of_section(result: ContactResult) -> int:
 
 
 def plot_pressure_histogram(result: ContactResult, ax: Axes) -> Axes:
-    """Draw the probability density of the pressure over the real contact area of ``result`` on ``ax``.
+    """Draw the probability density of the pressure over the real contact area of ``result`` on
+    ``ax``.
 
     Marked are the mean real pressure and, if it is one number, the hardness where it is reached.
     """
@@ -142,7 +146,8 @@ def plot_pressure_histogram(result: ContactResult, ax: Axes) -> Axes:
 
 
 def plot_gap_histogram(result: ContactResult, ax: Axes) -> Axes:
-    """Draw the probability density of the gap over the open area of ``result`` on ``ax``, with the mean gap marked."""
+    """Draw the probability density of the gap over the open area of ``result`` on ``ax``, with the
+    mean gap marked."""
     gap = result.gap[~result.contact]
     in_unit = scale(gap, "m")
     if not _histogram(gap, in_unit, ax, "gap", "full contact"):
@@ -234,7 +239,8 @@ PLASTIC_PLOTS = (
     map_of(
         "indentation",
         "Plastic zone",
-        "Permanent indentation of the composite surface wherever the pressure has ever reached its limit; grey elsewhere.",
+        "Permanent indentation of the composite surface wherever the pressure has ever reached its limit; "
+        "grey elsewhere.",
         indentation_field,
         lambda result, ax: enlarge_island(
             result.indented, result.problem.grid, result.problem.boundary.wraps, "largest plastic zone", ax
@@ -251,7 +257,8 @@ PLASTIC_PLOTS = (
 
 
 def plots_of(result: ContactResult) -> tuple[Plot, ...]:
-    """Figures that say something of ``result``: the standard ones, and those of its plastic zone if it has any."""
+    """Figures that say something of ``result``: the standard ones, and those of its plastic zone if
+    it has any."""
     return (*PLOTS, *PLASTIC_PLOTS) if result.indented.any() else PLOTS
 
 
@@ -261,7 +268,8 @@ def contact_figures(result: ContactResult) -> tuple[Figure, ...]:
 
 
 def physics_plots(result: ContactResult | None = None) -> Iterator[tuple[Plot, ...]]:
-    """Figures of each physics whose answer a result shows, of those that ``result`` has; of all without one."""
+    """Figures of each physics whose answer a result shows, of those that ``result`` has; of all
+    without one."""
     for known in PHYSICS.values():
         for name, place in known.figures.items():
             if result is None or name in result.couplings:
@@ -277,9 +285,11 @@ def figures_of(result: Any) -> tuple[Figure, ...]:
 
 
 def save_plots(result: ContactResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
-    """Write the standard figures of ``result`` as PNG into ``folder`` (made if missing) and return their paths.
+    """Write the standard figures of ``result`` as PNG into ``folder`` (made if missing) and return
+    their paths.
 
-    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or
+    written.
     """
     return save_pictures(figures_of(result), folder, overwrite=overwrite)
 
@@ -304,7 +314,8 @@ UNLOADING = (VERMILLION, ORANGE, PURPLE)
 
 
 def plot_load_loop(path: HistoryResult, ax: Axes) -> Axes:
-    """Draw the mean pressure of every step of ``path`` against its approach on ``ax``, each direction in its colour."""
+    """Draw the mean pressure of every step of ``path`` against its approach on ``ax``, each
+    direction in its colour."""
     load, approach = (_from_touch(path, values) for values in (path.mean_pressure, path.approach))
     in_m, in_pa = scale(approach, "m"), scale(load, "Pa")
     _draw_legs(in_m(approach), in_pa(load), path, ax)
@@ -313,7 +324,8 @@ def plot_load_loop(path: HistoryResult, ax: Axes) -> Axes:
 
 
 def plot_area_loop(path: HistoryResult, ax: Axes) -> Axes:
-    """Draw the real area of every step of ``path``, in percent of the nominal area, against the mean pressure on ``ax``."""
+    """Draw the real area of every step of ``path``, in percent of the nominal area, against the
+    mean pressure on ``ax``."""
     load, area = (_from_touch(path, values) for values in (path.mean_pressure, path.area_fraction_corrected))
     in_pa = scale(load, "Pa")
     _draw_legs(in_pa(load), 100.0 * area, path, ax)
@@ -322,7 +334,8 @@ def plot_area_loop(path: HistoryResult, ax: Axes) -> Axes:
 
 
 def plot_energies(path: HistoryResult, ax: Axes) -> Axes:
-    """Draw external work, elastic energy and plastic work after every step of ``path`` on ``ax``."""
+    """Draw external work, elastic energy and plastic work after every step of ``path`` on
+    ``ax``."""
     balance = path.energies
     in_j = scale(np.concatenate([balance.external_work, balance.elastic_energy, balance.plastic_work]), "J")
     step = np.arange(1, len(path.steps) + 1)
@@ -345,12 +358,14 @@ def plot_energies(path: HistoryResult, ax: Axes) -> Axes:
 
 
 def _from_touch(path: HistoryResult, values: RealArray) -> RealArray:
-    """``values`` of every step; a path of virgin surfaces begins at first touch, where all of them are zero."""
+    """``values`` of every step; a path of virgin surfaces begins at first touch, where all of them
+    are zero."""
     return np.concatenate([[0.0], values]) if path.start is None else values
 
 
 def _draw_legs(x: RealArray, y: RealArray, path: HistoryResult, ax: Axes) -> None:
-    """Curve of the points ``x``, ``y``, each direction of the load in its colour; a part starts where the last one ended."""
+    """Curve of the points ``x``, ``y``, each direction of the load in its colour; a part starts
+    where the last one ended."""
     before = len(x) - len(path.steps)
     load = _from_touch(path, path.mean_pressure)
     counts = {True: 0, False: 0}
@@ -374,8 +389,8 @@ PATH_PLOTS = (
     Plot(
         "load_loop",
         "Load against approach",
-        "Mean pressure against approach from first touch of the virgin surfaces. The area within a loop is the plastic work "
-        "per nominal area.",
+        "Mean pressure against approach from first touch of the virgin surfaces. The area within a loop is "
+        "the plastic work per nominal area.",
         plot_load_loop,
     ),
     Plot(
@@ -387,8 +402,8 @@ PATH_PLOTS = (
     Plot(
         "energies",
         "Where the work goes",
-        "External work, elastic energy and plastic work after each step. The dotted line lies on the black one but for the "
-        "error of the steps.",
+        "External work, elastic energy and plastic work after each step. The dotted line lies on the black "
+        "one but for the error of the steps.",
         plot_energies,
     ),
 )
@@ -396,8 +411,10 @@ PATH_PLOTS = (
 
 
 def save_path_plots(path: HistoryResult, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
-    """Write the figures of ``path`` as PNG into ``folder`` (made if missing) and return their paths.
+    """Write the figures of ``path`` as PNG into ``folder`` (made if missing) and return their
+    paths.
 
-    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or
+    written.
     """
     return save_pictures(figures_by(PATH_PLOTS, path), folder, overwrite=overwrite)

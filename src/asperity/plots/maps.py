@@ -1,4 +1,5 @@
-"""Maps of a surface or a contact seen from above: x to the right, y up. Grids of one row become curves."""
+"""Maps of a surface or a contact seen from above: x to the right, y up. Grids of one row become
+curves."""
 
 from __future__ import annotations
 
@@ -47,10 +48,12 @@ WIDE = 2.0
 
 @dataclass(frozen=True)
 class Look:
-    """How a field is shown: SI unit, label, colour map; whether colours start at zero, centre on it, are logarithmic.
+    """How a field is shown: SI unit, label, colour map; whether colours start at zero, centre on
+    it, are logarithmic.
 
-    ``blank`` is what points without a value are, and ``blank_value`` (SI) what they count as along a line; ``reduced`` says which
-    value stands for a block of points where a map is shown coarser than it is: ``max``, ``min`` or ``mean``.
+    ``blank`` is what points without a value are, and ``blank_value`` (SI) what they count as along
+    a line; ``reduced`` says which value stands for a block of points where a map is shown coarser
+    than it is: ``max``, ``min`` or ``mean``.
     """
 
     unit: str
@@ -66,7 +69,8 @@ class Look:
 
 @dataclass(frozen=True)
 class Depth:
-    """Where a plane in a body lies: ``value`` in m, in words, and name, top and bottom (m) of its layer."""
+    """Where a plane in a body lies: ``value`` in m, in words, and name, top and bottom (m) of its
+    layer."""
 
     value: float
     words: str
@@ -75,7 +79,8 @@ class Depth:
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """A map: ``values`` (nx, ny) in SI, NaN where blank, on a grid, how they look, and for a plane in a body its depth."""
+    """A map: ``values`` (nx, ny) in SI, NaN where blank, on a grid, how they look, and for a plane
+    in a body its depth."""
 
     values: RealArray
     grid: Grid
@@ -85,7 +90,8 @@ class Field:
 
 @dataclass(frozen=True, eq=False)
 class Kinds:
-    """A map of classes: the number of the class of each point (nx, ny), and name and colour of each class."""
+    """A map of classes: the number of the class of each point (nx, ny), and name and colour of each
+    class."""
 
     kinds: RealArray
     grid: Grid
@@ -94,7 +100,8 @@ class Kinds:
 
 @dataclass(frozen=True, eq=False)
 class Cut:
-    """A stress on a vertical section: ``values`` (planes, points) in Pa, the field they belong to, look and range of the colours."""
+    """A stress on a vertical section: ``values`` (planes, points) in Pa, the field they belong to,
+    look and range of the colours."""
 
     field: Any
     values: RealArray
@@ -124,7 +131,8 @@ def map_of(
     *,
     by_step: bool = True,
 ) -> Plot:
-    """Figure of the map that ``shows`` gives, which is all that is drawn; the others as of ``Plot``."""
+    """Figure of the map that ``shows`` gives, which is all that is drawn; the others as of
+    ``Plot``."""
     return Plot(name, title, caption, lambda thing, ax: plot_map(shows(thing), ax), "map", beside, shows, by_step)
 
 
@@ -149,7 +157,8 @@ def gap_field(result: ContactResult) -> Field:
 
 
 def plot_gap(result: ContactResult, ax: Axes) -> Axes:
-    """Draw the gap between the deformed surfaces of ``result`` on ``ax``; points in contact are grey."""
+    """Draw the gap between the deformed surfaces of ``result`` on ``ax``; points in contact are
+    grey."""
     return plot_map(gap_field(result), ax)
 
 
@@ -162,12 +171,14 @@ def pressure_field(result: ContactResult, *, log: bool = False) -> Field:
 
 
 def plot_pressure(result: ContactResult, ax: Axes, *, log: bool = False) -> Axes:
-    """Draw the contact pressure of ``result`` on ``ax``, with ``log`` on three decades; no contact is grey."""
+    """Draw the contact pressure of ``result`` on ``ax``, with ``log`` on three decades; no contact
+    is grey."""
     return plot_map(pressure_field(result, log=log), ax)
 
 
 def indentation_field(result: ContactResult) -> Field:
-    """Permanent indentation of ``result``: the plastic zone; blank where the surface never yielded."""
+    """Permanent indentation of ``result``: the plastic zone; blank where the surface never
+    yielded."""
     dents = np.where(result.indented, result.permanent_indentation, np.nan)
     blank = "never plastic"
     look = Look("m", "permanent indentation", PRESSURE_MAP, blank=blank, blank_value=0.0, reduced="max")
@@ -175,12 +186,14 @@ def indentation_field(result: ContactResult) -> Field:
 
 
 def plot_indentation(result: ContactResult, ax: Axes) -> Axes:
-    """Draw the permanent indentation of ``result`` on ``ax``: the plastic zone; grey where the surface never yielded."""
+    """Draw the permanent indentation of ``result`` on ``ax``: the plastic zone; grey where the
+    surface never yielded."""
     return plot_map(indentation_field(result), ax)
 
 
 def plot_residual(result: ContactResult, ax: Axes) -> Axes:
-    """Draw the heights of the composite surface that is left of ``result`` when the load is taken away on ``ax``."""
+    """Draw the heights of the composite surface that is left of ``result`` when the load is taken
+    away on ``ax``."""
     return plot_heights(result.residual_surface(), ax)
 
 
@@ -197,7 +210,8 @@ def plot_contact(result: ContactResult, ax: Axes) -> Axes:
 
 
 def plot_classes(kinds: RealArray, grid: Grid, ax: Axes, classes: tuple[tuple[str, str], ...]) -> Axes:
-    """Draw the number of the class of each point, ``kinds`` (nx, ny), on ``ax``, with shares of the area above the map.
+    """Draw the number of the class of each point, ``kinds`` (nx, ny), on ``ax``, with shares of the
+    area above the map.
 
     ``classes`` are name and colour of each.
     """
@@ -220,7 +234,8 @@ def plot_classes(kinds: RealArray, grid: Grid, ax: Axes, classes: tuple[tuple[st
 
 
 def plot_field(values: RealArray, grid: Grid, ax: Axes, look: Look) -> Axes:
-    """Map of ``values`` (nx, ny, SI, NaN where blank) with a colour bar, or their curve along a grid of one row."""
+    """Map of ``values`` (nx, ny, SI, NaN where blank) with a colour bar, or their curve along a
+    grid of one row."""
     from matplotlib.colors import LogNorm, Normalize
     from matplotlib.ticker import FuncFormatter, NullFormatter
 
@@ -269,7 +284,8 @@ def limits(drawn: RealArray, look: Look) -> tuple[float, float]:
 
 
 def _image(drawn: RealArray, grid: Grid, ax: Axes, *, cmap: Any, **options: Any) -> AxesImage:
-    """Pixels of ``drawn`` [x, y] with x to the right and y up, lengths to scale unless the map is very slender."""
+    """Pixels of ``drawn`` [x, y] with x to the right and y up, lengths to scale unless the map is
+    very slender."""
     from matplotlib import colormaps
 
     row = 1 in grid.shape
@@ -294,7 +310,8 @@ def _image(drawn: RealArray, grid: Grid, ax: Axes, *, cmap: Any, **options: Any)
 
 @dataclass(frozen=True)
 class Window:
-    """Part of a map: its first pixel along x and y, which may lie before the border of a periodic map, and its pixels."""
+    """Part of a map: its first pixel along x and y, which may lie before the border of a periodic
+    map, and its pixels."""
 
     first: tuple[int, int]
     count: tuple[int, int]
@@ -334,11 +351,13 @@ def island(there: BoolArray, grid: Grid, wraps: tuple[bool, bool], at: tuple[int
 
 
 ROUND, FEWEST, LARGEST = 1.8, 16, 0.5
-"""Side of a window in widths of the contact, its fewest pixels, and the share of the map from which it is not drawn."""
+"""Side of a window in widths of the contact, its fewest pixels, and the share of the map from which
+it is not drawn."""
 
 
 def enlarge(ax: Axes, grid: Grid, window: Window, title: str) -> Axes:
-    """Draw the pixels of the map on ``ax`` within ``window`` once more, beside it, and a rectangle where they are."""
+    """Draw the pixels of the map on ``ax`` within ``window`` once more, beside it, and a rectangle
+    where they are."""
     from matplotlib.patches import Rectangle
     from matplotlib.patheffects import withStroke
 
@@ -369,7 +388,8 @@ def enlarge(ax: Axes, grid: Grid, window: Window, title: str) -> Axes:
 
 
 def enlarge_contact(result: ContactResult, ax: Axes) -> bool:
-    """Draw the largest contact of ``result`` enlarged beside its map on ``ax``; False where it is no detail of the map."""
+    """Draw the largest contact of ``result`` enlarged beside its map on ``ax``; False where it is
+    no detail of the map."""
     if result not in _LARGEST_CONTACTS:
         problem = result.problem
         _LARGEST_CONTACTS[result] = island(result.contact, problem.grid, problem.boundary.wraps)
@@ -391,7 +411,8 @@ def enlarge_island(
     ax: Axes,
     at: tuple[int, int] | None = None,
 ) -> bool:
-    """Draw an island of the points ``there`` enlarged beside its map on ``ax``, as ``island`` chooses it; whether it is one."""
+    """Draw an island of the points ``there`` enlarged beside its map on ``ax``, as ``island``
+    chooses it; whether it is one."""
     window = island(there, grid, wraps, at)
     if window is not None:
         enlarge(ax, grid, window, title)

@@ -1,4 +1,5 @@
-"""What notebooks show of surfaces, results, stress fields and comparisons: a card of numbers with a small picture, and figures."""
+"""What notebooks show of surfaces, results, stress fields and comparisons: a card of numbers with a
+small picture, and figures."""
 
 from __future__ import annotations
 
@@ -42,7 +43,8 @@ def plot(thing: object, kind: str, ax: Axes | None, **options: Any) -> Axes:
         return chosen.draw(ax, **options)
     from matplotlib import pyplot
 
-    # loads the backend: that of notebooks makes pyplot interactive, which the end of the style would undo
+    # loads the backend: that of notebooks makes pyplot interactive, which the end of the style
+    # would undo
     pyplot.draw_if_interactive()  # type: ignore[no-untyped-call]
     with style():
         figure = pyplot.figure(figsize=chosen.size, layout="constrained")  # labels stay inside however it is saved
@@ -70,7 +72,8 @@ def card(thing: object) -> str:
 
 
 class _Chosen(NamedTuple):
-    """A figure: what draws it on axes, its width and height in inches, and the projection of its axes."""
+    """A figure: what draws it on axes, its width and height in inches, and the projection of its
+    axes."""
 
     draw: Callable[..., Axes]
     size: tuple[float, float]

@@ -1,4 +1,5 @@
-"""From drawing functions to PNG: one look for all figures, SI-prefixed axes, one set of axes a figure, no window."""
+"""From drawing functions to PNG: one look for all figures, SI-prefixed axes, one set of axes a
+figure, no window."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-# Common style of all figures: colours distinguishable by colour-blind readers, SI-prefixed axes, print resolution.
+# Common style of all figures: colours distinguishable by colour-blind readers, SI-prefixed axes,
+# print resolution.
 
 
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILLION, PURPLE = (
@@ -76,7 +78,8 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Scale:
-    """Prefixed unit in which values are drawn: ``symbol`` for labels, SI value of one unit in ``factor``."""
+    """Prefixed unit in which values are drawn: ``symbol`` for labels, SI value of one unit in
+    ``factor``."""
 
     symbol: str
     factor: float
@@ -87,7 +90,8 @@ class Scale:
 
 
 def scale(values: RealArray | float, unit: str) -> Scale:
-    """Scale in which the largest finite magnitude of ``values`` (SI ``unit``) lies between 1 and 1000.
+    """Scale in which the largest finite magnitude of ``values`` (SI ``unit``) lies between 1 and
+    1000.
 
     A unit that takes no prefixes stays, and that of plain numbers ("1") is empty.
     """
@@ -113,11 +117,13 @@ def literal(text: str) -> str:
 
 
 BAR, BAR_ROOM = 0.08, 0.62
-"""Width of a colour bar with its gap, over that of its axes, and of its numbers and label, in inches."""
+"""Width of a colour bar with its gap, over that of its axes, and of its numbers and label, in
+inches."""
 
 
 def make_room(ax: Axes, *, right: float = 0.0, top: float = 0.0, share: float = 0.0) -> None:
-    """Keep ``right`` and ``top`` inches, and ``share`` of the width that is left, of the place of ``ax`` for what lies beside it.
+    """Keep ``right`` and ``top`` inches, and ``share`` of the width that is left, of the place of
+    ``ax`` for what lies beside it.
 
     What is drawn there then stays within a subplot.
     """
@@ -141,7 +147,8 @@ def size_of(ax: Axes) -> tuple[float, float]:
 
 
 def say_exaggeration(ax: Axes, what: str, across: float, up: float) -> None:
-    """Write above the right end of ``ax`` how much larger ``what`` is drawn than lengths across; ranges of the axes in m."""
+    """Write above the right end of ``ax`` how much larger ``what`` is drawn than lengths across;
+    ranges of the axes in m."""
     width, height = size_of(ax)
     times = (height / up) / (width / across) if up > 0.0 and across > 0.0 else 1.0
     if max(times, 1.0 / times) > 1.05:
@@ -168,7 +175,8 @@ def legend_above(ax: Axes, columns: int = 2, height: float = 1.0) -> Axes:
 
 
 def apart(places: list[float], room: float) -> list[float]:
-    """Increasing ``places`` between 0 and 1, moved as far as needed to be ``room`` apart and half of it from the ends."""
+    """Increasing ``places`` between 0 and 1, moved as far as needed to be ``room`` apart and half
+    of it from the ends."""
     room = min(room, 1.0 / max(len(places), 1))
     moved: list[float] = []
     for place in places:
@@ -192,7 +200,8 @@ LABEL_WIDTH, LABEL_HEIGHT = 0.62, 0.17
 
 
 def uncrowd(figure: Any) -> None:
-    """Label logarithmic axes of ``figure`` within a decade only where labels do not overlap: those of matplotlib do on axes of about one."""
+    """Label logarithmic axes of ``figure`` within a decade only where labels do not overlap: those
+    of matplotlib do on axes of about one."""
     from matplotlib.ticker import FuncFormatter
 
     for ax in figure.axes:
@@ -202,7 +211,8 @@ def uncrowd(figure: Any) -> None:
 
 
 def _within_decade(axis: Any, room: float, value: float, place: int | None) -> str:
-    """Label of the minor tick at ``value``: none where two decades are labelled, or others are nearer than ``room`` in inches."""
+    """Label of the minor tick at ``value``: none where two decades are labelled, or others are
+    nearer than ``room`` in inches."""
     low, high = sorted(axis.get_view_interval())
     box = axis.axes.bbox
     length = (box.width if axis.axis_name == "x" else box.height) / axis.get_figure().dpi
@@ -229,7 +239,8 @@ FIRST_LABELS = (2, 5, 3, 7, 4, 6, 8, 9, 1)
 
 @dataclass(frozen=True)
 class Drawing:
-    """What drawing gives: the PNG, the points of the curves in it, and whether a part is drawn ``enlarged`` beside."""
+    """What drawing gives: the PNG, the points of the curves in it, and whether a part is drawn
+    ``enlarged`` beside."""
 
     picture: bytes
     curves: tuple[AxesCurves, ...] = ()
@@ -238,7 +249,8 @@ class Drawing:
 
 @dataclass(frozen=True, eq=False)
 class Figure:
-    """A figure, drawn when its picture is asked for: ``name`` of its file, ``title``, ``text`` of the caption, what draws it.
+    """A figure, drawn when its picture is asked for: ``name`` of its file, ``title``, ``text`` of
+    the caption, what draws it.
 
     ``draw`` may be the PNG itself.
     """
@@ -250,7 +262,8 @@ class Figure:
     kind: str = "curve"
     """Kind of the figure, as that of ``Plot``."""
     shows: Callable[[], Any] | None = None
-    """Gives the map that the figure shows (``maps.Field``, ``maps.Kinds`` or ``maps.Cut``), for a page that lets it be explored."""
+    """Gives the map that the figure shows (``maps.Field``, ``maps.Kinds`` or ``maps.Cut``), for a
+    page that lets it be explored."""
     of_step: Callable[[Any], Any] | None = None
     """The same map of another step of a load path."""
     wide: bool = False
@@ -285,8 +298,9 @@ class Figure:
 class AxesCurves:
     """Curves on axes of a picture.
 
-    ``box`` are left, top, right and bottom of the axes as shares of the picture; of ``x`` and ``y`` label, limits and whether they are
-    logarithmic; ``curves`` are names and points, in the units of the axes.
+    ``box`` are left, top, right and bottom of the axes as shares of the picture; of ``x`` and ``y``
+    label, limits and whether they are logarithmic; ``curves`` are names and points, in the units of
+    the axes.
     """
 
     box: tuple[float, float, float, float]
@@ -310,7 +324,8 @@ MAP_SIZE = 3.4
 
 @dataclass(frozen=True)
 class Plot:
-    """How one figure is made: ``name`` of its file, ``title``, ``caption``, what draws it; ``kind`` map, curve or view."""
+    """How one figure is made: ``name`` of its file, ``title``, ``caption``, what draws it; ``kind``
+    map, curve or view."""
 
     name: str
     title: str
@@ -329,10 +344,12 @@ _PAD = 0.06
 """White border of a picture in inches."""
 
 _ROOM = 0.9
-"""Room in inches around all axes, legends and texts for what belongs to them; where that takes more, all artists are asked for their places."""
+"""Room in inches around all axes, legends and texts for what belongs to them; where that takes
+more, all artists are asked for their places."""
 
 _LEVEL, _RUN_LENGTHS = 1, 3
-"""Level and strategy of the PNG encoder: pictures are a tenth larger than by its usual level and take two thirds of the time to encode."""
+"""Level and strategy of the PNG encoder: pictures are a tenth larger than by its usual level and
+take two thirds of the time to encode."""
 
 BESIDE = " Beside it the part within the rectangle, enlarged."
 
@@ -380,7 +397,8 @@ def curve_figure(
     *,
     wide: bool = False,
 ) -> Figure:
-    """Figure of the curves that ``draw`` puts on axes of ``size`` inches, with their points; ``wide`` as in ``Figure``."""
+    """Figure of the curves that ``draw`` puts on axes of ``size`` inches, with their points;
+    ``wide`` as in ``Figure``."""
     return Figure(name, title, text, partial(_curves, draw, size), wide=wide)
 
 
@@ -398,11 +416,14 @@ def png(
     dpi: int = DPI,
     curves: list[AxesCurves] | None = None,
 ) -> bytes:
-    """Picture of what ``draw`` puts on the axes of a new figure of ``size`` inches, cropped to its content.
+    """Picture of what ``draw`` puts on the axes of a new figure of ``size`` inches, cropped to its
+    content.
 
-    ``projection`` of the axes, ``3d`` for a view in space; ``dpi`` dots per inch. The points of its ``curves`` are added to a list.
+    ``projection`` of the axes, ``3d`` for a view in space; ``dpi`` dots per inch. The points of its
+    ``curves`` are added to a list.
     """
-    # a figure makes some 10⁴ objects that all live as long as it does: to look for garbage among them takes a tenth of its time
+    # a figure makes some 10⁴ objects that all live as long as it does: to look for garbage among
+    # them takes a tenth of its time
     searches = gc.isenabled()
     gc.disable()
     try:
@@ -420,7 +441,8 @@ def _pixels(
     dpi: int,
     curves: list[AxesCurves] | None,
 ) -> NDArray[np.uint8]:
-    """What ``png`` encodes. Nothing refers to its figure any more, so that the next search for garbage frees it at once."""
+    """What ``png`` encodes. Nothing refers to its figure any more, so that the next search for
+    garbage frees it at once."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from matplotlib.patches import StepPatch
@@ -456,10 +478,11 @@ def _pixels(
 
 
 def content_of(figure: Any) -> tuple[NDArray[np.uint8], Any]:
-    """Pixels of what is drawn on ``figure``, (rows, columns, 3) from the top, and the box in inches that they fill.
+    """Pixels of what is drawn on ``figure``, (rows, columns, 3) from the top, and the box in inches
+    that they fill.
 
-    To draw a figure with room around it and look where it is white takes less time than to ask its artists for their places, which
-    lays out all texts once more.
+    To draw a figure with room around it and look where it is white takes less time than to ask its
+    artists for their places, which lays out all texts once more.
     """
     from matplotlib.transforms import Bbox
 
@@ -476,7 +499,8 @@ def content_of(figure: Any) -> tuple[NDArray[np.uint8], Any]:
 
 
 def _places(figure: Any) -> Iterator[Any]:
-    """Box in inches of every axes of ``figure``, put where its aspect and its locator want it, and of the texts and legends on it."""
+    """Box in inches of every axes of ``figure``, put where its aspect and its locator want it, and
+    of the texts and legends on it."""
     waiting, renderer = list(figure.axes), figure.canvas.get_renderer()
     while waiting:
         ax = waiting.pop()
@@ -488,7 +512,8 @@ def _places(figure: Any) -> Iterator[Any]:
 
 
 def _drawn(figure: Any, box: Any) -> tuple[NDArray[np.uint8], Any]:
-    """Pixels of ``figure`` (rows, columns, 4) within a ``box`` (in inches), widened to whole pixels, and that box."""
+    """Pixels of ``figure`` (rows, columns, 4) within a ``box`` (in inches), widened to whole
+    pixels, and that box."""
     from matplotlib.transforms import Bbox
 
     first, last = np.floor(box.min * figure.dpi), np.ceil(box.max * figure.dpi)
@@ -500,7 +525,8 @@ def _drawn(figure: Any, box: Any) -> tuple[NDArray[np.uint8], Any]:
 
 
 def encoded(pixels: NDArray[np.uint8], dpi: float) -> bytes:
-    """PNG of red, green and blue ``pixels`` (rows, columns, 3) from the top, at ``dpi`` dots per inch."""
+    """PNG of red, green and blue ``pixels`` (rows, columns, 3) from the top, at ``dpi`` dots per
+    inch."""
     from PIL import Image
 
     buffer = io.BytesIO()
@@ -510,7 +536,8 @@ def encoded(pixels: NDArray[np.uint8], dpi: float) -> bytes:
 
 
 def map_size(grid: Grid) -> tuple[float, float]:
-    """Figure for a map with its longer side of MAP_SIZE; slender maps are stretched (see ``maps``)."""
+    """Figure for a map with its longer side of MAP_SIZE; slender maps are stretched (see
+    ``maps``)."""
     width, height = grid.size
     ratio = width / height
     if 1 in grid.shape or not 1.0 / SLENDER <= ratio <= SLENDER:

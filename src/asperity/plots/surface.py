@@ -1,4 +1,5 @@
-"""Figures of a surface: distribution, material ratio, correlation, spectrum, summits, view in space."""
+"""Figures of a surface: distribution, material ratio, correlation, spectrum, summits, view in
+space."""
 
 from __future__ import annotations
 
@@ -38,14 +39,16 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-# Curves of a surface: how heights are distributed, how much material lies above a height, how heights correlate.
+# Curves of a surface: how heights are distributed, how much material lies above a height, how
+# heights correlate.
 
 
 _CURVE_POINTS = 800  # of a material ratio curve, whose heights may be millions
 
 
 def plot_height_distribution(found: Characterisation, ax: Axes) -> Axes:
-    """Draw the probability density of the heights and the normal density of the same deviation on ``ax``."""
+    """Draw the probability density of the heights and the normal density of the same deviation on
+    ``ax``."""
     distribution = found.curves.distribution
     in_unit = scale(distribution.edges, "m")
     edges = np.asarray(in_unit(distribution.edges))
@@ -89,7 +92,8 @@ def plot_material_ratio(found: Characterisation, ax: Axes) -> Axes:
 
 
 def plot_autocorrelation(found: Characterisation, ax: Axes) -> Axes:
-    """Draw R/R(0) along x and y on ``ax`` with the levels 1/e and 0.1 that define correlation lengths."""
+    """Draw R/R(0) along x and y on ``ax`` with the levels 1/e and 0.1 that define correlation
+    lengths."""
     covariance = found.curves.autocovariance
     longest = max(covariance.size)
     lengths = np.array([found.spatial.beta_e_x, found.spatial.beta_e_y])
@@ -132,8 +136,8 @@ _LIGHT = {"azdeg": 315.0, "altdeg": 35.0}
 def plot_surface_view(surface: Surface, ax: Axes) -> Axes:
     """Draw ``surface`` in space, lit from the upper left, on the three-dimensional axes ``ax``.
 
-    Heights are exaggerated to a fifth of the longer side; large maps are thinned to 180 points along it by block
-    averages. Missing points are gaps. A profile has no view.
+    Heights are exaggerated to a fifth of the longer side; large maps are thinned to 180 points
+    along it by block averages. Missing points are gaps. A profile has no view.
     """
     from matplotlib import colormaps
     from matplotlib.colors import LightSource, Normalize
@@ -179,14 +183,16 @@ def plot_surface_view(surface: Surface, ax: Axes) -> Axes:
 
 
 def plot_summits(found: Characterisation, ax: Axes) -> Axes:
-    """Draw the heights of ``found`` and its summits (above 8 neighbours), larger dots for blunter ones, on ``ax``."""
+    """Draw the heights of ``found`` and its summits (above 8 neighbours), larger dots for blunter
+    ones, on ``ax``."""
     surface, summits = found.surface, found.curves.summits
     plot_heights(surface, ax)
     if 1 in surface.shape or summits.count == 0:
         return ax
     length = scale(max(surface.size), "m")
     radius = 1.0 / summits.curvature
-    # area of a dot as the radius, about the mean; a map of a hundred thousand summits gets small dots
+    # area of a dot as the radius, about the mean; a map of a hundred thousand summits gets small
+    # dots
     mean = min(12.0, 4000.0 / summits.count)
     area = np.clip(mean * radius / radius.mean(), 0.15 * mean, 6.0 * mean)
     x, y = (summits.i + 0.5) * surface.dx, (summits.j + 0.5) * surface.dy
@@ -196,7 +202,8 @@ def plot_summits(found: Characterisation, ax: Axes) -> Axes:
 
 
 def _thinned(surface: Surface) -> tuple[RealArray, Grid]:
-    """Heights about their mean, averaged over blocks so that the longer side has at most ``_FACES`` points."""
+    """Heights about their mean, averaged over blocks so that the longer side has at most ``_FACES``
+    points."""
     step = max(1, min(int(np.ceil(max(surface.shape) / _FACES)), min(surface.shape) // 2))
     count = tuple(n // step for n in surface.shape)
     part = surface.heights[: count[0] * step, : count[1] * step] - np.nanmean(surface.heights, dtype=np.float64)
@@ -204,13 +211,16 @@ def _thinned(surface: Surface) -> tuple[RealArray, Grid]:
     return blocks, Grid((count[0], count[1]), (step * surface.dx, step * surface.dy))
 
 
-# The power spectrum of a surface with its fitted model, and slopes and curvatures against the scale.
+# The power spectrum of a surface with its fitted model, and slopes and curvatures against the
+# scale.
 
 
 def plot_spectrum(found: Characterisation, ax: Axes) -> Axes:
-    """Draw the radial mean of the power spectrum of ``found`` and the fitted model on ``ax``, logarithmically.
+    """Draw the radial mean of the power spectrum of ``found`` and the fitted model on ``ax``,
+    logarithmically.
 
-    The range that was fitted is shaded; wavelengths stand above. Convention: <h²> = (1/4π²) ∫ C d²q.
+    The range that was fitted is shaded; wavelengths stand above. Convention: <h²> = (1/4π²) ∫ C
+    d²q.
     """
     surface = found.surface
     unit = scale(math.sqrt(min(surface.grid.spacing) * max(surface.size)), "m")
@@ -251,7 +261,8 @@ def plot_spectrum(found: Characterisation, ax: Axes) -> Axes:
 
 
 def plot_scale_dependence(found: Characterisation, ax: Axes) -> Axes:
-    """Draw rms slopes (left) and curvatures (right) of profiles against the length of the stencil on ``ax``."""
+    """Draw rms slopes (left) and curvatures (right) of profiles against the length of the stencil
+    on ``ax``."""
     lengths = [curve.slope_length for curve in found.curves.scale if curve is not None]
     unit = scale(max((length[-1] for length in lengths), default=1.0), "m")
     ax.set(xlabel=f"length of the stencil ({unit.symbol})", ylabel="rms slope")
@@ -339,8 +350,10 @@ def roughness_figures(found: Characterisation) -> tuple[Figure, ...]:
 
 
 def save_roughness_plots(found: Characterisation, folder: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
-    """Write the standard figures of a characterised surface as PNG into ``folder`` (made if missing).
+    """Write the standard figures of a characterised surface as PNG into ``folder`` (made if
+    missing).
 
-    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or
+    written.
     """
     return save_pictures(roughness_figures(found), folder, overwrite=overwrite)

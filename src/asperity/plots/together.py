@@ -21,22 +21,26 @@ from ..io.atomic import atomic_file, require_new_files
 from .picture import Drawing, Figure
 
 LEAST = 4
-"""Figures below which no other process draws: to make one takes some 20 ms, to draw a figure some 0.2 s."""
+"""Figures below which no other process draws: to make one takes some 20 ms, to draw a figure some
+0.2 s."""
 
 MOST = 4
 """Processes at most: each holds copies of the fields that it draws."""
 
 PATIENCE = 60.0
-"""Time in s for which other processes are waited for when nothing is left to draw; then their figures are drawn here."""
+"""Time in s for which other processes are waited for when nothing is left to draw; then their
+figures are drawn here."""
 
 
 @contextmanager
 def drawing(figures: Iterable[Figure], processes: int | None = None) -> Iterator[None]:
-    """Draw ``figures`` by other processes while the body runs; at its end this one draws beside them, until all are drawn.
+    """Draw ``figures`` by other processes while the body runs; at its end this one draws beside
+    them, until all are drawn.
 
-    Matplotlib draws with one thread only. The other processes are copies of this one (``fork``), so that nothing is imported or handed
-    over; only Linux makes them safely, and elsewhere this process draws alone. Whatever becomes of another process, its figures are
-    drawn here if it has not delivered them.
+    Matplotlib draws with one thread only. The other processes are copies of this one (``fork``), so
+    that nothing is imported or handed over; only Linux makes them safely, and elsewhere this
+    process draws alone. Whatever becomes of another process, its figures are drawn here if it has
+    not delivered them.
 
     Parameters
     ----------
@@ -77,9 +81,11 @@ def draw_all(figures: Iterable[Figure], processes: int | None = None) -> None:
 def save_pictures(
     figures: Iterable[Figure], folder: str | Path, *, processes: int | None = None, overwrite: bool = False
 ) -> tuple[Path, ...]:
-    """Write ``figures`` under their names as PNG into ``folder`` (made if missing); drawn as by ``drawing``.
+    """Write ``figures`` under their names as PNG into ``folder`` (made if missing); drawn as by
+    ``drawing``.
 
-    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or written.
+    Raises OutputError if a file exists and ``overwrite`` is false, or the folder cannot be made or
+    written.
     """
     place, all_figures = Path(folder), tuple(figures)
     try:
@@ -99,7 +105,8 @@ def save_pictures(
 
 
 class _Numbers:
-    """The numbers 0 to ``count`` − 1, each of which goes to one of the processes that iterate over them."""
+    """The numbers 0 to ``count`` − 1, each of which goes to one of the processes that iterate over
+    them."""
 
     def __init__(self, count: int) -> None:
         self._read, write = os.pipe()
@@ -123,7 +130,8 @@ class _Process:
 
     @classmethod
     def started(cls, figures: Sequence[Figure], numbers: _Numbers) -> _Process | None:
-        """A copy of this process that draws those of ``figures`` whose ``numbers`` it gets; None if the system makes none."""
+        """A copy of this process that draws those of ``figures`` whose ``numbers`` it gets; None if
+        the system makes none."""
         out, into = os.pipe()
         receiver, sender = os.fdopen(out, "rb"), os.fdopen(into, "wb")
         with warnings.catch_warnings(), sender:
@@ -135,7 +143,8 @@ class _Process:
                 receiver.close()
                 return None
             if number == 0:
-                # the copy draws and ends: it neither goes on with the work of this process nor cleans up after it
+                # the copy draws and ends: it neither goes on with the work of this process nor
+                # cleans up after it
                 try:
                     gc.freeze()
                     pickle.dump({place: figures[place].drawing for place in numbers}, sender)

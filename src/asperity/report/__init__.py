@@ -1,7 +1,8 @@
 """Reports: self-contained pages of results, surfaces and comparisons, and animations.
 
-``write_report`` is for outcomes and results, ``write_roughness_report`` for surfaces, ``write_comparison_report`` for
-theories beside a solution; ``save_plastic_animation`` moves through the steps of plastic flow.
+``write_report`` is for outcomes and results, ``write_roughness_report`` for surfaces,
+``write_comparison_report`` for theories beside a solution; ``save_plastic_animation`` moves through
+the steps of plastic flow.
 """
 
 from ..core.late import late_names

@@ -19,9 +19,11 @@ from ..run.execute import Outcome
 
 
 def save_plastic_animation(outcome: Outcome, path: str | Path, *, overwrite: bool = False) -> Path:
-    """Write the plastic zones of every step of ``outcome`` as an animated picture (.gif, .png or .webp).
+    """Write the plastic zones of every step of ``outcome`` as an animated picture (.gif, .png or
+    .webp).
 
-    Those of the volume below the rough contact, or where it has none of this, those of its repeated passes or of its indentation.
+    Those of the volume below the rough contact, or where it has none of this, those of its repeated
+    passes or of its indentation.
 
     Raises
     ------
@@ -34,7 +36,8 @@ def save_plastic_animation(outcome: Outcome, path: str | Path, *, overwrite: boo
 
 
 def plastic_cuts(outcome: Outcome) -> tuple[Cut, ...]:
-    """The cut through the largest plastic strain after every step of ``outcome``; errors as for ``save_plastic_animation``."""
+    """The cut through the largest plastic strain after every step of ``outcome``; errors as for
+    ``save_plastic_animation``."""
     found = outcome.found
     if FLOW in found and outcome.path is not None and len(outcome.path.steps) > 1:
         facts: Mapping[str, Any] = found[FLOW].detail
@@ -53,7 +56,8 @@ def plastic_cuts(outcome: Outcome) -> tuple[Cut, ...]:
             frames = zip(run.strains, run.labels, strict=True)
             return tuple(replace(shown, strain=strain, label=label) for strain, label in frames)
     raise InputError(
-        "outcome of an animation must have a history with plastic flow, but has none. Run a problem with {plastic_flow.active=true} and steps, "
-        "{passes.count} or {indentation.depth}; a file keeps no steps of these two.",
+        "outcome of an animation must have a history with plastic flow, but has none. Run a problem with "
+        "{plastic_flow.active=true} and steps, {passes.count} or {indentation.depth}; a file keeps no steps "
+        "of these two.",
         subject="outcome of an animation",
     )

@@ -26,7 +26,8 @@ NONE = "–"
 
 
 def comparison_sentence(comparison: Comparison) -> str:
-    """One or two sentences on what was compared, and which theory comes nearest within its limits."""
+    """One or two sentences on what was compared, and which theory comes nearest within its
+    limits."""
     p, count = comparison.pressures, len(comparison.curves)
     text = f"{count} theories at {p.size} loads from {show(float(p[0]), 'Pa', 3)} to {show(float(p[-1]), 'Pa', 3)}"
     if comparison.numerical is None:
@@ -71,10 +72,11 @@ def setup_rows(comparison: Comparison) -> Rows:
 
 
 def slope_table(comparison: Comparison) -> Table:
-    """κ and deviation of the area of every theory at the lowest, a middle and the highest load, and where it holds.
+    """κ and deviation of the area of every theory at the lowest, a middle and the highest load, and
+    where it holds.
 
-    The last columns are root mean squares over the loads at which the theory holds for the quantity, the gap in rms heights
-    σ, and the loads at which it holds for the area.
+    The last columns are root mean squares over the loads at which the theory holds for the
+    quantity, the gap in rms heights σ, and the loads at which it holds for the area.
     """
     at = sorted({0, comparison.pressures.size // 2, comparison.pressures.size - 1})
     loads = [show(float(comparison.pressures[number]), "Pa", 3) for number in at]
@@ -140,7 +142,8 @@ def _range(comparison: Comparison, curve: TheoryCurve) -> str:
 
 
 def _rms(comparison: Comparison, curve: TheoryCurve, quantity: str = "area_fraction") -> float:
-    """Root mean square of the deviations of ``quantity`` at the loads where the theory holds for it."""
+    """Root mean square of the deviations of ``quantity`` at the loads where the theory holds for
+    it."""
     deviations = comparison.deviation(curve.name, quantity)
     inside = deviations[curve.valid_for[quantity] & np.isfinite(deviations)]
     return float(np.sqrt(np.mean(inside**2))) if inside.size else math.nan
@@ -167,9 +170,11 @@ def write_comparison_report(
     figures: Sequence[Figure] | None = None,
     overwrite: bool = False,
 ) -> None:
-    """Write a page on ``comparison`` to the HTML file ``path``; it needs no network and no other file.
+    """Write a page on ``comparison`` to the HTML file ``path``; it needs no network and no other
+    file.
 
-    The ``title`` is made from the source of the surface if empty; ``figures`` are those that have been drawn already.
+    The ``title`` is made from the source of the surface if empty; ``figures`` are those that have
+    been drawn already.
 
     Raises
     ------

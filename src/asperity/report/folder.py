@@ -1,4 +1,5 @@
-"""The folder that a run leaves: document, result file, scalars, report and pictures, the same from every shell."""
+"""The folder that a run leaves: document, result file, scalars, report and pictures, the same from
+every shell."""
 
 from __future__ import annotations
 

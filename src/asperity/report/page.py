@@ -1,4 +1,5 @@
-"""Self-contained HTML pages from the templates of this folder: no network and no other file is needed to read one."""
+"""Self-contained HTML pages from the templates of this folder: no network and no other file is
+needed to read one."""
 
 from __future__ import annotations
 
@@ -37,10 +38,11 @@ def write_page(
     overwrite: bool = False,
     **values: Any,
 ) -> None:
-    """Write the page ``template`` (a file in the folder ``templates``) with ``values``, all of them escaped, to the HTML file ``path``.
+    """Write the page ``template`` (a file in the folder ``templates``) with ``values``, all of them
+    escaped, to the HTML file ``path``.
 
-    Those of every page are ``title`` and ``summary``, those of most ``provenance`` (rows), ``document`` (its text) and ``scene`` (what its
-    viewer shows, see ``scene.scene``).
+    Those of every page are ``title`` and ``summary``, those of most ``provenance`` (rows),
+    ``document`` (its text) and ``scene`` (what its viewer shows, see ``scene.scene``).
 
     Raises
     ------
@@ -66,7 +68,8 @@ def write_page(
 
 
 def rendered(template: str, **values: Any) -> str:
-    """Text of the page ``template`` with ``values``, all of them escaped, control characters too."""
+    """Text of the page ``template`` with ``values``, all of them escaped, control characters
+    too."""
     import jinja2
 
     environment = jinja2.Environment(
@@ -83,7 +86,8 @@ def rendered(template: str, **values: Any) -> str:
 
 
 def prose(text: object) -> Markup:
-    """``text`` as HTML whose lines are broken after underscores too, but not within options and numbers."""
+    """``text`` as HTML whose lines are broken after underscores too, but not within options and
+    numbers."""
 
     def kept(found: re.Match[str]) -> str:
         return f'<span class="whole">{found[0]}</span>'
@@ -118,7 +122,8 @@ def style() -> str:
 
 
 def software_rows(software: Mapping[str, str], **digests: str) -> Rows:
-    """Names and versions of the ``software`` behind a page, and SHA-256 ``digests`` of what it is about."""
+    """Names and versions of the ``software`` behind a page, and SHA-256 ``digests`` of what it is
+    about."""
     rows = [(name.replace("_", " "), text) for name, text in software.items()]
     return [*rows, *((f"SHA-256 of the {name.replace('_', ' ')}", text) for name, text in digests.items())]
 

@@ -41,7 +41,8 @@ RELATIVE_ERRORS = {
     "spectrum.floor": "spectrum.floor_error",
     "heights.Sq": "sampling.Sq_error",
 }
-"""Standard error relative to the number, by path of the number; that of Sq is its scatter from map to map."""
+"""Standard error relative to the number, by path of the number; that of Sq is its scatter from map
+to map."""
 
 SHARES = ("functional.Smr1", "functional.Smr2", "hybrid.Sdr", "sampling.Sq_error")
 """Numbers given in per cent."""
@@ -64,7 +65,8 @@ NOT_DEFINED = "–"
 
 
 def quantity_text(quantity: Quantity, value: float, digits: int = 4) -> str:
-    """Text of ``value`` with its unit; angles in degrees, shares in per cent, what is not defined as a dash."""
+    """Text of ``value`` with its unit; angles in degrees, shares in per cent, what is not defined
+    as a dash."""
     if math.isnan(value):
         return NOT_DEFINED
     if quantity.unit == "rad":
@@ -77,7 +79,8 @@ def quantity_text(quantity: Quantity, value: float, digits: int = 4) -> str:
 
 
 def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, str, str]]]]:
-    """Heading of each group with the name, the text and the definition of its numbers, those along x and y in one row.
+    """Heading of each group with the name, the text and the definition of its numbers, those along
+    x and y in one row.
 
     What is not defined for the surface is left out.
     """
@@ -134,7 +137,8 @@ Row = tuple[str, str, str, str]
 
 
 def summit_comparison(found: Characterisation) -> list[Row]:
-    """Measured summits against Nayak's isotropic Gaussian surface; empty without summits, dashes where it has no answer."""
+    """Measured summits against Nayak's isotropic Gaussian surface; empty without summits, dashes
+    where it has no answer."""
     measured = found.summits.eight
     if measured.count == 0:
         return []
@@ -159,7 +163,8 @@ def summit_comparison(found: Characterisation) -> list[Row]:
 
 
 def peak_comparison(found: Characterisation) -> list[tuple[str, str, str]]:
-    """Measured peaks of profiles against those of a Gaussian profile with the same ρ1 and ρ2, along x and y."""
+    """Measured peaks of profiles against those of a Gaussian profile with the same ρ1 and ρ2, along
+    x and y."""
     rows = []
     for axis, peaks, spacing in (("x", found.peaks_x, found.surface.dx), ("y", found.peaks_y, found.surface.dy)):
         try:
@@ -194,10 +199,11 @@ def write_roughness_report(
     title: str = "",
     overwrite: bool = False,
 ) -> None:
-    """Write a page on a characterised surface to the HTML file ``path``; it needs no network and no other file.
+    """Write a page on a characterised surface to the HTML file ``path``; it needs no network and no
+    other file.
 
-    ``found`` is that of ``characterise``, with its ``figures`` if they are drawn already; the ``title`` is made from the source of
-    the surface if empty.
+    ``found`` is that of ``characterise``, with its ``figures`` if they are drawn already; the
+    ``title`` is made from the source of the surface if empty.
 
     Raises
     ------

@@ -1,26 +1,34 @@
-"""What the viewer of a page shows, as JSON: maps of one grid, their steps and depths, sections below the surface.
+"""What the viewer of a page shows, as JSON: maps of one grid, their steps and depths, sections
+below the surface.
 
-A scene is an object of these entries (lengths and values in SI, ``unit`` = {``symbol``, ``factor``} is that of text):
+A scene is an object of these entries (lengths and values in SI, ``unit`` = {``symbol``, ``factor``}
+is that of text):
 
-========== ==========================================================================================================
-size, cell sides of the grid, of a point; ``wraps``: whether it repeats along x and y; ``length``: unit of x and y
+========== =======================================================================================
+size, cell sides of the grid, of a point; ``wraps``: whether it repeats along x and y; ``length``:
+           unit of x and y
 line       x and y of both ends of the section line at first
 palettes   256 colours (base64 of red, green, blue bytes) by the name of a colour map
-maps       ``name``, ``title``, ``alt``, ``kind`` values or classes, ``shown`` at first, ``blank`` = {``text``, ``value``}: what points without a
-           number are, and count as along a line; ``reduce`` max, min or mean: what stands for several points; ``along`` null, steps or
-           depths, and an array for each; of values ``unit``, ``colours``, ``range``, ``log``, ``decades`` (0: never logarithmic); of classes
-           ``classes`` = [{``text``, ``colour``}]
-steps      ``label`` and ``texts`` of the slider through the steps of a load path, or null; ``depths`` likewise, of planes in the body
+maps       ``name``, ``title``, ``alt``, ``kind`` values or classes, ``shown`` at first, ``blank`` =
+           {``text``, ``value``}: what points without a number are, and count as along a line;
+           ``reduce`` max, min or mean: what stands for several points; ``along`` null, steps or
+           depths, and an array for each; of values ``unit``, ``colours``, ``range``, ``log``,
+           ``decades`` (0: never logarithmic); of classes ``classes`` = [{``text``, ``colour``}]
+steps      ``label`` and ``texts`` of the slider through the steps of a load path, or null;
+           ``depths`` likewise, of planes in the body
 below      of those planes: ``depths`` (m), unit of ``length``, ``layers``, ``interfaces``
-sections   vertical sections with stored stresses: the entries of a map and of ``below``, ``axis`` x or y, ``start`` on it, one ``array``
+sections   vertical sections with stored stresses: the entries of a map and of ``below``, ``axis`` x
+           or y, ``start`` on it, one ``array``
 spots      name of the map whose islands can be marked, or null
 notes      sentences that stand under the maps
-========== ==========================================================================================================
+========== =======================================================================================
 
-An array is ``shape`` [nx, ny], ``cell`` (sides of a point, m), ``bits`` 8 or 16, ``low``, ``step`` and ``data``: base64 of the numbers n,
-compressed by zlib (or ``url``, an address of the compressed bytes). A value is low + step n; the largest n is no value. Numbers stand in rows
-of y, x fastest. Those of 16 bits are stored as differences along x, the first of a row as it is, modulo 2¹⁶, with the sign in the lowest bit
-(0, -1, 1, -2 … as 0, 1, 2, 3 …), all low bytes before all high bytes. ``shares`` are the shares of the classes of the whole grid.
+An array is ``shape`` [nx, ny], ``cell`` (sides of a point, m), ``bits`` 8 or 16, ``low``, ``step``
+and ``data``: base64 of the numbers n, compressed by zlib (or ``url``, an address of the compressed
+bytes). A value is low + step n; the largest n is no value. Numbers stand in rows of y, x fastest.
+Those of 16 bits are stored as differences along x, the first of a row as it is, modulo 2¹⁶, with
+the sign in the lowest bit (0, -1, 1, -2 … as 0, 1, 2, 3 …), all low bytes before all high bytes.
+``shares`` are the shares of the classes of the whole grid.
 """
 
 from __future__ import annotations
@@ -50,10 +58,12 @@ MOST_POINTS = 1024 * 1024
 """Points of an array; larger grids are shown coarser."""
 
 BUDGET = 5_000_000
-"""Characters that all arrays of a page take at most: with 3 to 4.5 MB of pictures and script a page stays below 10 MB."""
+"""Characters that all arrays of a page take at most: with 3 to 4.5 MB of pictures and script a page
+stays below 10 MB."""
 
 LAST_STEP = 16
-"""Points along a side for which one value of a map of earlier steps stands, up to which the last step is shown finely."""
+"""Points along a side for which one value of a map of earlier steps stands, up to which the last
+step is shown finely."""
 
 MOST_STEPS = 60
 """Steps of a load path that are shown; of longer ones some are left out."""
@@ -68,7 +78,8 @@ REDUCED = {"max": "the largest", "min": "the smallest", "mean": "the mean"}
 
 
 def reduced(values: RealArray, block: int, how: str) -> RealArray:
-    """Largest, smallest or mean value of every block of ``block`` × ``block`` points, NaN where all are; the last may be incomplete."""
+    """Largest, smallest or mean value of every block of ``block`` × ``block`` points, NaN where all
+    are; the last may be incomplete."""
     if block == 1:
         return values
     nx, ny = values.shape
@@ -85,7 +96,8 @@ def reduced(values: RealArray, block: int, how: str) -> RealArray:
 
 
 def coded(values: RealArray, cell: Sequence[float], *, block: int = 1, how: str = "mean") -> dict[str, Any]:
-    """Array of a scene with ``values`` (nx, ny), NaN for none, of points with the sides ``cell``; 65 535 steps from low to high.
+    """Array of a scene with ``values`` (nx, ny), NaN for none, of points with the sides ``cell``;
+    65 535 steps from low to high.
 
     Of every ``block`` × ``block`` points one value is kept (see ``reduced``).
     """
@@ -107,7 +119,8 @@ def coded(values: RealArray, cell: Sequence[float], *, block: int = 1, how: str 
 
 
 def coded_kinds(kinds: RealArray, cell: Sequence[float], *, block: int = 1) -> dict[str, Any]:
-    """Array of a scene with the numbers of classes, 0 to 254; the largest of a block stands for it."""
+    """Array of a scene with the numbers of classes, 0 to 254; the largest of a block stands for
+    it."""
     numbers = reduced(kinds, block, "max").astype(np.uint8)
     return _array(numbers.shape, cell, block, 8, np.ascontiguousarray(numbers.T).tobytes()) | {"low": 0.0, "step": 1.0}
 
@@ -136,7 +149,8 @@ def decoded(array: dict[str, Any]) -> RealArray:
 
 @dataclass
 class _Map:
-    """A map of the scene: how it looks, what makes it for each step or depth, and how many points one value stands for."""
+    """A map of the scene: how it looks, what makes it for each step or depth, and how many points
+    one value stands for."""
 
     name: str
     title: str
@@ -155,7 +169,8 @@ class _Map:
         return found
 
     def code(self, number: int) -> dict[str, Any]:
-        """Array of one step or depth; the last step is that of the page and as fine as its other maps."""
+        """Array of one step or depth; the last step is that of the page and as fine as its other
+        maps."""
         shown, block = self.makers[number](), self.blocks[number]
         if isinstance(shown, Kinds):
             shares = [float(np.mean(shown.kinds == kind)) for kind in range(len(shown.classes))]
@@ -172,7 +187,8 @@ class _Map:
 def scene_of(
     outcome: Outcome, *, more: Iterable[Figure] = (), budget: int = BUDGET, most_points: int = MOST_POINTS
 ) -> dict[str, Any] | None:
-    """Scene of an ``outcome``, from its figures and ``more``, and from the steps of its load path; None on a grid of one row.
+    """Scene of an ``outcome``, from its figures and ``more``, and from the steps of its load path;
+    None on a grid of one row.
 
     Arrays hold at most ``most_points`` points, and take at most ``budget`` characters together.
     """
@@ -197,9 +213,11 @@ def scene(
     budget: int = BUDGET,
     most_points: int = MOST_POINTS,
 ) -> dict[str, Any] | None:
-    """Scene of the maps that ``figures`` show on ``grid``, and of other steps of a ``path``; None without any.
+    """Scene of the maps that ``figures`` show on ``grid``, and of other steps of a ``path``; None
+    without any.
 
-    Of many steps some are shown, evenly chosen, with number and load, and what the physics say of each.
+    Of many steps some are shown, evenly chosen, with number and load, and what the physics say of
+    each.
     """
     if 1 in grid.shape:
         return None
@@ -277,7 +295,8 @@ def _gathered(
 
 
 def _within(maps: Sequence[_Map], budget: int) -> dict[str, list[dict[str, Any]]]:
-    """Arrays of all maps by name, coarser where they would take more than ``budget`` characters: first those that take most."""
+    """Arrays of all maps by name, coarser where they would take more than ``budget`` characters:
+    first those that take most."""
     sizes = {item.name: item.size() for item in maps}
     while True:
         while sum(sizes.values()) > budget and (largest := max(maps, key=lambda item: sizes[item.name])).block < 1024:
@@ -347,11 +366,13 @@ def _section(figure: Figure, cut: Cut) -> dict[str, Any]:
 def _notes(
     maps: Sequence[_Map], described: Sequence[dict[str, Any]], path: HistoryResult | None, steps: Sequence[int]
 ) -> list[str]:
-    """How exact the shown values are, what is shown coarser than it was computed, and which steps are left out."""
+    """How exact the shown values are, what is shown coarser than it was computed, and which steps
+    are left out."""
     notes = [
-        "Values are stored in 65 534 equal steps between the smallest and the largest of each map; the last digit that is shown may be off "
-        "by one. Zoomed out, the value of a map that stands for several points is chosen as for coarse maps: of pressures and other magnitudes "
-        "the largest, of gaps the smallest, of heights the mean."
+        "Values are stored in 65 534 equal steps between the smallest and the largest of each map; the last "
+        "digit that is shown may be off by one. Zoomed out, the value of a map that stands for several points "
+        "is chosen as for coarse maps: of pressures and other magnitudes the largest, of gaps the smallest, "
+        "of heights the mean."
     ]
     for block in sorted({item.block for item in maps if item.block > 1}):
         names = []
@@ -364,8 +385,8 @@ def _notes(
                 how += ", in all steps but the last" + (f", which has one for each {last} × {last}" if last > 1 else "")
             names.append(f"{item.title} ({how})")
         notes.append(
-            f"Shown coarser than computed, to keep this page small: one value for each {block} × {block} points in {', '.join(names)}. "
-            "Numbers and tables of this page are those of all points."
+            f"Shown coarser than computed, to keep this page small: one value for each {block} × {block} "
+            f"points in {', '.join(names)}. Numbers and tables of this page are those of all points."
         )
     if path is not None and 0 < len(steps) < len(path.steps):
         notes.append(f"The slider shows {len(steps)} of the {len(path.steps)} steps, evenly chosen.")
@@ -379,7 +400,8 @@ def as_json(value: Any) -> str:
 
 
 def curves_of(curves: Iterable[AxesCurves]) -> list[dict[str, Any]]:
-    """Points of the ``curves`` of a figure with the places of its axes, for the read-out on its picture."""
+    """Points of the ``curves`` of a figure with the places of its axes, for the read-out on its
+    picture."""
 
     def floats(values: RealArray) -> str:
         return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")

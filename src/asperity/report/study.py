@@ -50,7 +50,8 @@ MOST_CURVES = 7
 
 
 def study_figures(campaign: Campaign, data: xarray.Dataset, derived: xarray.Dataset | None) -> list[Figure]:
-    """Figures of the results ``data`` of a study and of what was ``derived`` from them: one or more for each quantity."""
+    """Figures of the results ``data`` of a study and of what was ``derived`` from them: one or more
+    for each quantity."""
     draw: Draw = _DRAWN.get(campaign.study.document.kind, _sweep)
     return [figure for name in campaign.study.document.quantities for figure in draw(campaign, data, derived, name)]
 
@@ -70,7 +71,8 @@ def point_text(coordinate: xarray.DataArray) -> str:
 
 
 def coordinate_text(value: float | str, unit: str) -> str:
-    """Where a point lies on its axis; only thicknesses are infinite, and mean that the layer never ends."""
+    """Where a point lies on its axis; only thicknesses are infinite, and mean that the layer never
+    ends."""
     if isinstance(value, str):
         return value
     return "endless" if math.isinf(value) else show(float(value), unit)
@@ -149,8 +151,8 @@ def _critical(campaign: Campaign, data: xarray.Dataset, derived: Any, name: str)
     ]
     y, thickness = labelled(data[name]), labelled(data["thickness"][1:-1])
     caption = (
-        f"{y.quantity.title} against the thickness of the layer; dotted: without the layer and with an endless one. Below the floor the "
-        f"layer does not matter, above the ceiling what lies under it does not{more}."
+        f"{y.quantity.title} against the thickness of the layer; dotted: without the layer and with an endless "
+        f"one. Below the floor the layer does not matter, above the ceiling what lies under it does not{more}."
     )
     yield curve_figure(name, y.quantity.title, caption, lambda ax: plot_transitions(thickness, y, transitions, ax))
 
@@ -178,7 +180,8 @@ _DRAWN: dict[str, Draw] = {
 
 
 def _rows(array: xarray.DataArray, along: str) -> tuple[list[tuple[str, xarray.DataArray]], str]:
-    """Rows of ``array`` along one axis with the points of the longest other axis as text; and where the rest stands."""
+    """Rows of ``array`` along one axis with the points of the longest other axis as text; and where
+    the rest stands."""
     others = sorted((str(dim) for dim in array.dims if dim != along), key=lambda dim: -array.sizes[dim])
     fixed, more = _first(array, along, *others[:1])
     if not others:
@@ -298,7 +301,8 @@ def case_table(campaign: Campaign, data: xarray.Dataset) -> Table:
 
 
 def warning_texts(state: CampaignState) -> list[str]:
-    """What stands above a study: where the energy is hardly known, and in how many cases there are other warnings."""
+    """What stands above a study: where the energy is hardly known, and in how many cases there are
+    other warnings."""
     doubted = [cause for cause in state.findings if cause.kind == f"warning ({DOUBT})"]
     others = [cause for cause in state.findings if cause.kind.startswith("warning") and cause not in doubted]
     texts = [f"{_cases(cause.count)}, of which the first: {cause.first.message}" for cause in doubted]
@@ -339,7 +343,8 @@ def _text(value: float | str, unit: str, *, share: bool = False) -> str:
 def write_study_report(
     campaign: Campaign, path: str | Path, *, figures: Sequence[Figure] | None = None, overwrite: bool = False
 ) -> None:
-    """Write a page on ``campaign``, as far as it is, to the HTML file ``path``; it needs no network and no other file.
+    """Write a page on ``campaign``, as far as it is, to the HTML file ``path``; it needs no network
+    and no other file.
 
     ``figures`` are those that have been drawn already.
 
@@ -385,7 +390,8 @@ RESULTS, CASES, FINDINGS, REPORT, PLOTS = "results.nc", "cases.csv", "findings.c
 
 
 def write_study_files(campaign: Campaign, folder: Path) -> tuple[Path, ...]:
-    """Write dataset, tables, figures and page of ``campaign`` into ``folder``, over those of an earlier time.
+    """Write dataset, tables, figures and page of ``campaign`` into ``folder``, over those of an
+    earlier time.
 
     Raises
     ------

@@ -15,7 +15,8 @@ from .scene import scene
 def write_tractions_report(
     outcome: Outcome, path: str | Path, *, document: TractionsDocument, text: str, overwrite: bool = False
 ) -> None:
-    """Write a report of the stresses under prescribed tractions, the ``outcome`` of a ``document`` with this ``text``, to ``path``.
+    """Write a report of the stresses under prescribed tractions, the ``outcome`` of a ``document``
+    with this ``text``, to ``path``.
 
     Raises OutputError if the file exists and ``overwrite`` is false, or cannot be written.
     """

@@ -41,7 +41,8 @@ def write_report(
     Parameters
     ----------
     answer
-        A result, or the outcome of a document with all its parts; converged or not: if not, that stands first.
+        A result, or the outcome of a document with all its parts; converged or not: if not, that
+        stands first.
     path
         HTML file to write.
     advice

@@ -124,7 +124,8 @@ class Case:
         return self.document.solver.threads
 
     def engine(self, threads: int | None = None) -> Engine:
-        """Machine that the document states; on the CPU with so many ``threads`` instead of those of the document."""
+        """Machine that the document states; on the CPU with so many ``threads`` instead of those of
+        the document."""
         if self.document.solver.machine == "gpu":
             return GpuEngine()
         return CpuEngine(threads or self.threads)
@@ -143,7 +144,8 @@ class Case:
 
 
 def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple[Part, ...] = ()) -> Case:
-    """Objects described by ``document``; its relative file paths start at ``base_folder``; ``known`` parts, by default the installed ones.
+    """Objects described by ``document``; its relative file paths start at ``base_folder``;
+    ``known`` parts, by default the installed ones.
 
     Raises
     ------
@@ -193,10 +195,11 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
 
 
 def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
-    """Law that ``table`` names; a hardness from the body is that of the softer one at its surface, or 2.8 Y where only a yield stress is known.
+    """Law that ``table`` names; a hardness from the body is that of the softer one at its surface,
+    or 2.8 Y where only a yield stress is known.
 
-    Where that body is coated it is the effective hardness, which follows the indentation, or by the word ``SURFACE``, and where the strength of a
-    deeper part is not known, that of its top layer.
+    Where that body is coated it is the effective hardness, which follows the indentation, or by the
+    word ``SURFACE``, and where the strength of a deeper part is not known, that of its top layer.
     """
     if not isinstance(table, HardnessTable):
         return HardWall()
@@ -209,7 +212,8 @@ def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
     if not known:
         coated = " (of a coated body the top layer counts)" if any(isinstance(b, Layered) for b in bodies) else ""
         raise InputError(
-            f"hardness must be known for at least one body to be taken from it, but neither states one, nor a yield stress{coated}. "
+            "hardness must be known for at least one body to be taken from it, but neither states one, nor a "
+            f"yield stress{coated}. "
             "Give it as a pressure, such as {law.hardness=5 GPa}."
         )
     hardness, softer = min(known, key=lambda item: item[0])
@@ -222,7 +226,8 @@ def build_law(table: LawTable, bodies: tuple[Body, ...]) -> InterfaceLaw:
 def build_course(
     document: ProblemDocument, asks: Mapping[str, Any], known: tuple[Part, ...], length: float
 ) -> tuple[Control, tuple[Step | Control, ...]]:
-    """The last control of ``document``, and the steps to it, with what the ``known`` parts that are asked for add; none for one load.
+    """The last control of ``document``, and the steps to it, with what the ``known`` parts that are
+    asked for add; none for one load.
 
     Forces per length are those of a line contact of this ``length`` in m.
     """
@@ -260,8 +265,8 @@ def build_control(table: ControlTable, length: float = 1.0) -> Control:
     """
     if table.path is not None:
         raise InputError(
-            "control must be one load or position here, but is a load path. Give control.mean_pressure, force, approach or "
-            "mean_gap."
+            "control must be one load or position here, but is a load path. Give control.mean_pressure, "
+            "force, approach or mean_gap."
         )
     if table.mean_pressure is not None:
         return MeanPressure(_known(table.mean_pressure))
@@ -281,7 +286,8 @@ def _per_length(force: float | str, length: float) -> float:
 
 
 def build_body(table: BodyTable, folder: Path) -> Body:
-    """Body that ``table`` names or describes; the path of its materials file starts at ``folder``."""
+    """Body that ``table`` names or describes; the path of its materials file starts at
+    ``folder``."""
     library = None if table.materials_file is None else folder / table.materials_file
     if table.base is not None:
         layers = [layer for part in table.layers for layer in _layers(part, library, folder)]
@@ -291,7 +297,8 @@ def build_body(table: BodyTable, folder: Path) -> Body:
 
 
 def body_of_text(text: str, what: str) -> Body:
-    """Body from its one line of text, such as ``"DLC"`` or ``"E=140GPa,nu=0.25,H=15GPa"``; ``what`` names it in messages.
+    """Body from its one line of text, such as ``"DLC"`` or ``"E=140GPa,nu=0.25,H=15GPa"``; ``what``
+    names it in messages.
 
     Raises
     ------
@@ -327,7 +334,8 @@ _GRID = ("kind", "points", "size", "prepare", "mirror", "place")  # the same for
 
 
 def build_surface(table: SurfaceTable, folder: Path) -> Surface:
-    """Surface of ``table`` after its preparation steps; a relative file path starts at ``folder``."""
+    """Surface of ``table`` after its preparation steps; a relative file path starts at
+    ``folder``."""
     if isinstance(table, FileSurface):
         surface = read(folder / table.path, **table.given(*_FILE))
     else:
@@ -338,7 +346,8 @@ def build_surface(table: SurfaceTable, folder: Path) -> Surface:
 
 
 def build_surfaces(table: SurfaceTable, counter: SurfaceTable | None, folder: Path) -> tuple[Surface, Surface | None]:
-    """Surface and counter surface, the latter turned over and placed, so that it lies in the frame of the first."""
+    """Surface and counter surface, the latter turned over and placed, so that it lies in the frame
+    of the first."""
     surface = build_surface(table, folder)
     if counter is None:
         return surface, None
@@ -355,7 +364,8 @@ def build_surfaces(table: SurfaceTable, counter: SurfaceTable | None, folder: Pa
 
 
 def build_generated(table: Any, folder: Path, **more: Any) -> Surface:
-    """Surface that ``table`` describes, before its preparation; ``more`` arguments go to the generator.
+    """Surface that ``table`` describes, before its preparation; ``more`` arguments go to the
+    generator.
 
     Relative paths of measured surfaces start at ``folder``.
     """
@@ -368,7 +378,8 @@ def build_generated(table: Any, folder: Path, **more: Any) -> Surface:
 
 
 BYTES_OF_A_POINT = 100.0
-"""Memory of a point of a generated surface: noise, spectrum and what transforms and solvers take of them, at the least."""
+"""Memory of a point of a generated surface: noise, spectrum and what transforms and solvers take of
+them, at the least."""
 
 
 def table_grid(table: GeneratedSurface) -> Grid:
@@ -378,7 +389,8 @@ def table_grid(table: GeneratedSurface) -> Grid:
 
 
 def stated_points(table: SurfaceTable) -> int:
-    """Number of points of the grid of a surface as far as its ``table`` states it; 0 where only the file does."""
+    """Number of points of the grid of a surface as far as its ``table`` states it; 0 where only the
+    file does."""
     found = 0 if isinstance(table, FileSurface) else math.prod(table.points)
     for step in table.prepare:
         found = math.prod(step.points) if step.step == "resample" else found
@@ -399,7 +411,8 @@ def large_grid(points: int) -> str:
 
 
 def build_part(value: Any, folder: Path) -> Any:
-    """Spectrum or distribution of heights for its table, surface for that of a file, anything else as it is."""
+    """Spectrum or distribution of heights for its table, surface for that of a file, anything else
+    as it is."""
     if not isinstance(value, Settings):
         return value
     if isinstance(value, FileSurface):
@@ -415,7 +428,8 @@ def build_part(value: Any, folder: Path) -> Any:
 
 
 def build_material(table: MaterialTable, library: Path | None, folder: Path) -> Elastic:
-    """Material of ``table``; names are looked up in the file ``library`` too, and paths of files start at ``folder``."""
+    """Material of ``table``; names are looked up in the file ``library`` too, and paths of files
+    start at ``folder``."""
     if table.material is not None:
         found = material(table.material, library=library)
         given = [key for key in BESIDE if getattr(table, key) is not None]
@@ -431,7 +445,8 @@ def build_material(table: MaterialTable, library: Path | None, folder: Path) -> 
 
 
 def build_strength(table: MaterialTable, known: Elastic | None) -> Strength:
-    """Strength that ``table`` gives, in place of what is ``known`` of its material; a hardening begins at the yield stress, or at that of the hardness."""
+    """Strength that ``table`` gives, in place of what is ``known`` of its material; a hardening
+    begins at the yield stress, or at that of the hardness."""
     before = Strength() if known is None else known.strength
     given = table.yield_stress is not None
     strength = Strength(
@@ -446,7 +461,8 @@ def build_strength(table: MaterialTable, known: Elastic | None) -> Strength:
     first, flow = flow_stress(strength).value, table.hardening
     if math.isnan(first):
         raise InputError(
-            "yield stress must be given together with a hardening, but is not known. Give yield_stress (Y in the text of a body).",
+            "yield stress must be given together with a hardening, but is not known. Give yield_stress (Y in "
+            "the text of a body).",
             subject="yield stress",
         )
     hardening: Hardening
@@ -462,7 +478,8 @@ def build_strength(table: MaterialTable, known: Elastic | None) -> Strength:
 
 
 def viscoelastic(table: Relaxing, nu: float, folder: Path, **more: Any) -> Viscoelastic:
-    """Viscoelastic material that relaxes as ``table`` says, of Poisson's ratio ``nu``; ``more`` are fields of it."""
+    """Viscoelastic material that relaxes as ``table`` says, of Poisson's ratio ``nu``; ``more`` are
+    fields of it."""
     shift: TemperatureShift | None = None
     if isinstance(table.shift, ArrheniusTable):
         shift = Arrhenius(float(table.shift.reference), float(table.shift.activation_energy))

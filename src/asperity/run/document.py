@@ -1,7 +1,8 @@
-"""The problem document: one versioned, schema-checked text that describes a contact problem, its load and its solver.
+"""The problem document: one versioned, schema-checked text that describes a contact problem, its
+load and its solver.
 
-Every shell (command line, study, web) is a way to fill in this document. Quantities are text with units. Beside the core
-(``io.schemas.problem``) it holds the tables that the parts declare.
+Every shell (command line, study, web) is a way to fill in this document. Quantities are text with
+units. Beside the core (``io.schemas.problem``) it holds the tables that the parts declare.
 """
 
 from __future__ import annotations
@@ -66,7 +67,8 @@ RENAMED = MappingProxyType(
 
 @functools.lru_cache(maxsize=8)
 def document_model(known: tuple[Part, ...] = ()) -> type[ProblemDocument]:
-    """Model of the document: the core, and the table of every part, of those ``known`` or all that are installed."""
+    """Model of the document: the core, and the table of every part, of those ``known`` or all that
+    are installed."""
     tables = _tables(known or parts())
     made: Any = create_model("ProblemDocument", __base__=ProblemDocument, __doc__=ProblemDocument.__doc__, **tables)
     model: type[ProblemDocument] = made
@@ -103,11 +105,13 @@ def loads(text: str, *, form: str = "toml") -> ProblemDocument:
 
 
 PRESETS = ("head-disk", "disk-and-slider", "mems")
-"""Documents of this package, each with its source: interfaces of the literature with roughness, bodies, film and load."""
+"""Documents of this package, each with its source: interfaces of the literature with roughness,
+bodies, film and load."""
 
 
 def read_table(path: str | os.PathLike[str], what: str = "problem document") -> dict[str, Any]:
-    """Content of the file at ``path`` before any check of keys and values; ``what`` it is called in messages.
+    """Content of the file at ``path`` before any check of keys and values; ``what`` it is called in
+    messages.
 
     A name of ``PRESETS`` stands for that document where there is no such file.
 
@@ -150,13 +154,15 @@ def checked(
 
 
 def checked_parts(table: Mapping[str, Any], where: str, names: Mapping[str, str] | None = None) -> Any:
-    """The tables of parts in ``table``, which has no others; arguments and errors as for :func:`checked`."""
+    """The tables of parts in ``table``, which has no others; arguments and errors as for
+    :func:`checked`."""
     model: type[Settings] = create_model("Parts", __base__=Settings, **_tables(parts()))
     return validated(model, table, where, names)
 
 
 def upgraded(table: Mapping[str, Any]) -> dict[str, Any]:
-    """``table`` of version 1 as version 2, in which friction has a table of its own; any other as it is.
+    """``table`` of version 1 as version 2, in which friction has a table of its own; any other as
+    it is.
 
     Raises
     ------
@@ -172,8 +178,8 @@ def upgraded(table: Mapping[str, Any]) -> dict[str, Any]:
     given = {name: part.get("friction") or 0 for name, part in before.items()}
     if len(given) == 2 and given["stress"] and given["film"] and given["stress"] != given["film"]:
         raise InputError(
-            f"stress.friction must be film.friction, but they are {given['stress']!r} and {given['film']!r}: there is one "
-            "friction in a contact, friction.coefficient of version 2."
+            f"stress.friction must be film.friction, but they are {given['stress']!r} and {given['film']!r}: "
+            "there is one friction in a contact, friction.coefficient of version 2."
         )
     if given.get("film") and not given.get("stress", True):
         before["stress"]["shear"] = False
@@ -196,7 +202,8 @@ def dumps(document: Settings, *, form: str = "toml") -> str:
 
 
 def save_document(document: ProblemDocument, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-    """Write ``document`` to ``path`` as TOML, or JSON if the name ends in ``.json``, wholly or not at all.
+    """Write ``document`` to ``path`` as TOML, or JSON if the name ends in ``.json``, wholly or not
+    at all.
 
     Relative file paths are written as they are; see :func:`relocated`.
 
@@ -215,7 +222,8 @@ def json_schema() -> dict[str, Any]:
 
 
 def relocated(document: D, source: Path, target: Path) -> D:
-    """``document`` of the folder ``source`` for use in the folder ``target``: relative paths lead to the same files."""
+    """``document`` of the folder ``source`` for use in the folder ``target``: relative paths lead
+    to the same files."""
 
     def moved(path: str) -> str:
         if Path(path).is_absolute():
@@ -266,7 +274,8 @@ def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
 
 
 DEEPEST = 16
-"""Tables within tables and lists; documents of this package have eight. Parsers take time that grows with the square of it."""
+"""Tables within tables and lists; documents of this package have eight. Parsers take time that
+grows with the square of it."""
 
 _LONG_KEY = re.compile(r"""(?<![\w"'-])[\w"'-]+(?:[ \t]*\.[ \t]*[\w"'-]+){16,}""")
 

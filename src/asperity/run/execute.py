@@ -1,4 +1,5 @@
-"""The one executor: a problem document is built, solved and analysed. Command line, studies and Python all end here."""
+"""The one executor: a problem document is built, solved and analysed. Command line, studies and
+Python all end here."""
 
 from __future__ import annotations
 
@@ -87,7 +88,8 @@ class Outcome(Judged, Drawn):
 
     @property
     def converged(self) -> bool:
-        """Whether the contact, every step of its path and its couplings reached their tolerances."""
+        """Whether the contact, every step of its path and its couplings reached their
+        tolerances."""
         return self.status.converged and (self.path is None or self.path.converged)
 
     @property
@@ -148,7 +150,8 @@ class Outcome(Judged, Drawn):
 
 @dataclass(eq=False)
 class Warm:
-    """What cases that differ in their load alone share: the prepared operator, and the contacts solved so far."""
+    """What cases that differ in their load alone share: the prepared operator, and the contacts
+    solved so far."""
 
     operator: Operator | None = None
     last: ContactResult | None = None
@@ -180,7 +183,8 @@ def execute(
     warm
         What earlier cases that differ in the load alone have left; it is brought up to date.
     wanted
-        Names of the quantities that are wanted, so that costly ones may be left out; all by default.
+        Names of the quantities that are wanted, so that costly ones may be left out; all by
+        default.
     lines
         Whether parts keep the fields that only pictures show.
     threads
@@ -236,7 +240,8 @@ def execute(
 def analysed(
     result: ContactResult, asks: Mapping[str, Any], path: HistoryResult | None = None, **options: Any
 ) -> Outcome:
-    """What the parts that are asked for find in a ``result`` that was solved before, the end of ``path`` if one is given.
+    """What the parts that are asked for find in a ``result`` that was solved before, the end of
+    ``path`` if one is given.
 
     ``options`` are fields of ``Solved``.
     """
@@ -247,7 +252,8 @@ def analysed(
 
 
 def answered(result: ContactResult, path: HistoryResult | None, *asked: str) -> Outcome:
-    """What the parts ``asked`` for, and all that need nothing but the result, find in a ``result``, the end of ``path`` if one is given."""
+    """What the parts ``asked`` for, and all that need nothing but the result, find in a ``result``,
+    the end of ``path`` if one is given."""
     there = [part for part in parts() if part.of_result in result.couplings]
     made = {part.name: part.at_work.made_from(result) for part in there}
     outcome = analysed(
@@ -260,7 +266,8 @@ def answered(result: ContactResult, path: HistoryResult | None, *asked: str) -> 
 def _found(
     asks: Mapping[str, Any], solved: Solved, known: tuple[Part, ...]
 ) -> tuple[dict[str, Found], tuple[Advice, ...]]:
-    """What the parts find in a ``solved`` contact; a part that fails is a finding and ends no other, unless it is essential."""
+    """What the parts find in a ``solved`` contact; a part that fails is a finding and ends no
+    other, unless it is essential."""
     found: dict[str, Found] = {}
     failed: list[Advice] = []
     for part in known:

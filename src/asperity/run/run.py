@@ -28,22 +28,27 @@ def run(
     Parameters
     ----------
     document
-        Path of a TOML or JSON file, the name of one of this package (``document.PRESETS``), its content as nested dictionaries, or a document as ``load_document`` gives it. With a table
-        ``[tractions]`` it prescribes loads on a body, without any contact, and the ``result`` is a ``LoadedBody``.
+        Path of a TOML or JSON file, the name of one of this package (``document.PRESETS``), its
+        content as nested dictionaries, or a document as ``load_document`` gives it. With a table
+        ``[tractions]`` it prescribes loads on a body, without any contact, and the ``result`` is a
+        ``LoadedBody``.
     base_folder
-        Where relative paths in the document start; by default the folder of the file, or the working folder.
+        Where relative paths in the document start; by default the folder of the file, or the
+        working folder.
     parts
-        Parts of your own that no installed package adds, each a ``Part``: their tables may stand in the document, and their values are
-        in the outcome as those of other parts are.
+        Parts of your own that no installed package adds, each a ``Part``: their tables may stand in
+        the document, and their values are in the outcome as those of other parts are.
     stage
         Gives the progress of the stage of that name.
     on_failure
-        ``"raise"`` a ConvergenceError if the solve does not converge, or ``"return"`` it with its status.
+        ``"raise"`` a ConvergenceError if the solve does not converge, or ``"return"`` it with its
+        status.
 
     Raises
     ------
     InputError
-        If the document has problems, or requests something that its problem does not have, or a part cannot be used.
+        If the document has problems, or requests something that its problem does not have, or a
+        part cannot be used.
     NoSolutionError
         If the load has no solution.
     ConvergenceError

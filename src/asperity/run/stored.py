@@ -1,4 +1,5 @@
-"""Outcomes as files: one labelled tree with a group for each part, from which report and figures are made again."""
+"""Outcomes as files: one labelled tree with a group for each part, from which report and figures
+are made again."""
 
 from __future__ import annotations
 
@@ -33,9 +34,11 @@ OF_OUTCOME = "of_outcome"
 def save_outcome(
     outcome: Outcome, path: str | Path, *, document: str | None = None, title: str = "", overwrite: bool = False
 ) -> None:
-    """Write ``outcome``, and the text of the problem ``document`` it came from, to the NetCDF-4 file ``path``.
+    """Write ``outcome``, and the text of the problem ``document`` it came from, to the NetCDF-4
+    file ``path``.
 
-    Every part has a group with its values and its text; ``load`` reads the contact, ``load_outcome`` everything.
+    Every part has a group with its values and its text; ``load`` reads the contact,
+    ``load_outcome`` everything.
 
     Raises
     ------
@@ -48,12 +51,14 @@ def save_outcome(
 
 
 def outcome_to_xarray(outcome: Outcome) -> xarray.DataTree:
-    """``outcome`` as ``xarray.DataTree``: one group for each part, units and long names on every variable."""
+    """``outcome`` as ``xarray.DataTree``: one group for each part, units and long names on every
+    variable."""
     return datatree(outcome_tree(outcome))
 
 
 def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = "", streamed: bool = False) -> Node:
-    """Tree of ``outcome``; where it is ``streamed`` the steps of a load path are made as they are written."""
+    """Tree of ``outcome``; where it is ``streamed`` the steps of a load path are made as they are
+    written."""
     groups = dict(result_tree(outcome.path or outcome.result, streamed=streamed).children)
     for part in outcome.parts:
         if part.name in outcome.found:
@@ -68,7 +73,8 @@ def outcome_tree(outcome: Outcome, *, document: str | None = None, title: str = 
 
 
 def load_outcome(path: str | Path) -> Outcome:
-    """The outcome in the file ``path``: contact, values and text of every part, findings and status.
+    """The outcome in the file ``path``: contact, values and text of every part, findings and
+    status.
 
     Of a file that holds a result alone, an outcome of the parts that need nothing else.
 
@@ -104,7 +110,8 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
 
 
 def _finding(*, message: str = "", concerns: Sequence[str] = (), **values: Any) -> Advice:
-    """A finding of a file; earlier files hold its text as one ``message``. ValueError if texts are none."""
+    """A finding of a file; earlier files hold its text as one ``message``. ValueError if texts are
+    none."""
     found = Advice(**{"fact": message, **values}, concerns=tuple(concerns))
     for text in (found.level, found.criterion, found.fact, found.remedy, *found.concerns):
         if not isinstance(text, str):
@@ -113,7 +120,8 @@ def _finding(*, message: str = "", concerns: Sequence[str] = (), **values: Any) 
 
 
 def _require_provenance(stored: Any) -> None:
-    """That reports can name when and with what an outcome was made, and the digests of its surfaces; ValueError if not."""
+    """That reports can name when and with what an outcome was made, and the digests of its
+    surfaces; ValueError if not."""
     surfaces = [stored[key]["digest"] for key in ("surface", "counter_surface") if key in stored]
     for text in (stored["created"], *stored["software"].values(), *surfaces):
         if not isinstance(text, str):
@@ -121,7 +129,8 @@ def _require_provenance(stored: Any) -> None:
 
 
 def part_group(part: Part, outcome: Outcome, before: Node = Node()) -> Node:
-    """Group of values and text of ``part``, in addition to what the result itself has ``before``."""
+    """Group of values and text of ``part``, in addition to what the result itself has
+    ``before``."""
     found = outcome.found[part.name]
     values = list(before.values)
     for quantity in part.quantities:
@@ -146,7 +155,8 @@ def part_group(part: Part, outcome: Outcome, before: Node = Node()) -> Node:
 
 
 def _found(part: Part, node: Node, solved: Solved, known: Any) -> Found:
-    """Values and text of ``part`` from its group; ``known`` is the detail where the result itself holds it."""
+    """Values and text of ``part`` from its group; ``known`` is the detail where the result itself
+    holds it."""
     values = {item.quantity.name: item.values for item in node.values}
     fields = {name: kept_from(child, FIELD) for name, child in node.children.items() if "xx" in child}
     stored = Stored(fields, json.loads(node.attributes["facts"]))

@@ -1,4 +1,5 @@
-"""Documents with the table [tractions]: a body under prescribed loads, whose stresses are computed without any contact, and their files."""
+"""Documents with the table [tractions]: a body under prescribed loads, whose stresses are computed
+without any contact, and their files."""
 
 from __future__ import annotations
 
@@ -61,7 +62,8 @@ FIELDS = (
 class TractionsTable(Settings):
     """Tractions on a grid from 0 to ``size``: the sum of all ``loads`` and of arrays in files.
 
-    Arrays (nx, ny) are in Pa, from ``.npy`` files or text with a row for each x. ``points`` may be left out with arrays.
+    Arrays (nx, ny) are in Pa, from ``.npy`` files or text with a row for each x. ``points`` may be
+    left out with arrays.
     """
 
     size: Size = setting(help='physical size of the grid, such as "20 um x 10 um"')
@@ -81,8 +83,8 @@ class TractionsTable(Settings):
     def _some_load(self) -> TractionsTable:
         if not self.loads and not self.files:
             raise InputError(
-                " must hold a load, but holds none: give [[tractions.loads]] of kind point, line or patch, or pressure_file, "
-                "shear_x_file or shear_y_file."
+                " must hold a load, but holds none: give [[tractions.loads]] of kind point, line or patch, or "
+                "pressure_file, shear_x_file or shear_y_file."
             )
         if self.points is None and not self.files:
             raise InputError(".points must be given where no file states them, such as points = [128, 128].")
@@ -194,7 +196,8 @@ def traction_rows(loaded: LoadedBody, document: TractionsDocument) -> Rows:
 
 
 def run_tractions(document: TractionsDocument, folder: Path, *, stage: Stage = no_stage, lines: bool = True) -> Outcome:
-    """Stresses under the tractions of ``document``, whose relative paths start at ``folder``; ``result`` is the ``LoadedBody``.
+    """Stresses under the tractions of ``document``, whose relative paths start at ``folder``;
+    ``result`` is the ``LoadedBody``.
 
     Raises
     ------
@@ -214,7 +217,8 @@ def run_tractions(document: TractionsDocument, folder: Path, *, stage: Stage = n
 
 
 def save_tractions(outcome: Outcome, text: str, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write tractions and stresses of ``outcome``, and the ``text`` of its document, to the NetCDF-4 file ``path`` for ``open_tree``.
+    """Write tractions and stresses of ``outcome``, and the ``text`` of its document, to the
+    NetCDF-4 file ``path`` for ``open_tree``.
 
     Raises OutputError if the file exists and ``overwrite`` is false, or cannot be written.
     """

@@ -1,4 +1,5 @@
-"""The verdict on what was computed: what was found, whether the bodies hold, and whether it can be trusted. Every door shows this one."""
+"""The verdict on what was computed: what was found, whether the bodies hold, and whether it can be
+trusted. Every door shows this one."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ from ..solids.layers import strength_of
 from .execute import Outcome, answered
 
 FIRST_YIELD = 1.6 / TABOR
-"""Largest pressure over hardness at which a half-space yields beneath a sphere: 1.6 Y (Johnson 1985, sec. 6.1) at 2.8 Y for the hardness."""
+"""Largest pressure over hardness at which a half-space yields beneath a sphere: 1.6 Y (Johnson
+1985, sec. 6.1) at 2.8 Y for the hardness."""
 
 WEIGHT = (
     "load",
@@ -37,7 +39,8 @@ WEIGHT = (
     "asperity radius",
     "layer against pixel",
 )
-"""Criteria of findings in the order in which they matter; those of a physics stand at the empty name."""
+"""Criteria of findings in the order in which they matter; those of a physics stand at the empty
+name."""
 
 
 def verdict(thing: ContactResult | HistoryResult | Outcome | str | Path) -> Verdict:
@@ -109,7 +112,10 @@ def _contact(reached: Reached, outcome: Outcome) -> str:
     if result.contact.any():
         under = f"under a mean pressure of {show(result.mean_pressure, 'Pa')} ({show(result.force, 'N')})"
         approach = f", approach {show(result.approach, 'm')}" if math.isfinite(result.approach) else ""
-        text = f"bodies touch on {area_text(result)} of the nominal area, {show(result.contact_area, 'm**2')}, {under}{approach}."
+        text = (
+            f"bodies touch on {area_text(result)} of the nominal area, "
+            f"{show(result.contact_area, 'm**2')}, {under}{approach}."
+        )
     else:
         text = f"bodies do not touch; the mean gap is {show(result.mean_gap, 'm')}."
     text = f"At step {reached.number} of {reached.many} the {text}" if reached.many > 1 else f"The {text}"
@@ -127,7 +133,8 @@ def _contact(reached: Reached, outcome: Outcome) -> str:
 def _holds(
     outcome: Outcome, result: ContactResult, said: Sequence[tuple[Part, Words]], names: tuple[str, ...]
 ) -> tuple[str, bool]:
-    """What does not hold, by all that was computed, and whether there is any of it; ``names`` begin those of doubted quantities."""
+    """What does not hold, by all that was computed, and whether there is any of it; ``names`` begin
+    those of doubted quantities."""
     texts, fails = list[str](), False
     for part, words in said:
         if words.holds:
@@ -160,7 +167,8 @@ def _known(values: Mapping[str, Any], name: str) -> bool:
 
 
 def _strength(result: ContactResult) -> tuple[str, bool]:
-    """The largest pressure against what the surfaces of the bodies bear, where nothing limits it."""
+    """The largest pressure against what the surfaces of the bodies bear, where nothing limits
+    it."""
     found = strength_of(result.problem.body, result.problem.counter_body)
     known = {item.known_as: result.max_pressure / item.pressure for item in found if item.pressure}
     unknown = dict.fromkeys(item.material for item in found if not item.pressure)

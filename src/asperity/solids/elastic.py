@@ -14,7 +14,8 @@ from ..core.errors import InputError
 from ..core.late import Shown
 
 TABOR = 2.8
-"""Hardness over tensile yield stress of metals (Tabor 1951), used where only the hardness is known."""
+"""Hardness over tensile yield stress of metals (Tabor 1951), used where only the hardness is
+known."""
 
 
 @runtime_checkable
@@ -30,9 +31,11 @@ class Hardening(Protocol):
 
 @dataclass(frozen=True)
 class Strength:
-    """What a material bears: hardness and tensile yield stress in Pa, ``nan`` where not known, and how it hardens in plastic flow.
+    """What a material bears: hardness and tensile yield stress in Pa, ``nan`` where not known, and
+    how it hardens in plastic flow.
 
-    InputError if a given value is not positive, or yield stress and hardening contradict each other.
+    InputError if a given value is not positive, or yield stress and hardening contradict each
+    other.
 
     Parameters
     ----------
@@ -58,7 +61,8 @@ class Strength:
                 object.__setattr__(self, "yield_stress", first)
             elif not math.isclose(first, self.yield_stress, rel_tol=1e-9):
                 raise InputError(
-                    f"yield stress (Pa) must be that of the hardening, {first:g}, but is {self.yield_stress:g}. Give it with the hardening only."
+                    f"yield stress (Pa) must be that of the hardening, {first:g}, but is "
+                    f"{self.yield_stress:g}. Give it with the hardening only."
                 )
         for value, what in ((self.hardness, "hardness (Pa)"), (self.yield_stress, "yield stress (Pa)")):
             if value == value:
@@ -102,8 +106,8 @@ class Elastic(Shown):
             wrong = next((name for name in named if name in ("E", "nu", "G", "v")), None)
             if wrong is not None:
                 raise InputError(
-                    f"keyword of Elastic must be youngs_modulus (E in Pa) or poisson_ratio (nu), but is {wrong}. Write Elastic(70e9, 0.3)"
-                    f"{' with E = 2 (1 + nu) G' if wrong == 'G' else ''}."
+                    "keyword of Elastic must be youngs_modulus (E in Pa) or poisson_ratio (nu), but is "
+                    f"{wrong}. Write Elastic(70e9, 0.3){' with E = 2 (1 + nu) G' if wrong == 'G' else ''}."
                 )
             return super().__new__(cls)
 
@@ -139,7 +143,8 @@ class YieldPressure:
     value
         In Pa; None where neither hardness nor yield stress is known.
     symbol
-        ``"H"`` where it is the hardness, ``"2.8 Y"`` where it follows from the yield stress (Tabor 1951), empty where it is not known.
+        ``"H"`` where it is the hardness, ``"2.8 Y"`` where it follows from the yield stress (Tabor
+        1951), empty where it is not known.
     """
 
     value: float | None
@@ -162,8 +167,8 @@ def yield_pressure(strength: Strength) -> YieldPressure:
 
 
 LEAST_OF_ELASTOMERS = 0.49
-"""Poisson's ratio from which on a solid of unknown strength is taken for an elastomer, which tears but does not yield; metals and glassy
-polymers have at most 0.46."""
+"""Poisson's ratio from which on a solid of unknown strength is taken for an elastomer, which tears
+but does not yield; metals and glassy polymers have at most 0.46."""
 
 
 def never_yields(material: Elastic) -> bool:

@@ -1,4 +1,5 @@
-"""Which regions of a layered body flow, and by which law: layers from the surface down, then the base."""
+"""Which regions of a layered body flow, and by which law: layers from the surface down, then the
+base."""
 
 from __future__ import annotations
 
@@ -12,7 +13,8 @@ from .plasticity import J2
 from .strength import plastic_parts
 
 Flow: TypeAlias = Hardening | J2 | None
-"""How one material flows: its hardening, a whole J2 law (for back stress), or None where it stays elastic."""
+"""How one material flows: its hardening, a whole J2 law (for back stress), or None where it stays
+elastic."""
 
 
 class OfStrength:
@@ -23,24 +25,29 @@ class OfStrength:
 
 
 Plasticity: TypeAlias = Flow | Sequence[Flow] | OfStrength
-"""One law for all regions, one for each layer from the surface down and one for the base, or those of the strengths."""
+"""One law for all regions, one for each layer from the surface down and one for the base, or those
+of the strengths."""
 
 OF_STRENGTH = OfStrength()
-"""Yield stress and hardening of each material; it stays elastic where its yield stress is not known."""
+"""Yield stress and hardening of each material; it stays elastic where its yield stress is not
+known."""
 
 
 def regions_of(body: Elastic | Layered) -> tuple[Elastic, ...]:
-    """Materials of the regions of the reduced ``body`` from the surface down; a rigid base is none."""
+    """Materials of the regions of the reduced ``body`` from the surface down; a rigid base is
+    none."""
     return materials_of(body)
 
 
 def flow_of(body: Elastic | Layered, plasticity: Plasticity = OF_STRENGTH) -> tuple[Elastic | J2, ...]:
-    """Law of every region of ``body`` from the surface down: a ``J2`` where it may flow, else its ``Elastic``.
+    """Law of every region of ``body`` from the surface down: a ``J2`` where it may flow, else its
+    ``Elastic``.
 
     Raises
     ------
     InputError
-        If the number of laws is not that of the regions, an entry is no law, or a J2 law has other elastic constants.
+        If the number of laws is not that of the regions, an entry is no law, or a J2 law has other
+        elastic constants.
     """
     if isinstance(plasticity, OfStrength):
         return plastic_parts(body, unknown_is_elastic=True)
@@ -48,8 +55,8 @@ def flow_of(body: Elastic | Layered, plasticity: Plasticity = OF_STRENGTH) -> tu
     given = list(plasticity) if isinstance(plasticity, Sequence) else [plasticity] * len(materials)
     if len(given) != len(materials):
         raise InputError(
-            f"plasticity must be one law for each of the {len(materials)} regions of the body, but is {len(given)} laws. "
-            "Give the layers from the surface down, then the base; None stays elastic."
+            f"plasticity must be one law for each of the {len(materials)} regions of the body, but is "
+            f"{len(given)} laws. Give the layers from the surface down, then the base; None stays elastic."
         )
     laws: list[Elastic | J2] = []
     for material, flow in zip(materials, given, strict=True):
@@ -57,8 +64,9 @@ def flow_of(body: Elastic | Layered, plasticity: Plasticity = OF_STRENGTH) -> tu
             same = (flow.elastic.youngs_modulus, flow.elastic.poisson_ratio)
             if same != (material.youngs_modulus, material.poisson_ratio):
                 raise InputError(
-                    f"plasticity must be laws with the elastic constants of their region, but is E = {same[0]:g} Pa, nu = {same[1]:g} in a region "
-                    f"with E = {material.youngs_modulus:g} Pa, nu = {material.poisson_ratio:g}. Give the hardening alone, or the same constants."
+                    "plasticity must be laws with the elastic constants of their region, but is E = "
+                    f"{same[0]:g} Pa, nu = {same[1]:g} in a region with E = {material.youngs_modulus:g} Pa, nu "
+                    f"= {material.poisson_ratio:g}. Give the hardening alone, or the same constants."
                 )
             laws.append(flow)
         elif flow is None:
@@ -67,6 +75,7 @@ def flow_of(body: Elastic | Layered, plasticity: Plasticity = OF_STRENGTH) -> tu
             laws.append(J2(material, flow))
         else:
             raise InputError(
-                f"plasticity must be laws of hardening, J2 laws or None, but is {flow!r}. Write LinearHardening(Y), Swift(…), Voce(…) or J2(…)."
+                f"plasticity must be laws of hardening, J2 laws or None, but is {flow!r}. Write "
+                "LinearHardening(Y), Swift(…), Voce(…) or J2(…)."
             )
     return tuple(laws)

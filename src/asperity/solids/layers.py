@@ -1,4 +1,5 @@
-"""Layered bodies: any number of coatings on a half-space or on a rigid base; graded coatings as thin layers."""
+"""Layered bodies: any number of coatings on a half-space or on a rigid base; graded coatings as
+thin layers."""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ class Bonded:
 
 @dataclass(frozen=True)
 class Frictionless:
-    """Free slip without opening: normal displacement and pressure are continuous, the shear traction is zero.
+    """Free slip without opening: normal displacement and pressure are continuous, the shear
+    traction is zero.
 
     The interface is taken to stay closed; add the mean pressure to see whether tension arises.
     """
@@ -50,15 +52,16 @@ Base: TypeAlias = Elastic | RigidBase
 class Layer:
     """One homogeneous layer.
 
-    InputError if the material is no ``Elastic``, the thickness negative or no number, or the interface none of the
-    two.
+    InputError if the material is no ``Elastic``, the thickness negative or no number, or the
+    interface none of the two.
 
     Parameters
     ----------
     material
         ``Elastic(...)`` or a named material.
     thickness
-        h in m, >= 0. A layer of zero thickness vanishes; under one of infinite thickness nothing matters.
+        h in m, >= 0. A layer of zero thickness vanishes; under one of infinite thickness nothing
+        matters.
     interface
         How it is joined to what lies below it: ``Bonded()`` or ``Frictionless()``.
     """
@@ -103,8 +106,8 @@ class Layered(Shown):
             raise InputError("layers of a Layered body must be a list of Layer, but is a single Layer; write [layer].")
         if isinstance(self.layers, Elastic):
             raise InputError(
-                f"layers of a Layered body must be a list of Layer, but is the material {self.layers.name or 'Elastic'} without a thickness; "
-                "write [Layer(material, thickness)]."
+                "layers of a Layered body must be a list of Layer, but is the material "
+                f"{self.layers.name or 'Elastic'} without a thickness; write [Layer(material, thickness)]."
             )
         layers = tuple(self.layers)
         for layer in layers:
@@ -118,7 +121,8 @@ class Layered(Shown):
 
     @property
     def reduced(self) -> Layered:
-        """The same body without layers of zero thickness and without what lies under a layer of infinite thickness."""
+        """The same body without layers of zero thickness and without what lies under a layer of
+        infinite thickness."""
         kept: list[Layer] = []
         for layer in self.layers:
             if layer.thickness == math.inf:
@@ -129,7 +133,8 @@ class Layered(Shown):
 
     @property
     def bare(self) -> Layered:
-        """The reduced body with nothing but its elastic constants, so that equal ones deform alike and the reverse."""
+        """The reduced body with nothing but its elastic constants, so that equal ones deform alike
+        and the reverse."""
         reduced = self.reduced
         layers = [Layer(_constants(layer.material), layer.thickness, layer.interface) for layer in reduced.layers]
         return Layered(layers, _constants(reduced.base) if isinstance(reduced.base, Elastic) else reduced.base)
@@ -160,7 +165,8 @@ Body: TypeAlias = Elastic | Rigid | Layered
 
 
 def surface_material(body: Body) -> Elastic | None:
-    """Material at the surface of ``body``: of its outermost layer where it is layered, None where it is rigid."""
+    """Material at the surface of ``body``: of its outermost layer where it is layered, None where
+    it is rigid."""
     material = body.surface_material if isinstance(body, Layered) else body
     return material if isinstance(material, Elastic) else None
 
@@ -175,12 +181,14 @@ def materials_of(body: Body) -> tuple[Elastic, ...]:
 
 
 def relaxes(body: Body) -> bool:
-    """Whether a material of ``body`` that takes part is viscoelastic, and its modulus falls in time."""
+    """Whether a material of ``body`` that takes part is viscoelastic, and its modulus falls in
+    time."""
     return any(isinstance(material, Viscoelastic) and material.spectrum for material in materials_of(body))
 
 
 def deformable(body: Body, counter_body: Body) -> tuple[tuple[Elastic | Layered, float], ...]:
-    """The bodies that deform, each with the sign of the tractions it carries: 1 for ``body``, -1 for ``counter_body``.
+    """The bodies that deform, each with the sign of the tractions it carries: 1 for ``body``, -1
+    for ``counter_body``.
 
     InputError if both are rigid.
     """
@@ -195,10 +203,12 @@ def deformable(body: Body, counter_body: Body) -> tuple[tuple[Elastic | Layered,
 
 
 def contact_modulus(body: Body, counter_body: Body = Rigid()) -> float:
-    """Contact modulus E* in Pa, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2 (Johnson 1985, eq. 4.22), of the surface materials.
+    """Contact modulus E* in Pa, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2 (Johnson 1985, eq. 4.22), of
+    the surface materials.
 
-    For a layered body the material of the outermost layer counts: it governs contacts much smaller than that layer is
-    thick. Larger contacts depend on the layers below too, by the compliance and not by this number.
+    For a layered body the material of the outermost layer counts: it governs contacts much smaller
+    than that layer is thick. Larger contacts depend on the layers below too, by the compliance and
+    not by this number.
 
     InputError if both bodies are rigid.
     """
@@ -207,10 +217,11 @@ def contact_modulus(body: Body, counter_body: Body = Rigid()) -> float:
 
 
 def weaker_strength(*bodies: Body) -> dict[str, float]:
-    """Lowest known ``hardness`` and ``yield_stress`` (Pa) of the materials at the surfaces of ``bodies``, and ``nu``.
+    """Lowest known ``hardness`` and ``yield_stress`` (Pa) of the materials at the surfaces of
+    ``bodies``, and ``nu``.
 
-    Poisson's ratio is that of the material which yields first, else of the softest, else of the first. What is not known
-    is left out.
+    Poisson's ratio is that of the material which yields first, else of the softest, else of the
+    first. What is not known is left out.
     """
     materials = [material for material in map(surface_material, bodies) if material is not None]
     found = {"nu": materials[0].poisson_ratio} if materials else {}
@@ -252,7 +263,8 @@ class ExponentialGrading:
 class PowerGrading:
     """E changes from its value at the top in proportion to depth to the power ``exponent`` > 0.
 
-    Below 1 the gradient is infinite at the top and the error of thin layers falls more slowly than their thickness squared.
+    Below 1 the gradient is infinite at the top and the error of thin layers falls more slowly than
+    their thickness squared.
     """
 
     exponent: float
@@ -279,15 +291,18 @@ def graded(
     sublayers: int = 32,
     interface: Interface = Bonded(),
 ) -> tuple[Layer, ...]:
-    """Layers of a coating whose modulus changes with depth, to be put into ``Layered([*graded(...), …], base)``.
+    """Layers of a coating whose modulus changes with depth, to be put into
+    ``Layered([*graded(...), …], base)``.
 
-    Each sublayer has the values at its middle, so that the error of the compliance falls with the square of the number of
-    sublayers: 1e-6 relative at 64 for a fourfold modulus and a contact as wide as the coating is thick.
+    Each sublayer has the values at its middle, so that the error of the compliance falls with the
+    square of the number of sublayers: 1e-6 relative at 64 for a fourfold modulus and a contact as
+    wide as the coating is thick.
 
-    ``top``, ``bottom``: materials at the surface and at the lower end. Poisson's ratio and, where both are known,
-    hardness, yield stress and hardening change in proportion to depth; ``thickness``: of the whole coating in m, > 0;
-    ``grading``: ``LinearGrading()``, ``ExponentialGrading()`` or ``PowerGrading(exponent)``; ``sublayers``: number of
-    equal layers, >= 1; ``interface``: of the lowest sublayer to what lies below; the others are bonded.
+    ``top``, ``bottom``: materials at the surface and at the lower end. Poisson's ratio and, where
+    both are known, hardness, yield stress and hardening change in proportion to depth;
+    ``thickness``: of the whole coating in m, > 0; ``grading``: ``LinearGrading()``,
+    ``ExponentialGrading()`` or ``PowerGrading(exponent)``; ``sublayers``: number of equal
+    layers, >= 1; ``interface``: of the lowest sublayer to what lies below; the others are bonded.
 
     InputError if a value is outside its range or of the wrong type.
     """
@@ -296,7 +311,8 @@ def graded(
     for end in (top, bottom):
         if isinstance(end, Viscoelastic) and end.spectrum:
             raise InputError(
-                f"materials of a graded layer must be elastic, but {end.name or 'one'} relaxes. Give homogeneous layers instead."
+                f"materials of a graded layer must be elastic, but {end.name or 'one'} relaxes. Give "
+                "homogeneous layers instead."
             )
     require.positive(thickness, "thickness of a graded layer (m)")
     count = require.integer(sublayers, 1, "number of sublayers of a graded layer")
@@ -311,7 +327,8 @@ def graded(
 
 
 def _between(top: Elastic, bottom: Elastic, depth: float, grading: Grading) -> Elastic:
-    """Material at the relative ``depth``. InputError if top and bottom harden by laws of different kinds."""
+    """Material at the relative ``depth``. InputError if top and bottom harden by laws of different
+    kinds."""
 
     def mixed(first: float, last: float) -> float:
         return first + (last - first) * depth
@@ -322,7 +339,8 @@ def _between(top: Elastic, bottom: Elastic, depth: float, grading: Grading) -> E
         if type(hardening) is not type(lowest) or not is_dataclass(hardening) or not is_dataclass(lowest):
             names = [getattr(item, "name", "perfectly plastic") for item in (hardening, lowest)]
             raise InputError(
-                f"hardening of a graded layer must be of one kind at top and bottom, but is {names[0]} and {names[1]}. Give both alike."
+                f"hardening of a graded layer must be of one kind at top and bottom, but is {names[0]} and "
+                f"{names[1]}. Give both alike."
             )
         names = [item.name for item in fields(hardening)]
         values = {name: mixed(getattr(hardening, name), getattr(lowest, name)) for name in names}
@@ -342,7 +360,8 @@ def _between(top: Elastic, bottom: Elastic, depth: float, grading: Grading) -> E
 
 
 def unknown_strengths(body: Body) -> tuple[str, ...]:
-    """What keeps the hardness of the layered ``body`` with its base from being known by depth: names of materials of unknown strength, a rigid base."""
+    """What keeps the hardness of the layered ``body`` with its base from being known by depth:
+    names of materials of unknown strength, a rigid base."""
     parts = materials_of(body)
     unknown = [part.name or "a material" for part in parts if yield_pressure(part.strength).value is None]
     rigid = isinstance(body, Layered) and isinstance(body.reduced.base, RigidBase)
@@ -358,11 +377,14 @@ class SurfaceStrength:
     body
         Which of the two bodies of the problem it is.
     material
-        Name of the material at its surface, of a coated body that of its top layer; ``"the body"`` or ``"the counter body"`` without a name.
+        Name of the material at its surface, of a coated body that of its top layer; ``"the body"``
+        or ``"the counter body"`` without a name.
     pressure
-        Hardness, else 2.8 Y (Tabor 1951), in Pa; None where neither hardness nor yield stress is known.
+        Hardness, else 2.8 Y (Tabor 1951), in Pa; None where neither hardness nor yield stress is
+        known.
     known_as
-        How it is known, such as ``"H of DLC"`` or ``"2.8 Y of stainless steel"``; empty where it is not.
+        How it is known, such as ``"H of DLC"`` or ``"2.8 Y of stainless steel"``; empty where it is
+        not.
     """
 
     body: Literal["body", "counter_body"]
@@ -377,7 +399,8 @@ class SurfaceStrength:
 
 
 def strength_of(body: Body, counter_body: Body) -> tuple[SurfaceStrength, ...]:
-    """Strength of the surfaces of two bodies in contact, those left out that never yield: rigid ones and elastomers without a known strength."""
+    """Strength of the surfaces of two bodies in contact, those left out that never yield: rigid
+    ones and elastomers without a known strength."""
     found = (_surface("body", body), _surface("counter_body", counter_body))
     return tuple(strength for strength in found if strength is not None)
 

@@ -1,4 +1,5 @@
-"""Materials and liquids by name, with a source for every value; a user's own TOML file overrides and extends the built-in one."""
+"""Materials and liquids by name, with a source for every value; a user's own TOML file overrides
+and extends the built-in one."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ from .viscoelastic import TemperatureShift, Viscoelastic
 class Sourced:
     """SI ``value`` with the text of its ``source``.
 
-    A source that begins with ``assumed:`` marks a value that was not measured on this very substance.
+    A source that begins with ``assumed:`` marks a value that was not measured on this very
+    substance.
     """
 
     value: float
@@ -42,10 +44,12 @@ class Sourced:
 
 @dataclass(frozen=True, kw_only=True)
 class Record:
-    """A named substance: ``name`` and ``aliases`` find it, in any case; ``note`` is its condition or a caveat.
+    """A named substance: ``name`` and ``aliases`` find it, in any case; ``note`` is its condition
+    or a caveat.
 
-    A kind of substance adds its values as fields, marked with the kind of quantity ("ratio" for a Poisson's ratio), with the
-    default None where a file may leave them out, and has in ``noun`` what messages and tables of files call it.
+    A kind of substance adds its values as fields, marked with the kind of quantity ("ratio" for a
+    Poisson's ratio), with the default None where a file may leave them out, and has in ``noun``
+    what messages and tables of files call it.
     """
 
     name: str
@@ -81,13 +85,15 @@ class Record:
 
     @classmethod
     def all(cls, path: str | Path | None = None) -> Records[Self]:
-        """The built-in records, and those of the TOML file at ``path``, whose names and aliases win.
+        """The built-in records, and those of the TOML file at ``path``, whose names and aliases
+        win.
 
-        The file has tables ``[noun."name"]`` with the keys of the values, ``aliases`` and ``note``; a value is text with a
-        unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being "user" by default.
+        The file has tables ``[noun."name"]`` with the keys of the values, ``aliases`` and ``note``;
+        a value is text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``,
+        the source being "user" by default.
 
-        FileFormatError if the file is missing, no text in UTF-8 or no TOML; InputError if a key is unknown or missing,
-        a value cannot be used, or names are not distinct.
+        FileFormatError if the file is missing, no text in UTF-8 or no TOML; InputError if a key is
+        unknown or missing, a value cannot be used, or names are not distinct.
         """
         file = f"{cls.noun}s.toml"
         text = resources.files(__package__).joinpath("data", file).read_text(encoding="utf-8")
@@ -198,12 +204,14 @@ def _normal(name: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class MaterialRecord(Record):
-    """Young's modulus, hardness and tensile yield stress in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5, of a material.
+    """Young's modulus, hardness and tensile yield stress in Pa, > 0, and Poisson's ratio, -1 <
+    nu <= 0.5, of a material.
 
-    A viscoelastic one has a ``relaxation`` of Young's modulus, whose value is then that of the first instant; ``elastic_bulk`` and
-    ``shift`` (with ``shift_source``) as of ``Viscoelastic``. Hardening is linear with ``hardening_modulus`` in Pa, of Swift with
-    ``swift_exponent`` and ``swift_strain``, or of Voce with ``voce_gain`` in Pa and ``voce_rate``; ``kinematic`` in Pa and ``recall``
-    are those of the back stress.
+    A viscoelastic one has a ``relaxation`` of Young's modulus, whose value is then that of the
+    first instant; ``elastic_bulk`` and ``shift`` (with ``shift_source``) as of ``Viscoelastic``.
+    Hardening is linear with ``hardening_modulus`` in Pa, of Swift with ``swift_exponent`` and
+    ``swift_strain``, or of Voce with ``voce_gain`` in Pa and ``voce_rate``; ``kinematic`` in Pa and
+    ``recall`` are those of the back stress.
     """
 
     youngs_modulus: Annotated[Sourced, "pressure"]
@@ -228,7 +236,8 @@ class MaterialRecord(Record):
     def hardening(self) -> Hardening | None:
         """Law of hardening that is given, from the yield stress.
 
-        InputError if it lacks a value, more than one law is given, or the yield stress is not known.
+        InputError if it lacks a value, more than one law is given, or the yield stress is not
+        known.
         """
         laws: dict[str, tuple[str, ...]] = {
             "linear": ("hardening_modulus",),
@@ -245,7 +254,8 @@ class MaterialRecord(Record):
         if len(named) > 1 or missing:
             received = f"{' and '.join(named)}" if len(named) > 1 else f"{named[0]} without {' and '.join(missing)}"
             raise InputError(
-                f"hardening of material {self.name!r} must be one law with all its values and a yield stress, but is {received}."
+                f"hardening of material {self.name!r} must be one law with all its values and a yield stress, "
+                f"but is {received}."
             )
         first = self.values["yield_stress"].value
         numbers = [self.values[key].value for key in laws[named[0]]]
@@ -301,18 +311,22 @@ class MaterialRecord(Record):
         if "relaxation" not in more and (bulk or entry is not None):
             key = "elastic_bulk" if bulk else "shift"
             raise InputError(
-                f"{key} {where} must be given with a youngs_modulus that relaxes, such as 3MPa+10MPa@10ms, but it does not."
+                f"{key} {where} must be given with a youngs_modulus that relaxes, such as 3MPa+10MPa@10ms, but "
+                "it does not."
             )
         return replace(super()._of(plain, name, where), elastic_bulk=bulk, **more)
 
 
 def materials(path: str | Path | None = None) -> Records[MaterialRecord]:
-    """All materials: the built-in ones, and those of the TOML file at ``path`` if given, whose names and aliases win.
+    """All materials: the built-in ones, and those of the TOML file at ``path`` if given, whose
+    names and aliases win.
 
-    Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``, ``yield_stress``, those of hardening
-    (``MaterialRecord``), ``aliases`` and ``note``; a value is text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``,
-    the source being "user" by default. A modulus such as ``"3 MPa + 10 MPa @ 10 ms"`` relaxes; ``elastic_bulk = true`` and ``shift``, such as
-    ``"WLF 298 K; 8.86; 101.6 K"`` or ``"Arrhenius 298 K; 80 kJ/mol"``, may stand beside it.
+    Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``,
+    ``yield_stress``, those of hardening (``MaterialRecord``), ``aliases`` and ``note``; a value is
+    text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being
+    "user" by default. A modulus such as ``"3 MPa + 10 MPa @ 10 ms"`` relaxes;
+    ``elastic_bulk = true`` and ``shift``, such as ``"WLF 298 K; 8.86; 101.6 K"`` or
+    ``"Arrhenius 298 K; 80 kJ/mol"``, may stand beside it.
 
     InputError if the file is missing or not TOML, or a key or value in it cannot be used.
     """
@@ -320,15 +334,18 @@ def materials(path: str | Path | None = None) -> Records[MaterialRecord]:
 
 
 def material(name: str, *, library: str | Path | None = None) -> Elastic:
-    """Half-space of the material ``name`` (or alias, in any case) from the built-in list or the file ``library``.
+    """Half-space of the material ``name`` (or alias, in any case) from the built-in list or the
+    file ``library``.
 
-    InputError if no material has that name, with the nearest names, or if the file cannot be used (see ``materials``).
+    InputError if no material has that name, with the nearest names, or if the file cannot be used
+    (see ``materials``).
     """
     return MaterialRecord.find(name, library).body
 
 
 def full_name(name: str) -> str:
-    """Name of the built-in material that is also called ``name``, in any case; ``name`` itself if there is none."""
+    """Name of the built-in material that is also called ``name``, in any case; ``name`` itself if
+    there is none."""
     return next((record.name for record in MaterialRecord.all() if _normal(name) in record.keys), name)
 
 
@@ -381,7 +398,8 @@ class Liquid:
 
 @dataclass(frozen=True, kw_only=True)
 class LiquidRecord(Record):
-    """Surface tension (N/m), temperature (K), molar volume (m³/mol) and viscosity (Pa s), all > 0, of a liquid."""
+    """Surface tension (N/m), temperature (K), molar volume (m³/mol) and viscosity (Pa s), all > 0,
+    of a liquid."""
 
     surface_tension: Annotated[Sourced, "surface tension"]
     temperature: Annotated[Sourced, "temperature"]
@@ -397,10 +415,12 @@ class LiquidRecord(Record):
 
 
 def liquids(path: str | Path | None = None) -> Records[LiquidRecord]:
-    """All liquids: the built-in ones, and those of the TOML file at ``path`` if given, whose names and aliases win.
+    """All liquids: the built-in ones, and those of the TOML file at ``path`` if given, whose names
+    and aliases win.
 
-    The file has tables ``[liquid."name"]`` with ``surface_tension`` and ``temperature`` (required), ``molar_volume``,
-    ``viscosity``, ``aliases`` and ``note``; values as for ``materials`` (``"72 mN/m"``).
+    The file has tables ``[liquid."name"]`` with ``surface_tension`` and ``temperature`` (required),
+    ``molar_volume``, ``viscosity``, ``aliases`` and ``note``; values as for ``materials``
+    (``"72 mN/m"``).
 
     InputError if the file is missing or not TOML, or a key or value in it cannot be used.
     """
@@ -410,6 +430,7 @@ def liquids(path: str | Path | None = None) -> Records[LiquidRecord]:
 def liquid(name: str, *, library: str | Path | None = None) -> Liquid:
     """Liquid ``name`` (or alias, in any case) from the built-in list or the file ``library``.
 
-    InputError if no liquid has that name, with the nearest names, or if the file cannot be used (see ``liquids``).
+    InputError if no liquid has that name, with the nearest names, or if the file cannot be used
+    (see ``liquids``).
     """
     return LiquidRecord.find(name, library).liquid

@@ -15,7 +15,8 @@ from ..core.errors import FileFormatError, UnitError
 from ..core.text import read_text
 
 COLUMNS = MappingProxyType({"frequency": "Hz", "angular frequency": "rad/s", "storage": "Pa", "loss": "Pa"})
-"""First words of the headings, and the SI unit of each column; one of the two frequencies is needed."""
+"""First words of the headings, and the SI unit of each column; one of the two frequencies is
+needed."""
 
 EXAMPLE = "frequency (Hz), storage modulus (MPa), loss modulus (MPa)"
 
@@ -25,10 +26,13 @@ _HEADING = re.compile(
 
 
 def read_moduli(path: str | Path) -> tuple[RealArray, RealArray, RealArray]:
-    """Frequency (Hz), storage and loss modulus (Pa), each (n,), of the table in the text file at ``path``.
+    """Frequency (Hz), storage and loss modulus (Pa), each (n,), of the table in the text file at
+    ``path``.
 
-    The first line that is no comment (#) has the headings, such as ``frequency (Hz), storage modulus (MPa), loss modulus (MPa)``, in any
-    order; an angular frequency (rad/s) may stand instead. Columns are separated by commas, semicolons or tabs; others are left out.
+    The first line that is no comment (#) has the headings, such as
+    ``frequency (Hz), storage modulus (MPa), loss modulus (MPa)``, in any order; an angular
+    frequency (rad/s) may stand instead. Columns are separated by commas, semicolons or tabs; others
+    are left out.
 
     FileFormatError if the file is missing, no text, or not such a table.
     """

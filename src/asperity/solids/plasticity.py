@@ -1,4 +1,5 @@
-"""Plastic flow of a material point: J2 plasticity with hardening, stepped by radial return, with its consistent tangent."""
+"""Plastic flow of a material point: J2 plasticity with hardening, stepped by radial return, with
+its consistent tangent."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ from ..core.values import NonNegative, Positive, Pressure
 from .elastic import Elastic, Hardening
 
 WEIGHTS = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
-"""How often each of the components xx, yy, zz, xy, xz, yz of a symmetric tensor stands in it: a : b = sum of WEIGHTS a b."""
+"""How often each of the components xx, yy, zz, xy, xz, yz of a symmetric tensor stands in it: a :
+b = sum of WEIGHTS a b."""
 
 UNIT = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
 """The unit tensor."""
@@ -165,8 +167,9 @@ class PlasticStep:
     state
         What to start the next step from.
     tangent
-        (…, 6, 6) derivative of the stress with respect to the strain of the step: d stress = tangent · (WEIGHTS d strain), so that entries of shear are
-        those of the tensor D_ijkl; None if it was not asked for.
+        (…, 6, 6) derivative of the stress with respect to the strain of the step: d stress =
+        tangent · (WEIGHTS d strain), so that entries of shear are those of the tensor D_ijkl; None
+        if it was not asked for.
     """
 
     stress: RealArray
@@ -175,7 +178,8 @@ class PlasticStep:
 
 
 TOLERANCE = 1e-14
-"""Residual of the yield condition over the stress at which the equation for Δq is solved: Newton ends at rounding."""
+"""Residual of the yield condition over the stress at which the equation for Δq is solved: Newton
+ends at rounding."""
 
 MOST_STEPS = 60
 """Newton steps for Δq; concave laws take at most 8 from zero, kinematic recall some more."""
@@ -183,7 +187,8 @@ MOST_STEPS = 60
 
 @dataclass(frozen=True)
 class J2:
-    """Elastic-plastic solid: von Mises' yield condition with associated flow, isotropic and kinematic hardening, small strains.
+    """Elastic-plastic solid: von Mises' yield condition with associated flow, isotropic and
+    kinematic hardening, small strains.
 
         sqrt(3/2) |dev σ - α| <= Y(q),   dε^p = sqrt(3/2) dq n,   dα = (2/3) H_k dε^p - γ α dq.
 
@@ -229,7 +234,8 @@ class J2:
         object.__setattr__(self, "bulk", solid.youngs_modulus / (3.0 * (1.0 - 2.0 * solid.poisson_ratio)))
 
     def step(self, strain: ArrayLike, state: PlasticState | None = None, *, tangent: bool = False) -> PlasticStep:
-        """Stress at the total ``strain`` (…, 6), tensor components, that is reached in one implicit step from ``state``, by default the virgin one.
+        """Stress at the total ``strain`` (…, 6), tensor components, that is reached in one implicit
+        step from ``state``, by default the virgin one.
 
         Raises
         ------
@@ -242,11 +248,13 @@ class J2:
         before = PlasticState.virgin(eps.shape[:-1]) if state is None else state
         if eps.shape[-1:] != (6,) or eps.shape != before.plastic_strain.shape or not np.isfinite(eps).all():
             raise InputError(
-                f"strain must be finite with the shape {before.plastic_strain.shape} of the state, but has {eps.shape}. Components are xx, yy, zz, xy, xz, yz."
+                f"strain must be finite with the shape {before.plastic_strain.shape} of the state, but has "
+                f"{eps.shape}. Components are xx, yy, zz, xy, xz, yz."
             )
         volume = eps @ UNIT
         trial = 2.0 * self.shear * (eps - before.plastic_strain - np.multiply.outer(volume / 3.0, UNIT))
-        # Δq of each point: zero where it stays elastic, else by Newton's method from zero, which is monotonic for concave hardening
+        # Δq of each point: zero where it stays elastic, else by Newton's method from zero, which is
+        # monotonic for concave hardening
         dq = np.zeros(trial.shape[:-1])
         left, slope = self._excess(trial, before, dq)
         scale = np.maximum(math.sqrt(1.5) * norm(trial), self.hardening.yield_stress(before.accumulated))
@@ -263,7 +271,8 @@ class J2:
         else:
             if not (np.abs(left[flows]) < 1e-10 * scale[flows]).all():
                 raise ConvergenceError(
-                    f"The plastic strain of a step is not found in {MOST_STEPS} steps at every point. Take a smaller step."
+                    f"The plastic strain of a step is not found in {MOST_STEPS} steps at every point. Take a "
+                    "smaller step."
                 )
         eta = trial - before.back_stress / (1.0 + self.recall * dq)[..., None]  # less what Δq leaves of the back stress
         size = norm(eta)

@@ -1,9 +1,12 @@
-"""Relaxation and creep of linear viscoelastic solids as Prony series, and the exact conversion between the two.
+"""Relaxation and creep of linear viscoelastic solids as Prony series, and the exact conversion
+between the two.
 
-E(t) = E_inf + sum E_k exp(-t/tau_k),   J(t) = J_0 + sum J_k (1 - exp(-t/lambda_k)) + phi t,   ∫ E(t - s) J(s) ds = t.
+E(t) = E_inf + sum E_k exp(-t/tau_k),   J(t) = J_0 + sum J_k (1 - exp(-t/lambda_k)) + phi t,
+∫ E(t - s) J(s) ds = t.
 
-In the operational form s E(s), a rational function, E has the poles -1/tau_k and, between them, one simple zero each, -1/lambda_k: the
-poles of J. Zeros are found by bracketing (Park & Schapery 1999), so that the conversion is exact to rounding.
+In the operational form s E(s), a rational function, E has the poles -1/tau_k and, between them, one
+simple zero each, -1/lambda_k: the poles of J. Zeros are found by bracketing (Park & Schapery 1999),
+so that the conversion is exact to rounding.
 """
 
 from __future__ import annotations
@@ -98,7 +101,8 @@ class Relaxation:
         return found
 
     def complex_modulus(self, omega: ArrayLike) -> ComplexArray:
-        """E(omega) in Pa at the angular frequency ``omega`` (rad/s) for the time dependence exp(+i omega t): loss is positive for omega > 0."""
+        """E(omega) in Pa at the angular frequency ``omega`` (rad/s) for the time dependence exp(+i
+        omega t): loss is positive for omega > 0."""
         return self.operational(1j * np.asarray(omega, dtype=float))
 
     def times(self, factor: float) -> Relaxation:
@@ -111,7 +115,8 @@ class Relaxation:
 
     @property
     def creep(self) -> Creep:
-        """Its creep, exact. The zeros of E_inf - sum E_k tau_k/(lambda - tau_k) are the retardation times lambda_k."""
+        """Its creep, exact. The zeros of E_inf - sum E_k tau_k/(lambda - tau_k) are the retardation
+        times lambda_k."""
         strengths, taus = (
             (np.array(column) for column in zip(*self.terms, strict=True)) if self.terms else (_NONE, _NONE)
         )
@@ -175,7 +180,8 @@ class Creep:
         return np.asarray(found)
 
     def operational(self, s: ArrayLike) -> ComplexArray:
-        """s J(s) in 1/Pa at complex ``s`` (1/s); at s = i omega the complex compliance. A fluid has none at s = 0."""
+        """s J(s) in 1/Pa at complex ``s`` (1/s); at s = i omega the complex compliance. A fluid has
+        none at s = 0."""
         x = np.asarray(s, dtype=complex)
         found = np.full(x.shape, complex(self.instantaneous))
         for strength, lam in self.terms:
@@ -183,7 +189,8 @@ class Creep:
         return np.asarray(found + self.fluidity / x) if self.fluidity else found
 
     def complex_compliance(self, omega: ArrayLike) -> ComplexArray:
-        """J(omega) in 1/Pa at the angular frequency ``omega`` (rad/s) for the time dependence exp(+i omega t)."""
+        """J(omega) in 1/Pa at the angular frequency ``omega`` (rad/s) for the time dependence
+        exp(+i omega t)."""
         return self.operational(1j * np.asarray(omega, dtype=float))
 
     def times(self, factor: float) -> Creep:
@@ -199,7 +206,8 @@ class Creep:
 
     @property
     def relaxation(self) -> Relaxation:
-        """Its relaxation, exact. The zeros of J_0 + sum J_k tau/(tau - lambda_k) - phi tau are the relaxation times tau_k."""
+        """Its relaxation, exact. The zeros of J_0 + sum J_k tau/(tau - lambda_k) - phi tau are the
+        relaxation times tau_k."""
         strengths, lams = (
             (np.array(column) for column in zip(*self.terms, strict=True)) if self.terms else (_NONE, _NONE)
         )
@@ -219,7 +227,8 @@ _NONE = np.empty(0)
 def _zero_between(
     poles: RealArray, number: int, low: float, high: float, function: Callable[[RealArray], float]
 ) -> tuple[float, RealArray]:
-    """Zero between ``low`` and ``high``, measured from the nearer pole, whose distance is then exact."""
+    """Zero between ``low`` and ``high``, measured from the nearer pole, whose distance is then
+    exact."""
     half = 0.5 * (high - low)
     if function(low + half - poles) >= 0.0:
         return _zero_from(poles, number, 1.0, half, function)
@@ -229,7 +238,8 @@ def _zero_between(
 def _zero_from(
     poles: RealArray, number: int, sign: float, farthest: float, function: Callable[[RealArray], float]
 ) -> tuple[float, RealArray]:
-    """Zero at most ``farthest`` from the pole of this ``number``, above it or with ``sign`` -1 below it, in the logarithm of its distance."""
+    """Zero at most ``farthest`` from the pole of this ``number``, above it or with ``sign`` -1
+    below it, in the logarithm of its distance."""
     from scipy.optimize import brentq
 
     def distances(log: float) -> RealArray:
@@ -254,7 +264,8 @@ def _zero_from(
 def _zeros_below(
     poles: RealArray, function: Callable[[RealArray, float], float], *, last: float | None
 ) -> list[tuple[float, RealArray]]:
-    """Zeros of a ``function`` of the distances to the poles and the place, one below each pole and, with ``last``, one above that place."""
+    """Zeros of a ``function`` of the distances to the poles and the place, one below each pole and,
+    with ``last``, one above that place."""
     placed = poles.copy()
 
     def at(distances: RealArray) -> float:

@@ -1,4 +1,5 @@
-"""Relaxing moduli and shifts with temperature as text: ``"3 MPa + 10 MPa @ 10 ms"``, ``"WLF 298 K; 8.86; 101.6 K"``."""
+"""Relaxing moduli and shifts with temperature as text: ``"3 MPa + 10 MPa @ 10 ms"``,
+``"WLF 298 K; 8.86; 101.6 K"``."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ _PLUS = re.compile(r"(?<!\d[eE])\+")
 def series_parts(text: str) -> tuple[str, list[tuple[str, str]]]:
     """Text of the relaxed modulus, empty for none, and of each modulus that relaxes with its time.
 
-    InputError if it is no such sum; the message lacks the name of what the text stands for at its beginning.
+    InputError if it is no such sum; the message lacks the name of what the text stands for at its
+    beginning.
     """
     parts = [part.strip() for part in _PLUS.split(text)]
     terms = [tuple(piece.strip() for piece in part.split(AT)) for part in parts if AT in part]
@@ -46,7 +48,8 @@ def series_of(text: str, what: str) -> Relaxation:
 
 
 def shift_of(text: str, what: str) -> TemperatureShift:
-    """Shift with temperature in ``text``; ``what`` names it in messages. InputError if it cannot be read."""
+    """Shift with temperature in ``text``; ``what`` names it in messages. InputError if it cannot be
+    read."""
     kind, _, rest = text.strip().partition(" ")
     pieces = [piece.strip() for piece in rest.split(";")]
     if kind not in SHIFT_KEYS or len(pieces) != len(SHIFT_KEYS[kind]):

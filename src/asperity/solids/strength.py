@@ -1,4 +1,5 @@
-"""Which parts of a body flow plastically: the J2 solid of each material, from its yield stress and hardening."""
+"""Which parts of a body flow plastically: the J2 solid of each material, from its yield stress and
+hardening."""
 
 from __future__ import annotations
 
@@ -40,7 +41,8 @@ def flow_stress(strength: Strength) -> FlowStress:
 
 
 def plastic_solid(material: Elastic) -> J2:
-    """The elastic-plastic solid of ``material``: its hardening, or perfect plasticity at its yield stress, with its back stress.
+    """The elastic-plastic solid of ``material``: its hardening, or perfect plasticity at its yield
+    stress, with its back stress.
 
     Raises
     ------
@@ -54,12 +56,14 @@ def plastic_solid(material: Elastic) -> J2:
     """
     if isinstance(material, Viscoelastic):
         raise InputError(
-            f"material of a plastic solid must be elastic until it yields, but {material.name or 'it'} is viscoelastic. Give Elastic(E, nu)."
+            f"material of a plastic solid must be elastic until it yields, but {material.name or 'it'} is "
+            "viscoelastic. Give Elastic(E, nu)."
         )
     stress, strength = flow_stress(material.strength), material.strength
     if math.isnan(stress.value):
         raise InputError(
-            f"yield stress of {material.name or 'the material'} must be known for plastic flow, but neither it nor a hardness is. "
+            f"yield stress of {material.name or 'the material'} must be known for plastic flow, but neither it "
+            "nor a hardness is. "
             "Give it, as {yield_stress}.",
             subject=f"yield stress of {material.name or 'the material'}",
         )
@@ -69,14 +73,16 @@ def plastic_solid(material: Elastic) -> J2:
 
 
 def plastic_parts(body: Body, *, unknown_is_elastic: bool = False) -> tuple[PlasticPart, ...]:
-    """Solid of each layer of ``body`` from the surface down, and of the base last; a rigid base is left out.
+    """Solid of each layer of ``body`` from the surface down, and of the base last; a rigid base is
+    left out.
 
     Parameters
     ----------
     body
         Homogeneous or layered.
     unknown_is_elastic
-        Whether a material of unknown yield stress and hardness stays elastic at any stress, instead of being refused.
+        Whether a material of unknown yield stress and hardness stays elastic at any stress, instead
+        of being refused.
 
     Raises
     ------

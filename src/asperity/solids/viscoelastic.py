@@ -1,4 +1,5 @@
-"""Linear viscoelastic solids: an elastic response at the first instant, and what of it relaxes in time."""
+"""Linear viscoelastic solids: an elastic response at the first instant, and what of it relaxes in
+time."""
 
 from __future__ import annotations
 
@@ -21,9 +22,11 @@ _TOO_MUCH = 1e-12
 
 @dataclass(frozen=True)
 class WilliamsLandelFerry:
-    """Shift of all relaxation times with temperature, log10 a_T = -c1 (T - T_ref)/(c2 + T - T_ref) (Williams, Landel & Ferry 1955).
+    """Shift of all relaxation times with temperature, log10 a_T = -c1 (T - T_ref)/(c2 + T - T_ref)
+    (Williams, Landel & Ferry 1955).
 
-    ``reference``: T_ref in K, > 0, at which the times of the solid hold; ``c1``: > 0; ``c2``: in K, > 0.
+    ``reference``: T_ref in K, > 0, at which the times of the solid hold; ``c1``: > 0; ``c2``: in
+    K, > 0.
 
     InputError if a value is outside its range.
     """
@@ -46,7 +49,8 @@ class WilliamsLandelFerry:
         return _power(-self.c1 * difference / (self.c2 + difference) * math.log(10.0))
 
     def seen_from(self, temperature: float) -> WilliamsLandelFerry:
-        """The same shift with ``temperature`` (K) as reference: c2 grows by the difference, c1 c2 stays."""
+        """The same shift with ``temperature`` (K) as reference: c2 grows by the difference, c1 c2
+        stays."""
         c2 = self.c2 + temperature - self.reference
         return WilliamsLandelFerry(float(temperature), self.c1 * self.c2 / c2, c2)
 
@@ -55,7 +59,8 @@ class WilliamsLandelFerry:
 class Arrhenius:
     """Shift of all relaxation times with temperature, ln a_T = Q/R (1/T - 1/T_ref) (Ferry 1980).
 
-    ``reference``: T_ref in K, > 0, at which the times of the solid hold; ``activation_energy``: Q in J/mol, > 0.
+    ``reference``: T_ref in K, > 0, at which the times of the solid hold; ``activation_energy``: Q
+    in J/mol, > 0.
 
     InputError if a value is outside its range.
     """
@@ -88,7 +93,8 @@ _LARGEST_LOG = 600.0
 def _power(log: float) -> float:
     if abs(log) > _LARGEST_LOG:
         raise InputError(
-            f"temperature of a viscoelastic solid must shift its times by less than exp({_LARGEST_LOG:g}), but shifts them by exp({log:.4g})."
+            f"temperature of a viscoelastic solid must shift its times by less than exp({_LARGEST_LOG:g}), but "
+            f"shifts them by exp({log:.4g})."
         )
     return math.exp(log)
 
@@ -99,10 +105,12 @@ TemperatureShift: TypeAlias = WilliamsLandelFerry | Arrhenius
 
 @dataclass(frozen=True, repr=False)
 class Viscoelastic(Elastic):
-    """Isotropic linear viscoelastic half-space: the elastic constants are those of the first instant.
+    """Isotropic linear viscoelastic half-space: the elastic constants are those of the first
+    instant.
 
-    Wherever only the first instant matters it acts as the ``Elastic`` with these constants. The usual models have makers of their own:
-    ``prony``, ``maxwell``, ``kelvin_voigt``, ``standard_linear``, ``power_law``; measured moduli are fitted by ``fitted_solid``.
+    Wherever only the first instant matters it acts as the ``Elastic`` with these constants. The
+    usual models have makers of their own: ``prony``, ``maxwell``, ``kelvin_voigt``,
+    ``standard_linear``, ``power_law``; measured moduli are fitted by ``fitted_solid``.
 
     Parameters
     ----------
@@ -111,17 +119,20 @@ class Viscoelastic(Elastic):
     strength, name, sources
         As of ``Elastic``.
     spectrum
-        Pairs (share of the modulus that relaxes, > 0; relaxation time in s, > 0). The shares add up to at most one, to one in a fluid.
+        Pairs (share of the modulus that relaxes, > 0; relaxation time in s, > 0). The shares add up
+        to at most one, to one in a fluid.
     elastic_bulk
-        False: Poisson's ratio is constant and all moduli relax alike. True: the bulk modulus stays what it is and the shares are those
-        of the shear modulus, so that Poisson's ratio rises towards 1/2.
+        False: Poisson's ratio is constant and all moduli relax alike. True: the bulk modulus stays
+        what it is and the shares are those of the shear modulus, so that Poisson's ratio rises
+        towards 1/2.
     shift
         How times change with temperature, see ``at_temperature``; None if that is not known.
 
     Raises
     ------
     InputError
-        If a value is outside its range, the shares add up to more than one, or an incompressible solid is given an elastic bulk.
+        If a value is outside its range, the shares add up to more than one, or an incompressible
+        solid is given an elastic bulk.
     """
 
     spectrum: Terms = ()
@@ -144,12 +155,14 @@ class Viscoelastic(Elastic):
             )
         if not isinstance(self.shift, TemperatureShift | None):
             raise InputError(
-                f"shift of a viscoelastic solid must be WilliamsLandelFerry(...), Arrhenius(...) or None, but is {self.shift!r}."
+                "shift of a viscoelastic solid must be WilliamsLandelFerry(...), Arrhenius(...) or None, but "
+                f"is {self.shift!r}."
             )
 
     @classmethod
     def prony(cls, relaxed: float, terms: Terms, poisson_ratio: float, **more: Any) -> Self:
-        """Solid of Young's modulus E(t) = ``relaxed`` + sum E_k exp(-t/tau_k), generalised Maxwell model.
+        """Solid of Young's modulus E(t) = ``relaxed`` + sum E_k exp(-t/tau_k), generalised Maxwell
+        model.
 
         Parameters
         ----------
@@ -158,7 +171,8 @@ class Viscoelastic(Elastic):
         terms
             Pairs (E_k in Pa, tau_k in s).
         poisson_ratio
-            nu at the first instant; with ``elastic_bulk=True`` the terms give the shape of the shear relaxation.
+            nu at the first instant; with ``elastic_bulk=True`` the terms give the shape of the
+            shear relaxation.
         **more
             Further parameters of ``Viscoelastic``.
         """
@@ -169,7 +183,8 @@ class Viscoelastic(Elastic):
 
     @classmethod
     def maxwell(cls, youngs_modulus: float, time: float, poisson_ratio: float, **more: Any) -> Self:
-        """Fluid of Young's modulus E exp(-t/``time``): a spring (Pa) and a dashpot of viscosity E ``time`` in series."""
+        """Fluid of Young's modulus E exp(-t/``time``): a spring (Pa) and a dashpot of viscosity E
+        ``time`` in series."""
         return cls.prony(
             0.0, ((require.positive(youngs_modulus, "Young's modulus (Pa)"), time),), poisson_ratio, **more
         )
@@ -178,12 +193,14 @@ class Viscoelastic(Elastic):
     def standard_linear(
         cls, relaxed: float, instantaneous: float, time: float, poisson_ratio: float, **more: Any
     ) -> Self:
-        """Solid of Young's modulus E_inf + (E_0 - E_inf) exp(-t/``time``), moduli in Pa, E_0 > E_inf, time in s (Zener)."""
+        """Solid of Young's modulus E_inf + (E_0 - E_inf) exp(-t/``time``), moduli in Pa, E_0 >
+        E_inf, time in s (Zener)."""
         require.positive(relaxed, "relaxed modulus (Pa)")
         require.positive(instantaneous, "instantaneous modulus (Pa)")
         if not instantaneous > relaxed:
             raise InputError(
-                f"instantaneous modulus (Pa) must be greater than the relaxed modulus {relaxed:g} Pa, but is {instantaneous:g} Pa."
+                f"instantaneous modulus (Pa) must be greater than the relaxed modulus {relaxed:g} Pa, but is "
+                f"{instantaneous:g} Pa."
             )
         return cls.prony(relaxed, ((instantaneous - relaxed, time),), poisson_ratio, **more)
 
@@ -191,10 +208,12 @@ class Viscoelastic(Elastic):
     def kelvin_voigt(
         cls, relaxed: float, time: float, poisson_ratio: float, *, instantaneous: float = 1e4, **more: Any
     ) -> Self:
-        """Solid of a spring (``relaxed``, Pa) and a dashpot of viscosity E ``time`` side by side, J(t) = (1 - exp(-t/``time``))/E.
+        """Solid of a spring (``relaxed``, Pa) and a dashpot of viscosity E ``time`` side by side,
+        J(t) = (1 - exp(-t/``time``))/E.
 
-        The exact model is rigid at the first instant and carries no step load; here the modulus then is ``instantaneous`` times the
-        relaxed one (1e4), which changes J by that part of it and nothing else: a standard linear solid of retardation time ``time``.
+        The exact model is rigid at the first instant and carries no step load; here the modulus
+        then is ``instantaneous`` times the relaxed one (1e4), which changes J by that part of it
+        and nothing else: a standard linear solid of retardation time ``time``.
         """
         ratio = require.finite(instantaneous, "ratio of the instantaneous to the relaxed modulus")
         if not ratio > 1.0:
@@ -215,7 +234,8 @@ class Viscoelastic(Elastic):
         longest: float,
         **more: Any,
     ) -> Self:
-        """Solid of Young's modulus ``coefficient`` t^-``exponent``, as a Prony series fitted between two times.
+        """Solid of Young's modulus ``coefficient`` t^-``exponent``, as a Prony series fitted
+        between two times.
 
         Parameters
         ----------
@@ -235,7 +255,8 @@ class Viscoelastic(Elastic):
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
-        """Linear viscoelasticity, the conversion between relaxation and creep, the shift with temperature."""
+        """Linear viscoelasticity, the conversion between relaxation and creep, the shift with
+        temperature."""
         return ("Ferry1980", "Park1999", *(self.shift.citation_keys if self.shift else ()))
 
     @property
@@ -245,7 +266,8 @@ class Viscoelastic(Elastic):
 
     @property
     def relaxed_share(self) -> float:
-        """Relaxed over instantaneous modulus (of shear, if the bulk is elastic); zero for a fluid."""
+        """Relaxed over instantaneous modulus (of shear, if the bulk is elastic); zero for a
+        fluid."""
         return Relaxation(self._rest, self.spectrum).relaxed
 
     @property
@@ -282,7 +304,8 @@ class Viscoelastic(Elastic):
     def contact_creep(self) -> Creep:
         """Creep (1/Pa) of the plane-strain modulus, in which a half-space answers to pressure.
 
-        With an elastic bulk (1 - nu²)/E = (3K + 4G)/4G(3K + G) = 1/4G + 3/4(3K + G) in operational form, a sum of two creeps.
+        With an elastic bulk (1 - nu²)/E = (3K + 4G)/4G(3K + G) = 1/4G + 3/4(3K + G) in operational
+        form, a sum of two creeps.
         """
         if not self.elastic_bulk:
             return self.shear.creep.times(self.shear_modulus / self.plane_strain_modulus)
@@ -298,7 +321,8 @@ class Viscoelastic(Elastic):
         return self.contact_creep.relaxation
 
     def operational(self, s: ArrayLike) -> tuple[ComplexArray, ComplexArray]:
-        """Shear modulus (Pa) and Poisson's ratio in operational form at complex ``s`` (1/s); at s = i omega the complex ones."""
+        """Shear modulus (Pa) and Poisson's ratio in operational form at complex ``s`` (1/s); at s =
+        i omega the complex ones."""
         G = self.shear.operational(s)
         if not self.elastic_bulk:
             return G, np.full(G.shape, complex(self.poisson_ratio))
@@ -316,7 +340,8 @@ class Viscoelastic(Elastic):
         """
         if self.shift is None:
             raise InputError(
-                f"viscoelastic solid {self.name or 'without a name'} must have a shift to be taken to another temperature, but has none. "
+                f"viscoelastic solid {self.name or 'without a name'} must have a shift to be taken to another "
+                "temperature, but has none. "
                 "Give {shift_of_time}."
             )
         moved = self.with_times(self.shift.factor(temperature))
@@ -341,7 +366,8 @@ def alike(solids: tuple[Elastic, ...]) -> bool:
     )
 
 
-# Series for functions of time and frequency: a fixed grid of times, strengths by non-negative least squares.
+# Series for functions of time and frequency: a fixed grid of times, strengths by non-negative least
+# squares.
 
 _MOST_TERMS = 400
 """Terms of a series that is fitted."""
@@ -350,18 +376,21 @@ _MOST_TERMS = 400
 def _require_terms(decades: float, per_decade: int) -> None:
     if not decades * per_decade <= _MOST_TERMS:
         raise InputError(
-            f"number of terms of a fitted series must be at most {_MOST_TERMS}, but is {decades * per_decade:.3g}: {per_decade} a decade over "
-            f"{decades:.3g} decades. Take fewer a decade, or a narrower band."
+            f"number of terms of a fitted series must be at most {_MOST_TERMS}, but is "
+            f"{decades * per_decade:.3g}: {per_decade} a decade over {decades:.3g} decades. Take fewer a "
+            "decade, or a narrower band."
         )
 
 
 def power_law_series(
     coefficient: float, exponent: float, *, shortest: float, longest: float, per_decade: int = 3
 ) -> Relaxation:
-    """Prony series of ``coefficient`` t^-``exponent`` (Pa), fitted relative to it between ``shortest`` and ``longest`` (s).
+    """Prony series of ``coefficient`` t^-``exponent`` (Pa), fitted relative to it between
+    ``shortest`` and ``longest`` (s).
 
-    Terms reach two decades beyond the longest time and 2/(1 - alpha) decades, at most 8, below the shortest: what a creep has missed
-    before falls off with time to the power 1 - alpha. Those still slower are a constant. InputError if a value is outside its range.
+    Terms reach two decades beyond the longest time and 2/(1 - alpha) decades, at most 8, below the
+    shortest: what a creep has missed before falls off with time to the power 1 - alpha. Those still
+    slower are a constant. InputError if a value is outside its range.
     """
     from scipy.optimize import nnls
 
@@ -387,7 +416,8 @@ def power_law_series(
 
 
 def power_law_error(series: Relaxation, coefficient: float, exponent: float, times: ArrayLike) -> float:
-    """Largest relative difference of ``series`` from ``coefficient`` t^-``exponent`` (Pa) at ``times`` (s)."""
+    """Largest relative difference of ``series`` from ``coefficient`` t^-``exponent`` (Pa) at
+    ``times`` (s)."""
     t = np.asarray(times, dtype=float)
     return float(np.abs(series.at(t) / (coefficient * t**-exponent) - 1.0).max())
 
@@ -446,8 +476,9 @@ def fitted_solid(
 ) -> MasterCurve:
     """Viscoelastic solid through measured storage and loss moduli, with the error of the fit.
 
-    Relaxation times stand on a fixed grid over the measured band; strengths are found by non-negative least squares on both moduli,
-    relative to |E| at each frequency, so that E' and E'' are those of one passive solid.
+    Relaxation times stand on a fixed grid over the measured band; strengths are found by
+    non-negative least squares on both moduli, relative to |E| at each frequency, so that E' and E''
+    are those of one passive solid.
 
     Parameters
     ----------
@@ -465,7 +496,8 @@ def fitted_solid(
     Raises
     ------
     InputError
-        If the columns differ in length or hold values outside their ranges, or the series would have more than 400 terms.
+        If the columns differ in length or hold values outside their ranges, or the series would
+        have more than 400 terms.
     """
     f, real, imaginary = (np.atleast_1d(np.asarray(values, dtype=float)) for values in (frequency, storage, loss))
     if not (f.ndim == 1 and f.shape == real.shape == imaginary.shape and f.size >= 2):

@@ -1,4 +1,5 @@
-"""Analysis of a study: means, orders, critical thicknesses, sensitivities, as a labelled dataset."""
+"""Analysis of a study: means, orders, critical thicknesses, sensitivities, as a labelled
+dataset."""
 
 from __future__ import annotations
 
@@ -22,11 +23,13 @@ UNITS = {"order": "1", "remark": "", "error": "1", "count": "1", "floor": "m", "
 
 
 def analysis(data: xarray.Dataset, document: StudyDocument) -> xarray.Dataset | None:
-    """Derived numbers of the results ``data``: variables such as ``max_pressure_mean``; None for a sweep.
+    """Derived numbers of the results ``data``: variables such as ``max_pressure_mean``; None for a
+    sweep.
 
-    monte_carlo: ``mean``, ``deviation``, ``half_width``, ``count``; convergence: ``order``, ``extrapolated``,
-    ``error``, ``remark``; critical_thickness: ``floor``, ``ceiling``, ``at_zero``, ``at_infinity``; sensitivity, along
-    ``scalar``: ``low``, ``high``, ``elasticity``, ``slope``.
+    monte_carlo: ``mean``, ``deviation``, ``half_width``, ``count``; convergence: ``order``,
+    ``extrapolated``, ``error``, ``remark``; critical_thickness: ``floor``, ``ceiling``,
+    ``at_zero``, ``at_infinity``; sensitivity, along ``scalar``: ``low``, ``high``, ``elasticity``,
+    ``slope``.
     """
     if document.monte_carlo is not None:
         stop = document.monte_carlo.stop
@@ -89,7 +92,8 @@ def _sensitivities(data: xarray.Dataset, quantities: Sequence[str]) -> xarray.Da
 
 
 def _variable(data: xarray.Dataset, name: str, key: str, dims: dict[str, int], values: Sequence[Any]) -> Any:
-    """Numbers or texts ``key`` of the quantity ``name`` on axes of these sizes, with unit and label."""
+    """Numbers or texts ``key`` of the quantity ``name`` on axes of these sizes, with unit and
+    label."""
     unit = "" if key == "slope" else UNITS.get(key, data[name].attrs["units"])
     labels = {"units": unit, "long_name": f"{data[name].attrs['long_name']}: {key.replace('_', ' ')}"}
     kind: Any = object if isinstance(values[0], str) else float

@@ -1,4 +1,5 @@
-"""What a study varies: axes of points, each of which changes some scalars of the problem document."""
+"""What a study varies: axes of points, each of which changes some scalars of the problem
+document."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ Coordinate: TypeAlias = float | str
 
 @dataclass(frozen=True)
 class Point:
-    """One point of an axis: its coordinate, its changes, and further ``columns`` to be listed beside it."""
+    """One point of an axis: its coordinate, its changes, and further ``columns`` to be listed
+    beside it."""
 
     coordinate: Coordinate
     edits: tuple[Edit, ...]
@@ -32,8 +34,8 @@ class Point:
 class Axis:
     """One dimension of a study.
 
-    ``points`` may be made when they are asked for. ``columns`` holds the units of the columns of its points; ``is_load``:
-    its points differ in the load alone.
+    ``points`` may be made when they are asked for. ``columns`` holds the units of the columns of
+    its points; ``is_load``: its points differ in the load alone.
     """
 
     name: str
@@ -49,7 +51,8 @@ class Axis:
 
 @dataclass(frozen=True)
 class Base:
-    """The problem ``document`` that a study starts from, and the ``folder`` at which its relative paths start."""
+    """The problem ``document`` that a study starts from, and the ``folder`` at which its relative
+    paths start."""
 
     document: ProblemDocument
     folder: Path
@@ -91,7 +94,8 @@ def make_axis(base: Base, table: AxisTable, name: str) -> Axis:
                 changes.append((other, _as_written(other, rule[number])))
             elif other.unit != place.unit:
                 raise InputError(
-                    f"also.{other.path} must be a list, because its unit {other.unit} is not the unit {place.unit} of {place.path}."
+                    f"also.{other.path} must be a list, because its unit {other.unit} is not the unit "
+                    f"{place.unit} of {place.path}."
                 )
             else:
                 changes.append((other, other.written(rule * place.number(value))))

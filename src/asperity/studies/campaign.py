@@ -91,7 +91,8 @@ class Campaign:
         return dataset(self.plan, self.records, study=study_text(self.study, self.folder))
 
     def analysis(self) -> xarray.Dataset | None:
-        """Derived numbers of the kind of study: means, orders, critical thicknesses, sensitivities; None for a sweep."""
+        """Derived numbers of the kind of study: means, orders, critical thicknesses, sensitivities;
+        None for a sweep."""
         from .analysis import analysis
 
         return analysis(self.dataset(), self.study.document)
@@ -116,8 +117,8 @@ def run_study(
 ) -> Campaign:
     """Run or resume a study: only cases that its folder does not hold are computed.
 
-    One that does not fit into memory or disk is refused. One that fits is run however long it takes: the command
-    ``asperity run`` asks before hours of work, this function does not.
+    One that does not fit into memory or disk is refused. One that fits is run however long it
+    takes: the command ``asperity run`` asks before hours of work, this function does not.
 
     Parameters
     ----------
@@ -126,7 +127,8 @@ def run_study(
     folder
         Where results go; by default beside the document, named after it.
     workers
-        Number of worker processes on this machine, each with one thread; as many as there are cores by default.
+        Number of worker processes on this machine, each with one thread; as many as there are cores
+        by default.
     dask
         Address of a Dask scheduler whose workers are used instead.
     retry
@@ -155,10 +157,11 @@ def prepare_study(
     start: Path = Path(),
     confirm: Callable[[str], object] | None = None,
 ) -> Campaign:
-    """The campaign of ``study`` with its folder made, before anything is computed; arguments and errors of ``run_study``.
+    """The campaign of ``study`` with its folder made, before anything is computed; arguments and
+    errors of ``run_study``.
 
-    Relative paths in a dictionary begin at ``start``. A new study that takes much of time, memory or disk is told to
-    ``confirm``, in words, before its folder is made.
+    Relative paths in a dictionary begin at ``start``. A new study that takes much of time, memory
+    or disk is told to ``confirm``, in words, before its folder is made.
     """
     from ..io.atomic import atomic_file
     from .documents import load_study, study_from_table, study_text
@@ -188,8 +191,8 @@ def prepare_study(
         ) from error
     if (needed := BYTES_OF_A_RECORD * campaign.plan.n_cases) > free:
         raise OutputError(
-            f"results of {campaign.plan.n_cases} cases need about {needed / 2**30:.3g} GiB, but {free / 2**30:.3g} GiB are "
-            f"free at {target}; give fewer points or samples, or {{folder}}.",
+            f"results of {campaign.plan.n_cases} cases need about {needed / 2**30:.3g} GiB, but "
+            f"{free / 2**30:.3g} GiB are free at {target}; give fewer points or samples, or {{folder}}.",
             subject=f"results of {campaign.plan.n_cases} cases",
         )
     with atomic_file(target / STUDY, overwrite=True) as partial:
@@ -198,7 +201,8 @@ def prepare_study(
 
 
 def open_study(folder: str | Path) -> Campaign:
-    """The study whose results lie in ``folder``, or beside the study document ``folder``; nothing is computed.
+    """The study whose results lie in ``folder``, or beside the study document ``folder``; nothing
+    is computed.
 
     Raises
     ------

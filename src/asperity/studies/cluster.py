@@ -16,9 +16,10 @@ from .executors import Lost, Task, call
 class DaskCluster:
     """Workers of the Dask scheduler at ``address``, such as ``"tcp://10.0.0.1:8786"``.
 
-    They need the same version of asperity and the files of the study under the same path. A worker that dies loses
-    nothing: Dask gives its tasks to others. Tasks and answers are pickles, so the address must be that of a trusted cluster;
-    ``tls://`` with the certificates of Dask's configuration proves that it is.
+    They need the same version of asperity and the files of the study under the same path. A worker
+    that dies loses nothing: Dask gives its tasks to others. Tasks and answers are pickles, so the
+    address must be that of a trusted cluster; ``tls://`` with the certificates of Dask's
+    configuration proves that it is.
     """
 
     address: str

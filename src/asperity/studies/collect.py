@@ -35,7 +35,8 @@ KEPT_CHECKS = ("duality_gap", "iterations", "wall_time")
 
 
 def placed_records(plan: Plan, path: Path) -> Iterator[tuple[int, Record]]:
-    """Number of each finished case of ``plan`` on the flattened axes, and its record in the store at ``path``.
+    """Number of each finished case of ``plan`` on the flattened axes, and its record in the store
+    at ``path``.
 
     Of a case that was done again also the older records, first.
     """
@@ -64,10 +65,11 @@ VERDICT = MappingProxyType(
 
 
 def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
-    """Results of ``plan`` from the store at ``path``: quantities on the axes, units and labels, NaN where there are none.
+    """Results of ``plan`` from the store at ``path``: quantities on the axes, units and labels, NaN
+    where there are none.
 
-    ``outcome`` is the status of each case, ``error`` the cause of its failure. Attributes: the text of the ``study``,
-    software, citation keys. Samples beyond those that were enough are left out.
+    ``outcome`` is the status of each case, ``error`` the cause of its failure. Attributes: the text
+    of the ``study``, software, citation keys. Samples beyond those that were enough are left out.
     """
     import xarray
 
@@ -129,7 +131,8 @@ def dataset(plan: Plan, path: Path, *, study: str = "") -> xarray.Dataset:
 
 
 def stopped_at(plan: Plan, path: Path) -> int | None:
-    """Number of samples after which the rule of ``plan`` ended them; None if it has none or did not."""
+    """Number of samples after which the rule of ``plan`` ended them; None if it has none or did
+    not."""
     stop = stopping(plan)
     if stop is None:
         return None
@@ -173,7 +176,8 @@ class CampaignState:
 
 
 def state(plan: Plan, path: Path) -> CampaignState:
-    """How far ``plan`` is by the store at ``path``; of a case that was done again the last record counts."""
+    """How far ``plan`` is by the store at ``path``; of a case that was done again the last record
+    counts."""
     outcome = np.full(plan.n_cases, MISSING, np.int8)
     errors: dict[int, dict[str, str]] = {}
     told: dict[int, list[list[str]]] = {}
@@ -215,7 +219,8 @@ class Failure:
 
 @dataclass(frozen=True)
 class Cause:
-    """Failures with the same exception and, but for numbers, the same message: ``count``, and the ``first`` of them."""
+    """Failures with the same exception and, but for numbers, the same message: ``count``, and the
+    ``first`` of them."""
 
     kind: str
     count: int

@@ -33,17 +33,18 @@ from .comparison import Comparison, NumericalCurve, TheoryCurve
 from .comparison_theories import LeftOut, check, chosen_theories, family, known_of_bodies, remarks
 
 MOST_CONTACTS = 1000
-"""Contacts up to which interacting crests are solved: a load takes some 0.3 s with a thousand of them, eight times that
-with twice as many.
+"""Contacts up to which interacting crests are solved: a load takes some 0.3 s with a thousand of
+them, eight times that with twice as many.
 """
 
 _PILOT = 5.0
-"""Share of the most contacts, as a divisor, up to which loads are solved first; interaction adds as many where heights
-differ much.
+"""Share of the most contacts, as a divisor, up to which loads are solved first; interaction adds as
+many where heights differ much.
 """
 
 LIGHTEST, HEAVIEST, LOADS = 0.004, 0.25, 12
-"""Lowest and highest p/(E* h'_rms), and number of loads, where none are given: about 1 % to 45 % of the area."""
+"""Lowest and highest p/(E* h'_rms), and number of loads, where none are given: about 1 % to 45 % of
+the area."""
 
 
 def compare(
@@ -61,36 +62,39 @@ def compare(
 ) -> Comparison:
     """Compare the theories of the catalogue with each other and with the boundary-element solution.
 
-    Theories are made from what ``roughness_of`` measures on the surface, or on the sum of two. One that cannot be made
-    is listed with its reason, one that cannot carry the highest loads has NaN there and a note.
+    Theories are made from what ``roughness_of`` measures on the surface, or on the sum of two. One
+    that cannot be made is listed with its reason, one that cannot carry the highest loads has NaN
+    there and a note.
 
     Parameters
     ----------
     surface
-        Surface that is pressed against a rigid flat plane, prepared as it is to be; or a whole ``ContactProblem``.
+        Surface that is pressed against a rigid flat plane, prepared as it is to be; or a whole
+        ``ContactProblem``.
     bodies
         Its body, or body and counter body; left out with a problem.
     pressures
-        Nominal pressures in Pa, positive, in any order; a dozen from 0.004 to 0.25 E* h'_rms if not given.
+        Nominal pressures in Pa, positive, in any order; a dozen from 0.004 to 0.25 E* h'_rms if not
+        given.
     theories
-        Names of theories, or theories made already, which may be any with ``at_pressure`` and ``validity``; every theory
-        of the catalogue that is made from a surface if not given.
+        Names of theories, or theories made already, which may be any with ``at_pressure`` and
+        ``validity``; every theory of the catalogue that is made from a surface if not given.
     inputs
-        Parameters of theories that the bodies do not state, in SI units: ``work`` of adhesion (J/m²), ``spacing`` (m),
-        ``hardness`` and ``yield_stress`` (Pa), ``nu``.
+        Parameters of theories that the bodies do not state, in SI units: ``work`` of adhesion
+        (J/m²), ``spacing`` (m), ``hardness`` and ``yield_stress`` (Pa), ``nu``.
     numerical
         Whether the contact is solved too, on one load path.
     most_contacts
-        Loads at which more crests touch are left out for the theory of interacting crests, whose time grows with the
-        cube.
+        Loads at which more crests touch are left out for the theory of interacting crests, whose
+        time grows with the cube.
     solver, progress, engine
         See ``solve``.
 
     Raises
     ------
     InputError
-        If bodies are missing or given twice, a pressure is not positive, a theory is unknown, the surface flat or has
-        missing points.
+        If bodies are missing or given twice, a pressure is not positive, a theory is unknown, the
+        surface flat or has missing points.
     """
     if isinstance(surface, ContactProblem):
         if bodies is not None:
@@ -136,7 +140,8 @@ def compare(
 def _curve(
     name: str, theory: SurfaceTheory, loads: RealArray, roughness: Roughness, *, most_contacts: int, periodic: bool
 ) -> TheoryCurve | LeftOut:
-    """Curve of one theory as far as it goes along the ``loads`` (n,) in Pa, NaN behind; ``periodic`` where the surface repeats."""
+    """Curve of one theory as far as it goes along the ``loads`` (n,) in Pa, NaN behind;
+    ``periodic`` where the surface repeats."""
     count, first_notes = _reach(theory, loads, most_contacts)
     found, reason = _leading(theory, loads[:count]) if count else (None, "")
     if found is None:
@@ -160,9 +165,11 @@ def _curve(
 
 
 def _reach(theory: SurfaceTheory, loads: RealArray, most_contacts: int) -> tuple[int, tuple[str, ...]]:
-    """How many of the ``loads``, from the lowest, are worth their time, and a note if that is not all.
+    """How many of the ``loads``, from the lowest, are worth their time, and a note if that is not
+    all.
 
-    Contacts of interacting crests are those of crests alone, or what their growth at lighter loads makes of them if more.
+    Contacts of interacting crests are those of crests alone, or what their growth at lighter loads
+    makes of them if more.
     """
     from ..theories.rough.discrete_summits import DiscreteSummits
     from ..theories.rough.interacting_crests import InteractingCrests
@@ -181,14 +188,15 @@ def _reach(theory: SurfaceTheory, loads: RealArray, most_contacts: int) -> tuple
     if count == loads.size:
         return count, ()
     note = (
-        f"Computed at {count} of {loads.size} loads: beyond, some {contacts[count]:.0f} crests and more touch, and the time "
-        f"grows with their cube; most_contacts ({most_contacts}) sets the limit."
+        f"Computed at {count} of {loads.size} loads: beyond, some {contacts[count]:.0f} crests and more touch, "
+        f"and the time grows with their cube; most_contacts ({most_contacts}) sets the limit."
     )
     return count, (note,)
 
 
 def _leading(theory: SurfaceTheory, loads: RealArray) -> tuple[Prediction | None, str]:
-    """Prediction at as many of the rising ``loads`` as the theory can carry, and the error for the others."""
+    """Prediction at as many of the rising ``loads`` as the theory can carry, and the error for the
+    others."""
     low, high, found, reason = 0, loads.size, None, ""
     middle = high
     while low < high:
@@ -206,7 +214,8 @@ def _leading(theory: SurfaceTheory, loads: RealArray) -> tuple[Prediction | None
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """The ``curve``, the ``findings`` at the lowest and highest load, the mean radius in m of the spots at the highest."""
+    """The ``curve``, the ``findings`` at the lowest and highest load, the mean radius in m of the
+    spots at the highest."""
 
     curve: NumericalCurve
     findings: tuple[Advice, ...]
@@ -221,7 +230,8 @@ def solved(
     progress: Progress | None = None,
     engine: Engine | None = None,
 ) -> Solved:
-    """Solution of ``problem`` at rising ``pressures`` (n,) in Pa, each from the interface the last one left.
+    """Solution of ``problem`` at rising ``pressures`` (n,) in Pa, each from the interface the last
+    one left.
 
     Loads that do not converge, or that the law cannot bear, are NaN and noted.
     """

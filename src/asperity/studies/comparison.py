@@ -1,4 +1,5 @@
-"""What a comparison holds: the curves of the theories and of the numerical solution on the same loads; and its files."""
+"""What a comparison holds: the curves of the theories and of the numerical solution on the same
+loads; and its files."""
 
 from __future__ import annotations
 
@@ -65,7 +66,8 @@ class TheoryCurve:
 
     @property
     def gap(self) -> RealArray:
-        """(n,) mean gap in m, or the separation of the mean planes where the theory defines no gap; NaN if neither."""
+        """(n,) mean gap in m, or the separation of the mean planes where the theory defines no gap;
+        NaN if neither."""
         own = self.prediction
         if not self.comparable_gap:
             return np.full_like(own.mean_gap, np.nan)
@@ -75,11 +77,12 @@ class TheoryCurve:
 
 @dataclass(frozen=True, eq=False)
 class NumericalCurve:
-    """The boundary-element solution along the loads of a comparison; every field (n,), NaN where it did not converge.
+    """The boundary-element solution along the loads of a comparison; every field (n,), NaN where it
+    did not converge.
 
-    ``area_fraction`` counts pixels, ``area_fraction_corrected`` is that by the edges between them and is
-    what theories are compared with; ``contact_density`` spots per nominal area in 1/m², ``mean_gap`` in m, ``seconds``
-    of the whole path, ``solver`` its method.
+    ``area_fraction`` counts pixels, ``area_fraction_corrected`` is that by the edges between them
+    and is what theories are compared with; ``contact_density`` spots per nominal area in 1/m²,
+    ``mean_gap`` in m, ``seconds`` of the whole path, ``solver`` its method.
     """
 
     area_fraction: RealArray
@@ -146,12 +149,14 @@ class Comparison(Drawn):
         return {curve.name: curve for curve in self.curves}[name]
 
     def kappa(self, area_fraction: RealArray) -> RealArray:
-        """κ = (A/A_n) E* h'_rms/p (n,) of ``area_fraction`` (n,) at the pressures of the comparison."""
+        """κ = (A/A_n) E* h'_rms/p (n,) of ``area_fraction`` (n,) at the pressures of the
+        comparison."""
         scaled: RealArray = area_fraction * (self.E_star * self.roughness.rms_gradient) / self.pressures
         return scaled
 
     def slope(self, area_fraction: RealArray) -> RealArray:
-        """Local slope d(A/A_n)/d(p/(E* h'_rms)) (n,) by differences of the logarithms; NaN beside loads without area."""
+        """Local slope d(A/A_n)/d(p/(E* h'_rms)) (n,) by differences of the logarithms; NaN beside
+        loads without area."""
         if area_fraction.size < 2:
             return np.full_like(area_fraction, np.nan)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -160,10 +165,11 @@ class Comparison(Drawn):
         return np.where(np.isfinite(steep), steep, np.nan)
 
     def deviation(self, name: str, quantity: str = "area_fraction") -> RealArray:
-        """Deviation (n,) of the theory ``name`` from the numerical solution; NaN where one of them has no value.
+        """Deviation (n,) of the theory ``name`` from the numerical solution; NaN where one of them
+        has no value.
 
-        ``quantity``: ``area_fraction`` (from the corrected area) and ``contact_density`` relative, ``gap`` in rms
-        heights.
+        ``quantity``: ``area_fraction`` (from the corrected area) and ``contact_density`` relative,
+        ``gap`` in rms heights.
         """
         curve = self.curve(name)
         if self.numerical is None:
@@ -187,7 +193,8 @@ class Comparison(Drawn):
 
     @property
     def dataset(self) -> xarray.Dataset:
-        """All of it as a labelled dataset with dimensions ``theory`` and ``pressure``, units and provenance."""
+        """All of it as a labelled dataset with dimensions ``theory`` and ``pressure``, units and
+        provenance."""
         import xarray
 
         curves = self.curves
@@ -275,7 +282,8 @@ def _labels(unit: str, label: str) -> dict[str, str]:
     return {"units": unit, "long_name": label}
 
 
-# As files: the labelled dataset as NetCDF-4, and a table with a row for every curve and load as CSV.
+# As files: the labelled dataset as NetCDF-4, and a table with a row for every curve and load as
+# CSV.
 
 
 NUMERICAL = "numerical"
@@ -313,7 +321,8 @@ def save_comparison(comparison: Comparison, path: str | Path, *, overwrite: bool
 
 
 def export_comparison_csv(comparison: Comparison, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write one row for every curve and load of ``comparison`` to ``path``, SI, exact; what is not defined is empty.
+    """Write one row for every curve and load of ``comparison`` to ``path``, SI, exact; what is not
+    defined is empty.
 
     Raises
     ------

@@ -1,4 +1,5 @@
-"""The theories of a comparison, made of what is known of surface and bodies, and where they leave their validity."""
+"""The theories of a comparison, made of what is known of surface and bodies, and where they leave
+their validity."""
 
 from __future__ import annotations
 
@@ -42,7 +43,8 @@ class Chosen:
 
 
 def surface_theories() -> tuple[str, ...]:
-    """Names of the theories that are made from the roughness of a surface, in the order of the catalogue."""
+    """Names of the theories that are made from the roughness of a surface, in the order of the
+    catalogue."""
     from ..theories.catalogue import THEORIES
 
     return tuple(name for name, kind in THEORIES.items() if hasattr(kind, "from_roughness"))
@@ -60,7 +62,8 @@ def chosen_theories(
     Parameters
     ----------
     theories
-        Names out of ``surface_theories()``, theories made already, or both; all of the catalogue if None.
+        Names out of ``surface_theories()``, theories made already, or both; all of the catalogue if
+        None.
     known
         Values of parameters that belong to the bodies, in SI units, see ``known_of_bodies``.
 
@@ -115,10 +118,11 @@ def family(theory: SurfaceTheory) -> str:
 
 
 def known_of_bodies(problem: ContactProblem) -> dict[str, float]:
-    """Parameters of theories that bodies and law of ``problem`` give: hardness, yield stress (Pa), nu.
+    """Parameters of theories that bodies and law of ``problem`` give: hardness, yield stress (Pa),
+    nu.
 
-    The hardness is that of the law if it is one number, and none if it is a map or follows the depth; see also
-    ``weaker_strength``.
+    The hardness is that of the law if it is one number, and none if it is a map or follows the
+    depth; see also ``weaker_strength``.
     """
     found = weaker_strength(problem.body, problem.counter_body)
     cap = problem.law.pressure_cap()
@@ -134,7 +138,8 @@ def known_of_bodies(problem: ContactProblem) -> dict[str, float]:
 
 @dataclass(frozen=True, eq=False)
 class Checked:
-    """Where the limits of a theory hold that concern a quantity, (n,) each, and one sentence for each that is left somewhere."""
+    """Where the limits of a theory hold that concern a quantity, (n,) each, and one sentence for
+    each that is left somewhere."""
 
     valid_for: Mapping[str, BoolArray]
     notes: tuple[str, ...]
@@ -181,7 +186,8 @@ def check(theory: SurfaceTheory, prediction: Prediction, roughness: Roughness) -
 def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest_spot: float) -> tuple[str, ...]:
     """What bodies, law and boundary mean for the comparison.
 
-    ``largest_spot`` is the mean radius in m of the contact spots at the highest load, NaN if it is not known.
+    ``largest_spot`` is the mean radius in m of the contact spots at the highest load, NaN if it is
+    not known.
     """
     found: list[str] = []
     coated = [b for b in (problem.body, problem.counter_body) if isinstance(b, Layered) and b.reduced.layers]
@@ -191,19 +197,22 @@ def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest
         if math.isfinite(largest_spot):
             size = f" (at the highest load their mean radius is {show(largest_spot, 'm', 3)})"
         found.append(
-            "A body is layered. The numerical solution includes its layers; every theory assumes homogeneous half-spaces and takes "
-            f"E* = {show(problem.contact_modulus, 'Pa')} of the materials at the surfaces, which holds while contacts are much "
-            f"smaller than the top layer of {show(thin, 'm', 3)}{size}."
+            "A body is layered. The numerical solution includes its layers; every theory assumes homogeneous "
+            f"half-spaces and takes E* = {show(problem.contact_modulus, 'Pa')} of the materials at the "
+            "surfaces, which holds while contacts are much smaller than the top layer of "
+            f"{show(thin, 'm', 3)}{size}."
         )
     plastic = [name for name, theory in theories.items() if family(theory) == "elastic-plastic"]
     if not isinstance(problem.law, HardWall):
         known = f"; so do {_listed(plastic)}" if plastic else ", which no theory here does"
         found.append(
-            f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic theories have no such limit."
+            f"The numerical solution limits the pressure by the law {problem.law.name}{known}. Elastic "
+            "theories have no such limit."
         )
     elif plastic:
         found.append(
-            f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which adds to the area."
+            f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which "
+            "adds to the area."
         )
     adhesive = [name for name, theory in theories.items() if family(theory) == "adhesive"]
     if adhesive:
@@ -215,8 +224,8 @@ def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest
         )
     elif "interacting-crests" in theories:
         found.append(
-            "The separation of interacting-crests includes the sinking of the whole patch under its load, which a periodic "
-            "contact does not have: it is no mean gap and is not compared as one."
+            "The separation of interacting-crests includes the sinking of the whole patch under its load, "
+            "which a periodic contact does not have: it is no mean gap and is not compared as one."
         )
     return tuple(found)
 

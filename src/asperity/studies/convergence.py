@@ -1,4 +1,5 @@
-"""Convergence of a quantity with grid, tolerance or domain: observed order and extrapolated value."""
+"""Convergence of a quantity with grid, tolerance or domain: observed order and extrapolated
+value."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ class Convergence:
     steps, values
         Step sizes h, falling, and values Y(h).
     order
-        p of Y(h) = Y(0) + C h^p from the three finest levels (Roache 1998); NaN where the values do not fall into line.
+        p of Y(h) = Y(0) + C h^p from the three finest levels (Roache 1998); NaN where the values do
+        not fall into line.
     extrapolated
         Y(0) by Richardson extrapolation; NaN without an order.
     error
@@ -118,7 +120,8 @@ def step_sizes(of: str, levels: Sequence[float]) -> tuple[float, ...]:
 
 
 def _order(coarse: float, fine: float, differences: float) -> float:
-    """Order p from d₁/d₂ = r₂^p (r₁^p - 1) / (r₂^p - 1), for ratios r of the steps ``coarse`` and ``fine`` (Roache 1998).
+    """Order p from d₁/d₂ = r₂^p (r₁^p - 1) / (r₂^p - 1), for ratios r of the steps ``coarse`` and
+    ``fine`` (Roache 1998).
 
     The right side rises with p from ln r₁/ln r₂; below that there is no positive order.
     """

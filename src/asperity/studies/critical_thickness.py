@@ -1,4 +1,5 @@
-"""Critical thickness of a layer: where it begins to have an effect, and where nothing below it has one any more (Peng 2001, eq. 4.1)."""
+"""Critical thickness of a layer: where it begins to have an effect, and where nothing below it has
+one any more (Peng 2001, eq. 4.1)."""
 
 from __future__ import annotations
 
@@ -27,9 +28,11 @@ class CriticalThickness:
     Attributes
     ----------
     floor
-        Largest thickness up to which the layer has no effect; NaN where it has one at every thickness given.
+        Largest thickness up to which the layer has no effect; NaN where it has one at every
+        thickness given.
     ceiling
-        Smallest thickness from which what lies below has no effect; NaN where it has one at every thickness given.
+        Smallest thickness from which what lies below has no effect; NaN where it has one at every
+        thickness given.
     at_zero, at_infinity
         The quantity without the layer, and with an endless one.
     """
@@ -43,10 +46,11 @@ class CriticalThickness:
 def critical_thickness(
     thickness: ArrayLike, values: ArrayLike, at_zero: float, at_infinity: float, *, share: float = 0.05
 ) -> CriticalThickness:
-    """Floor and ceiling of the quantity whose ``values`` belong to the rising ``thickness`` in m (Peng 2001, eq. 4.1).
+    """Floor and ceiling of the quantity whose ``values`` belong to the rising ``thickness`` in m
+    (Peng 2001, eq. 4.1).
 
-    The bounds |Y - Y(0)| and |Y - Y(∞)| <= ``share`` |Y(∞) - Y(0)| must hold and keep holding: of several crossings the
-    outermost counts. Between two thicknesses Y is linear in their logarithm.
+    The bounds |Y - Y(0)| and |Y - Y(∞)| <= ``share`` |Y(∞) - Y(0)| must hold and keep holding: of
+    several crossings the outermost counts. Between two thicknesses Y is linear in their logarithm.
 
     Raises
     ------
@@ -56,7 +60,8 @@ def critical_thickness(
     h, y = np.asarray(thickness, dtype=float), np.asarray(values, dtype=float)
     if h.ndim != 1 or h.shape != y.shape or h.size < 2 or h[0] <= 0.0 or np.any(np.diff(h) <= 0.0):
         raise InputError(
-            f"thicknesses must be at least two, positive and rising, with one value each, but there are {h.size} with {y.size}."
+            "thicknesses must be at least two, positive and rising, with one value each, but there are "
+            f"{h.size} with {y.size}."
         )
     change = at_infinity - at_zero
     known = np.isfinite(y)
@@ -69,7 +74,8 @@ def critical_thickness(
 
 
 def thickness_axis(base: Base, table: CriticalThicknessTable) -> Axis:
-    """Thicknesses of one layer between its absence (coordinate 0) and what lies below being out of reach (infinity).
+    """Thicknesses of one layer between its absence (coordinate 0) and what lies below being out of
+    reach (infinity).
 
     Raises
     ------
@@ -96,7 +102,8 @@ def thickness_axis(base: Base, table: CriticalThicknessTable) -> Axis:
 
 
 def _last_within(x: RealArray, done: RealArray, share: float) -> float:
-    """Largest x up to which |``done``| <= ``share`` everywhere; NaN if it is larger at the first."""
+    """Largest x up to which |``done``| <= ``share`` everywhere; NaN if it is larger at the
+    first."""
     beyond = np.flatnonzero(np.abs(done) > share)
     if beyond.size == 0:
         return float(x[-1])

@@ -1,4 +1,5 @@
-"""Study documents: read, checked, completed by the problem they start from, and written beside their results."""
+"""Study documents: read, checked, completed by the problem they start from, and written beside
+their results."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ __all__ = ["LoadedStudy", "StudyDocument", "load_study", "study_from_table", "st
 
 @dataclass(frozen=True)
 class LoadedStudy:
-    """A study ``document``, its base ``problem``, and the ``folder`` at which relative paths of the problem start."""
+    """A study ``document``, its base ``problem``, and the ``folder`` at which relative paths of the
+    problem start."""
 
     document: StudyDocument
     problem: ProblemDocument
@@ -38,7 +40,8 @@ def load_study(path: str | os.PathLike[str]) -> LoadedStudy:
 
 
 def study_from_table(table: Mapping[str, Any], folder: Path, where: str = "study document") -> LoadedStudy:
-    """Study of the nested ``table``, whose relative paths start at ``folder``; errors as of ``load_study``."""
+    """Study of the nested ``table``, whose relative paths start at ``folder``; errors as of
+    ``load_study``."""
     if "problem" not in table and "surface" in table:
         raise InputError(
             f"{where} must be a study, but is a problem document. Run it by itself ({{run}}) or give its path "
@@ -54,7 +57,8 @@ def study_from_table(table: Mapping[str, Any], folder: Path, where: str = "study
 
 
 def study_text(study: LoadedStudy, folder: Path) -> str:
-    """``study`` as TOML with its problem inside, for use in ``folder``: relative paths lead to the same files."""
+    """``study`` as TOML with its problem inside, for use in ``folder``: relative paths lead to the
+    same files."""
     import tomli_w
 
     moved = relocated(study.problem, study.folder, folder)

@@ -26,15 +26,16 @@ CHECKS = ("duality_gap", "field_error", "penetration", "load_imbalance", "iterat
 def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
     """Records of the cases of ``task``, which differ in the load alone, in its order.
 
-    Each case starts from the virgin surfaces; one with a load path follows it, and its last step counts. The operator is
-    prepared once, and the pressures of the cases before are the first guess. A case that fails is a record with its
-    exception.
+    Each case starts from the virgin surfaces; one with a load path follows it, and its last step
+    counts. The operator is prepared once, and the pressures of the cases before are the first
+    guess. A case that fails is a record with its exception.
 
     Parameters
     ----------
     task
-        ``table`` of the base problem, ``folder`` at which its relative paths start, ``quantities``, and ``cases`` with
-        ``key`` and ``edits``, and the ``version`` of asperity: plain values, so that it can be sent to another machine.
+        ``table`` of the base problem, ``folder`` at which its relative paths start, ``quantities``,
+        and ``cases`` with ``key`` and ``edits``, and the ``version`` of asperity: plain values, so
+        that it can be sent to another machine.
 
     Raises
     ------
@@ -44,7 +45,8 @@ def evaluate_path(task: Mapping[str, Any]) -> list[Record]:
     own = software()["asperity"]
     if task["version"] != own:
         raise InputError(
-            f"workers of a study must have the version {task['version']} of asperity, but one has {own}; install the same."
+            f"workers of a study must have the version {task['version']} of asperity, but one has {own}; "
+            "install the same."
         )
     quantities, warm = tuple(task["quantities"]), Warm()
     built: Case | None = None

@@ -1,4 +1,5 @@
-"""What carries out tasks, many at a time; the function is named, so that any machine can look it up."""
+"""What carries out tasks, many at a time; the function is named, so that any machine can look it
+up."""
 
 from __future__ import annotations
 

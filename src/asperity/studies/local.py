@@ -40,9 +40,11 @@ def available_cores() -> int:
 
 @dataclass(frozen=True)
 class LocalProcesses:
-    """Worker processes on this machine, by default one for each core, each with so many ``threads``.
+    """Worker processes on this machine, by default one for each core, each with so many
+    ``threads``.
 
-    A worker that dies is replaced and its task tried once more. All workers end with this process, however it ends.
+    A worker that dies is replaced and its task tried once more. All workers end with this process,
+    however it ends.
     """
 
     workers: int = field(default_factory=available_cores)
@@ -158,6 +160,7 @@ class _Lane:
 
 
 def worker_environment(threads: int) -> dict[str, str]:
-    """Variables of a worker: so many threads in every library, and the modules that this process finds."""
+    """Variables of a worker: so many threads in every library, and the modules that this process
+    finds."""
     paths = os.pathsep.join(path for path in sys.path if path)
     return {**os.environ, **dict.fromkeys(THREAD_VARIABLES, str(threads)), "PYTHONPATH": paths}

@@ -26,7 +26,8 @@ CONFIDENCE = 0.95
 class Estimate:
     """Mean of a quantity over samples.
 
-    ``half_width`` is half the confidence interval of the mean (Student's t); NaN with fewer than two samples.
+    ``half_width`` is half the confidence interval of the mean (Student's t); NaN with fewer than
+    two samples.
     """
 
     mean: float
@@ -48,17 +49,19 @@ def estimate(values: ArrayLike, confidence: float = CONFIDENCE) -> Estimate:
 
 
 def student(count: int, confidence: float) -> float:
-    """Half width of the confidence interval of a mean of ``count`` >= 2 samples in standard errors."""
+    """Half width of the confidence interval of a mean of ``count`` >= 2 samples in standard
+    errors."""
     from scipy.special import stdtrit
 
     return float(stdtrit(count - 1, 0.5 * (1.0 + confidence)))
 
 
 class Stop:
-    """Decides after how many samples to stop: the least number at which the intervals are narrow enough.
+    """Decides after how many samples to stop: the least number at which the intervals are narrow
+    enough.
 
-    Samples count in their order and not in that of their arrival, so that the decision does not depend on the workers.
-    Failed cases do not count.
+    Samples count in their order and not in that of their arrival, so that the decision does not
+    depend on the workers. Failed cases do not count.
 
     Parameters
     ----------
@@ -81,7 +84,8 @@ class Stop:
         return self.samples if self.reached else None
 
     def take(self, sample: int, point: int, value: float) -> None:
-        """Take in the ``value`` of a ``sample`` at a ``point`` of the other axes, NaN where it failed.
+        """Take in the ``value`` of a ``sample`` at a ``point`` of the other axes, NaN where it
+        failed.
 
         Counts, means and sums of squares are updated sample by sample (Welford 1962).
         """
@@ -111,7 +115,8 @@ class Stop:
 
 @dataclass(frozen=True)
 class Uncertain:
-    """One scalar at ``place`` under the column ``name``, with its distribution in SI numbers ``first`` and ``second``.
+    """One scalar at ``place`` under the column ``name``, with its distribution in SI numbers
+    ``first`` and ``second``.
 
     These are mean and standard deviation, or the two ends.
     """

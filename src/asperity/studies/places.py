@@ -1,4 +1,5 @@
-"""Scalars of a problem document by dotted path, such as ``control.mean_pressure`` or ``body.layers.0.thickness``, and changes of them."""
+"""Scalars of a problem document by dotted path, such as ``control.mean_pressure`` or
+``body.layers.0.thickness``, and changes of them."""
 
 from __future__ import annotations
 
@@ -27,8 +28,8 @@ Key: TypeAlias = str | int
 class Place:
     """One scalar of a problem document.
 
-    ``keys`` lead to it from the root; ``quantity`` is the kind of quantity that its text holds, None for plain numbers and
-    words; ``whole`` for whole numbers.
+    ``keys`` lead to it from the root; ``quantity`` is the kind of quantity that its text holds,
+    None for plain numbers and words; ``whole`` for whole numbers.
     """
 
     path: str
@@ -71,7 +72,8 @@ class Place:
         return float(number) if self.quantity is None else f"{float(number)!r} {self.unit}"
 
     def content(self, value: Any, folder: Path) -> Any:
-        """``value`` freed of its wording, for comparison: SI numbers, and digests of files in ``folder``."""
+        """``value`` freed of its wording, for comparison: SI numbers, and digests of files in
+        ``folder``."""
         if self.quantity is None:
             return _file_content(self.keys[-1], value, folder)
         return _si(value, self.quantity, self.path)
@@ -112,7 +114,8 @@ def scalars(document: ProblemDocument) -> Iterator[Place]:
 
 
 def content(document: ProblemDocument, folder: Path) -> dict[str, Any]:
-    """Content of ``document`` as nested dictionaries: quantities in SI, files by digest, without title and threads."""
+    """Content of ``document`` as nested dictionaries: quantities in SI, files by digest, without
+    title and threads."""
     table: dict[str, Any] = _content(document, folder)
     table.pop("title", None)
     table["solver"].pop("threads", None)
@@ -120,7 +123,8 @@ def content(document: ProblemDocument, folder: Path) -> dict[str, Any]:
 
 
 def replaced(table: dict[str, Any], keys: tuple[Key, ...], value: Any) -> dict[str, Any]:
-    """``table`` with ``value`` at ``keys``; only the tables on the way are copied. One control replaces another."""
+    """``table`` with ``value`` at ``keys``; only the tables on the way are copied. One control
+    replaces another."""
     changed: Any = dict(table)
     root, node = changed, changed
     for key in keys[:-1]:
@@ -180,7 +184,8 @@ def _content(value: Any, folder: Path) -> Any:
 
 
 def _file_content(key: Key, value: Any, folder: Path) -> Any:
-    """The digest of the file that ``value`` names at a key ``path`` or ``…_file``; the name where there is none, which the case will report."""
+    """The digest of the file that ``value`` names at a key ``path`` or ``…_file``; the name where
+    there is none, which the case will report."""
     if not (key == "path" or str(key).endswith("_file")) or not isinstance(value, str):
         return value
     file = Path(os.path.normpath(folder / value))  # ".." leads nowhere from a folder that is made later
@@ -206,7 +211,8 @@ Change: TypeAlias = Literal["set", "without", "endless"]
 
 @dataclass(frozen=True)
 class Edit:
-    """One change of a document: ``value`` at ``keys``, and the ``content`` it stands for; of a layer only what to do."""
+    """One change of a document: ``value`` at ``keys``, and the ``content`` it stands for; of a
+    layer only what to do."""
 
     keys: tuple[Key, ...]
     value: Any = None
@@ -215,7 +221,8 @@ class Edit:
 
 
 def edited(table: dict[str, Any], edits: Iterable[Edit], *, by_content: bool = False) -> dict[str, Any]:
-    """The document ``table`` after ``edits``, one after the other; its content after theirs where ``by_content``."""
+    """The document ``table`` after ``edits``, one after the other; its content after theirs where
+    ``by_content``."""
     for edit in edits:
         if edit.change == "set":
             table = replaced(table, edit.keys, edit.content if by_content else edit.value)

@@ -1,4 +1,5 @@
-"""From a study document to its cases: axes, their combinations, and what identifies each case by content."""
+"""From a study document to its cases: axes, their combinations, and what identifies each case by
+content."""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ from .sensitivity import parameter_axis
 
 @dataclass(frozen=True)
 class StudyCase:
-    """One case: its place on the axes, its changes of the base problem, and the ``key`` that its content gives it."""
+    """One case: its place on the axes, its changes of the base problem, and the ``key`` that its
+    content gives it."""
 
     index: tuple[int, ...]
     edits: tuple[Edit, ...]
@@ -80,11 +82,13 @@ class Plan:
 
     @cached_property
     def _made_by(self) -> list[Any]:
-        """What else the numbers of a case depend on: version, those of packages that add parts, and quantities."""
+        """What else the numbers of a case depend on: version, those of packages that add parts, and
+        quantities."""
         return [software()["asperity"], *versions().items(), list(self.quantities)]
 
     def paths(self) -> Iterator[tuple[StudyCase, ...]]:
-        """Cases that differ in the load alone, together: the unit of work, in the order of the axes, made on the way.
+        """Cases that differ in the load alone, together: the unit of work, in the order of the
+        axes, made on the way.
 
         Loads rise along a path whatever their order on the axis.
         """
@@ -110,7 +114,8 @@ class Plan:
             yield tuple(path)
 
     def key(self, edits: Sequence[Edit]) -> str:
-        """Digest of the content of a case: its problem, the quantities and the version of the program."""
+        """Digest of the content of a case: its problem, the quantities and the version of the
+        program."""
         return content_digest([edited(self._content, edits, by_content=True), self._made_by])
 
     def coordinates(self, index: Sequence[int]) -> dict[str, Coordinate]:
@@ -123,12 +128,14 @@ class Plan:
 
 
 def make_plan(study: LoadedStudy) -> Plan:
-    """Plan of ``study``; all values are checked, one at a time with the others as in the base problem.
+    """Plan of ``study``; all values are checked, one at a time with the others as in the base
+    problem.
 
     Raises
     ------
     InputError
-        If a path leads nowhere, a value cannot be used, a quantity is unknown, names clash, or there are too many cases.
+        If a path leads nowhere, a value cannot be used, a quantity is unknown, names clash, or
+        there are too many cases.
     """
     document, base = study.document, Base(study.problem, study.folder)
     counts, cases, memory = _extent(document)
@@ -163,7 +170,8 @@ def make_plan(study: LoadedStudy) -> Plan:
 
 
 MOST_POINTS = 100_000
-"""Points of an axis that is no axis of samples; each is checked before the first case, which takes about a millisecond."""
+"""Points of an axis that is no axis of samples; each is checked before the first case, which takes
+about a millisecond."""
 
 BYTES_OF_A_POINT, BYTES_OF_A_CASE = 3000, 200
 """Memory of a point of an axis, and of a case without its quantities."""
@@ -173,14 +181,17 @@ BYTES_OF_A_RECORD = 1500
 
 
 SECONDS_OF_A_POINT, SECONDS_OF_A_CASE = 4e-6, 0.05
-"""Time of one core for a case, for each point of its grid and besides; a map of 512 x 512 points takes about a second."""
+"""Time of one core for a case, for each point of its grid and besides; a map of 512 x 512 points
+takes about a second."""
 
 LONG = 4 * 3600.0
-"""Seconds of work for each core from which a study is confirmed: half a working day, of an estimate right within a factor of five."""
+"""Seconds of work for each core from which a study is confirmed: half a working day, of an estimate
+right within a factor of five."""
 
 
 def large_study(plan: Plan, free_disk: float) -> str:
-    """What ``plan`` takes of time, memory and ``free_disk`` (bytes), if that is much; else empty."""
+    """What ``plan`` takes of time, memory and ``free_disk`` (bytes), if that is much; else
+    empty."""
     grid = stated_points(plan.base.document.surface) or 512 * 512
     seconds = plan.n_cases * (SECONDS_OF_A_CASE + SECONDS_OF_A_POINT * grid)
     (_, _, memory), disk = _extent(plan.document), BYTES_OF_A_RECORD * plan.n_cases
@@ -188,13 +199,14 @@ def large_study(plan: Plan, free_disk: float) -> str:
     if seconds <= LONG * cores and not is_large(memory) and not is_large(disk, free_disk):
         return ""
     return (
-        f"The study has {plan.n_cases} cases: about {seconds / cores / 3600.0:.2g} h of work on {cores} cores (on grids of "
-        f"{grid} points), {room_text(memory)} in memory, {room_text(disk, free_disk)} on the disk."
+        f"The study has {plan.n_cases} cases: about {seconds / cores / 3600.0:.2g} h of work on {cores} cores "
+        f"(on grids of {grid} points), {room_text(memory)} in memory, {room_text(disk, free_disk)} on the disk."
     )
 
 
 def _extent(document: StudyDocument) -> tuple[list[int], int, float]:
-    """Numbers of points of the axes of a study, samples aside, and of its cases, and the memory in bytes of both."""
+    """Numbers of points of the axes of a study, samples aside, and of its cases, and the memory in
+    bytes of both."""
     counts = [len(table.values) if table.values is not None else table.count or 0 for table in document.axes]
     if document.combine == "list":
         counts = counts[:1]
@@ -211,7 +223,8 @@ def _extent(document: StudyDocument) -> tuple[list[int], int, float]:
 
 
 def _names(document: StudyDocument) -> list[str]:
-    """Names of the axes and then of the random scalars: as given, or as many of the last keys of the path as are needed to be unlike the others."""
+    """Names of the axes and then of the random scalars: as given, or as many of the last keys of
+    the path as are needed to be unlike the others."""
     tables: list[AxisTable | RandomTable] = [*document.axes]
     own = {"sample", "case", "level", "parameter", "value", "outcome", "error", "work"}
     if document.monte_carlo is not None:
@@ -227,8 +240,8 @@ def _names(document: StudyDocument) -> list[str]:
         name = table.name or free
         if "/" in name or not name.isprintable() or name != name.strip():
             raise InputError(
-                f"name of the axis {table.path} must be printable, without / and spaces at its ends, but is {name!r}: it "
-                "names a variable of the result file."
+                f"name of the axis {table.path} must be printable, without / and spaces at its ends, but is "
+                f"{name!r}: it names a variable of the result file."
             )
         if name in names or name in reserved:
             raise InputError(
@@ -245,7 +258,8 @@ def measures() -> dict[str, Quantity]:
 
 
 def computed(document: ProblemDocument, asked: Iterable[str]) -> tuple[str, ...]:
-    """Names of the quantities that are computed of each case: all that cost nothing, and the costly ones ``asked`` for.
+    """Names of the quantities that are computed of each case: all that cost nothing, and the costly
+    ones ``asked`` for.
 
     Raises
     ------

@@ -1,4 +1,5 @@
-"""Carry out a plan: what is missing in the store is given to the workers, what they answer goes into the store."""
+"""Carry out a plan: what is missing in the store is given to the workers, what they answer goes
+into the store."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ class Watch(Protocol):
     """Receives the progress of a study."""
 
     def update(self, done: int, failed: int, found: int, total: int) -> None:
-        """Cases ``done`` and ``failed`` in this run, ``found`` finished from earlier runs, of at most ``total``."""
+        """Cases ``done`` and ``failed`` in this run, ``found`` finished from earlier runs, of at
+        most ``total``."""
 
 
 class NoWatch:
@@ -37,7 +39,8 @@ class NoWatch:
 
 @dataclass(frozen=True)
 class RunSummary:
-    """What a run has done: cases ``done`` and ``failed``, and ``found`` finished from earlier runs."""
+    """What a run has done: cases ``done`` and ``failed``, and ``found`` finished from earlier
+    runs."""
 
     done: int
     failed: int
@@ -121,7 +124,8 @@ class _Work:
         self.known = sum(case.key in finished for path in plan.paths() for case in path) if len(finished) else 0
 
     def tasks(self) -> Iterator[Task]:
-        """One task for each path with missing cases; of finished ones the samples are counted on the way."""
+        """One task for each path with missing cases; of finished ones the samples are counted on
+        the way."""
         for path in self._plan.paths():
             if self._stop is not None and self._stop.reached:
                 return

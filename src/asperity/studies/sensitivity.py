@@ -29,7 +29,8 @@ class Sensitivity:
     low, high
         Quantity at the low and the high value of the scalar.
     elasticity
-        d ln Y / d ln x between them: per cent of the quantity by per cent of the scalar; NaN where a sign forbids it.
+        d ln Y / d ln x between them: per cent of the quantity by per cent of the scalar; NaN where
+        a sign forbids it.
     slope
         dY/dx in SI units.
     """
@@ -54,7 +55,8 @@ def parameter_axis(base: Base, table: SensitivityTable) -> Axis:
     Raises
     ------
     InputError
-        If a path leads nowhere, or a scalar has no value in the base problem to be changed by a share.
+        If a path leads nowhere, or a scalar has no value in the base problem to be changed by a
+        share.
     """
     points = [Point(BASE, (), {"value": math.nan})]
     for item in table.parameters:
@@ -67,7 +69,8 @@ def parameter_axis(base: Base, table: SensitivityTable) -> Axis:
                 middle = place.number(reduce(getitem, place.keys, table_of_problem))
             except (KeyError, InputError):
                 raise InputError(
-                    f"{place.path} must have a number in the problem to be changed by a share; give low and high instead."
+                    f"{place.path} must have a number in the problem to be changed by a share; give low and "
+                    "high instead."
                 ) from None
             share = item.change or table.change
             ends = middle * (1.0 - share), middle * (1.0 + share)

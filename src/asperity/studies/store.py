@@ -1,4 +1,5 @@
-"""Append-only store of finished cases: one line each, found again by content digest, whole even after a kill."""
+"""Append-only store of finished cases: one line each, found again by content digest, whole even
+after a kill."""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ import numpy as np
 from ..core.errors import OutputError
 
 Record: TypeAlias = dict[str, Any]
-"""One finished case: ``key``, ``values``, ``work``, ``citations``, and ``error`` (None, or its type and message)."""
+"""One finished case: ``key``, ``values``, ``work``, ``citations``, and ``error`` (None, or its type
+and message)."""
 
 DONE, FAILED = b"done", b"fail"
 """Second word of a line."""
@@ -30,17 +32,20 @@ LONGEST = 2**20
 _KEY = re.compile("[0-9a-f]{16,64}")
 
 BETWEEN_SYNCS = 1.0
-"""Seconds after which appended lines are forced to the disk; a kill of the process loses none, a power cut these."""
+"""Seconds after which appended lines are forced to the disk; a kill of the process loses none, a
+power cut these."""
 
 
 def records(path: Path) -> Iterator[Record]:
-    """Whole records in the file at ``path``, in the order of writing; of a case that was done again all of them."""
+    """Whole records in the file at ``path``, in the order of writing; of a case that was done again
+    all of them."""
     for *_, record in _lines(path):
         yield record
 
 
 class Finished:
-    """Which cases a store holds, in 8 bytes for each; failed ones too unless they are to be done again (``retry``).
+    """Which cases a store holds, in 8 bytes for each; failed ones too unless they are to be done
+    again (``retry``).
 
     With the name of a ``quantity`` its values are held, too.
     """
@@ -81,7 +86,8 @@ class Finished:
 
 
 class Store:
-    """The file at ``path``, open for appending by one process; what a kill has left half-written at its end is dropped.
+    """The file at ``path``, open for appending by one process; what a kill has left half-written at
+    its end is dropped.
 
     Raises
     ------
@@ -144,7 +150,8 @@ class Store:
 
 
 def _lines(path: Path) -> Iterator[tuple[int, bytes, Record]]:
-    """End in the file, state and record of every whole line; any other is left out, and its case done again."""
+    """End in the file, state and record of every whole line; any other is left out, and its case
+    done again."""
     if not path.is_file():
         return
     end = 0

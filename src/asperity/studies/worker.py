@@ -1,7 +1,8 @@
 """A worker process: one task a line on standard input, one answer a line on standard output.
 
-Started as ``python -m asperity.studies.worker``, so that neither the script nor the notebook that runs a study is imported
-again. It ends when its input ends, that is with the process that started it, even amid a task.
+Started as ``python -m asperity.studies.worker``, so that neither the script nor the notebook that
+runs a study is imported again. It ends when its input ends, that is with the process that started
+it, even amid a task.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Surfaces: maps of heights, read, prepared and paired.
 
-``read`` gives a ``Surface`` of a file, ``channels`` what it holds. Prepare it by ``levelled``, ``line_corrected``,
-``despiked``, ``filled``, ``filtered``, ``tip_limited``, ``cropped``, ``sliced``, ``resampled``, ``tapered`` and
-``periodised``; pair two in a ``SurfacePair`` by ``composite``, ``on_common_grid`` and ``turned_over``. ``Grid`` is
-what heights stand on.
+``read`` gives a ``Surface`` of a file, ``channels`` what it holds. Prepare it by ``levelled``,
+``line_corrected``, ``despiked``, ``filled``, ``filtered``, ``tip_limited``, ``cropped``,
+``sliced``, ``resampled``, ``tapered`` and ``periodised``; pair two in a ``SurfacePair`` by
+``composite``, ``on_common_grid`` and ``turned_over``. ``Grid`` is what heights stand on.
 """
 
 from ..core.late import late_names

@@ -1,4 +1,4 @@
-"""Height maps in files: instrument formats, NetCDF, text matrices, arrays and pictures, channel by channel."""
+"""Height maps in files: instrument formats, NetCDF, text, arrays and pictures, by channel."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ from .text_files import gridded, is_table, table, text_end
 class ChannelInfo:
     """One data channel of a file.
 
-    ``shape`` is (nx, ny); ``size`` is (Lx, Ly) in m, or None if the file does not state it; ``unit`` is the unit of the
-    data as written in the file, empty if unknown; ``default`` marks the channel that is read when none is named.
+    ``shape`` is (nx, ny); ``size`` is (Lx, Ly) in m, None if the file does not state it; ``unit``
+    is that of the data as written, empty if unknown; ``default``: read when no channel is named.
     """
 
     index: int
@@ -74,7 +74,7 @@ def instrument_channels(file: Path) -> tuple[ChannelInfo, ...]:
 def read_instrument(
     file: Path, *, channel: str | int | None, size: tuple[float, float] | None, height_unit: str | None
 ) -> Surface:
-    """Surface from one channel of an instrument file; ``size`` and ``height_unit`` only where the file lacks them."""
+    """Surface from a channel of an instrument file; ``size`` and ``height_unit`` if it has none."""
     return _read_with(file, lambda reader: _surface(reader, file, channel, size, height_unit))
 
 
@@ -109,8 +109,9 @@ def _surface(
 def _require_whole(
     info: ChannelInfo, header: Mapping[str, Any], file: Path, size: tuple[float, float] | None
 ) -> tuple[float, float] | None:
-    """Refuse text that may be cut short: broken lines, and where the header does not count them, no last line break or
-    pixels that are not square. Returns the ``size`` that is still to be used: None if it confirms the one in the file.
+    """Refuse text that may be cut short: broken lines, and where the header does not count them, no
+    last line break or pixels that are not square. Returns the ``size`` that is still to be used:
+    None if it confirms the one in the file.
     """
     line, lines, ended = text_end(file)
     if line:
@@ -131,16 +132,17 @@ def _require_whole(
         lengths = f"{show(length_x, 'm', 6)} x {show(length_y, 'm', 6)}"
         raise FileFormatError(
             f"file {file} holds {nx} x {ny} points on {lengths}, pixels of {show(length_x / nx, 'm')} x "
-            f"{show(length_y / ny, 'm')}{'' if ended else ' without a last line break'}, and may be cut short. If it is complete, confirm its size, {lengths} ({{give_size}}).",
+            f"{show(length_y / ny, 'm')}{'' if ended else ' without a last line break'}, and may be cut short. "
+            f"If it is complete, confirm its size, {lengths} ({{give_size}}).",
             subject=f"size of file {file}",
         )
     return size
 
 
 def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
-    """What ``use`` makes of the reader of ``file``; whatever the library raises becomes one sentence.
+    """What ``use`` makes of the reader of ``file``; errors of the library become one sentence.
 
-    What cannot be read with the parts of the library that the reader imports is read with all of it.
+    What cannot be read with the parts of the library that the reader imports is read with all.
     """
     failure: Exception | None = None
     _require_own_data(file)
@@ -166,7 +168,7 @@ def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
 
 
 def _require_own_data(path: Path) -> None:
-    """Refuse the file ``path`` if it is of HDF5 and ``require_own_data`` refuses it, or the library cannot list what it holds."""
+    """Refuse the file ``path`` of HDF5 that ``require_own_data`` or the library refuses."""
     what = f"file {path}"
     size, place, found = path.stat().st_size, 0, False
     with path.open("rb") as file:  # a superblock where the library looks for one
@@ -201,7 +203,7 @@ def _require_signature(reader: Any, file: Path) -> None:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Drop warnings and log entries of the reader library: deprecations, and readers that tried a foreign format."""
+    """Drop warnings and log entries of readers of the library that tried a foreign format."""
     loggers = [logging.getLogger(name) for name in ("SurfaceTopography", "igor2")]
     levels = [logger.level for logger in loggers]
     try:
@@ -219,7 +221,8 @@ def _listed(reader: Any, file: Path) -> tuple[ChannelInfo, ...]:
     maps = [channel for channel in reader.channels if channel.dim == 2]
     if not maps:
         raise FileFormatError(
-            f"file {file} must hold a two-dimensional map, but holds none. It may be cut short, or hold line scans only."
+            f"file {file} must hold a two-dimensional map, but holds none. It may be cut short, or hold line "
+            "scans only."
         )
     heights = [channel for channel in maps if isinstance(channel.unit, str)] or maps
     preferred = reader.default_channel.index
@@ -239,7 +242,7 @@ def _listed(reader: Any, file: Path) -> tuple[ChannelInfo, ...]:
 def _scales(
     info: ChannelInfo, file: Path, size: tuple[float, float] | None, height_unit: str | None
 ) -> tuple[tuple[float, float], float]:
-    """Size in m and metres per unit of height, from the file or, where it states none, from the caller."""
+    """Size in m and metres per unit of height, from the file or else from the caller."""
     lacking = []
     if info.size is None and size is None:
         lacking.append("{give_size}")
@@ -277,14 +280,15 @@ _SQUARE = 1e-3
 
 
 def checked_size(size: tuple[float, float] | None, what: str, shape: tuple[int, ...]) -> tuple[float, float]:
-    """``size`` of ``what`` as two positive finite lengths in m; one length written for both sides needs square pixels."""
+    """``size`` of ``what`` as two positive lengths in m; one for both sides needs square pixels."""
     try:
         length_x, length_y = (float(length) for length in size or ())
     except (TypeError, ValueError):
         length_x = length_y = 0.0
     if not (0.0 < length_x < np.inf and 0.0 < length_y < np.inf):
         raise FileFormatError(
-            f"size of {what} must be two positive lengths (Lx, Ly) in m, but is {size!r}. Give for example {{give_size}}."
+            f"size of {what} must be two positive lengths (Lx, Ly) in m, but is {size!r}. "
+            "Give for example {give_size}."
         )
     text = getattr(size, "text", "x")  # of a size that was written, as in a document or an option
     if shape[0] != shape[1] and "x" not in text and "×" not in text:
@@ -298,7 +302,7 @@ def checked_size(size: tuple[float, float] | None, what: str, shape: tuple[int, 
 
 
 def _metadata(info: Mapping[str, Any], prefix: str = "") -> Mapping[str, str]:
-    """Short metadata as strings, nested keys joined by a dot; the raw header of the file is left out."""
+    """Short metadata as strings, nested keys joined by a dot, without the raw header."""
     flat: dict[str, str] = {}
     for key, value in info.items():
         if key == "raw_metadata":
@@ -310,15 +314,15 @@ def _metadata(info: Mapping[str, Any], prefix: str = "") -> Mapping[str, str]:
     return flat
 
 
-# Surfaces in classic NetCDF files, in the layout of SurfaceTopography and contact.engineering, with our own record beside.
+# Surfaces in classic NetCDF files: layout of SurfaceTopography and contact.engineering, own record.
 #
-# Dimensions x, y; variable heights(x, y) with the attribute unit, x and y with length, unit and periodic; missing points in
-# the variable mask. The global attribute ``asperity_surface`` holds what the layout lacks, so that a file of our own comes
-# back exactly.
+# Dimensions x, y; variable heights(x, y) with the attribute unit, x and y with length, unit,
+# periodic; missing points in the variable mask. The global attribute ``asperity_surface`` holds
+# what the layout lacks, so that a file of our own comes back exactly.
 
 
 RECORD = "asperity_surface"
-"""Global attribute that marks a surface written here: JSON of the pixel, the period and the origin."""
+"""Global attribute of a surface written here: JSON of the pixel, the period and the origin."""
 
 _MAGIC = b"CDF"
 
@@ -421,7 +425,8 @@ _PARK_TAG = 50432  # private tag of Park Systems AFM files, which are TIFF files
 
 @dataclass(frozen=True, eq=False)
 class _Plain:
-    """Numbers [x, y] of a plain file, y upwards: heights, or grey levels where ``full_scale`` is theirs.
+    """Numbers [x, y] of a plain file, y upwards: heights, or grey levels where ``full_scale`` is
+    theirs.
 
     ``spacing`` is the pixel of a list of points x y z, in the unit of its coordinates.
     """
@@ -432,7 +437,8 @@ class _Plain:
 
 
 def is_plain(file: Path) -> bool:
-    """Whether ``file`` is text, a NumPy array or a picture without units, by its ending and its beginning."""
+    """Whether ``file`` is text, a NumPy array or a picture without units, by its ending and its
+    beginning."""
     ending = file.suffix.lower()
     if ending in _TEXT:
         return is_table(file)
@@ -456,7 +462,8 @@ def read_plain(
     z_scale: float | None,
     lateral_unit: str | None,
 ) -> Surface:
-    """Surface from a plain file; see :func:`asperity.surfaces.read.read` for scales and orientation."""
+    """Surface from a plain file; see :func:`asperity.surfaces.read.read` for scales and
+    orientation."""
     found = _numbers(file)
     nx, ny = found.values.shape
     chosen((ChannelInfo(0, "heights", (nx, ny), None, "", True),), channel, file)
@@ -499,7 +506,8 @@ def _numbers(file: Path) -> _Plain:
             found = _Plain(np.load(file, allow_pickle=False))
         elif ending in _TEXT:
             rows = table(file)
-            # three columns and more than three lines: a list of points, of which 2 x 2 is the smallest
+            # three columns and more than three lines: a list of points, of which 2 x 2 is the
+            # smallest
             listed = rows.shape[1] == 3 and rows.shape[0] > 3
             found = _Plain(*gridded(rows)) if listed else _Plain(np.flipud(rows).T)
         else:
@@ -558,7 +566,8 @@ def _given_size(
         )
     if size is None:
         raise FileFormatError(
-            f"file {file} does not state its size: give {{give_size}} and {'{give_z_scale}' if file.suffix.lower() in _PICTURES else '{give_height_unit}'}.",
+            f"file {file} does not state its size: give {{give_size}} and "
+            f"{'{give_z_scale}' if file.suffix.lower() in _PICTURES else '{give_height_unit}'}.",
             subject=f"size of file {file}",
         )
     return checked_size(size, f"file {file}", found.values.shape), ""

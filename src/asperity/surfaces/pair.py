@@ -1,4 +1,5 @@
-"""Two surfaces as a pair: on one grid whatever their pixels, sizes, places and directions, and as one composite surface."""
+"""Two surfaces as a pair: on one grid whatever their pixels, sizes, places and directions, and as
+one composite surface."""
 
 from __future__ import annotations
 
@@ -27,10 +28,12 @@ _CANDIDATES, _REFINEMENTS = 201, 6  # for each end of the rectangle, and how oft
 def largest_rectangle(
     corners: RealArray, limits: tuple[float, float, float, float]
 ) -> tuple[float, float, float, float]:
-    """Rectangle x0, x1, y0, y1 of the largest area within the convex polygon ``corners`` (n, 2) and the ``limits``.
+    """Rectangle x0, x1, y0, y1 of the largest area within the convex polygon ``corners`` (n, 2) and
+    the ``limits``.
 
-    Between x0 and x1 the lower border of a convex polygon is highest and the upper one lowest at the ends, so two
-    numbers are searched for: among all pairs of candidates, then more closely around the best pair.
+    Between x0 and x1 the lower border of a convex polygon is highest and the upper one lowest at
+    the ends, so two numbers are searched for: among all pairs of candidates, then more closely
+    around the best pair.
     """
     low_x, high_x, low_y, high_y = limits
     own = corners[(corners[:, 0] > low_x) & (corners[:, 0] < high_x), 0]
@@ -62,7 +65,8 @@ _MARGIN = 12  # pixels around a periodic map, where the borders of a spline have
 
 @dataclass(frozen=True, eq=False)
 class SurfacePair:
-    """Two surfaces on one grid and in one lateral frame, each with heights positive out of its own body."""
+    """Two surfaces on one grid and in one lateral frame, each with heights positive out of its own
+    body."""
 
     surface: Surface
     counter_surface: Surface
@@ -81,16 +85,19 @@ def on_common_grid(
     mirrored: str | None = None,
     spacing: tuple[float, float] | None = None,
 ) -> SurfacePair:
-    """Both surfaces resampled on one grid that covers where they overlap, in the frame of the first.
+    """Both surfaces resampled on one grid that covers where they overlap, in the frame of the
+    first.
 
-    The counter surface is turned over (see ``turned_over``), rotated about its middle by ``angle``, and laid so that its middle
-    is ``shift`` away from the middle of ``surface``. Both are interpolated by bicubic splines at the nodes of the common grid;
-    a node is missing where a neighbour of the map is. The overlap is the largest rectangle along x and y that both cover; a
-    periodic surface covers everything. The pair is periodic if both are, with equal sizes, and without rotation.
+    The counter surface is turned over (see ``turned_over``), rotated about its middle by ``angle``,
+    and laid so that its middle is ``shift`` away from the middle of ``surface``. Both are
+    interpolated by bicubic splines at the nodes of the common grid; a node is missing where a
+    neighbour of the map is. The overlap is the largest rectangle along x and y that both cover; a
+    periodic surface covers everything. The pair is periodic if both are, with equal sizes, and
+    without rotation.
 
-    The relative place of two rough bodies is a free parameter of their contact: average over several shifts.
-    Raises InputError if a value is not a number, the pixel is coarser than that of a map, or the overlap is less than
-    two pixels wide.
+    The relative place of two rough bodies is a free parameter of their contact: average over
+    several shifts. Raises InputError if a value is not a number, the pixel is coarser than that of
+    a map, or the overlap is less than two pixels wide.
 
     Parameters
     ----------
@@ -103,8 +110,8 @@ def on_common_grid(
     mirrored
         None, ``x`` or ``y``: how the counter surface is turned over.
     spacing
-        Pixel (dx, dy) in m; the finer of both, along each axis, if omitted. A coarser one would fold short waves: filter
-        or resample first.
+        Pixel (dx, dy) in m; the finer of both, along each axis, if omitted. A coarser one would
+        fold short waves: filter or resample first.
     """
     shift_x, shift_y = (require.finite(s, f"shift along {a} (m)") for s, a in zip(shift, "xy", strict=True))
     angle = require.finite(angle, "angle of the counter surface (rad)")
@@ -121,8 +128,8 @@ def on_common_grid(
     for d, fine, name in zip(pixel, finest, "xy", strict=True):
         if d > fine * (1.0 + _ROUNDING):
             raise InputError(
-                f"pixel of the common grid along {name} must not be coarser than the finer map ({fine:g} m), but is {d:g} m. "
-                "Filter or resample the surfaces first."
+                f"pixel of the common grid along {name} must not be coarser than the finer map ({fine:g} m), "
+                f"but is {d:g} m. Filter or resample the surfaces first."
             )
     words = f", shift {show(shift_x, 'm')}, {show(shift_y, 'm')}, angle {math.degrees(angle):.6g}°"
     same_size = np.allclose(surface.size, other.size, rtol=_ROUNDING, atol=0.0)
@@ -172,7 +179,8 @@ def _grid(region: tuple[float, float, float, float], pixel: tuple[float, float],
 
 
 def _moved(surface: Surface, shift: tuple[float, float], grid: Grid, words: str) -> Surface:
-    """Periodic surface shifted in Fourier space and on ``grid``; missing points are refused by the resampling."""
+    """Periodic surface shifted in Fourier space and on ``grid``; missing points are refused by the
+    resampling."""
     require_complete(surface, "brought on a common periodic grid")
     heights: RealArray = surface.heights.astype(np.float64, copy=False)
     if shift != (0.0, 0.0):
@@ -184,7 +192,8 @@ def _moved(surface: Surface, shift: tuple[float, float], grid: Grid, words: str)
 
 
 def _interpolated(surface: Surface, grid: Grid, nodes: tuple[RealArray, RealArray], words: str) -> Surface:
-    """Surface on ``grid``, whose ``nodes`` (x, y) in m, each (nx, ny), are counted from the corner of the map."""
+    """Surface on ``grid``, whose ``nodes`` (x, y) in m, each (nx, ny), are counted from the corner
+    of the map."""
     from scipy.interpolate import RectBivariateSpline
 
     along = [node / d - 0.5 for node, d in zip(nodes, surface.grid.spacing, strict=True)]  # in pixels from node 0
@@ -202,7 +211,8 @@ def _interpolated(surface: Surface, grid: Grid, nodes: tuple[RealArray, RealArra
     if surface.periodic:
         heights = spline.ev(along[0], along[1])
     else:
-        # beyond the middle of the outermost pixels (by half a pixel) the spline would be clamped: it is continued by its tangent
+        # beyond the middle of the outermost pixels (by half a pixel) the spline would be clamped:
+        # it is continued by its tangent
         inside = [np.clip(number, 0.0, n - 1.0) for number, n in zip(along, surface.shape, strict=True)]
         heights = spline.ev(inside[0], inside[1])
         for axis, (dx, dy) in enumerate(((1, 0), (0, 1))):
@@ -232,11 +242,12 @@ def _step(grid: Grid, words: str) -> str:
 def composite(surface: Surface, counter_surface: Surface, *, mirrored: str | None = None) -> Surface:
     """Sum h = h1 + h2 of two surfaces, each with heights positive out of its own body.
 
-    Only this sum enters the undeformed gap g = g0 - h of frictionless half-spaces (Peng 2001, app. D). A map of the upper body is
-    measured looking at that body: turning it over about the y axis replaces x by Lx - x (``mirrored="x"``), about
-    the x axis y by Ly - y (``mirrored="y"``). Points missing in either surface are missing in the sum, which is
-    periodic only if both are; a periodic surface is mirrored about its node 0, any other about its middle.
-    Raises InputError if the grids differ, the mirror is unknown, or no point is valid in both surfaces.
+    Only this sum enters the undeformed gap g = g0 - h of frictionless half-spaces (Peng 2001, app.
+    D). A map of the upper body is measured looking at that body: turning it over about the y axis
+    replaces x by Lx - x (``mirrored="x"``), about the x axis y by Ly - y (``mirrored="y"``). Points
+    missing in either surface are missing in the sum, which is periodic only if both are; a periodic
+    surface is mirrored about its node 0, any other about its middle. Raises InputError if the grids
+    differ, the mirror is unknown, or no point is valid in both surfaces.
 
     Parameters
     ----------
@@ -264,9 +275,9 @@ def composite(surface: Surface, counter_surface: Surface, *, mirrored: str | Non
 def turned_over(surface: Surface, *, axis: str = "x") -> Surface:
     """Map of the upper body, measured looking at it, in the lateral frame of the lower one.
 
-    ``axis`` ``"x"`` replaces x by Lx - x (turned about the y axis), ``"y"`` y by Ly - y. A periodic surface is mirrored
-    about its node 0, any other about its middle.
-    Raises InputError if the axis is not ``x`` or ``y``.
+    ``axis`` ``"x"`` replaces x by Lx - x (turned about the y axis), ``"y"`` y by Ly - y. A periodic
+    surface is mirrored about its node 0, any other about its middle. Raises InputError if the axis
+    is not ``x`` or ``y``.
     """
     along = "xy".index(require.one_of(axis, ("x", "y"), "mirror of the counter surface"))
     flipped = np.flip(surface.heights, along)

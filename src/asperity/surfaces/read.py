@@ -1,4 +1,5 @@
-"""Any file with heights → Surface. Units and sizes are taken from the file or asked for, never guessed."""
+"""Any file with heights → Surface. Units and sizes are taken from the file or asked for, never
+guessed."""
 
 from __future__ import annotations
 
@@ -32,26 +33,31 @@ def read(
 ) -> Surface:
     """Surface from a file; heights in m on axes x (to the right) and y (upwards in the picture).
 
-    * Instrument files (some forty formats, read by SurfaceTopography) state size and units themselves. The picture
-      that the instrument software shows has its top row at the largest y.
+    * Instrument files (some forty formats, read by SurfaceTopography) state size and units
+      themselves. The picture that the instrument software shows has its top row at the largest y.
     * Surfaces saved by this package (.nc) come back whole, with period and history.
-    * Text matrices (.txt, .dat, .asc, .csv, .tsv, .xyz): one line per row of the picture, top row first, separated by
-      blanks, tabs, commas or semicolons; ``nan`` marks a missing point. They need ``size`` and ``height_unit``. One
-      title or a row of column names, and decimal commas (with blanks, tabs or semicolons between) are understood. A text
-      that was cut exactly between two lines is refused where its header counts them or its pixels cease to be square;
-      otherwise nothing tells it from a whole one.
-    * Lists of points, in the same text files: three columns x, y, z on more than three lines, in any order, on a
-      regular grid on which points may be missing. They need ``lateral_unit`` and ``height_unit``.
-    * NumPy arrays (.npy) are taken as [x, y], as everywhere in this package, and need ``size`` and ``height_unit``.
-    * Pictures (.png, .tif, .jpg, .bmp): grey level zero is height zero, full scale (255 for 8 bit, 65535 for 16 bit) is
-      ``z_scale``; TIFF files of floating-point heights need ``height_unit`` instead. All need ``size``.
+    * Text matrices (.txt, .dat, .asc, .csv, .tsv, .xyz): one line per row of the picture, top row
+      first, separated by blanks, tabs, commas or semicolons; ``nan`` marks a missing point. They
+      need ``size`` and ``height_unit``. One title or a row of column names, and decimal commas
+      (with blanks, tabs or semicolons between) are understood. A text that was cut exactly between
+      two lines is refused where its header counts them or its pixels cease to be square; otherwise
+      nothing tells it from a whole one.
+    * Lists of points, in the same text files: three columns x, y, z on more than three lines, in
+      any order, on a regular grid on which points may be missing. They need ``lateral_unit`` and
+      ``height_unit``.
+    * NumPy arrays (.npy) are taken as [x, y], as everywhere in this package, and need ``size`` and
+      ``height_unit``.
+    * Pictures (.png, .tif, .jpg, .bmp): grey level zero is height zero, full scale (255 for 8 bit,
+      65535 for 16 bit) is ``z_scale``; TIFF files of floating-point heights need ``height_unit``
+      instead. All need ``size``.
 
     Parameters
     ----------
     path
         File name.
     channel
-        Name or index of the data channel (see :func:`channels`); the default height channel if omitted.
+        Name or index of the data channel (see :func:`channels`); the default height channel if
+        omitted.
     size
         (Lx, Ly) in m, only if the file does not state it: number of points times pixel size.
     height_unit
@@ -64,8 +70,8 @@ def read(
     Raises
     ------
     FileFormatError
-        If the file is missing, unreadable, empty, damaged, of unknown format, not a map, or lacks a size or unit that
-        is not given, or states one that is given.
+        If the file is missing, unreadable, empty, damaged, of unknown format, not a map, or lacks a
+        size or unit that is not given, or states one that is given.
     UnitError
         If ``height_unit`` is not a unit of length.
     """

@@ -1,8 +1,10 @@
-"""Opening instrument files with SurfaceTopography, of which only the reader that recognises the file is imported.
+"""Opening instrument files with SurfaceTopography, of which only the reader that recognises the
+file is imported.
 
-The whole library takes 1.0 s to import: 42 readers and all its analyses of surfaces, with scipy.stats, scipy.optimize, pandas and
-spreadsheets. Its packages are therefore entered into Python without their contents, which come with the first name that is
-asked of them: readers one by one, anything else with everything.
+The whole library takes 1.0 s to import: 42 readers and all its analyses of surfaces, with
+scipy.stats, scipy.optimize, pandas and spreadsheets. Its packages are therefore entered into Python
+without their contents, which come with the first name that is asked of them: readers one by one,
+anything else with everything.
 """
 
 from __future__ import annotations
@@ -19,15 +21,18 @@ from types import ModuleType
 from typing import Any
 
 _POSTPONED = ("SurfaceTopography", "SurfaceTopography.IO", "NuMPI.Optimization")
-"""Packages that import far more than a reader needs; the last is that of the parallel library below the readers."""
+"""Packages that import far more than a reader needs; the last is that of the parallel library below
+the readers."""
 
 _START = 512
-"""Bytes at the start of a file from which a reader may tell that it is not meant, as in ``open_topography``."""
+"""Bytes at the start of a file from which a reader may tell that it is not meant, as in
+``open_topography``."""
 
 
 @contextmanager
 def opened_by_first_reader(file: Path) -> Iterator[Any]:
-    """Reader of ``file``, the first in the order of the library that can open it; no reader after it is imported.
+    """Reader of ``file``, the first in the order of the library that can open it; no reader after
+    it is imported.
 
     Raises
     ------
@@ -66,7 +71,8 @@ def opened_by_library(file: Path) -> Iterator[Any]:
 
 
 def _order(package: ModuleType) -> Sequence[str]:
-    """Names of the readers in the order in which the library tries them; none if its source does not state one list."""
+    """Names of the readers in the order in which the library tries them; none if its source does
+    not state one list."""
     lists = re.findall(r"^readers = \[$(.*?)^\]$", _source(package), re.MULTILINE | re.DOTALL)
     return re.findall(r"^    (\w+),$", lists[0], re.MULTILINE) if len(lists) == 1 else ()
 
@@ -78,9 +84,11 @@ def _source(package: ModuleType) -> str:
 
 
 class _PostponedPackage(ModuleType):
-    """Package whose own code has not run yet: it gives a name of its submodules with that submodule, any other with all.
+    """Package whose own code has not run yet: it gives a name of its submodules with that
+    submodule, any other with all.
 
-    ``_homes`` holds the submodule of each name that a line ``from .module import name`` of its code gives it.
+    ``_homes`` holds the submodule of each name that a line ``from .module import name`` of its code
+    gives it.
     """
 
     _homes: Mapping[str, str]
@@ -98,7 +106,8 @@ class _PostponedPackage(ModuleType):
 
 
 class _Postponing(Loader):
-    """Loader of a package that leaves its code to the first use, for which it restores the usual ``loader``."""
+    """Loader of a package that leaves its code to the first use, for which it restores the usual
+    ``loader``."""
 
     def __init__(self, loader: InspectLoader) -> None:
         self.loader = loader

@@ -21,9 +21,10 @@ from ..core.values import LEAST
 class Origin:
     """Where a surface comes from.
 
-    ``source`` file name or generator; ``channel`` data channel; ``instrument`` free key-value data from the file;
-    ``history`` one sentence for every preparation step, oldest first; ``citation_keys`` the papers behind the reader,
-    the generator and the steps, see ``core.citations``.
+    ``source`` file name or generator; ``channel`` data channel; ``instrument`` free key-value data
+    from the file; ``history`` one sentence for every preparation step, oldest first;
+    ``citation_keys`` the papers behind the reader, the generator and the steps, see
+    ``core.citations``.
     """
 
     source: str = ""
@@ -42,8 +43,8 @@ class Origin:
 class Surface(Drawn):
     """Heights on a regular grid, positive out of the solid (the material is below).
 
-    Raises InputError if heights are not a real 2-D array, hold an infinity, are missing everywhere, or a spacing is
-    not positive.
+    Raises InputError if heights are not a real 2-D array, hold an infinity, are missing everywhere,
+    or a spacing is not positive.
 
     Parameters
     ----------
@@ -131,7 +132,8 @@ class Surface(Drawn):
         return self.origin.citation_keys
 
     def with_heights(self, heights: ArrayLike, step: str) -> Surface:
-        """Surface on the same pixels with other ``heights`` (nx, ny) in m; ``step`` is added to the history.
+        """Surface on the same pixels with other ``heights`` (nx, ny) in m; ``step`` is added to the
+        history.
 
         NaN marks a missing point; the periodic flag stays.
         """
@@ -147,7 +149,8 @@ def generated(
     periodic: bool = True,
     citation_keys: tuple[str, ...] = (),
 ) -> Surface:
-    """Surface that the generator ``source`` made; ``how``, in words and numbers, begins its history."""
+    """Surface that the generator ``source`` made; ``how``, in words and numbers, begins its
+    history."""
     keys = tuple(dict.fromkeys(citation_keys))
     origin = Origin(source, history=(f"generated: {how}",), citation_keys=keys)
     return Surface(heights, *grid.spacing, periodic=periodic, origin=origin)

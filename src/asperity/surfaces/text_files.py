@@ -1,4 +1,5 @@
-"""Tables of numbers in text: matrices of heights and lists of points, with column names and decimal commas."""
+"""Tables of numbers in text: matrices of heights and lists of points, with column names and decimal
+commas."""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ _SPARSE = 4  # nodes of the grid for every point of a list, at most
 
 
 def is_table(file: Path) -> bool:
-    """Whether a text begins with a row of numbers, after comments (#) and one title or row of column names at most."""
+    """Whether a text begins with a row of numbers, after comments (#) and one title or row of
+    column names at most."""
     with file.open("rb") as stream:
         start = stream.read(_START)
     lines = start.decode("utf-8-sig", "replace").splitlines()
@@ -30,9 +32,9 @@ def is_table(file: Path) -> bool:
 def table(file: Path) -> RealArray:
     """Numbers of a text as an array (lines, columns).
 
-    Between columns there are blanks, tabs, semicolons or commas. Decimal commas are accepted where the columns are
-    separated by something else.
-    Raises ValueError if a line does not hold as many numbers as the others.
+    Between columns there are blanks, tabs, semicolons or commas. Decimal commas are accepted where
+    the columns are separated by something else. Raises ValueError if a line does not hold as many
+    numbers as the others.
     """
     lines = file.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     first = _first_row(lines) or 0
@@ -44,9 +46,9 @@ def table(file: Path) -> RealArray:
 class TextEnd(NamedTuple):
     """How whole a text with a matrix is.
 
-    ``broken``: number of the first line after the first row of numbers that begins as one but is none, 0 if there is none;
-    ``lines``: number of lines of the map by the header of a text that asperity wrote, None in other texts; ``ended``: whether
-    the last line has its line break.
+    ``broken``: number of the first line after the first row of numbers that begins as one but is
+    none, 0 if there is none; ``lines``: number of lines of the map by the header of a text that
+    asperity wrote, None in other texts; ``ended``: whether the last line has its line break.
     """
 
     broken: int
@@ -70,7 +72,8 @@ def text_end(file: Path) -> TextEnd:
 
 
 def gridded(points: RealArray) -> tuple[RealArray, None, tuple[float, float]]:
-    """Heights [x, y] of a list of ``points`` (n, 3) on a regular grid, None, and its spacing; NaN where a point is missing.
+    """Heights [x, y] of a list of ``points`` (n, 3) on a regular grid, None, and its spacing; NaN
+    where a point is missing.
 
     Raises InputError if the points do not lie on a regular grid, or two on one node.
     """
@@ -122,7 +125,8 @@ def _nodes(coordinates: RealArray, axis: str) -> tuple[np.ndarray[tuple[int, ...
 
 
 def _first_row(lines: list[str]) -> int | None:
-    """Number of the first line with numbers, if nothing but comments and column names stands before it."""
+    """Number of the first line with numbers, if nothing but comments and column names stands before
+    it."""
     names: str | None = None
     for number, line in enumerate(lines):
         if not line.strip():
@@ -147,9 +151,11 @@ _SAMPLE = 20  # rows behind a title that are compared; other formats have severa
 
 
 def _is_title(titles: list[str], rows: list[str], columns: int) -> bool:
-    """Whether a line before the ``rows`` is their title: words without numbers, marks of a header or a cell for each column.
+    """Whether a line before the ``rows`` is their title: words without numbers, marks of a header
+    or a cell for each column.
 
-    Only where all of the first rows have ``columns`` numbers: the head of another format is no title.
+    Only where all of the first rows have ``columns`` numbers: the head of another format is no
+    title.
     """
     if len(titles) >= columns or any(_is_number(cell) or set(cell) & set(':=[]{}"') for cell in titles):
         return False

@@ -1,4 +1,5 @@
-"""Evaluation of theories for one kind of argument: load, pressure, approach or others, at one value or along a curve."""
+"""Evaluation of theories for one kind of argument: load, pressure, approach or others, at one value
+or along a curve."""
 
 from __future__ import annotations
 
@@ -19,10 +20,12 @@ from ..core.units import DIMENSIONS
 from ..core.values import Number
 from .protocol import QUANTITIES, Described, Limit, checked, curve
 
-# How theories are asked: along which argument, with what given, and what comes out. For people and the command line.
+# How theories are asked: along which argument, with what given, and what comes out. For people and
+# the command line.
 #
-# The theories of rough surfaces and of single contacts share a few ways (``ways_of``); a theory that is asked in
-# another way names it in its attribute ``ways``, and numbers that depend on nothing but its inputs in ``numbers``.
+# The theories of rough surfaces and of single contacts share a few ways (``ways_of``); a theory
+# that is asked in another way names it in its attribute ``ways``, and numbers that depend on
+# nothing but its inputs in ``numbers``.
 
 
 @dataclass(frozen=True)
@@ -128,7 +131,8 @@ class Evaluation(Tabled):
     numbers
         What depends on its inputs alone, each with its value.
     columns
-        The axis and everything that the theory defines along it, each (n,); empty if nothing was asked.
+        The axis and everything that the theory defines along it, each (n,); empty if nothing was
+        asked.
     limits
         Conditions for validity, their values (n,).
     """
@@ -139,7 +143,8 @@ class Evaluation(Tabled):
     limits: tuple[Limit, ...] = ()
 
     def holds(self, quantity: str = "") -> BoolArray:
-        """(n,) whether all limits hold that concern the column ``quantity``; without a name those that concern every one."""
+        """(n,) whether all limits hold that concern the column ``quantity``; without a name those
+        that concern every one."""
         inside = np.ones(self.columns[0][1].shape, dtype=bool)
         for limit in self.limits:
             if limit.concerns(quantity):
@@ -148,11 +153,13 @@ class Evaluation(Tabled):
 
 
 def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
-    """Ask ``theory`` along one of its ways, in SI: ``evaluate(HertzPoint(1e11, 1e-6), load=[1e-6, 1e-5])``.
+    """Ask ``theory`` along one of its ways, in SI:
+    ``evaluate(HertzPoint(1e11, 1e-6), load=[1e-6, 1e-5])``.
 
     Without arguments the answer holds the numbers that depend on the inputs alone.
 
-    InputError if the arguments are those of no way of the theory, or the theory refuses their values.
+    InputError if the arguments are those of no way of the theory, or the theory refuses their
+    values.
 
     Examples
     --------
@@ -192,7 +199,8 @@ def evaluate(theory: Described, **arguments: ArrayLike) -> Evaluation:
     return Evaluation(theory, numbers, tuple(columns), limits)
 
 
-# Fields in a half-space as answers of theories: displacement and stress at points, and the stress of von Mises.
+# Fields in a half-space as answers of theories: displacement and stress at points, and the stress
+# of von Mises.
 
 
 STRESS = (
@@ -213,7 +221,8 @@ ALONG_Y = asked("y", "m", "place along y", 0.0)
 
 
 def places(depth: ArrayLike, *beside: float) -> tuple[RealArray, ...]:
-    """Coordinates ``beside`` the origin and ``depth`` >= 0 in m as arrays of one shape; InputError for other things."""
+    """Coordinates ``beside`` the origin and ``depth`` >= 0 in m as arrays of one shape; InputError
+    for other things."""
     z = checked(depth, "depth (m)")
     return (*(0.0 * z + require.finite(value, "place (m)") for value in beside), z)
 

@@ -173,7 +173,8 @@ def theory(name: str) -> type[Described]:
 
 
 def nearest(name: str) -> list[str]:
-    """Up to three names of theories that ``name`` may mean: misspelt, a part, initials, or the name of the class."""
+    """Up to three names of theories that ``name`` may mean: misspelt, a part, initials, or the name
+    of the class."""
     word = name.lower().replace("_", "-").replace(" ", "-")
     squeezed = word.replace("-", "")
     found = [

@@ -1,7 +1,7 @@
 """What all theories share: parameters, evaluation, results, and limits of validity.
 
-A theory is a frozen value made from its parameters, or from a ``Roughness`` by ``from_roughness``. Arrays in, arrays out;
-what a theory does not define is NaN.
+A theory is a frozen value made from its parameters, or from a ``Roughness`` by ``from_roughness``.
+Arrays in, arrays out; what a theory does not define is NaN.
 """
 
 from __future__ import annotations
@@ -62,7 +62,8 @@ QUANTITIES = (
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Prediction(Tabled):
-    """What a theory predicts along a curve: the ``QUANTITIES``, each (n,) in SI, NaN where the theory does not define it.
+    """What a theory predicts along a curve: the ``QUANTITIES``, each (n,) in SI, NaN where the
+    theory does not define it.
 
     ``stiffness`` is -dp/d(separation), for theories with a gap only -dp/d(mean gap).
     """
@@ -81,7 +82,8 @@ class Prediction(Tabled):
 
 
 def prediction(pressure: RealArray, **known: RealArray) -> Prediction:
-    """Prediction with the ``known`` fields, each (n,) or one number; the mean real pressure follows from the area."""
+    """Prediction with the ``known`` fields, each (n,) or one number; the mean real pressure follows
+    from the area."""
     undefined = np.full_like(pressure, np.nan)
     fields = {quantity.name: undefined for quantity in QUANTITIES} | {"pressure": pressure}
     if "area_fraction" in known and "mean_real_pressure" not in known:
@@ -102,7 +104,8 @@ class ContactAnswer(Tabled):
     approach
         Displacement of distant points toward each other since first touch in m.
     radius
-        Contact radius in m; half-width in plane strain, geometric mean of the semi-axes of an ellipse.
+        Contact radius in m; half-width in plane strain, geometric mean of the semi-axes of an
+        ellipse.
     area
         Contact area in m²; width of the contact in m in plane strain.
     max_pressure
@@ -181,8 +184,9 @@ class Limit:
 class Bound:
     """A limit of validity as a class declares it, in ``limits``; fields as of ``Limit``.
 
-    ``value`` gives one number or (n,) values from a theory and its answer, or None where the limit does not apply; that of
-    a bound on what was ``measured`` takes the theory and the ``Roughness`` of the surface.
+    ``value`` gives one number or (n,) values from a theory and its answer, or None where the limit
+    does not apply; that of a bound on what was ``measured`` takes the theory and the ``Roughness``
+    of the surface.
     """
 
     criterion: str
@@ -201,7 +205,8 @@ class Bound:
         return f"{self.criterion}{measured} {_bounds(self.low, self.high, self.of)}"
 
     def along(self, theory: Any, answer: Any, roughness: Roughness | None = None) -> tuple[Limit, ...]:
-        """The limit checked along the ``answer`` of ``theory``; none where it does not apply, or nothing was measured."""
+        """The limit checked along the ``answer`` of ``theory``; none where it does not apply, or
+        nothing was measured."""
         source = roughness if self.measured else answer
         value = None if source is None else self.value(theory, source)
         if value is None:
@@ -250,7 +255,8 @@ ISOTROPY = Bound(
 def small_slope(criterion: str, value: Callable[[Any, Any], Any]) -> Bound:
     """Half-spaces and parabolic profiles are approximations for small slopes in the contact.
 
-    At a slope of 0.3 a sphere needs 3 % more approach than its paraboloid, a third of the square (Sneddon 1965).
+    At a slope of 0.3 a sphere needs 3 % more approach than its paraboloid, a third of the square
+    (Sneddon 1965).
     """
     message = "The theory of the half-space, and a paraboloid in place of a sphere, neglect the square of the slopes."
     return Bound(criterion, value, 0.0, 0.3, "Sneddon1965", message)
@@ -269,11 +275,12 @@ class _Inputs:
 
 
 class Theory(Declared):
-    """Base of the theories of the catalogue: frozen dataclasses whose parameters are checked when they are made.
+    """Base of the theories of the catalogue: frozen dataclasses whose parameters are checked when
+    they are made.
 
-    ``name`` as on the command line, lower case with hyphens; ``title`` for headings; ``inputs`` are its parameters, each with unit,
-    range, default and help; ``numbers`` depend on them alone; ``limits`` are the conditions for it to hold. What else it answers,
-    see ``ask.ways_of``.
+    ``name`` as on the command line, lower case with hyphens; ``title`` for headings; ``inputs`` are
+    its parameters, each with unit, range, default and help; ``numbers`` depend on them alone;
+    ``limits`` are the conditions for it to hold. What else it answers, see ``ask.ways_of``.
     """
 
     inputs = _Inputs()
@@ -285,7 +292,8 @@ class Theory(Declared):
     limits: ClassVar[tuple[Bound, ...]] = ()
 
     def validity(self, answer: Any, roughness: Roughness | None = None) -> tuple[Limit, ...]:
-        """The ``limits`` checked along the theory's own ``answer``; with ``roughness`` also those on what was measured."""
+        """The ``limits`` checked along the theory's own ``answer``; with ``roughness`` also those
+        on what was measured."""
         return tuple(limit for bound in self.limits for limit in bound.along(self, answer, roughness))
 
 
@@ -304,7 +312,8 @@ class Described(Protocol):
 
 
 class SurfaceTheory(Protocol):
-    """A theory of the contact of a rough surface with a rigid plane, or of what is equivalent to it."""
+    """A theory of the contact of a rough surface with a rigid plane, or of what is equivalent to
+    it."""
 
     name: ClassVar[str]
     title: ClassVar[str]
@@ -314,13 +323,14 @@ class SurfaceTheory(Protocol):
     def from_roughness(cls, roughness: Roughness, E_star: float, *args: Any, **kwargs: Any) -> Self:
         """Theory for the measured ``roughness`` and the contact modulus ``E_star`` in Pa.
 
-        Further keyword arguments are the parameters that belong to the bodies or are a choice. InputError if the roughness
-        does not hold what the theory needs.
+        Further keyword arguments are the parameters that belong to the bodies or are a choice.
+        InputError if the roughness does not hold what the theory needs.
         """
         ...
 
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa; InputError if one is not positive or more than the theory can carry."""
+        """Prediction at nominal pressures (n,) in Pa; InputError if one is not positive or more
+        than the theory can carry."""
         ...
 
     def validity(self, prediction: Prediction, /) -> tuple[Limit, ...]:
@@ -329,16 +339,19 @@ class SurfaceTheory(Protocol):
 
 
 class SeparationTheory(Theory):
-    """A theory of pressure and contacts at a separation, ``_law`` and ``_contacts``; a pressure it seeks within ``_ends``."""
+    """A theory of pressure and contacts at a separation, ``_law`` and ``_contacts``; a pressure it
+    seeks within ``_ends``."""
 
     def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m of the plane from the mean plane of the undeformed surface."""
+        """Prediction at separations (n,) in m of the plane from the mean plane of the undeformed
+        surface."""
         h = curve(separation, "separations (m)")
         (pressure, stiffness), (area, contacts) = self._law(h), self._contacts(h)
         return prediction(pressure, area_fraction=area, contact_density=contacts, separation=h, stiffness=stiffness)
 
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa; InputError if one is not positive, or beyond the range evaluated."""
+        """Prediction at nominal pressures (n,) in Pa; InputError if one is not positive, or beyond
+        the range evaluated."""
         return self.at_separation(
             separation_at(curve(pressure, "pressures (Pa)", positive=True), self._law, *self._ends)
         )
@@ -348,12 +361,14 @@ class SeparationTheory(Theory):
         raise NotImplementedError
 
     def _contacts(self, h: RealArray) -> tuple[RealArray, RealArray]:
-        """Area fraction, and contacts per nominal area in 1/m², at the separations ``h`` in m, all (n,)."""
+        """Area fraction, and contacts per nominal area in 1/m², at the separations ``h`` in m, all
+        (n,)."""
         raise NotImplementedError
 
     @property
     def _ends(self) -> tuple[float, float, float]:
-        """Lowest and highest separation evaluated, and the length on which the pressure changes, in m."""
+        """Lowest and highest separation evaluated, and the length on which the pressure changes, in
+        m."""
         raise NotImplementedError
 
 
@@ -361,7 +376,8 @@ class SeparationTheory(Theory):
 
 
 def real_numbers(values: ArrayLike, what: str) -> RealArray:
-    """``values`` as an array of floats of any shape; InputError for text, truth values, complex numbers and the like."""
+    """``values`` as an array of floats of any shape; InputError for text, truth values, complex
+    numbers and the like."""
     try:
         array = np.asarray(values)
         real = array.dtype.kind in "iuf" or (
@@ -376,7 +392,8 @@ def real_numbers(values: ArrayLike, what: str) -> RealArray:
 
 
 def curve(values: ArrayLike, what: str, *, positive: bool = False) -> RealArray:
-    """``values`` as a one-dimensional array of finite, if asked for positive, floats; else InputError."""
+    """``values`` as a one-dimensional array of finite, if asked for positive, floats; else
+    InputError."""
     array = np.atleast_1d(real_numbers(values, what))
     if array.ndim != 1 or array.size == 0:
         raise InputError(f"{what} must be a number or a one-dimensional array, but have shape {array.shape}.")
@@ -388,7 +405,8 @@ def curve(values: ArrayLike, what: str, *, positive: bool = False) -> RealArray:
 
 
 def checked(values: ArrayLike, what: str, lowest: float = 0.0, fix: str = "") -> RealArray:
-    """``values`` as an array of finite numbers of at least ``lowest``, of any shape; else InputError."""
+    """``values`` as an array of finite numbers of at least ``lowest``, of any shape; else
+    InputError."""
     array = real_numbers(values, what)
     wrong = array[~(np.isfinite(array) & (array >= lowest))]
     if wrong.size:
@@ -412,7 +430,8 @@ def poissons_ratio(nu: float) -> float:
 def bisected(
     function: Callable[[RealArray], RealArray], low: RealArray, high: RealArray, halvings: int = 64
 ) -> RealArray:
-    """Roots of an elementwise rising ``function`` between ``low`` and ``high``, by default to the last digits.
+    """Roots of an elementwise rising ``function`` between ``low`` and ``high``, by default to the
+    last digits.
 
     A jump across zero counts as a root.
     """
@@ -434,11 +453,13 @@ _NO_PRESSURE = 1e-12  # Pa, below which messages say that there is none
 def separation_at(
     pressure: RealArray, law: Callable[[RealArray], tuple[RealArray, RealArray]], low: float, high: float, unit: float
 ) -> RealArray:
-    """Separations (n,) in m at which a falling ``law``, pressure and -dp/dh, has the ``pressure`` (n,) in Pa.
+    """Separations (n,) in m at which a falling ``law``, pressure and -dp/dh, has the ``pressure``
+    (n,) in Pa.
 
-    Newton steps on ln p, which is nearly straight or parabolic for most theories, kept within brackets from a table.
-    ``low`` and ``high`` are separations in m between which the answer is sought, ``unit`` a length in m on which the
-    pressure changes, which sets the accuracy. InputError if a pressure lies beyond those at ``low`` and ``high``.
+    Newton steps on ln p, which is nearly straight or parabolic for most theories, kept within
+    brackets from a table. ``low`` and ``high`` are separations in m between which the answer is
+    sought, ``unit`` a length in m on which the pressure changes, which sets the accuracy.
+    InputError if a pressure lies beyond those at ``low`` and ``high``.
     """
     table = np.linspace(low, high, _TABLE)
     borne = law(table)[0]
@@ -448,8 +469,9 @@ def separation_at(
     if wanted.max() > logs[0] or wanted.min() < logs[-1]:
         least = np.exp(logs[-1])
         raise InputError(
-            f"pressures must lie between {least if least >= _NO_PRESSURE else 0.0:.4g} Pa and {np.exp(logs[0]):.4g} Pa, where this "
-            f"theory is evaluated, but go from {pressure.min():.4g} Pa to {pressure.max():.4g} Pa."
+            f"pressures must lie between {least if least >= _NO_PRESSURE else 0.0:.4g} Pa and "
+            f"{np.exp(logs[0]):.4g} Pa, where this theory is evaluated, but go from {pressure.min():.4g} Pa to "
+            f"{pressure.max():.4g} Pa."
         )
     cell = np.clip(np.searchsorted(-logs, -wanted) - 1, 0, _TABLE - 2)
     below, above = table[cell], table[cell + 1]

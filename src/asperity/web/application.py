@@ -1,4 +1,5 @@
-"""The addresses of the application: pages, static files, uploads, and the files of runs that it gives out."""
+"""The addresses of the application: pages, static files, uploads, and the files of runs that it
+gives out."""
 
 from __future__ import annotations
 
@@ -14,7 +15,10 @@ from .pages import add_pages
 from .session import Place
 from .views import SCENE
 
-SANDBOX = "sandbox allow-scripts allow-popups; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
+SANDBOX = (
+    "sandbox allow-scripts allow-popups; default-src 'none'; script-src 'unsafe-inline'; style-src "
+    "'unsafe-inline'; img-src data:"
+)
 """Policy of a report, which has scripts of its own: it sees nothing of the application."""
 
 TYPES = {

@@ -1,4 +1,5 @@
-"""The document that is being filled in: text by key as a person typed it, every change can be undone; its forms as text."""
+"""The document that is being filled in: text by key as a person typed it, every change can be
+undone; its forms as text."""
 
 from __future__ import annotations
 
@@ -55,7 +56,8 @@ def changed(table: Any, keys: Keys, value: Any) -> Any:
 
 
 def moduli_files(table: Any, keys: Keys = ()) -> Iterator[Keys]:
-    """Where the nested ``table``, which stands at ``keys``, names a file of storage and loss moduli, or wants one."""
+    """Where the nested ``table``, which stands at ``keys``, names a file of storage and loss
+    moduli, or wants one."""
     if isinstance(table, Mapping) and table.get("kind") == "measured":
         yield (*keys, "moduli_file")
     elif isinstance(table, Mapping | list):
@@ -128,7 +130,8 @@ class Forms:
 
 
 def forms_of(table: Mapping[str, Any], labels: Mapping[str, str]) -> Forms:
-    """Text of the document ``table`` for other doors; files are called by their ``labels``, which a person knows."""
+    """Text of the document ``table`` for other doors; files are called by their ``labels``, which a
+    person knows."""
     named = relabelled(table, labels)
     try:
         text = dumps(checked(named))

@@ -1,4 +1,5 @@
-"""What a form asks, made from the declarations of a table: fields with label, help, unit, choices and default, and tables within."""
+"""What a form asks, made from the declarations of a table: fields with label, help, unit, choices
+and default, and tables within."""
 
 from __future__ import annotations
 
@@ -25,8 +26,8 @@ class Asked:
     name, label, help
         Key in the table, what it is called, and one line on it.
     shape
-        How it is entered: a flag, one of ``choices``, a number or text with a unit, a ``table`` of entries, one of several
-        ``kinds`` of tables, or a ``list`` of those.
+        How it is entered: a flag, one of ``choices``, a number or text with a unit, a ``table`` of
+        entries, one of several ``kinds`` of tables, or a ``list`` of those.
     hint
         Example or default, shown where nothing has been entered.
     required
@@ -142,8 +143,3 @@ def _constants(table: type[Settings], key: str) -> tuple[str, ...]:
         return ()
     base, _ = taken_apart(field.annotation)
     return tuple(map(str, get_args(base))) if get_origin(base) is Literal else ()
-
-
-def summary_of(model: type[Settings] | Any) -> str:
-    """First line of what a table says about itself."""
-    return (getattr(model, "__doc__", "") or "").strip().partition("\n")[0].replace("``", "")

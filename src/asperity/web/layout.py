@@ -1,4 +1,5 @@
-"""The frame of every page: steps of the work, undo, copying as Python, command or document, keeping the session."""
+"""The frame of every page: steps of the work, undo, copying as Python, command or document, keeping
+the session."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Pictures of a page as plain tables for Plotly, whose script NiceGUI brings: maps, curves and surfaces in space."""
+"""Pictures of a page as plain tables for Plotly, whose script NiceGUI brings: maps, curves and
+surfaces in space."""
 
 from __future__ import annotations
 
@@ -78,7 +79,9 @@ def height_map(values: Any, spacing: tuple[float, float], title: str) -> dict[st
                 "dy": spacing[1] / x_scale,
                 "colorscale": "Cividis",
                 "colorbar": {"title": {"text": z_unit}, "thickness": 12, "outlinewidth": 0},
-                "hovertemplate": f"x %{{x:.4g}} {x_unit}<br>y %{{y:.4g}} {x_unit}<br>height %{{z:.4g}} {z_unit}<extra></extra>",
+                "hovertemplate": (
+                    f"x %{{x:.4g}} {x_unit}<br>y %{{y:.4g}} {x_unit}<br>height %{{z:.4g}} {z_unit}<extra></extra>"
+                ),
             }
         ],
         "layout": layout(
@@ -91,7 +94,8 @@ def height_map(values: Any, spacing: tuple[float, float], title: str) -> dict[st
 
 
 def in_space(heights: Any, colours: Any, spacing: tuple[float, float], title: str, scale: str) -> dict[str, Any]:
-    """Surface (ny, nx) in space, heights in m, coloured by ``colours`` with the name ``title`` and a colour ``scale``."""
+    """Surface (ny, nx) in space, heights in m, coloured by ``colours`` with the name ``title`` and
+    a colour ``scale``."""
     ny, nx = heights.shape
     x_unit, x_scale = scaled(max(nx * spacing[0], ny * spacing[1]))
     z_unit, z_scale = scaled(float(np.nanmax(np.abs(heights), initial=0.0)))

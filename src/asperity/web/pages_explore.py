@@ -1,4 +1,5 @@
-"""The page on which a run is explored: maps with section line and sliders, the surface in space, spots, theories, certificate."""
+"""The page on which a run is explored: maps with section line and sliders, the surface in space,
+spots, theories, certificate."""
 
 from __future__ import annotations
 
@@ -204,7 +205,10 @@ class _Explored:
         plot = ui.plotly(figure("height")).classes("space").props('role="img" aria-label="surface in space"')
         toggle.on_value_change(lambda e: plot.update_figure(figure(e.value)))
         if block > 1:
-            text = f"Decimated: each point stands for {block} × {block} points of the grid, with their mean height and their largest pressure."
+            text = (
+                f"Decimated: each point stands for {block} × {block} points of the grid, with their mean "
+                "height and their largest pressure."
+            )
             ui.label(text).classes("hint").props("data-decimated")
         ui.label("Heights are exaggerated; drag to turn, scroll to come nearer.").classes("hint")
 

@@ -1,4 +1,5 @@
-"""Pages on the problem: bodies with their layers, and load, boundary, law and the settings of every part."""
+"""Pages on the problem: bodies with their layers, and load, boundary, law and the settings of every
+part."""
 
 from __future__ import annotations
 
@@ -128,7 +129,8 @@ def _library() -> None:
 
 
 def _own_files(key: str, session: Session) -> None:
-    """Takes a file of own materials, for every body that names one, or of storage and loss moduli, for every relaxation that is measured.
+    """Takes a file of own materials, for every body that names one, or of storage and loss moduli,
+    for every relaxation that is measured.
 
     The file is read once, so that it is refused here.
     """
@@ -151,8 +153,8 @@ def _own_files(key: str, session: Session) -> None:
                 places = [keys for name, body in bodies.items() for keys in moduli_files(body, (name,))]
                 if not places:
                     raise InputError(
-                        "relaxation of a body must be measured to take a file of moduli, but none is. Choose own constants and the relaxation measured "
-                        "first. A file of materials ends in .toml."
+                        "relaxation of a body must be measured to take a file of moduli, but none is. Choose "
+                        "own constants and the relaxation measured first. A file of materials ends in .toml."
                     )
         except AsperityError as error:
             ui.notify(session.said(str(error)), type="negative", multi_line=True)
@@ -163,7 +165,10 @@ def _own_files(key: str, session: Session) -> None:
         ui.navigate.reload()
 
     text = "Drop a file of own materials or of moduli here, or press to choose"
-    hint = "TOML with a table for each material; or CSV with frequency, storage and loss modulus, for a relaxation that is measured; see the how-to"
+    hint = (
+        "TOML with a table for each material; or CSV with frequency, storage and loss modulus, for a "
+        "relaxation that is measured; see the how-to"
+    )
     drop(key, "drop a file of own materials or of moduli, or choose it", text, hint)
     ui.on("asperity-uploaded", uploaded)
 
@@ -176,13 +181,17 @@ def drawn(body: Any, *, title: str) -> str:
     under = 0.35 * total if total else 1.0
     scale = (height - 30.0) / ((total + under) or 1.0)
     parts = [
-        f'<svg viewBox="0 0 {width + 210:.0f} {height:.0f}" role="img" aria-label="{html.escape(title)} to scale" class="stack">'
+        (
+            f'<svg viewBox="0 0 {width + 210:.0f} {height:.0f}" role="img" aria-label="{html.escape(title)} to '
+            'scale" class="stack">'
+        )
     ]
     y = 14.0
     for number, (text, thick, slips) in enumerate(layers):
         tall = max(thick * scale, 1.0) if math.isfinite(thick) else 6.0
         parts.append(
-            f'<rect x="{left}" y="{y:.2f}" width="{width - 2 * left}" height="{tall:.2f}" fill="{FILLS[number % 6]}" fill-opacity="0.75"/>'
+            f'<rect x="{left}" y="{y:.2f}" width="{width - 2 * left}" height="{tall:.2f}" '
+            f'fill="{FILLS[number % 6]}" fill-opacity="0.75"/>'
         )
         label = f"{text}, {show(thick, 'm', 4)}" if math.isfinite(thick) else f"{text}, thickness missing"
         parts.append(f'<text x="{width + 4}" y="{y + max(tall / 2 + 4, 9):.1f}">{html.escape(label)}</text>')

@@ -1,4 +1,5 @@
-"""The page on which a problem is solved: what is missing, runs with their progress, cancelled and repeated."""
+"""The page on which a problem is solved: what is missing, runs with their progress, cancelled and
+repeated."""
 
 from __future__ import annotations
 

@@ -24,7 +24,8 @@ SURFACE = "surface"
 
 
 class Preview:
-    """Map of the surface as it stands, computed by the helper of the session a moment after the last change."""
+    """Map of the surface as it stands, computed by the helper of the session a moment after the
+    last change."""
 
     def __init__(self, session: Session, title: str, steps: Callable[[], int | None], name: str) -> None:
         self.session, self.title, self.steps = session, title, steps
@@ -73,7 +74,10 @@ class Preview:
                 "plotly_relayout", self._moved, list(AXES)
             )
             full = self.answer["full"]
-            text = f"{full[0]} × {full[1]} points, rms height {show(self.answer['Sq'], 'm', 4)}, peak to valley {show(self.answer['Sz'], 'm', 4)}"
+            text = (
+                f"{full[0]} × {full[1]} points, rms height {show(self.answer['Sq'], 'm', 4)}, peak to "
+                f"valley {show(self.answer['Sz'], 'm', 4)}"
+            )
             ui.label(text).classes("numbers")
             if self.answer["step"] > 1:
                 ui.label(f"Shown with every {self.answer['step']}th point along both sides.").classes("hint")

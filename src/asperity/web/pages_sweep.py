@@ -1,4 +1,5 @@
-"""The page of sweeps: one scalar of the document is varied, and the curves grow while the cases finish."""
+"""The page of sweeps: one scalar of the document is varied, and the curves grow while the cases
+finish."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""What reaches the application: own host and origin, whoever has the token, bodies up to a size; and what pages may do."""
+"""What reaches the application: own host and origin, whoever has the token, bodies up to a size;
+and what pages may do."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ NO_TOKEN = (
 )
 
 _SCRIPT = re.compile(rb"(?m)^([ ]{4})<script(?=[ >])")
-"""Scripts of the page's own template, which begin a line; text from outside is escaped and never begins one."""
+"""Scripts of the page's own template, which begin a line; text from outside is escaped and never
+begins one."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +41,8 @@ class Guard:
     app
         What is guarded.
     hosts
-        Values of the header Host that are served, each with its port; any other is a name that somebody else has given
-        to this machine (DNS rebinding).
+        Values of the header Host that are served, each with its port; any other is a name that
+        somebody else has given to this machine (DNS rebinding).
     token
         What the first address must hold; a cookie with another random value then stands for it.
     largest
@@ -148,7 +150,8 @@ class _Counted:
 
 
 class _Page:
-    """``send`` that adds the policy to every answer, and its nonce to the scripts of a page's template."""
+    """``send`` that adds the policy to every answer, and its nonce to the scripts of a page's
+    template."""
 
     def __init__(self, send: Send, nonce: str, host: str) -> None:
         self._send, self._nonce, self._host = send, nonce, host
@@ -184,7 +187,8 @@ class _Page:
 
 
 def _strict(host: str, scripts: str) -> list[tuple[str, str]]:
-    """Headers of every answer: nothing from elsewhere, no frames around, no sniffing of types, no referrer."""
+    """Headers of every answer: nothing from elsewhere, no frames around, no sniffing of types, no
+    referrer."""
     policy = (
         f"default-src 'none'; script-src {scripts}; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
         f"font-src 'self' data:; connect-src 'self'{f' ws://{host}' if host else ''}; worker-src 'self' blob:; "

@@ -1,4 +1,5 @@
-"""The application as a server: addresses, files that it gives out, uploads, and how it starts and ends."""
+"""The application as a server: addresses, files that it gives out, uploads, and how it starts and
+ends."""
 
 from __future__ import annotations
 
@@ -90,7 +91,8 @@ def serve(options: Options, opened: Callable[[str], None]) -> None:
 
 @contextmanager
 def _ended_by_signals(server: Any) -> Iterator[None]:
-    """Let the signals by which a system ends a process or closes its terminal end the ``server`` like Ctrl-C, so that private folders are removed. Ignored ones remain so.
+    """Let the signals by which a system ends a process or closes its terminal end the ``server``
+    like Ctrl-C, so that private folders are removed. Ignored ones remain so.
 
     The server itself ends by SIGTERM, and then raises it once more.
     """

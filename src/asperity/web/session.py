@@ -1,4 +1,5 @@
-"""What a person works on: one document, the files it needs, runs and sweeps; kept in a folder that can be opened again."""
+"""What a person works on: one document, the files it needs, runs and sweeps; kept in a folder that
+can be opened again."""
 
 from __future__ import annotations
 
@@ -42,7 +43,8 @@ class Run:
 
 @dataclass(frozen=True)
 class Kept:
-    """A file that the document may name: the ``path`` at which it lies and the ``label`` by which its owner knows it."""
+    """A file that the document may name: the ``path`` at which it lies and the ``label`` by which
+    its owner knows it."""
 
     path: str
     label: str
@@ -86,16 +88,19 @@ class Session:
         return self.scratch / f"{run.key}.progress"
 
     def touched(self, by: str = "") -> None:
-        """Note a change of the document ``by`` a window, which others then show, and keep the session in its own folder."""
+        """Note a change of the document ``by`` a window, which others then show, and keep the
+        session in its own folder."""
         self.version += 1
         self.changed_by = by
         if self.kept:
             self.save()
 
     def add_file(self, name: str) -> Path:
-        """Place for the content of an upload called ``name``, which is only a label: the file gets a random name.
+        """Place for the content of an upload called ``name``, which is only a label: the file gets
+        a random name.
 
-        Readers recognise some formats by the ending, which is kept if it is plain letters and digits.
+        Readers recognise some formats by the ending, which is kept if it is plain letters and
+        digits.
         """
         folder = self.folder / "files"
         folder.mkdir(parents=True, exist_ok=True)
@@ -114,7 +119,8 @@ class Session:
         return run
 
     def given_out(self, run: str) -> dict[str, Path]:
-        """Files of a run, or of the roughness, by the names under which they are given out; no name is ever used as a path."""
+        """Files of a run, or of the roughness, by the names under which they are given out; no name
+        is ever used as a path."""
         known = self.runs.get(run)
         folder = self.scratch / "roughness" if run == "roughness" else None if known is None else self.folder_of(known)
         if folder is None or not folder.is_dir():
@@ -185,7 +191,8 @@ class Session:
             self._take(_replaced(state, ".", str(self.folder)))
         except (OSError, ValueError, KeyError, TypeError):
             raise FileFormatError(
-                f"folder of a session must hold a whole {STATE}, but {self.folder} does not; choose the folder that was named."
+                f"folder of a session must hold a whole {STATE}, but {self.folder} does not; choose the folder "
+                "that was named."
             ) from None
         for run in self.runs.values():
             if run.state == "running":
@@ -204,7 +211,8 @@ class Session:
 
 
 def label_of(name: str) -> str:
-    """Name of an upload as it is shown and proposed for a file: no folders, no control characters, not long."""
+    """Name of an upload as it is shown and proposed for a file: no folders, no control characters,
+    not long."""
     plain = printable(name.replace("\\", "/").rpartition("/")[2]).strip() or "file"
     return plain if len(plain) <= 80 else f"{plain[:60]}…{plain[-18:]}"
 
@@ -222,7 +230,8 @@ def _replaced(value: Any, old: str, new: str) -> Any:
 
 @dataclass
 class Place:
-    """Where sessions live: a private temporary ``folder``, and those that are open, by their keys."""
+    """Where sessions live: a private temporary ``folder``, and those that are open, by their
+    keys."""
 
     folder: Path
     limits: Limits
@@ -232,7 +241,8 @@ class Place:
     sessions: dict[str, Session] = field(default_factory=dict)
 
     def new(self, folder: Path | None = None) -> tuple[str, Session]:
-        """A new session, in a private folder or in ``folder``, where one may be already; its key is random."""
+        """A new session, in a private folder or in ``folder``, where one may be already; its key is
+        random."""
         key = secrets.token_urlsafe(9)
         private = self.folder / key
         own = private if folder is None else folder.absolute()

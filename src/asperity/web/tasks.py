@@ -1,4 +1,5 @@
-"""What workers do for the pages: plain values in, plain values and files out. A failure is an answer with the key ``error``."""
+"""What workers do for the pages: plain values in, plain values and files out. A failure is an
+answer with the key ``error``."""
 
 from __future__ import annotations
 
@@ -44,7 +45,8 @@ from .views import theory_curves, write_views
 Task: TypeAlias = Mapping[str, Any]
 
 MOST_SHOWN = 512
-"""Points of a preview along its longer side; larger surfaces are thinned out, and the page says so."""
+"""Points of a preview along its longer side; larger surfaces are thinned out, and the page says
+so."""
 
 
 def guarded(work: Callable[[Task], dict[str, Any]]) -> Callable[[Task], dict[str, Any]]:
@@ -93,7 +95,8 @@ def inspect(task: Task) -> dict[str, Any]:
 
 @guarded
 def surface(task: Task) -> dict[str, Any]:
-    """The surface of the document ``table`` after ``steps`` of its preparation, as a picture in numbers at ``out``."""
+    """The surface of the document ``table`` after ``steps`` of its preparation, as a picture in
+    numbers at ``out``."""
     found = _built(task)
     values = np.asarray(found.heights, dtype=float)
     step = max(1, math.ceil(max(values.shape) / MOST_SHOWN))
@@ -128,7 +131,8 @@ def _built(task: Task) -> Any:
 
 @guarded
 def roughness(task: Task) -> dict[str, Any]:
-    """Roughness of the surface of ``table``: rows of the page, and the report and its pictures in the folder ``out``."""
+    """Roughness of the surface of ``table``: rows of the page, and the report and its pictures in
+    the folder ``out``."""
     found = characterise(_built(task))
     out = Path(task["out"])
     figures = roughness_figures(found)
@@ -178,7 +182,8 @@ def _stage(file: Path) -> Callable[[str], Any]:
 
 @guarded
 def contact(task: Task) -> dict[str, Any]:
-    """Run the document at ``document``, whose paths start at ``folder``, as ``asperity contact`` does, into the folder ``out``."""
+    """Run the document at ``document``, whose paths start at ``folder``, as ``asperity contact``
+    does, into the folder ``out``."""
     base, out, stage = Path(task["folder"]), Path(task["out"]), _stage(Path(task["progress"]))
     document = load_document(task["document"])
     with stage("reading and preparing"):
@@ -194,7 +199,8 @@ def contact(task: Task) -> dict[str, Any]:
 
 @guarded
 def views(task: Task) -> dict[str, Any]:
-    """What the page of a run shows, made again from its ``result``; with ``stresses`` in the body if these were not asked for."""
+    """What the page of a run shows, made again from its ``result``; with ``stresses`` in the body
+    if these were not asked for."""
     outcome = load_outcome(task["result"])
     if task.get("stresses"):
         document = loads(str(document_in(task["result"])))
@@ -222,7 +228,8 @@ def vtk(task: Task) -> dict[str, Any]:
 
 @guarded
 def study(task: Task) -> dict[str, Any]:
-    """Run or resume the study ``table`` in the folder ``out``; its curves can be read while it grows."""
+    """Run or resume the study ``table`` in the folder ``out``; its curves can be read while it
+    grows."""
     file = Path(task["progress"])
 
     class Watch:

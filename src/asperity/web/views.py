@@ -1,4 +1,5 @@
-"""What the page of a run shows, as files beside its folder: the scene of its maps, the surface in space, spots, words, theories."""
+"""What the page of a run shows, as files beside its folder: the scene of its maps, the surface in
+space, spots, words, theories."""
 
 from __future__ import annotations
 
@@ -40,7 +41,8 @@ MOST_SPOTS = 300
 
 
 def write_views(outcome: Outcome, views: Path) -> None:
-    """Write scene, surface in space, spots and words of ``outcome`` to files whose names begin with ``views``."""
+    """Write scene, surface in space, spots and words of ``outcome`` to files whose names begin with
+    ``views``."""
     scene = scene_of(outcome, more=_planes(outcome), budget=BUDGET)
     _write(views.with_name(views.name + SCENE), scene)
     result = outcome.solved.at().result
@@ -54,7 +56,8 @@ def write_views(outcome: Outcome, views: Path) -> None:
         rows = np.ascontiguousarray(reduced(np.asarray(values, float), block, how).T, dtype="<f4")
         space[name] = base64.b64encode(rows.tobytes()).decode("ascii")
         space["shape"] = list(rows.shape)
-    # place of the largest pressure, area, load, mean and largest pressure of the largest contact spots, SI
+    # place of the largest pressure, area, load, mean and largest pressure of the largest contact
+    # spots, SI
     grid, pressure = result.problem.grid, np.asarray(result.pressure, dtype=float)
     labels, count = labelled(result.contact, wraps=result.problem.boundary.wraps)
     pixel = math.prod(grid.spacing)
@@ -127,7 +130,8 @@ def _words(outcome: Outcome) -> dict[str, Any]:
 
 
 def theory_curves(problem: ContactProblem, views: Path) -> dict[str, Any]:
-    """Area by pressure of the theories and of the numerical solution; written beside the run as well."""
+    """Area by pressure of the theories and of the numerical solution; written beside the run as
+    well."""
     found = compare(problem)
     exact = found.numerical
     lines = [[curve.name, _finite(curve.prediction.area_fraction), _finite(curve.gap)] for curve in found.curves]

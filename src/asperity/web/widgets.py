@@ -1,4 +1,5 @@
-"""Forms on a page, drawn from ``forms``: every entry writes into the draft at once and says what is wrong with it."""
+"""Forms on a page, drawn from ``forms``: every entry writes into the draft at once and says what is
+wrong with it."""
 
 from __future__ import annotations
 
@@ -11,9 +12,10 @@ from nicegui import ui
 
 from ..core.errors import AsperityError
 from ..core.settings import Settings
+from ..core.words import first_paragraph
 from ..solids.library import liquids, materials
 from .draft import Keys, is_file
-from .forms import Asked, asked_of, summary_of
+from .forms import Asked, asked_of
 from .session import Session
 
 
@@ -37,7 +39,8 @@ class Context:
 
 
 def form(context: Context, model: type[Settings], keys: Keys, leave: frozenset[str] = frozenset()) -> None:
-    """Entries for the table ``model`` at ``keys``: what must be given first, what has tables of its own last."""
+    """Entries for the table ``model`` at ``keys``: what must be given first, what has tables of its
+    own last."""
     entries = asked_of(model, leave)
     plain = [item for item in entries if item.tables is None]
     with ui.element("div").classes("fields"):
@@ -147,7 +150,7 @@ def optional(context: Context, item: Asked, keys: Keys) -> None:
             ui.switch(item.label, value=context.get(keys) is not None, on_change=lambda e: use(e.value)).props(
                 f'data-key="{".".join(map(str, keys))}"'
             ).classes("table-title")
-        ui.label(item.help or summary_of(model)).classes("hint")
+        ui.label(item.help or first_paragraph(model).replace("``", "")).classes("hint")
         inside()
 
 
@@ -170,7 +173,7 @@ def kinds(
     def inside() -> None:
         word = str((context.get(keys) or {}).get(tag))
         if word in tables:
-            ui.label(summary_of(tables[word])).classes("hint")
+            ui.label(first_paragraph(tables[word]).replace("``", "")).classes("hint")
             form(context, tables[word], keys, leave | {tag})
 
     with ui.card().classes("table").props("flat bordered"):
@@ -226,7 +229,7 @@ def listed(
                         icon="close", on_click=lambda n=number: put([v for i, v in enumerate(items()) if i != n])
                     ).props('flat dense round size=sm aria-label="remove"')
                 model = tables.get(word, next(iter(tables.values())))
-                ui.label(summary_of(model)).classes("hint")
+                ui.label(first_paragraph(model).replace("``", "")).classes("hint")
                 if isinstance(value, str):  # the whole table as one line of text
                     ui.input(
                         item.label, value=value, on_change=lambda e, n=number: context.set((*keys, n), e.value or "")

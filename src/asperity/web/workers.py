@@ -1,6 +1,8 @@
-"""Worker processes of the application: one task at a time each, with progress, cancel, limits of memory and time.
+"""Worker processes of the application: one task at a time each, with progress, cancel, limits of
+memory and time.
 
-A worker is that of studies (``studies.worker``), which is started without the page's own state and ends with this process.
+A worker is that of studies (``studies.worker``), which is started without the page's own state and
+ends with this process.
 """
 
 from __future__ import annotations
@@ -42,7 +44,8 @@ class Limits:
 
 
 class Worker:
-    """One process that answers tasks one after the other; started when it is first needed, and again after it was stopped."""
+    """One process that answers tasks one after the other; started when it is first needed, and
+    again after it was stopped."""
 
     def __init__(self, limits: Limits, threads: int) -> None:
         self.limits, self._threads = limits, threads
@@ -51,7 +54,8 @@ class Worker:
         self._cancelled = False
 
     async def call(self, function: str, **task: Any) -> dict[str, Any]:
-        """Answer of the function of that name in ``TASKS``; one with the key ``error`` says why there is none."""
+        """Answer of the function of that name in ``TASKS``; one with the key ``error`` says why
+        there is none."""
         async with self._turn:
             self._cancelled = False
             try:
@@ -113,8 +117,8 @@ class Worker:
             return {"error": CANCELLED, "cancelled": True}
         ended = f"signal {-code}" if code < 0 else f"exit code {code}"
         return {
-            "error": f"The worker ended with {ended}, perhaps for lack of memory. What was finished before is kept; crop the "
-            "surface or resample it to fewer points."
+            "error": f"The worker ended with {ended}, perhaps for lack of memory. What was finished before is "
+            "kept; crop the surface or resample it to fewer points."
         }
 
 

@@ -1,4 +1,5 @@
-"""Result files of format 2 and what they tell, written with the last asperity that wrote that format (see README.md)."""
+"""Result files of format 2 and what they tell, written with the last asperity that wrote that
+format (see README.md)."""
 
 from __future__ import annotations
 

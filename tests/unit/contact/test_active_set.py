@@ -85,7 +85,8 @@ def test_steps_go_on_in_the_same_arrays_and_count_their_work(boundary: Any, cap:
 @pytest.mark.parametrize("cap", [np.inf, 0.3])
 @pytest.mark.parametrize("precision", ["mixed", "single"])
 def test_the_same_steps_follow_from_a_copied_state_to_the_bit(boundary: Any, cap: float, precision: Any) -> None:
-    """Wherever in a run the copy is made, and although the run goes on in between, in work arrays that both share."""
+    """Wherever in a run the copy is made, and although the run goes on in between, in work arrays
+    that both share."""
     qp, solver = replace(posed((70, 66), boundary), cap=cap), ActiveSet(precision=precision)
     state, copies = solver.init(qp, None), []
     for _ in range(6):
@@ -121,7 +122,8 @@ def test_steps_leave_a_copied_state_alone_and_refuse_one_used_up() -> None:
 @pytest.mark.parametrize("cap", [np.inf, 0.3])
 @pytest.mark.parametrize("control", [FixedMean(0.05), FixedOffset(1.0)], ids=["load", "position"])
 def test_the_reported_error_is_that_of_the_fields(boundary: Any, cap: float, control: Any) -> None:
-    """Of the positive pressures, plus tension over load; the deflection is that of the pressure at every step."""
+    """Of the positive pressures, plus tension over load; the deflection is that of the pressure at
+    every step."""
     qp = replace(posed((40, 36), boundary), cap=cap, constraint=control)
     for precision, rounding in (("mixed", 2.0**-22), ("double", 1e-12)):
         solver = ActiveSet(precision=precision)  # type: ignore[arg-type]
@@ -160,7 +162,8 @@ def test_monotone_steps_lead_to_the_same_answer(boundary: Any) -> None:
 
 @pytest.mark.parametrize("refinements", [0, 3])
 def test_unclipped_steps_end_where_they_do_not_help(refinements: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With first steps much too long none of them helps: closer solutions make up for it; without these clipped steps take over, and the answer is found."""
+    """With first steps much too long none of them helps: closer solutions make up for it; without
+    these clipped steps take over, and the answer is found."""
     monkeypatch.setattr("asperity.contact.solvers.active_set.linear_system._STEP_LENGTH", 50.0)
     monkeypatch.setattr(solver_module, "_MOST_REFINEMENTS", refinements)
     qp = posed((64, 60))
@@ -212,7 +215,8 @@ def pairs_on(body: asp.Layered, load: float, n: int, seeds: tuple[int, ...]) -> 
 def test_closer_solutions_spare_clipped_steps_on_very_stiff_films(
     ratio: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Loosely solved, the set goes in circles. Clipped steps, an independent way to the answer, take more than twice as many products."""
+    """Loosely solved, the set goes in circles. Clipped steps, an independent way to the answer,
+    take more than twice as many products."""
     problem, solver = asp.ContactProblem(smooth(128, 1), film(ratio, 1.0)), ActiveSet(tolerance=1e-8)
     closely = asp.solve(problem, asp.MeanPressure(0.75), solver=solver)
     monkeypatch.setattr(solver_module, "_MOST_REFINEMENTS", 0)
@@ -223,7 +227,8 @@ def test_closer_solutions_spare_clipped_steps_on_very_stiff_films(
 
 
 def guess(body: asp.Layered, engine: Any) -> linear_system.Workspace:
-    """A start prolonged from the coarser grid, and its deflection, on 128 x 128 points at a mean pressure of 0.2."""
+    """A start prolonged from the coarser grid, and its deflection, on 128 x 128 points at a mean
+    pressure of 0.2."""
     problem = asp.ContactProblem(smooth(128, 2), body)
     operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     heights = np.asarray(problem.surface.heights, dtype=float)
@@ -234,7 +239,8 @@ def guess(body: asp.Layered, engine: Any) -> linear_system.Workspace:
 @pytest.mark.parametrize("engine", [asp.engines.CpuEngine(1), asp.engines.ArrayEngine(np)], ids=["cpu", "arrays"])
 @pytest.mark.parametrize("rounds", [1, 2, 3])
 def test_narrowing_keeps_load_and_bounds_and_tells_its_change(engine: Any, rounds: int) -> None:
-    """Points leave with the pressure they have lost; the change, told on the set before, is that of the pressure in single precision."""
+    """Points leave with the pressure they have lost; the change, told on the set before, is that of
+    the pressure in single precision."""
     work = guess(film(10.0, 4.0), engine)
     qp, survey = work.qp, work.survey()
     level = bounds.plane_level(qp, survey.totals)
@@ -258,7 +264,8 @@ def test_narrowing_keeps_load_and_bounds_and_tells_its_change(engine: Any, round
 
 
 def test_a_second_narrowing_lets_points_go_that_will_not_touch_and_few_others() -> None:
-    """Against the contact of the same problem: a set for narrowing lacks fewer points, and those too many leave it."""
+    """Against the contact of the same problem: a set for narrowing lacks fewer points, and those
+    too many leave it."""
     body = film(10.0, 4.0)
     answer = asp.solve(asp.ContactProblem(smooth(128, 2), body), asp.MeanPressure(0.2)).pressure > 0.0
     lacking, excess = {}, {}
@@ -297,7 +304,8 @@ def test_a_result_takes_no_product_beyond_those_of_the_solver(law: Any, monkeypa
 
 
 def test_a_cap_costs_at_most_a_fifth_more_pairs() -> None:
-    """Mean of two surfaces at the loads of the table in ``benchmarks``, where a third of the contact yields."""
+    """Mean of two surfaces at the loads of the table in ``benchmarks``, where a third of the
+    contact yields."""
     pairs = dict.fromkeys((asp.plasticity.HardWall(), asp.Hardness(0.3)), 0.0)
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=64.0, shortest_wavelength=8.0
@@ -359,7 +367,8 @@ def test_without_slope_or_load_all_points_are_the_guess_on_the_coarsest_grid() -
 
 @pytest.mark.parametrize("law", [asp.plasticity.HardWall(), asp.Hardness(0.3)], ids=("elastic", "capped"))
 def test_the_product_that_ends_a_solve_serves_a_last_step(law: Any, monkeypatch: Any) -> None:
-    """With and without such steps the pressures agree to the tolerance, the load and the bounds are kept; with them products are fewer."""
+    """With and without such steps the pressures agree to the tolerance, the load and the bounds are
+    kept; with them products are fewer."""
     surfaces = [rough((128, 128), seed) for seed in (1, 2, 3, 4)]
 
     def solved() -> list[asp.ContactResult]:
@@ -386,10 +395,16 @@ def test_the_page_of_the_algorithm_states_the_constants_of_the_code() -> None:
     page = (Path(__file__).parents[3] / "docs/theory/contact.md").read_text(encoding="utf-8")
     settled, nearly = solver_module._SETTLED_SET, solver_module._NEARLY_SETTLED
     for phrase in (
-        f"n > {solver_module._SETTLED} |F|  :  reduction {solver_module._REDUCTION} · {solver_module._CLOSER}^refinements,  at most {solver_module._UNSETTLED_STEPS} · ",
+        (
+            f"n > {solver_module._SETTLED} |F|  :  reduction {solver_module._REDUCTION} · "
+            f"{solver_module._CLOSER}^refinements,  at most {solver_module._UNSETTLED_STEPS} · "
+        ),
         f"2^min(fallbacks + {solver_module._CLOSER_DOUBLINGS} refinements, {solver_module._MOST_DOUBLINGS}) steps",
         f"reduction {nearly.reduction},  at most {nearly.max_steps} steps",
-        f"at most {settled.max_steps} steps    ({solver_module._MARGIN} tol/ε if larger, {solver_module._REDUCTION} at most)",
+        (
+            f"at most {settled.max_steps} steps    ({solver_module._MARGIN} tol/ε if larger, "
+            f"{solver_module._REDUCTION} at most)"
+        ),
         f"has fallen by {solver_module._MARGIN} tol/({solver_module._LAST_STEP} ε)",
         f"{solver_module._MARGIN} tol/ε ≥ {solver_module._SINGLE}",
         f"(below {solver_module._CLOSELY} one more step on B)",

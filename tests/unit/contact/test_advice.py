@@ -177,7 +177,8 @@ def test_an_unknown_strength_is_said():
 
 
 def test_a_soft_coating_pressed_through_is_not_above_its_hardness():
-    """With the hardness that follows the indentation the film bears more than its own hardness, as it should."""
+    """With the hardness that follows the indentation the film bears more than its own hardness, as
+    it should."""
     film, base = (asp.Elastic(1.0, 0.3, asp.Strength(hardness=h)) for h in (0.02, 0.5))
     coated = asp.Layered([asp.Layer(film, 0.5)], base)
     result = asp.solve(

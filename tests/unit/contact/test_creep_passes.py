@@ -68,7 +68,8 @@ def test_displacement_and_energy_are_the_sums_over_all_terms(boundary: asp.Perio
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_what_does_not_show_is_left_out_and_little(boundary: asp.Periodic | asp.Free) -> None:
-    """Beyond the columns that are visited nothing is kept, and together it is a millionth of the displacement for each term."""
+    """Beyond the columns that are visited nothing is kept, and together it is a millionth of the
+    displacement for each term."""
     kept = prepared(boundary)
     columns = np.arange(kept.kernels.shape[2])
     beyond = columns >= kept.passes.cuts[..., None]

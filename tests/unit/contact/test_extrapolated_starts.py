@@ -1,4 +1,5 @@
-"""Loads that start from the two before them: pressure and displacement extrapolated alike, for the displacement is linear in the pressure."""
+"""Loads that start from the two before them: pressure and displacement extrapolated alike, for the
+displacement is linear in the pressure."""
 
 from __future__ import annotations
 
@@ -39,7 +40,8 @@ def forgotten(state: asp.solvers.InterfaceState) -> asp.solvers.InterfaceState:
     "loads", [LOADS, (0.06, 0.05, 0.035, 0.02), (0.02, 0.05, 0.03, 0.01)], ids=("up", "down", "back")
 )
 def test_answers_are_those_of_cold_solves(boundary, loads):
-    """On the way down pressures would become tensile at the border of the contact; a turn starts anew."""
+    """On the way down pressures would become tensile at the border of the contact; a turn starts
+    anew."""
     problem = posed(boundary)
     for result, load in zip(along(problem, loads), loads, strict=True):
         cold = asp.solve(problem, asp.MeanPressure(load), solver=SOLVER)
@@ -105,7 +107,8 @@ def test_a_pickle_has_no_products():
 
 
 def test_a_product_less_each_step():
-    """Steps after the second against the same without displacements at hand: two products less, one less than by a product of the start."""
+    """Steps after the second against the same without displacements at hand: two products less, one
+    less than by a product of the start."""
     problem = posed()
     results = along(problem)
     for before, result, load in zip(results[1:], results[2:], LOADS[2:], strict=False):

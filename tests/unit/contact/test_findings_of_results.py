@@ -1,4 +1,5 @@
-"""What results and histories say of themselves in Python is what reports and the command line say."""
+"""What results and histories say of themselves in Python is what reports and the command line
+say."""
 
 from __future__ import annotations
 

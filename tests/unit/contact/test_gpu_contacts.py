@@ -1,4 +1,5 @@
-"""Contacts of all kinds with the normal contact on a GPU: the answers of the CPU. The GPU is emulated, so that arrays of host and device are kept apart."""
+"""Contacts of all kinds with the normal contact on a GPU: the answers of the CPU. The GPU is
+emulated, so that arrays of host and device are kept apart."""
 
 from __future__ import annotations
 

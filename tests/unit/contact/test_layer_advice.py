@@ -44,7 +44,8 @@ def test_layers_too_thick_for_the_period():
 
 
 def test_load_is_measured_by_the_softest_material():
-    """A soft layer under a stiff one is strained by the mean pressure, whatever the surface material."""
+    """A soft layer under a stiff one is strained by the mean pressure, whatever the surface
+    material."""
     soft = asp.Layered([asp.Layer(elastic(1e3, 0.3), 2.0), asp.Layer(elastic(1e-3, 0.3), 2.0)], elastic(1e3, 0.3))
     problem = asp.ContactProblem(rough((32, 32), power=3.0), soft)
     advice = {a.criterion: a for a in asp.contact.advise(problem, asp.MeanPressure(1e-3))}

@@ -25,7 +25,8 @@ def strips(n, step=1.0):
 
 
 def test_homogeneous_strip_is_the_integral_of_flamant_s_line_load():
-    """u = -(2/pi E') ∫ ln(|x - s|/datum) ds over the strip (Johnson 1985, eq. 2.24), by quadrature."""
+    """u = -(2/pi E') ∫ ln(|x - s|/datum) ds over the strip (Johnson 1985, eq. 2.24), by
+    quadrature."""
     found = HalfSpace(2.0).line_influence(strips(6, 0.5), 10.0)
     node, weight = np.polynomial.legendre.leggauss(60)
     for i in range(6):
@@ -37,7 +38,8 @@ def test_homogeneous_strip_is_the_integral_of_flamant_s_line_load():
 
 
 def test_layered_strips_have_the_two_half_spaces_as_limits():
-    """Far finer and far coarser than the layer: Flamant's response of the layer's and of the base's material.
+    """Far finer and far coarser than the layer: Flamant's response of the layer's and of the base's
+    material.
 
     Near the load the datum is still that of the base: differences of displacement are compared.
     """
@@ -53,9 +55,11 @@ def test_layered_strips_have_the_two_half_spaces_as_limits():
 @few
 @given(stacks(most=3, moduli=st.floats(0.05, 20.0), thicknesses=st.floats(0.2, 3.0)), st.floats(-1.0, 1.0))
 def test_line_response_by_direct_quadrature(body, exponent):
-    """Differences of displacement, ∫ C P (cos alpha x - cos alpha x0) d alpha/pi with the transform P of a strip.
+    """Differences of displacement, ∫ C P (cos alpha x - cos alpha x0) d alpha/pi with the transform
+    P of a strip.
 
-    The part of the top layer alone is taken from Flamant's formula, so that the rest falls exponentially.
+    The part of the top layer alone is taken from Flamant's formula, so that the rest falls
+    exponentially.
     """
     step = 10.0**exponent
     grid = strips(4, step)
@@ -76,7 +80,8 @@ def test_line_response_by_direct_quadrature(body, exponent):
 
 
 def test_datum_shifts_the_approach_and_nothing_else():
-    """Approach grows by the Flamant displacement between the two datums, 2P/(pi E') ln of their ratio."""
+    """Approach grows by the Flamant displacement between the two datums, 2P/(pi E') ln of their
+    ratio."""
     near, far = (cylinder(ROW, ROW["a_over_a0"], 129, datum=datum) for datum in (1e3, 1e5))
     np.testing.assert_allclose(near.pressure, far.pressure, rtol=0, atol=1e-6 * near.max_pressure)
     np.testing.assert_allclose(near.gap, far.gap, rtol=0, atol=1e-6 * near.gap.max())
@@ -102,7 +107,8 @@ def test_force_and_area_are_those_of_the_length_dy():
 
 
 def test_long_rows_of_rectangles_become_a_line_contact():
-    """The boundary Free() on one row is a row of rectangles dx x dy: long ones have the plane-strain differences."""
+    """The boundary Free() on one row is a row of rectangles dx x dy: long ones have the
+    plane-strain differences."""
     grid, long_grid = strips(20), asp.Grid((20, 1), (1.0, 1e6))
     for compliance in (HalfSpace(1.0), LayerStack(LAYERED)):
         plane = compliance.line_influence(grid, 100.0)[:, 0]

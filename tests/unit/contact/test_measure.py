@@ -20,7 +20,8 @@ def pattern(text):
 
 
 def edges(contact, spacing=(1.0, 1.0), *, periodic=False, gap=1.0):
-    """Edges of a contact of pressure one on a pattern, with a gap that is wide against what the pressure opens."""
+    """Edges of a contact of pressure one on a pattern, with a gap that is wide against what the
+    pressure opens."""
     wraps, table = (periodic, periodic), WAVES if periodic else PATCHES
     grid = asp.Grid(contact.shape, spacing)
     return edges_of(contact * 1.0, ~contact * gap, np.zeros(contact.shape, bool), Setting(grid, wraps, 1.0, table))
@@ -145,7 +146,8 @@ def test_stiffness_takes_its_linear_solve_when_it_is_first_read(law, monkeypatch
 
 @pytest.mark.parametrize("radius", [2.2, 5.3, 11.7])
 def test_area_of_a_sphere_lies_within_its_error(radius):
-    """Hertz' area is exact; the error, of two standard deviations, is far less than the pixels counted too many."""
+    """Hertz' area is exact; the error, of two standard deviations, is far less than the pixels
+    counted too many."""
     pixel, modulus, off = 1e-7, 1e9, np.random.default_rng(7)
     x = pixel * np.arange(32)
     misses = []
@@ -162,7 +164,8 @@ def test_area_of_a_sphere_lies_within_its_error(radius):
 @pytest.mark.slow
 @pytest.mark.parametrize(("seed", "shortest"), [(1, 4), (3, 16)])
 def test_area_of_a_rough_surface_lies_within_its_error_on_every_grid(seed, shortest):
-    """One surface on 128² to 1024² pixels: each area is that of the finest grid within the errors of both, which fall with the pixel."""
+    """One surface on 128² to 1024² pixels: each area is that of the finest grid within the errors
+    of both, which fall with the pixel."""
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=32.0, shortest_wavelength=float(shortest)
     )

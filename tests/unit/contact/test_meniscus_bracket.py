@@ -1,4 +1,5 @@
-"""Search for the balance of a force that rises and falls in jumps: on forces given as functions, and on contacts made up."""
+"""Search for the balance of a force that rises and falls in jumps: on forces given as functions,
+and on contacts made up."""
 
 from __future__ import annotations
 
@@ -50,7 +51,8 @@ def end(posed: float, force: float) -> End:
 @settings(max_examples=200)
 @given(st.lists(st.tuples(st.floats(0.0, 100.0), st.floats(-20.0, 20.0)), max_size=12), st.floats(0.0, 50.0))
 def test_the_bracket_closes_on_a_balance_or_a_fall(jumps, first):
-    """Of any force that jumps: at the end it is pulled what is posed, or more on the one side and less on the other."""
+    """Of any force that jumps: at the end it is pulled what is posed, or more on the one side and
+    less on the other."""
 
     def pulled(x: float) -> float:
         return max(first + sum(step for at, step in jumps if x >= at), 0.0)
@@ -94,7 +96,8 @@ def test_pixels_that_change_sides_are_filled_in_part():
 
 
 def test_a_pixel_that_comes_into_contact_holds_liquid_in_part():
-    """Two pixels of 0.5 N each until, at 1.6 N, one touches: 0.6 N beside 1 N are pulled by one and a fifth of them."""
+    """Two pixels of 0.5 N each until, at 1.6 N, one touches: 0.6 N beside 1 N are pulled by one and
+    a fifth of them."""
 
     def gap(load: float) -> np.ndarray:
         return np.array([[-1.0, 1.6 - load, 0.5, 9.0, 9.0, 9.0]])
@@ -109,7 +112,8 @@ def test_a_pixel_that_comes_into_contact_holds_liquid_in_part():
 
 
 def test_an_island_that_dries_at_once_is_no_balance_and_said():
-    """Six pixels lose the only one in the film at 2.2 N, far from their own edges: 3 N or none are pulled, and 1.2 N wanted."""
+    """Six pixels lose the only one in the film at 2.2 N, far from their own edges: 3 N or none are
+    pulled, and 1.2 N wanted."""
 
     def gap(load: float) -> np.ndarray:
         return np.array([[-1.0, 9.0, 0.9 + 0.1 * (load > 2.2) * 2.0, *[1.5] * 5, 9.0, 9.0, 9.0, 9.0, 9.0]])
@@ -124,7 +128,8 @@ def test_an_island_that_dries_at_once_is_no_balance_and_said():
 
 
 def test_a_force_that_rises_by_islands_is_followed_to_the_first_balance():
-    """Jumps up only: what is pulled is posed, and the first load that bears it is the balance, though a later one bears more."""
+    """Jumps up only: what is pulled is posed, and the first load that bears it is the balance,
+    though a later one bears more."""
 
     def gap(load: float) -> np.ndarray:
         thresholds = np.array([1.0, 1.4, 1.9, 4.0, 4.0, 4.0, 4.0, 4.0, 4.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0])
@@ -137,7 +142,8 @@ def test_a_force_that_rises_by_islands_is_followed_to_the_first_balance():
 
 
 def test_pixels_wet_in_part_where_the_pressure_jumps_must_be_at_the_edge_at_both_ends():
-    """Fully yielded points sink at one load; a contact that jumps otherwise is not the one in between."""
+    """Fully yielded points sink at one load; a contact that jumps otherwise is not the one in
+    between."""
     apart, shut = contact(np.array([[-1.0, 0.5, 3.0]])), contact(np.array([[-1.0, -0.1, 3.0]]))
     ends = []
     for at in (apart, shut):

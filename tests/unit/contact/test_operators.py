@@ -1,4 +1,5 @@
-"""Operators: symmetric, positive, translation invariant, equal to their dense matrices and to independent sums."""
+"""Operators: symmetric, positive, translation invariant, equal to their dense matrices and to
+independent sums."""
 
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -109,7 +110,8 @@ def test_octaves_are_computed_once_for_all_grids_and_boundaries():
 
 
 def test_octaves_that_several_threads_ask_for_are_computed_once():
-    """As by the chains of a history; the one that comes second waits for the values of the first."""
+    """As by the chains of a history; the one that comes second waits for the values of the
+    first."""
     asked = []
 
     class Slow(HalfSpace):

@@ -1,4 +1,5 @@
-"""Load paths: state carried, operator reused, failures flagged, cheaper than solves from nothing, laws of hysteresis."""
+"""Load paths: state carried, operator reused, failures flagged, cheaper than solves from nothing,
+laws of hysteresis."""
 
 from __future__ import annotations
 
@@ -42,9 +43,11 @@ def pressures(values: tuple[float, ...]) -> list[asp.MeanPressure]:
 
 
 def energy_distance(a: asp.ContactResult, b: asp.ContactResult, extra: float = 0.0) -> tuple[float, float]:
-    """|p_a - p_b|_K and its bound from both certificates; ``extra`` adds to the square of the latter.
+    """|p_a - p_b|_K and its bound from both certificates; ``extra`` adds to the square of the
+    latter.
 
-    Each lies within sqrt(G) of the exact solution, G = field error times load times rms height (times the pixel area).
+    Each lies within sqrt(G) of the exact solution, G = field error times load times rms height
+    (times the pixel area).
     """
     operator = asp.solvers.prepare_operator(a.problem.compliance, a.problem.grid, a.problem.boundary)
     difference = a.pressure - b.pressure
@@ -92,7 +95,8 @@ def test_load_unload_reload(boundary: Any) -> None:
     assert (path.plastic_work[:4] > 0.0).all()
     top, reloaded = path.steps[3], path.steps[-1]
 
-    # unloading is elastic but for points whose neighbours lose contact, where pressure may rise to the cap
+    # unloading is elastic but for points whose neighbours lose contact, where pressure may rise to
+    # the cap
     assert path.plastic_work[4:].sum() <= 0.02 * path.plastic_work[:4].sum()
     indentations = [r.permanent_indentation for r in path.steps]
     for before, after in itertools.pairwise(indentations):
@@ -112,7 +116,8 @@ def test_load_unload_reload(boundary: Any) -> None:
 
 
 def test_twenty_steps_equal_twenty_solves_and_cost_less() -> None:
-    """Measured at 128²: 0.8 of the pairs. Extrapolated pressures miss the front of the contact, which moves."""
+    """Measured at 128²: 0.8 of the pairs. Extrapolated pressures miss the front of the contact,
+    which moves."""
     posed, solver = benchmark(128), ActiveSet(tolerance=1e-6)
     controls = pressures(tuple(np.linspace(0.01, 0.2, 20)))
     path = asp.solve(posed, asp.History(controls), solver=solver)
@@ -256,7 +261,8 @@ def test_steps_hold_few_results_and_are_solved_when_asked_for() -> None:
 
 
 def test_a_path_holds_no_operator_and_no_gap_that_its_numbers_need() -> None:
-    """Beside pressure and displacement of each step little is held, also after its areas were read: gap and edges are twice as much."""
+    """Beside pressure and displacement of each step little is held, also after its areas were read:
+    gap and edges are twice as much."""
     posed = problem(shape=(96, 96))
     operator = asp.solvers.prepare_operator(posed.compliance, posed.grid, posed.boundary)
     gone = weakref.ref(operator)
@@ -282,7 +288,8 @@ MANY = tuple(np.geomspace(0.02, 0.3, 33))
 @pytest.mark.parametrize("count", [15, 16, 24, 33])
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 def test_chains_of_loads_give_the_path_of_its_steps(boundary: Any, count: int) -> None:
-    """In order, each within its certificate of the steps one after the other, whatever the number of threads."""
+    """In order, each within its certificate of the steps one after the other, whatever the number
+    of threads."""
     posed, loads = problem(boundary=boundary), pressures(MANY[:count])
     paths = [asp.solve(posed, asp.History(loads), solver=SOLVER, engine=CpuEngine(threads)) for threads in (1, 3)]
     for one, other, alone, load in zip(

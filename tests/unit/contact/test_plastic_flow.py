@@ -1,4 +1,5 @@
-"""Plastic flow in the volume as a physics of the interface: histories, restart, files, what it works together with and what not."""
+"""Plastic flow in the volume as a physics of the interface: histories, restart, files, what it
+works together with and what not."""
 
 from __future__ import annotations
 
@@ -47,7 +48,8 @@ def course() -> asp.HistoryResult:
 
 
 def test_history() -> None:
-    """Plastic work grows under rising loads alone; unloading leaves the imprint, and a load below the largest one moves nothing."""
+    """Plastic work grows under rising loads alone; unloading leaves the imprint, and a load below
+    the largest one moves nothing."""
     flows = [step.plastic_flow for step in course().steps]
     works = np.array([flow.work for flow in flows])
     assert works[1] > 0.0
@@ -62,7 +64,8 @@ def test_history() -> None:
 
 
 def test_layers_are_told_apart() -> None:
-    """Volumes, depths and first yield of each part; the soft base yields before the hard film does."""
+    """Volumes, depths and first yield of each part; the soft base yields before the hard film
+    does."""
     film, base = course().last.plastic_flow.zones
     assert [film.name, base.name] == ["layer 1", "base"]
     assert base.top == pytest.approx(60e-9)
@@ -110,7 +113,8 @@ def test_a_single_result_is_read_back(tmp_path: Path) -> None:
 
 
 def test_elastic_where_nothing_yields() -> None:
-    """A light load gives the elastic contact, with no depth cells at all; a layer without a law stays elastic under any."""
+    """A light load gives the elastic contact, with no depth cells at all; a layer without a law
+    stays elastic under any."""
     light, solver = asp.MeanPressure(1e6), asp.solvers.ActiveSet(tolerance=1e-14)
     result = asp.solve(problem(), light, solver=solver)
     assert not result.plastic_flow.depths.size
@@ -149,7 +153,8 @@ def test_an_elastic_counter_body_gives_way() -> None:
 
 
 def test_sliding_makes_it_flow_earlier() -> None:
-    """Shear traction adds to the stress at the surface; the opposite direction on the mirrored surface gives the mirror image."""
+    """Shear traction adds to the stress at the surface; the opposite direction on the mirrored
+    surface gives the mirror image."""
     still = asp.solve(problem(), asp.MeanPressure(0.15e9))
     friction = asp.Coulomb(0.4)
     result = asp.solve(problem(friction=friction), asp.MeanPressure(0.15e9))
@@ -162,7 +167,8 @@ def test_sliding_makes_it_flow_earlier() -> None:
 
 
 def test_cells_go_deeper_with_the_load() -> None:
-    """Cells of a first small load are kept, others are added below; the answer is that of cells that were deep from the start."""
+    """Cells of a first small load are kept, others are added below; the answer is that of cells
+    that were deep from the start."""
     shallow = course().steps[1].plastic_flow.flowed.edges
     deep = course().last.plastic_flow.flowed.edges
     assert deep.size >= shallow.size
@@ -220,9 +226,11 @@ def test_stick_and_slip_is_refused() -> None:
 
 
 def test_menisci_are_an_additional_load(tmp_path: Path) -> None:
-    """Under load and menisci the body flows as under the sum of both, step by step; the force between the solids is that sum.
+    """Under load and menisci the body flows as under the sum of both, step by step; the force
+    between the solids is that sum.
 
-    The depth of the cells is prescribed, since it would follow from the first load that yields, which is another one while menisci grow.
+    The depth of the cells is prescribed, since it would follow from the first load that yields,
+    which is another one while menisci grow.
     """
     flow = replace(FLOW, depth=150e-9)
     film = asp.LiquidFilm.of(asp.liquid("water"), 1.5e-9)
@@ -247,7 +255,8 @@ def test_menisci_are_an_additional_load(tmp_path: Path) -> None:
 
 
 def test_laws_follow_from_the_strength_of_the_materials() -> None:
-    """What ``plastic_parts`` makes of a body fits it; a part without a known strength stays elastic, as does a rigid base."""
+    """What ``plastic_parts`` makes of a body fits it; a part without a known strength stays
+    elastic, as does a rigid base."""
     base = asp.Elastic(200e9, 0.3, asp.Strength(yield_stress=0.8e9))
     body = asp.Layered([asp.Layer(FILM, 60e-9)], base)
     flow = asp.PlasticFlow(asp.plasticity.plastic_parts(body, unknown_is_elastic=True))
@@ -279,7 +288,8 @@ def criteria(result: asp.ContactResult) -> set[str]:
 
 
 def test_findings_of_the_review() -> None:
-    """Each on its case with its number, none on a sound one; the hardness of a body whose flow is solved is no finding."""
+    """Each on its case with its number, none on a sound one; the hardness of a body whose flow is
+    solved is no finding."""
     mine = {"small strain", "depth of the cells", "plastic flow", "hardness"}
     assert not mine & criteria(course().last)
     shallow = asp.solve(problem(plastic_flow=replace(FLOW, depth=80e-9, cells=8)), asp.MeanPressure(0.25e9))
@@ -310,7 +320,8 @@ def test_findings_of_a_rigid_base() -> None:
 
 
 def test_a_zone_that_reaches_the_edge_of_a_free_grid_is_told() -> None:
-    """On a wide grid the zone ends inside; on a narrow one it is cut off, which bears more load at the same approach."""
+    """On a wide grid the zone ends inside; on a narrow one it is cut off, which bears more load at
+    the same approach."""
     x = 20e-9 * (np.arange(48) - 24)
     forces = []
     for margin, told in ((0, False), (17, True)):
@@ -327,7 +338,8 @@ def test_a_zone_that_reaches_the_edge_of_a_free_grid_is_told() -> None:
 
 
 def test_flow_that_is_not_settled_is_told() -> None:
-    """The certificate holds the residual of the coupling, within its tolerance; a run that ended beyond it is a finding."""
+    """The certificate holds the residual of the coupling, within its tolerance; a run that ended
+    beyond it is a finding."""
     (check,) = course().last.certificate.couplings
     assert (check.name, check.tolerance) == ("plastic_flow", 1e-4)
     assert 0.0 <= check.residual <= check.tolerance
@@ -339,7 +351,8 @@ def test_flow_that_is_not_settled_is_told() -> None:
 
 
 def test_residual_surface_has_the_imprint() -> None:
-    """The surface under which the unloaded bodies lie is left; volume and depth are those of what lies below the old one."""
+    """The surface under which the unloaded bodies lie is left; volume and depth are those of what
+    lies below the old one."""
     result = course().steps[4]
     imprint = result.plastic_flow.displacement
     left = result.residual_surface().heights
@@ -365,7 +378,8 @@ def test_the_body_that_flows_takes_the_imprint() -> None:
 
 @pytest.mark.parametrize("kind", [asp.MeanPressure, asp.Approach, asp.MeanGap])
 def test_position_in_one_step_takes_as_many_iterates_as_the_load(kind: Any) -> None:
-    """The contact of each iterate is held at the position itself, so that no search for the load is around it."""
+    """The contact of each iterate is held at the position itself, so that no search for the load is
+    around it."""
     loaded = asp.solve(problem(), asp.MeanPressure(0.6e9))
     value = {asp.MeanPressure: 0.6e9, asp.Approach: loaded.approach, asp.MeanGap: loaded.mean_gap}[kind]
     found = asp.solve(problem(), kind(value))
@@ -375,7 +389,8 @@ def test_position_in_one_step_takes_as_many_iterates_as_the_load(kind: Any) -> N
 
 
 def test_position_near_full_contact_of_a_body_without_hardening() -> None:
-    """There whole steps of the return mapping swing between a contact and none; shorter ones come to rest at the load that has this position."""
+    """There whole steps of the return mapping swing between a contact and none; shorter ones come
+    to rest at the load that has this position."""
     flow = asp.PlasticFlow(J2(STEEL, LinearHardening(0.8e9)), cells=8)
     coarse = asp.Surface(rough((16, 12)).heights, 50e-9, 50e-9)
     soft = problem(surface=coarse, body=STEEL, plastic_flow=flow)
@@ -386,7 +401,8 @@ def test_position_near_full_contact_of_a_body_without_hardening() -> None:
 
 
 def test_a_mean_pressure_at_which_the_body_yields_in_itself_ends() -> None:
-    """Without lateral strain a half-space yields at every depth beyond Y (1 - ν)/(1 - 2ν): the cells end somewhere, and the result says so."""
+    """Without lateral strain a half-space yields at every depth beyond Y (1 - ν)/(1 - 2ν): the
+    cells end somewhere, and the result says so."""
     flow = asp.PlasticFlow(J2(STEEL, LinearHardening(0.2e9, 50e9)), cells=12)
     yielding = 0.2e9 * 0.7 / 0.4
     found = asp.solve(problem(body=STEEL, plastic_flow=flow), asp.MeanPressure(1.3 * yielding))
@@ -397,7 +413,8 @@ def test_a_mean_pressure_at_which_the_body_yields_in_itself_ends() -> None:
 
 @pytest.mark.parametrize("control", [asp.MeanPressure(0.5e9), asp.Approach(1.1e-9)])
 def test_a_step_that_does_not_settle_is_cut(control: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Equal parts from the last state that settled, as a history of them would give; the result says so and holds the work of all parts."""
+    """Equal parts from the last state that settled, as a history of them would give; the result
+    says so and holds the work of all parts."""
     from asperity.physics.plastic_flow import coupling as plastic_flow
 
     begun = asp.solve(problem(), asp.MeanPressure(0.05e9))

@@ -138,7 +138,8 @@ def test_an_approach_above_the_dented_surface_has_no_solution():
 
 
 def test_a_position_that_no_load_reaches_is_flagged():
-    """Nearly every point of this sphere yields before its last gaps close: the mean gap jumps over values near rounding."""
+    """Nearly every point of this sphere yields before its last gaps close: the mean gap jumps over
+    values near rounding."""
     sphere = asp.generate.sphere(asp.Grid((24, 16), (1e-6, 1.25e-6)), radius=1e-3)
     law = asp.Hardness(200e6)
     problem = asp.ContactProblem(sphere, asp.Elastic(135e9, 0.3), boundary=asp.Free(), law=law)

@@ -1,4 +1,5 @@
-"""Coupling of friction and pressure: when there is none, closed form, consistency with the fields, refusals."""
+"""Coupling of friction and pressure: when there is none, closed form, consistency with the fields,
+refusals."""
 
 import numpy as np
 import pytest
@@ -31,8 +32,9 @@ def test_without_coupling_friction_changes_nothing(body, counter_body, boundary)
 @pytest.mark.parametrize("body", [COMPRESSIBLE, COATED], ids=["homogeneous", "coated"])
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=lambda b: b.name)
 def test_displacement_is_that_of_pressure_and_shear_together(body, boundary):
-    """The surface displacement of the stress module under p and μp is another route to the same number; 1e-6 of the
-    shear displacement is the change of the pressure that the iteration leaves, 1e-8 the accuracy of coefficients."""
+    """The surface displacement of the stress module under p and μp is another route to the same
+    number; 1e-6 of the shear displacement is the change of the pressure that the iteration leaves,
+    1e-8 the accuracy of coefficients."""
     problem = asp.ContactProblem(rough((12, 10)), body, boundary=boundary)
     slid = solve_sliding(problem, asp.MeanPressure(1e8), 0.4, direction=0.6)
     surface = asp.stress(slid, [0.0], displacement=True).displacement.z[0]
@@ -58,10 +60,11 @@ def test_turning_the_direction_round_mirrors_the_pressure():
 
 
 def test_sliding_cylinder():
-    """Rigid cylinder, plane strain: with tan πε = μ(1-2ν)/2(1-ν) the pressure is E' cos πε/2R (a-t)^(1/2+ε) (a+t)^(1/2-ε)
-    about a middle at x = -2εa, the load E' π a² (1-4ε²)/4R: the singular integral equation of Johnson (1985, sec. 2.8)
-    with bounded ends. A periodic surface has no mean slope, so the shear tilts it back by 2κ/E' times the mean pressure,
-    κ = tan πε, which moves the contact by R times as much. Images in the period of 24 a curve the surface by about
+    """Rigid cylinder, plane strain: with tan πε = μ(1-2ν)/2(1-ν) the pressure is E' cos πε/2R
+    (a-t)^(1/2+ε) (a+t)^(1/2-ε) about a middle at x = -2εa, the load E' π a² (1-4ε²)/4R: the
+    singular integral equation of Johnson (1985, sec. 2.8) with bounded ends. A periodic surface has
+    no mean slope, so the shear tilts it back by 2κ/E' times the mean pressure, κ = tan πε, which
+    moves the contact by R times as much. Images in the period of 24 a curve the surface by about
     (a/period)² = 0.2 %, pixels smooth the ends of the square root.
     """
     n, friction, nu, a, R = 2048, 0.6, 0.1, 85e-7, 1e-2
@@ -102,7 +105,8 @@ def test_displacement_of_a_free_line_is_that_of_pressure_and_shear_together(body
 
 
 def test_sliding_cylinder_on_a_free_line():
-    """The closed form of the test before, without images and without tilt; pixels of a/85 smooth the ends of the root."""
+    """The closed form of the test before, without images and without tilt; pixels of a/85 smooth
+    the ends of the root."""
     n, friction, nu, a, R = 201, 0.6, 0.1, 85e-7, 1e-2
     x = (np.arange(n) - n // 2) * 1e-7
     profile = asp.Surface(-(x[:, None] ** 2) / (2 * R), 1e-7, 1.0)
@@ -119,7 +123,8 @@ def test_sliding_cylinder_on_a_free_line():
 
 @pytest.mark.parametrize("boundary", [asp.Free(), asp.FreeLine()], ids=lambda b: b.name)
 def test_layers_that_slip_couple_too(boundary):
-    """Their coupling ends, far away, in the Poisson contraction of the sheet instead of the step of the base."""
+    """Their coupling ends, far away, in the Poisson contraction of the sheet instead of the step of
+    the base."""
     profile = asp.Surface(rough((12, 10) if boundary.name == "free" else (40, 1)).heights, 1e-7, 1e-7)
     slid = solve_sliding(asp.ContactProblem(profile, SLIPPING, boundary=boundary), asp.MeanPressure(1e8), 0.4)
     assert slid.converged
@@ -138,7 +143,8 @@ def test_prescribed_approach_counts_from_the_true_surfaces():
 
 
 def test_a_pressure_that_does_not_settle_is_said_so():
-    """Friction times β = (1-2ν)/2(1-ν) = 4/9 beyond one: every plain round makes the change larger; extrapolation reaches a little further."""
+    """Friction times β = (1-2ν)/2(1-ν) = 4/9 beyond one: every plain round makes the change larger;
+    extrapolation reaches a little further."""
     problem = asp.ContactProblem(rough((12, 10)), COMPRESSIBLE)
     assert solve_sliding(problem, asp.MeanPressure(1e8), 3.0).converged
     result = solve_sliding(problem, asp.MeanPressure(1e8), 20.0, on_failure="return")

@@ -1,4 +1,5 @@
-"""The contract of every solver: values in, values out, limits and tolerances respected, failures flagged, bounds true."""
+"""The contract of every solver: values in, values out, limits and tolerances respected, failures
+flagged, bounds true."""
 
 from __future__ import annotations
 
@@ -100,7 +101,8 @@ def test_every_state_is_feasible_and_consistent(solver: Solver, case: Case) -> N
         if isinstance(qp.constraint, FixedMean):
             assert p.mean() == pytest.approx(qp.constraint.mean_pressure, rel=1e-13)
         exact = qp.operator.apply(p)
-        # corrections of the fast solver are in single precision, its answer is not: see test_active_set
+        # corrections of the fast solver are in single precision, its answer is not: see
+        # test_active_set
         rounding = 2.0**-22 if isinstance(solver, ActiveSet) else 1e-12
         largest = float(np.abs(exact).max())
         np.testing.assert_allclose(state.deflection, exact, atol=rounding * largest)
@@ -296,7 +298,8 @@ def test_bad_settings_are_refused(arguments: tuple[object, ...], subject: str) -
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()], ids=["periodic", "free"])
 @pytest.mark.parametrize("cap", [np.inf, 2e8], ids=["elastic", "capped"])
 def test_nnls_from_a_coarser_grid_gives_the_same_answer(boundary, cap, monkeypatch) -> None:
-    """Spikes of one pixel lie outside the coarse contact at first; the answer is that of all points at once."""
+    """Spikes of one pixel lie outside the coarse contact at first; the answer is that of all points
+    at once."""
     heights = 1e-9 * np.random.default_rng(3).standard_normal((16, 20))
     heights[::7, ::5] += 4e-9
     law = asp.plasticity.HardWall() if np.isinf(cap) else asp.Hardness(cap)

@@ -1,4 +1,5 @@
-"""Nested splines as a model of a body: how near they come to its compliance on any set of points, and how fast conjugate gradients converge with them."""
+"""Nested splines as a model of a body: how near they come to its compliance on any set of points,
+and how fast conjugate gradients converge with them."""
 
 from __future__ import annotations
 
@@ -66,7 +67,8 @@ def on_set(
 
 
 def dense(scaled: ScaledOperator, free: FreeSet, inside: RealArray) -> dict[str, RealArray]:
-    """The compliance, its model and the approximate inverse on the set, for loads that sum to zero."""
+    """The compliance, its model and the approximate inverse on the set, for loads that sum to
+    zero."""
     chosen, splines = np.flatnonzero(inside), scaled.splines
     splines.factorise(free)
     found = {"K": scaled.operator.matrix()[np.ix_(chosen, chosen)]}
@@ -100,9 +102,11 @@ CASES = {
 def test_the_model_is_near_the_compliance_on_any_set(
     case: tuple[Compliance, tuple[int, int], tuple[float, float], asp.contact.Boundary], share: float
 ) -> None:
-    """Deflections are within a factor 1.2 of those of the model, whatever the load, on square pixels of an even number or with a free boundary; near the seam
-    of an odd number, on lines, oblong pixels and stiff films within 1.7 (the worst is 0.61 to 1.31). The inverse is positive definite, symmetric but for a tenth where
-    row sums are corrected, and within a factor 2.6 of one multiple of the true one."""
+    """Deflections are within a factor 1.2 of those of the model, whatever the load, on square
+    pixels of an even number or with a free boundary; near the seam of an odd number, on lines,
+    oblong pixels and stiff films within 1.7 (the worst is 0.61 to 1.31). The inverse is positive
+    definite, symmetric but for a tenth where row sums are corrected, and within a factor 2.6 of one
+    multiple of the true one."""
     compliance, shape, spacing, boundary = case
     points = np.random.default_rng(3).permutation(shape[0] * shape[1])[: max(int(share * shape[0] * shape[1]), 4)]
     inside = np.zeros(shape)
@@ -126,7 +130,8 @@ def test_the_model_is_near_the_compliance_on_any_set(
 
 @pytest.mark.parametrize("compliance", [BODY, film(10.0, 2.0), film(10.0, 40.0), film(0.1, 2.0)])
 def test_the_steepness_is_the_rise_of_the_compliance_to_waves_of_sixteen_points(compliance: Compliance) -> None:
-    """The largest q c(q) down to these waves over that of the shortest: 1 for a half-space, a thick film and a soft one."""
+    """The largest q c(q) down to these waves over that of the shortest: 1 for a half-space, a thick
+    film and a soft one."""
     operator = asp.solvers.prepare_operator(compliance, grid((64, 64)), asp.Periodic())
     q = np.pi / np.array([1.0, 2.0, 4.0, 8.0])
     rise = q * compliance.spectral(q)
@@ -147,7 +152,8 @@ def test_the_model_scales_with_the_compliance() -> None:
 
 
 def test_a_model_is_fitted_once_for_a_body_and_keeps_no_operator() -> None:
-    """Solves of one body, on all grids, fit no model again; that of another body is another one. Kernels, which are large, go with their operators."""
+    """Solves of one body, on all grids, fit no model again; that of another body is another one.
+    Kernels, which are large, go with their operators."""
     models = []
     for modulus, new in ((2.125, 2), (2.125, 0), (2.25, 2)):
         fitted = spline_model._fit.cache_info().misses
@@ -193,7 +199,8 @@ def steps_to(
 
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.4, 0.9, 1.0])
 def test_the_steps_needed_hardly_depend_on_grid_and_area(share: float) -> None:
-    """A factor 0.14 a step at worst: 1e-6 in 7 steps. Without a preconditioner the number grows with the grid."""
+    """A factor 0.14 a step at worst: 1e-6 in 7 steps. Without a preconditioner the number grows
+    with the grid."""
     for n in (64, 128, 256):
         assert steps_to(rough_set((n, n), share, 3) if share < 1.0 else np.ones((n, n)), 1e-6) <= 7.0
 
@@ -220,7 +227,8 @@ def test_layers_converge_as_well(ratio: float, thickness: float, boundary: asp.c
 def test_products_are_spared_on_stiff_films(
     constant: str, films: list[tuple[float, float]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """By an inverse whose row sums are corrected: 7, 10 and 7 products for 14, 21 and 10. On very stiff films by conjugate gradients on the model besides: 7 and 10 for 16 and 22."""
+    """By an inverse whose row sums are corrected: 7, 10 and 7 products for 14, 21 and 10. On very
+    stiff films by conjugate gradients on the model besides: 7 and 10 for 16 and 22."""
     inside = rough_set((128, 128), 0.2, 7)
     better = [steps_to(inside, 1e-6, film(*of)) for of in films]
     monkeypatch.setattr(spline_model, constant, np.inf)
@@ -290,7 +298,8 @@ def test_on_a_periodic_grid_the_hierarchies_lie_a_third_of_a_cell_apart() -> Non
 
 
 def test_weights_are_the_energies_of_haar_functions() -> None:
-    """Mean over the three Haar functions of a cell of side H under c = 2/(E' q), on a grid much larger than the cell."""
+    """Mean over the three Haar functions of a cell of side H under c = 2/(E' q), on a grid much
+    larger than the cell."""
     n, side = 512, 16
     operator = asp.solvers.prepare_operator(BODY, grid((n, n)), asp.Periodic())
     energies = []
@@ -299,7 +308,8 @@ def test_weights_are_the_energies_of_haar_functions() -> None:
         field[: 2 * side, : 2 * side] = np.kron(signs, np.ones((side, side)))
         energies.append(float((field * operator.apply(field)).sum() / (field**2).sum()))
     model = float(BODY.spectral(np.array([np.pi / side]))[0])
-    # pi / H instead of the mean is exact to one percent in the continuum; the grid resolves the cell to another
+    # pi / H instead of the mean is exact to one percent in the continuum; the grid resolves the
+    # cell to another
     assert np.mean(energies) == pytest.approx(model, rel=0.03)
 
 

@@ -1,4 +1,5 @@
-"""What the surfaces of a contact bear: the hardness, else 2.8 times the yield stress, and how that is known."""
+"""What the surfaces of a contact bear: the hardness, else 2.8 times the yield stress, and how that
+is known."""
 
 from __future__ import annotations
 

@@ -22,7 +22,8 @@ def film(height: float) -> asp.LiquidFilm:
 
 @pytest.mark.parametrize(("pixels", "few"), [(24, True), (96, False)])
 def test_menisci_of_few_pixels(pixels, few):
-    """Radius sqrt(2 R h_m) = 63 nm at a height of 2 nm: 3.8 pixels of 17 nm, 15 of 4 nm, and a little more under load."""
+    """Radius sqrt(2 R h_m) = 63 nm at a height of 2 nm: 3.8 pixels of 17 nm, 15 of 4 nm, and a
+    little more under load."""
     found = asp.contact.review(wetted(bump(pixels), asp.Force(1e-8), film(2e-9)))
     said = [item for item in found if item.criterion == "meniscus pixels"]
     assert bool(said) == few

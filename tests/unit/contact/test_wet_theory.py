@@ -1,4 +1,5 @@
-"""The theory of summits beside a wet contact: what it is made of, its bounds and limits, and when there is none."""
+"""The theory of summits beside a wet contact: what it is made of, its bounds and limits, and when
+there is none."""
 
 from __future__ import annotations
 
@@ -57,7 +58,8 @@ def test_two_angles_count_by_the_sum_of_their_cosines(problem):
 
 
 def test_the_force_rises_from_contact_to_equilibrium(problem):
-    """At first, menisci as high as the film pull summits near it less; in the end all pull with the full force."""
+    """At first, menisci as high as the film pull summits near it less; in the end all pull with the
+    full force."""
     wet = wetted(problem, LOAD, film(2.0 * NM, viscosity=0.01))
     found = asp.menisci.wet_theory(wet)
     assert 0.0 < found.first_force < found.meniscus_force
@@ -67,7 +69,8 @@ def test_the_force_rises_from_contact_to_equilibrium(problem):
 
 
 def test_no_growth_without_viscosity_or_from_a_film_that_holds_its_liquid(problem):
-    """Disjoining pressure of 0.1 nm: 1e-19/(6π 1e-30) = 5 GPa, ten times the suction of a meniscus of that height."""
+    """Disjoining pressure of 0.1 nm: 1e-19/(6π 1e-30) = 5 GPa, ten times the suction of a meniscus
+    of that height."""
     wet = wetted(problem, LOAD, film(NM))
     assert asp.menisci.wet_theory(wet).growth is None
     thin = with_film(wet, film(0.1 * NM, viscosity=0.01))

@@ -1,4 +1,5 @@
-"""Where liquid stands in given gaps: the reference maps pixel by pixel, and areas known in closed form."""
+"""Where liquid stands in given gaps: the reference maps pixel by pixel, and areas known in closed
+form."""
 
 from __future__ import annotations
 
@@ -71,7 +72,8 @@ def test_reference_maps(number, periodic):
 
 @every_row(reference("meniscus_two_paraboloids"))
 def test_two_paraboloids(row):
-    """Areas of a fine map against closed forms: pixel counting errs by less than a pixel along the rim."""
+    """Areas of a fine map against closed forms: pixel counting errs by less than a pixel along the
+    rim."""
     reach = math.sqrt(2.0 * max(row["R1_m"], row["R2_m"]) * row["h_m_m"]) * 1.6
     pixels = 700
     x = (np.arange(pixels) + 0.5) / pixels * 2.0 * reach - reach
@@ -94,7 +96,8 @@ def test_two_paraboloids(row):
 
 
 def test_a_touching_sphere_has_the_force_of_its_closed_form():
-    """Pixels see 2πRγ(1 + cos θ), whatever the height of the meniscus; at 40 pixels per radius within 1 %."""
+    """Pixels see 2πRγ(1 + cos θ), whatever the height of the meniscus; at 40 pixels per radius
+    within 1 %."""
     radius, tension, angle = 5e-6, 0.07, 0.5
     for height in (1e-9, 4e-9):
         reach = 1.2 * math.sqrt(2.0 * radius * height)

@@ -197,7 +197,8 @@ def test_passes_over_a_free_set_agree(
 
 
 def work_on_free_set(engine: Engine, case: Iterate, dtype: str, centred: bool) -> SimpleNamespace:
-    """One conjugate gradient step with made-up numbers, a step of the pressure, and what is seen at each stage."""
+    """One conjugate gradient step with made-up numbers, a step of the pressure, and what is seen at
+    each stage."""
     rng = np.random.default_rng(3)
     response = engine.array(rng.standard_normal(case.p.shape), dtype)
     p, u, h, cap = case.on(engine)
@@ -307,7 +308,8 @@ def test_tensile_points_are_counted_and_cleared(engine: Engine, dtype: str) -> N
 @every_type
 @pytest.mark.parametrize("load", [None, 50.0])
 def test_the_loaded_points_of_a_free_set(engine: Engine, dtype: str, load: float | None) -> None:
-    """Two steps of pressure, after each of which what is tensile leaves: pressures scaled to a load, another vector, a residual of zero, and the change by both."""
+    """Two steps of pressure, after each of which what is tensile leaves: pressures scaled to a
+    load, another vector, a residual of zero, and the change by both."""
     shape = (12, 7)
     case, ramp, down = iterate(shape, "none"), np.arange(84.0).reshape(shape), 0.125 * iterate(shape, "none").p.max()
     _, u, h, _ = case.on(engine)
@@ -347,12 +349,14 @@ def test_the_loaded_points_of_a_free_set(engine: Engine, dtype: str, load: float
 @pytest.mark.parametrize("shape", [(8, 12), (9, 7), (1, 10), (130, 66)])
 @pytest.mark.parametrize("wraps", [(True, True), (False, False), (True, False)])
 def test_interpolation_between_coarser_points(engine: Engine, shape: tuple[int, int], wraps: tuple[bool, bool]) -> None:
-    """A plane comes out as it is between the outermost points of a coarse grid; around them it goes on on the other side, or is flat."""
+    """A plane comes out as it is between the outermost points of a coarse grid; around them it goes
+    on on the other side, or is flat."""
     x, y = np.meshgrid(*(np.arange(-(-n // 2)) for n in shape), indexing="ij")
     found = engine.interpolated(3.0 * x - 2.0 * y + 1.0, shape, wraps)
 
     def along(n: int, around: bool) -> RealArray:
-        """Coordinate of each point in the units of coarse points, if linear interpolation of that coordinate is all there is."""
+        """Coordinate of each point in the units of coarse points, if linear interpolation of that
+        coordinate is all there is."""
         coarse, place = -(-n // 2), 0.5 * np.arange(n) - 0.25
         wide = np.arange(-1.0, coarse + 1.0)
         return np.interp(place, wide, wide % coarse if around else np.clip(wide, 0, coarse - 1))
@@ -382,7 +386,8 @@ def test_members_of_a_free_set(engine: Engine, cap: str) -> None:
 
 @every_engine
 def test_points_enter_that_stand_out_of_the_scatter_of_the_loaded_ones(engine: Engine) -> None:
-    """Half of the scatter; 4 of 132 points of the prior, which is the same here and empty above, weaken it by 2 %."""
+    """Half of the scatter; 4 of 132 points of the prior, which is the same here and empty above,
+    weaken it by 2 %."""
     rng = np.random.default_rng(9)
     shape, scatter, base = (2 * SQUARE_SIDE, SQUARE_SIDE), 0.02, 30.0
     loaded = np.indices(shape).sum(axis=0) % 2 == 0
@@ -400,7 +405,8 @@ def test_points_enter_that_stand_out_of_the_scatter_of_the_loaded_ones(engine: E
 
 @every_engine
 def test_points_enter_by_the_level_of_their_neighbourhood(engine: Engine) -> None:
-    """A region whose loaded points all stand too high or low by one amount takes in the points that fit that amount."""
+    """A region whose loaded points all stand too high or low by one amount takes in the points that
+    fit that amount."""
     rng = np.random.default_rng(8)
     shape = (3 * SQUARE_SIDE, 2 * SQUARE_SIDE + 5)
     offset = np.kron(
@@ -415,7 +421,8 @@ def test_points_enter_by_the_level_of_their_neighbourhood(engine: Engine) -> Non
     field = engine.zeros(shape, "float64")
     free.scatter(free.copy(free.gather(engine.array(np.ones(shape), "float64"))[0]), field)
     entered = (engine.numpy(field) > 0.0) & ~loaded
-    # four points of a wider square, at most 1.8 off, count beside the loaded ones: half of 16 x 5 in the last columns
+    # four points of a wider square, at most 1.8 off, count beside the loaded ones: half of 16 x 5
+    # in the last columns
     sure = np.abs(apart) > 0.25
     np.testing.assert_array_equal(entered[sure & ~loaded], (apart < 0.0)[sure & ~loaded])
     assert free.entering == entered.sum()
@@ -536,7 +543,8 @@ def levels_of(shape: tuple[int, int], model: SplineModel) -> list[RealArray]:
 
 
 def moved(shape: tuple[int, int], model: SplineModel, x: int, y: int) -> RealArray:
-    """Matrix that picks the value of the point so far away; none comes from beyond a rim that does not wrap."""
+    """Matrix that picks the value of the point so far away; none comes from beyond a rim that does
+    not wrap."""
     picked = []
     for n, wrap, places in zip(shape, model.wraps, (x, y), strict=True):
         matrix = np.zeros((n, n))
@@ -588,7 +596,8 @@ def compliance_matrix(shape: tuple[int, int], model: SplineModel) -> RealArray:
 
 
 def overlap_matrix(sizes: tuple[int, ...], wraps: tuple[bool, bool], passed: RealArray) -> RealArray:
-    """Row sums of the products of B-splines less the products, of parts that pass up the same between the middles of neighbouring cells: their mean there."""
+    """Row sums of the products of B-splines less the products, of parts that pass up the same
+    between the middles of neighbouring cells: their mean there."""
     cells = [parts_matrix(n, wrap).shape[1] for n, wrap in zip(sizes, wraps, strict=True)]
     found, values = np.zeros((math.prod(cells), math.prod(cells))), passed.reshape(sizes)
     products = np.array([[0.625, 0.375], [0.375, 0.625]])
@@ -609,7 +618,8 @@ def overlap_matrix(sizes: tuple[int, ...], wraps: tuple[bool, bool], passed: Rea
 
 
 def inverse_matrix(shape: tuple[int, int], model: SplineModel, inside: RealArray) -> RealArray:
-    """The recursion with row sums, level by level as dense matrices, between local stiffnesses; on the points of the set."""
+    """The recursion with row sums, level by level as dense matrices, between local stiffnesses; on
+    the points of the set."""
     member = inside.ravel().astype(float)
     local = np.eye(member.size)
     for axis, (x, y) in enumerate(((1, 0), (0, 1))):
@@ -650,7 +660,8 @@ def inverse_matrix(shape: tuple[int, int], model: SplineModel, inside: RealArray
 
 @functools.cache
 def inverse_on(shape: tuple[int, int], model: SplineModel, inside: bytes) -> RealArray:
-    """The same for a set given by its bytes, made and checked once for all engines and types: positive definite, and symmetric but for the correction."""
+    """The same for a set given by its bytes, made and checked once for all engines and types:
+    positive definite, and symmetric but for the correction."""
     inverse = inverse_matrix(shape, model, np.frombuffer(inside, bool).reshape(shape))
     if not model.corrections:
         np.testing.assert_allclose(inverse, inverse.T, atol=1e-14)
@@ -691,7 +702,8 @@ CORRECTIONS = [(), (0.65, 0.5, 0.6, 0.4), (0.0, 0.65, 0.5, 0.6)]
 def test_nested_splines_are_those_of_dense_matrices(
     engine: Engine, shape: tuple[int, int], wraps: tuple[bool, bool], corrections: tuple[float, ...], dtype: str
 ) -> None:
-    """Products, prediction and inverse, which is positive definite; the same buffers for one set after the other."""
+    """Products, prediction and inverse, which is positive definite; the same buffers for one set
+    after the other."""
     rng, clear = np.random.default_rng(shape), engine.zeros(shape, dtype)
     for merges in (BOTH, FIRST_Y):
         merges = tuple((x and shape[0] > 1, y and shape[1] > 1) for x, y in merges)
@@ -731,7 +743,8 @@ def test_nested_splines_are_those_of_dense_matrices(
 
 @pytest.mark.parametrize("shape", [(5, 8), (16, 12)], ids=str)
 def test_points_of_a_conductance_of_their_own_yield_by_it(shape: tuple[int, int]) -> None:
-    """Without a local stiffness the inverse is that of the recursion for points that yield by it times their load."""
+    """Without a local stiffness the inverse is that of the recursion for points that yield by it
+    times their load."""
     rng = np.random.default_rng(shape)
     model = replace(splines(shape, (True, True), BOTH), fall=(0.0, 0.0), bend=(0.0, 0.0))
     inside = rng.uniform(size=shape) < 0.6
@@ -816,9 +829,11 @@ BOUNDARIES = {"periodic": asp.Periodic(), "free": asp.Free()}
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("control", LOADS)
 def test_solutions_agree(engine: Engine, boundary: str, law: str, control: str, precision: str) -> None:
-    """(p - q)·K (p - q) <= G(p) + G(q), the duality gaps, each at most tolerance x total pressure x rms height.
+    """(p - q)·K (p - q) <= G(p) + G(q), the duality gaps, each at most tolerance x total pressure x
+    rms height.
 
-    That bounds single points by the smallest eigenvalue of K: contact may differ only where the pressure is below it.
+    That bounds single points by the smallest eigenvalue of K: contact may differ only where the
+    pressure is below it.
     """
     found = solution(engine, boundary, law, control, precision)
     wanted = reference_solution(boundary, law, control, precision)

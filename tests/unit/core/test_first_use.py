@@ -1,4 +1,5 @@
-"""A second process compiles what the first solve in an environment needs, with the very types that it needs."""
+"""A second process compiles what the first solve in an environment needs, with the very types that
+it needs."""
 
 from __future__ import annotations
 
@@ -64,7 +65,8 @@ def printed(folder: Path, *arguments: str, threads: int = 1) -> str:
 
 @pytest.mark.slow
 def test_the_later_half_of_the_passes_is_compiled_with_the_types_of_a_solve(tmp_path: Path) -> None:
-    """What the second process has compiled is found by a solve; alone, a solve compiles all of it."""
+    """What the second process has compiled is found by a solve; alone, a solve compiles all of
+    it."""
     alone = printed(tmp_path / "alone", "-c", SOLVE).split()
     printed(tmp_path / "beside", "-m", "asperity.core.engine.first_use")
     left = printed(tmp_path / "beside", "-c", SOLVE).split()
@@ -116,5 +118,6 @@ print(*(command[-1] for command in started))
 def test_it_is_started_once_where_there_are_threads_and_an_interpreter(
     tmp_path: Path, installed: str, threads: int, expected: str
 ) -> None:
-    """A frozen application would start itself; one thread has no second core to compile on; Numba may be told not to compile, or has done so from the same source."""
+    """A frozen application would start itself; one thread has no second core to compile on; Numba
+    may be told not to compile, or has done so from the same source."""
     assert printed(tmp_path, "-c", FIRST_SOLVE, installed, threads=threads).strip() == expected

@@ -89,7 +89,8 @@ def test_transform_pair_is_numpys_with_either_library(library, shape, seed):
 @pytest.mark.parametrize(("dtype", "rounding"), [("float64", 1e-13), ("float32", 1e-4)])
 @given(shape=SHAPES | st.just((130, 5)) | st.just((130, 1024)), seed=st.integers(0, 9))
 def test_inverse_in_two_steps_and_parts(library, dtype, rounding, shape, seed):
-    """Lines and rows in parts of seven and of seventy, the latter longer than the blocks of rows of 4 kB."""
+    """Lines and rows in parts of seven and of seventy, the latter longer than the blocks of rows of
+    4 kB."""
     if library == "ducc0" and not importlib.util.find_spec("ducc0"):
         pytest.skip("the extra 'fast' is not installed")
     with pytest.MonkeyPatch.context() as patch:

@@ -19,7 +19,8 @@ def pressure(text: str) -> float:
 
 @pytest.mark.parametrize("text", ["700 HV", "700HV", " 700 HV10 ", "700 hv 0.3"])
 def test_vickers_number_is_the_force_over_the_faces_of_the_pyramid(text: str) -> None:
-    """Of an imprint of diagonal d the projected area is d²/2 and that of the faces d²/(2 sin 68°), d²/1.8544."""
+    """Of an imprint of diagonal d the projected area is d²/2 and that of the faces d²/(2 sin 68°),
+    d²/1.8544."""
     d = 1e-4
     force = 700 * KILOPOND * d**2 / 1.8544
     assert pressure(text) == pytest.approx(force / (d**2 / 2), rel=1e-4)
@@ -29,7 +30,8 @@ def test_vickers_number_is_the_force_over_the_faces_of_the_pyramid(text: str) ->
     ("text", "diameter"), [("200 HB", None), ("200 HBW10/3000", 10.0), ("60HBW10/500", 10.0), ("95 HBW 10/500", 10.0)]
 )
 def test_brinell_number_is_the_force_over_the_cap(text: str, diameter: float | None) -> None:
-    """The imprint follows from the definition, HB = 2F/(π D (D - sqrt(D² - d²))), and with it the projected area."""
+    """The imprint follows from the definition, HB = 2F/(π D (D - sqrt(D² - d²))), and with it the
+    projected area."""
     ball, force = 10.0, 500.0 if "500" in text else 3000.0
     number = float(text.split("H")[0])
     low, high = 0.0, ball

@@ -1,4 +1,5 @@
-"""Numbers that no float holds, and lengths whose squares no float holds, are refused with what is allowed."""
+"""Numbers that no float holds, and lengths whose squares no float holds, are refused with what is
+allowed."""
 
 from __future__ import annotations
 
@@ -45,7 +46,8 @@ def test_heights_beyond_every_instrument(height: float) -> None:
 
 @pytest.mark.parametrize("height", [1e-41, 1e-60, 1e-82, 1e-100, 1e-200, 5e-324])
 def test_heights_below_every_atom(height: float) -> None:
-    """Statistics are numbers as long as squares of heights are, the contact is that of a flat surface."""
+    """Statistics are numbers as long as squares of heights are, the contact is that of a flat
+    surface."""
     surface = asp.Surface(height * np.random.default_rng(1).standard_normal((8, 8)), 1e-6, periodic=True)
     if height > 1e-150:
         assert asp.roughness_of(surface).rms_height == pytest.approx(height, rel=0.3)

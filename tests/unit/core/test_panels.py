@@ -1,4 +1,5 @@
-"""Polynomials on panels: fits, tables over a logarithmic grid, integrals and Hankel transforms against closed forms."""
+"""Polynomials on panels: fits, tables over a logarithmic grid, integrals and Hankel transforms
+against closed forms."""
 
 import numpy as np
 import pytest
@@ -21,9 +22,11 @@ FUNCTIONS = {
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_interpolation_is_nearly_exact(name):
-    """870 (STEP/w)^10 with the distance w of the nearest singularity, 1.05 for the plate: far below rounding.
+    """870 (STEP/w)^10 with the distance w of the nearest singularity, 1.05 for the plate: far below
+    rounding.
 
-    Rounding of the logarithm, 43 epsilon, counts as often as the logarithmic slope, which reaches 5.
+    Rounding of the logarithm, 43 epsilon, counts as often as the logarithmic slope, which
+    reaches 5.
     """
     f = FUNCTIONS[name]
     np.testing.assert_allclose(log_table(START, f(GRID))(POINTS), f(POINTS), rtol=6e-14)
@@ -54,7 +57,8 @@ def test_hankel_transform_of_a_gaussian(order):
 
 @pytest.mark.parametrize("order", [0, 1, 2])
 def test_hankel_transform_with_a_long_tail(order):
-    """∫ k exp(-k) J_m(kr) dk by the Laplace transform of Bessel functions; r times it falls like 1/r only."""
+    """∫ k exp(-k) J_m(kr) dk by the Laplace transform of Bessel functions; r times it falls like
+    1/r only."""
     r = 1.0 / GRID[::-1]
     root = np.hypot(1.0, r)
     expected = r * (r / (1.0 + root)) ** order * (1.0 + order * root) / root**3
@@ -87,7 +91,8 @@ RESPONSES = {
 @pytest.mark.parametrize("name", RESPONSES)
 @pytest.mark.parametrize("shape", [(1024, 1024), (64, 200), (1, 30)])
 def test_panels_hold_responses_of_layers_to_rounding(name, shape):
-    """Ten terms on panels that grow by 2^(1/8) leave 1e-13 of the functions' size, 1, wherever their scale lies."""
+    """Ten terms on panels that grow by 2^(1/8) leave 1e-13 of the functions' size, 1, wherever
+    their scale lies."""
     grid = Grid(shape, (0.3, 0.2))
     table, function = panels(grid), RESPONSES[name]
     q = np.unique(grid.wavenumber())[1:]

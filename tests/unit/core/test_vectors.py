@@ -23,7 +23,8 @@ def model(shape, hierarchy):
 
 @pytest.mark.parametrize("shape", [(2, 2), (4, 4), (8, 8), (16, 16), (8, 2), (32, 8)], ids=str)
 def test_the_model_has_an_inverse_in_full_contact(shape):
-    """Also where a uniform load deflects by nothing, and half the grid is hardly larger than a point."""
+    """Also where a uniform load deflects by nothing, and half the grid is hardly larger than a
+    point."""
     operator = TangentialOperator(asp.Grid(shape, (1.0, 1.0)), (asp.Elastic(1.0, 0.3), asp.Rigid()))
     for hierarchy in hierarchies(operator.octaves, operator.grid, periodic=True, share=PIXEL_SHARE, mean=0.0):
         assert np.linalg.eigvalsh(model(shape, hierarchy))[0] > 0.1
@@ -32,7 +33,8 @@ def test_the_model_has_an_inverse_in_full_contact(shape):
 @pytest.mark.parametrize("periodic", [True, False])
 @pytest.mark.parametrize("shape", [(1, 1), (9, 1), (5, 8), (12, 7), (16, 16)], ids=str)
 def test_cells_of_vectors_are_inverted_exactly(shape, periodic):
-    """Points that yield both ways, along a direction of their own, or not at all: (A A^T)-constrained inverse of the dense model."""
+    """Points that yield both ways, along a direction of their own, or not at all: (A
+    A^T)-constrained inverse of the dense model."""
     rng = np.random.default_rng(shape)
     operator = TangentialOperator(asp.Grid(shape, (1.0, 1.0)), (asp.Elastic(1.0, 0.3), asp.Rigid()))
     nested = hierarchies(operator.octaves, operator.grid, periodic=periodic, share=0.6)

@@ -15,7 +15,8 @@ from asperity.core.errors import InputError
 
 @given(st.floats(1.0, 5.0), st.floats(1e5, 1e25), st.floats(1e-9, 1e-5))
 def test_a_law_is_consistent(power: float, coefficient: float, depth: float) -> None:
-    """Stiffness and pressure are derivatives of the energy, and the approach is the inverse of the pressure."""
+    """Stiffness and pressure are derivatives of the energy, and the approach is the inverse of the
+    pressure."""
     law = dyn.NormalCompliance(coefficient, power)
     step = 1e-4 * depth
     slope = (law.energy(depth + step) - law.energy(depth - step)) / (2.0 * step)
@@ -49,7 +50,8 @@ def test_metal_joints() -> None:
 
 @given(st.floats(1.2, 4.0), st.floats(1e15, 1e20), st.floats(-5.0, 5.0))
 def test_a_fit_finds_the_law_of_its_curve(power: float, coefficient: float, offset: float) -> None:
-    """An exact curve gives its law back: with its offset to rounding, without to the search of 1e-10 in the logarithm."""
+    """An exact curve gives its law back: with its offset to rounding, without to the search of
+    1e-10 in the logarithm."""
     depth = np.geomspace(1e-7, 1e-6, 9)
     pressure = coefficient * depth**power
     given_offset = dyn.fit_compliance(depth + offset * 1e-7, pressure, offset=offset * 1e-7)
@@ -61,7 +63,8 @@ def test_a_fit_finds_the_law_of_its_curve(power: float, coefficient: float, offs
 
 
 def test_the_error_of_the_exponent_covers_scatter() -> None:
-    """With 3 % of scatter the exponent is within two standard errors in 95 % of the cases, here in at least 85 of 100."""
+    """With 3 % of scatter the exponent is within two standard errors in 95 % of the cases, here in
+    at least 85 of 100."""
     random, depth = np.random.default_rng(7), np.geomspace(1e-8, 1e-7, 12)
     inside = 0
     for _ in range(100):
@@ -72,7 +75,8 @@ def test_the_error_of_the_exponent_covers_scatter() -> None:
 
 
 def test_the_law_of_a_solved_contact_has_its_stiffness() -> None:
-    """dp/du of the fitted law about the middle of the curve agrees with the stiffness that the contact itself reports."""
+    """dp/du of the fitted law about the middle of the curve agrees with the stiffness that the
+    contact itself reports."""
     spectrum = asp.generate.GaussianAutocorrelation(1e-7, 2e-6)
     surface = asp.generate.gaussian(asp.Grid((64, 64), (1e-5 / 64, 1e-5 / 64)), spectrum, seed=3)
     problem = asp.ContactProblem(surface, asp.Elastic(2.1e11, 0.3))
@@ -81,13 +85,15 @@ def test_the_law_of_a_solved_contact_has_its_stiffness() -> None:
     fit = dyn.fit_compliance([s.approach for s in path.steps], pressures, offset=0.0)
     middle = asp.solve(problem, asp.MeanPressure(pressures[4]), keep=asp.Keep(stiffness=True))
     found = float(fit.law.stiffness(middle.approach))
-    # the error of a slope is that of the pressure times the exponent over the step in the logarithm, about 1 here
+    # the error of a slope is that of the pressure times the exponent over the step in the
+    # logarithm, about 1 here
     assert found == pytest.approx(middle.normal_stiffness, rel=4.0 * fit.largest_error)
     assert fit.stiffness_exponent == pytest.approx(1.0 - 1.0 / fit.law.normal_exponent)
 
 
 def test_friction_of_a_shear_strength() -> None:
-    """Shear that grows as the area gives the power of the friction; Amontons friction that of the pressure."""
+    """Shear that grows as the area gives the power of the friction; Amontons friction that of the
+    pressure."""
     depth = np.geomspace(1e-8, 1e-7, 6)
     fit = dyn.fit_compliance(depth, 1e20 * depth**2.5, offset=0.0, shear=1e15 * depth**2.0)
     assert fit.law.friction_power == pytest.approx(2.0, rel=1e-10)

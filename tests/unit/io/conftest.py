@@ -20,7 +20,8 @@ def rough(shape: tuple[int, int], seed: int, dtype: type = np.float64, periodic:
 
 
 def make(kind: str) -> asp.ContactResult:
-    """One of the results in ``KINDS``; shapes differ in x and y so that a transposition cannot hide."""
+    """One of the results in ``KINDS``; shapes differ in x and y so that a transposition cannot
+    hide."""
     steel = asp.Elastic(2.1e11, 0.29, asp.Strength(hardness=6e9), name="steel", sources=("E: handbook", "nu: guess"))
     if kind == "elastic":
         return asp.solve(asp.ContactProblem(rough((18, 12), 1), asp.Elastic(1e11, 0.3)), asp.MeanPressure(2e8))

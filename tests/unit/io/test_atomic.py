@@ -145,7 +145,8 @@ def test_a_pipe_or_device_is_never_replaced(tmp_path: Path) -> None:
 
 
 def test_modes_and_links_survive(tmp_path: Path) -> None:
-    """Of a file that is replaced the mode, of a link the link; of a folder what is not replaced, with its modes."""
+    """Of a file that is replaced the mode, of a link the link; of a folder what is not replaced,
+    with its modes."""
     target, link = tmp_path / "a.txt", tmp_path / "link.txt"
     target.write_text("old")
     target.chmod(0o604)
@@ -176,7 +177,8 @@ def test_modes_and_links_survive(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("at_once", [True, False])
 def test_a_kill_leaves_one_whole_folder_and_the_next_run_clears_up(tmp_path: Path, at_once: bool) -> None:
-    """Killed at any of its system calls that rename or link, a run leaves the files of one run; the next removes the rest."""
+    """Killed at any of its system calls that rename or link, a run leaves the files of one run; the
+    next removes the rest."""
     script = (
         "import os, sys\nfrom pathlib import Path\nfrom asperity.io import atomic\n"
         "if sys.argv[3] == '0':\n    atomic.ctypes.CDLL = lambda name: None\n"

@@ -1,4 +1,5 @@
-"""Result files whose numbers cannot be, or contradict each other, are refused; what ended without convergence loads."""
+"""Result files whose numbers cannot be, or contradict each other, are refused; what ended without
+convergence loads."""
 
 from __future__ import annotations
 
@@ -44,7 +45,8 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 def edited(
     source: Path, target: Path, group: str, name: str, place: object, value: float, *, forged: bool = True
 ) -> Path:
-    """The file with another value at a place of a variable, and a digest that fits it where it is ``forged``."""
+    """The file with another value at a place of a variable, and a digest that fits it where it is
+    ``forged``."""
     target.write_bytes(source.read_bytes())
     with h5py.File(target, "r+") as file:
         values = file[group][name]
@@ -124,7 +126,8 @@ def test_what_is_whole_loads(stored: dict[str, Path]) -> None:
 
 @pytest.mark.parametrize("precision", ["single", "double"])
 def test_precision_and_failures(precision: str, tmp_path: Path) -> None:
-    """Single precision, and a solve that ended early, whose gap is clipped and whose load is met."""
+    """Single precision, and a solve that ended early, whose gap is clipped and whose load is
+    met."""
     heights = 1e-9 * np.random.default_rng(5).standard_normal((48, 48))
     problem = asp.ContactProblem(asp.Surface(heights, 1e-8, periodic=True), STEEL)
     for solver in (asp.solvers.ActiveSet(precision=precision), asp.solvers.ConjugateGradient(max_iterations=2)):

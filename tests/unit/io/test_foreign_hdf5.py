@@ -1,4 +1,5 @@
-"""HDF5 files of strangers: data of other files are not read, and damaged references do not reach the library."""
+"""HDF5 files of strangers: data of other files are not read, and damaged references do not reach
+the library."""
 
 from __future__ import annotations
 

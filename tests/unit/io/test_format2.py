@@ -1,4 +1,5 @@
-"""Files of format 2 are read to the bit, as the version that wrote them read them; tests/reference/files-v2/README.md says how they were made."""
+"""Files of format 2 are read to the bit, as the version that wrote them read them;
+tests/reference/files-v2/README.md says how they were made."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ FACTS = json.loads((FOLDER / "facts.json").read_text(encoding="utf-8"))
 
 @pytest.mark.parametrize("name", FACTS)
 def test_every_type_of_result(name: str) -> None:
-    """All but what follows from the edges of contacts, which counts them otherwise than that version."""
+    """All but what follows from the edges of contacts, which counts them otherwise than that
+    version."""
     found = told(asp.load(FOLDER / f"{name}.nc"))
     facts = {
         key: value for key, value in FACTS[name].items() if key.rpartition(".")[2] not in (*OF_EDGES, "spot_areas")

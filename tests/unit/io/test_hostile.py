@@ -1,4 +1,5 @@
-"""Files, documents and stores of strangers: refused in one sentence, soon, and without being followed elsewhere."""
+"""Files, documents and stores of strangers: refused in one sentence, soon, and without being
+followed elsewhere."""
 
 from __future__ import annotations
 
@@ -106,7 +107,8 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_results_are_not_followed_elsewhere(tmp_path: Path) -> None:
-    """Links out of the file, raw data of other files, groups within themselves, more data than there is memory."""
+    """Links out of the file, raw data of other files, groups within themselves, more data than
+    there is memory."""
 
     def link(file: Any) -> None:
         file["a"] = h5py.ExternalLink("/etc/passwd", "/")

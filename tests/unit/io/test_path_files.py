@@ -103,7 +103,8 @@ def test_displacement_and_gap_come_back_within_the_stated_rounding(precision: st
 def test_steps_are_written_while_they_are_solved(
     path: asp.HistoryResult, block: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The same file as of the whole path but for the energies, and no more than a block of steps is held."""
+    """The same file as of the whole path but for the energies, and no more than a block of steps is
+    held."""
     monkeypatch.setattr("asperity.io.paths.BLOCK", block)
     held, most = list[weakref.ref[asp.ContactResult]](), [0]
 
@@ -136,7 +137,8 @@ def test_steps_are_written_while_they_are_solved(
 
 @pytest.mark.parametrize("block", [1.0, 1e9])
 def test_what_some_steps_have_is_read_back(block: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Wherever they stand, and whether the steps are written one by one: what the others have no more, or not yet, is not made up."""
+    """Wherever they stand, and whether the steps are written one by one: what the others have no
+    more, or not yet, is not made up."""
     monkeypatch.setattr("asperity.io.paths.BLOCK", block)
     heights = 1e-9 * np.random.default_rng(7).standard_normal((16, 12))
     surface = asp.Surface(heights, 2e-8, 2e-8, periodic=True)
@@ -175,7 +177,8 @@ def test_a_result_of_a_path_is_read_back(path: asp.HistoryResult, tmp_path: Path
 
 
 def test_adhesive_paths_say_what_pulls(tmp_path: Path) -> None:
-    """In the table of the steps and in the file: external force, attraction, grips, margin and jumps of every step."""
+    """In the table of the steps and in the file: external force, attraction, grips, margin and
+    jumps of every step."""
     path = CASES["adhesive"]()
     asp.files.export_csv(path, tmp_path / "path.csv")
     asp.save(path, tmp_path / "path.nc")

@@ -45,7 +45,8 @@ def test_digest_follows_the_content(elastic: asp.ContactResult) -> None:
 
 
 def test_tables_of_labels_are_complete() -> None:
-    """A field added to result or certificate must get a label, or it would be missing in files and reports."""
+    """A field added to result or certificate must get a label, or it would be missing in files and
+    reports."""
     other = {"problem", "control", "plastic", "certificate", "status", "citation_keys"}
     other |= {"couplings", "memory", "earlier", "deflections"}
     labelled = {item.name for item in (*FIELDS, *ALL_SCALARS)}

@@ -1,4 +1,5 @@
-"""States of finite elements and rolling contacts come back from their files as they went in, and histories go on from them to the bit."""
+"""States of finite elements and rolling contacts come back from their files as they went in, and
+histories go on from them to the bit."""
 
 from __future__ import annotations
 

@@ -23,7 +23,8 @@ from asperity.io.tree import FORMAT_VERSION, Node, write_tree
 
 
 def same(first: object, second: object) -> bool:
-    """Equal to the last bit and of equal type, all the way down but for products at hand, which no file holds; NaN equals NaN."""
+    """Equal to the last bit and of equal type, all the way down but for products at hand, which no
+    file holds; NaN equals NaN."""
     if isinstance(first, Deflections) or isinstance(second, Deflections):
         return all(one is None or isinstance(one, Deflections) for one in (first, second))
     if isinstance(first, np.ndarray) and isinstance(second, np.ndarray):
@@ -176,7 +177,8 @@ def test_newer_format_is_refused(elastic: asp.ContactResult, tmp_path: Path) -> 
 
 
 def changed(result: asp.ContactResult, **attributes: object) -> Node:
-    """Tree of ``result`` with other attributes of the contact; None takes away, a value or an attribute."""
+    """Tree of ``result`` with other attributes of the contact; None takes away, a value or an
+    attribute."""
     tree = result_tree(result)
     group = tree.children["contact"]
     values = tuple(item for item in group.values if attributes.get(item.quantity.name, ...) is not None)

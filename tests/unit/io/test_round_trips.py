@@ -1,4 +1,5 @@
-"""Every type of result comes back from its file to the bit, the state of every step too, and goes on in a fresh process as if there had been no break."""
+"""Every type of result comes back from its file to the bit, the state of every step too, and goes
+on in a fresh process as if there had been no break."""
 
 from __future__ import annotations
 
@@ -75,7 +76,8 @@ def test_a_single_contact_and_its_state(name: str, step: int, solved: dict[str, 
 
 @pytest.mark.parametrize("name", ["wet", "adhesive", "creeping", "sticking", "flowing", "single", *GO_ON])
 def test_a_restart_in_a_fresh_process(name: str, solved: dict[str, Any], tmp_path: Path) -> None:
-    """From the state of the first step of a path, or from another result, in another process: what follows to the bit."""
+    """From the state of the first step of a path, or from another result, in another process: what
+    follows to the bit."""
     path = solved[name]
     asp.save(path, tmp_path / "path.nc")
     code = (
@@ -87,7 +89,8 @@ def test_a_restart_in_a_fresh_process(name: str, solved: dict[str, Any], tmp_pat
     there = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, places))}
     done = subprocess.run(asked, capture_output=True, text=True, check=False, env=there)
     assert done.returncode == 0, done.stderr
-    # the bound of the pressure's error is made of sums whose order may be another in a process that has just begun
+    # the bound of the pressure's error is made of sums whose order may be another in a process that
+    # has just begun
     times = ("wall_time", "peak_memory", "pressure_error")
     assert without(json.loads(done.stdout), *times) == without(told(goes_on(path, name)), *times)
 
@@ -169,7 +172,10 @@ def test_two_physics_of_ones_own_stand_beside_each_other(tmp_path: Path) -> None
     back = ("displacement", "gap")  # of pressures alone, to a rounding: test_path_files
     assert without(told(again), *back) == without(told(path), *back)
     assert asp.files.open_tree(tmp_path / "r.nc")["path/couplings/tape/force"].values.tolist() == [2e-7, 2e-7]
-    code = "import sys, asperity as asp\ntry:\n    asp.load(sys.argv[1])\nexcept asp.errors.FileFormatError as error:\n    print(error)\n"
+    code = (
+        "import sys, asperity as asp\ntry:\n    asp.load(sys.argv[1])\nexcept asp.errors.FileFormatError "
+        "as error:\n    print(error)\n"
+    )
     there = {**os.environ, "PYTHONPATH": str(Path(asp.__file__).parents[1])}
     asked = [sys.executable, "-c", code, str(tmp_path / "r.nc")]
     told_by = subprocess.run(asked, capture_output=True, text=True, check=True, env=there)

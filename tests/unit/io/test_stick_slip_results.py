@@ -1,4 +1,5 @@
-"""Steps with stick and slip come back from their file as they went in, and histories go on from them."""
+"""Steps with stick and slip come back from their file as they went in, and histories go on from
+them."""
 
 from __future__ import annotations
 

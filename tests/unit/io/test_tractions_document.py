@@ -1,4 +1,5 @@
-"""Documents of prescribed tractions: positions, arrays, what is refused, and that every door gives the same numbers."""
+"""Documents of prescribed tractions: positions, arrays, what is refused, and that every door gives
+the same numbers."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ def document(*loads, body="steel", stress=None, **tractions):
 
 
 def test_a_patch_from_end_to_end_covers_the_periodic_grid():
-    """Uniform pressure without lateral strain: σ_xx = -p ν/(1 - ν), so that the von Mises stress is p (1 - 2ν)/(1 - ν)."""
+    """Uniform pressure without lateral strain: σ_xx = -p ν/(1 - ν), so that the von Mises stress is
+    p (1 - 2ν)/(1 - ν)."""
     found = asp.run(document(PATCH))
     nu = asp.material("steel").poisson_ratio
     assert found.result.tractions.pressure == pytest.approx(np.full((32, 32), 1e6), rel=1e-12)

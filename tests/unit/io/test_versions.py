@@ -1,4 +1,5 @@
-"""Documents of version 1: friction moves into a table of its own, and the numbers stay what they were."""
+"""Documents of version 1: friction moves into a table of its own, and the numbers stay what they
+were."""
 
 from __future__ import annotations
 

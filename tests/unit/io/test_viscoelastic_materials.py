@@ -1,4 +1,5 @@
-"""Viscoelastic materials in documents, in the text of a body, in files of materials and of moduli: each is the solid that Python makes."""
+"""Viscoelastic materials in documents, in the text of a body, in files of materials and of moduli:
+each is the solid that Python makes."""
 
 from __future__ import annotations
 
@@ -149,9 +150,12 @@ def test_bad_series_times_and_units_are_refused() -> None:
         ({"kind": "prony", "moduli": ["1 MPa"], "times": ["1 m"]}, "body.relaxation.times[1]"),
         ({"kind": "prony", "moduli": ["1 MPa"], "times": []}, "body.relaxation.times"),
         ({"kind": "maxwell", "modulus": "0 Pa", "time": "1 s"}, "body.relaxation.modulus"),
-        ({"kind": "power_law", "coefficient": "1 GPa", "exponent": 1.5, "shortest": "1 s", "longest": "2 s"}, "body.relaxation.exponent"),
+        (
+            {"kind": "power_law", "coefficient": "1 GPa", "exponent": 1.5, "shortest": "1 s", "longest": "2 s"},
+            "body.relaxation.exponent",
+        ),
         ({"kind": "rubber"}, "body.relaxation.kind"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(InputError) as caught:
             checked({**DOCUMENT, "body": {"relaxation": relaxation, "poisson_ratio": 0.4}})
         assert key in str(caught.value)
@@ -196,7 +200,12 @@ def test_measured_moduli_are_fitted_from_their_file(tmp_path: Path, head: str, s
 
 
 def test_file_of_moduli_moves_with_the_document(tmp_path: Path) -> None:
-    body = {"layers": [{"relaxation": {"kind": "measured", "moduli_file": "m.csv"}, "poisson_ratio": 0.4, "thickness": "1 um"}], "base": "steel"}  # fmt: skip
+    body = {
+        "layers": [
+            {"relaxation": {"kind": "measured", "moduli_file": "m.csv"}, "poisson_ratio": 0.4, "thickness": "1 um"}
+        ],
+        "base": "steel",
+    }
     document = checked({**DOCUMENT, "body": body})
     moved: Any = relocated(document, tmp_path, tmp_path / "run")
     assert moved.body.layers[0].relaxation.moduli_file == "../m.csv"
@@ -238,7 +247,10 @@ def test_own_library_has_viscoelastic_materials(tmp_path: Path) -> None:
     found = material("my rubber", library=file)
     shift = asp.viscoelasticity.WilliamsLandelFerry(298.0, 8.86, 101.6)
     sources = ("youngs_modulus: own test", "poisson_ratio: user", "shift: handbook")
-    same(found, asp.Viscoelastic.prony(3e6, TERMS, 0.45, name="my rubber", sources=sources, elastic_bulk=True, shift=shift))  # fmt: skip
+    same(
+        found,
+        asp.Viscoelastic.prony(3e6, TERMS, 0.45, name="my rubber", sources=sources, elastic_bulk=True, shift=shift),
+    )
     table = BodyTable.model_validate({**body_from_text("my rubber"), "materials_file": "own.toml"})
     assert repr(build_body(table, tmp_path)) == repr(found)
     assert MaterialRecord.find("my rubber", file).youngs_modulus.value == 16e6

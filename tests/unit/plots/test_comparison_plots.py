@@ -13,7 +13,8 @@ THEORIES = ("high", "steep", "low", "short")
 
 
 def gaps() -> xarray.Dataset:
-    """Mean gaps over rms heights: within the axes, through the bottom, never within, and known at light loads only."""
+    """Mean gaps over rms heights: within the axes, through the bottom, never within, and known at
+    light loads only."""
     x = np.log10(PRESSURE) + 4.0  # from 0 to 3
     curves = np.stack([1.8 - 0.2 * x, 1.5 - 2.0 * x, -5.0 - x, np.where(x < 1.2, 1.0 + 0.0 * x, np.nan)])
     valid = np.ones(curves.shape, dtype=bool)

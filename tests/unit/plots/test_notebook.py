@@ -1,4 +1,5 @@
-"""What notebooks show: one screen of text, a card with a picture, figures on the axes that are given."""
+"""What notebooks show: one screen of text, a card with a picture, figures on the axes that are
+given."""
 
 from __future__ import annotations
 
@@ -197,13 +198,15 @@ from matplotlib.backends.backend_agg import show
 
 matplotlib.interactive(True)
 """
-"""A backend that does to pyplot what that of notebooks does when it is loaded, at the first figure."""
+"""A backend that does to pyplot what that of notebooks does when it is loaded, at the first
+figure."""
 
 SURFACE = "import numpy as np, asperity as asp\nsurface = asp.Surface(np.eye(8) * 1e-9, 1e-7)\n"
 
 
 def test_the_first_figure_leaves_pyplot_as_its_backend_has_switched_it(tmp_path):
-    """Else notebooks show the first figure alone: what is not interactive when it is made is not shown."""
+    """Else notebooks show the first figure alone: what is not interactive when it is made is not
+    shown."""
     (tmp_path / "switching.py").write_text(BACKEND)
     code = SURFACE + "surface.plot()\nimport matplotlib\nassert matplotlib.is_interactive()\n"
     paths = os.pathsep.join([str(tmp_path), *filter(None, sys.path)])

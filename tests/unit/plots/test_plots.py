@@ -163,7 +163,8 @@ def test_gap_histogram_covers_the_open_area(plastic: asp.ContactResult, ax: Axes
 
 
 def test_every_figure_of_every_contact_is_drawn(result: asp.ContactResult) -> None:
-    """Rendered where the shape asks for something special; for other shapes all that rendering computes before."""
+    """Rendered where the shape asks for something special; for other shapes all that rendering
+    computes before."""
     grid = result.problem.grid
     for plot in plots.PLOTS:
         if 1 in grid.shape or min(grid.shape) == 4:
@@ -239,6 +240,9 @@ def test_existing_files_are_kept_unless_overwritten(elastic: asp.ContactResult, 
 
 
 def test_import_is_light() -> None:
-    code = "import sys, asperity.plots, asperity.io.results, asperity.io.export; print('matplotlib' in sys.modules or 'xarray' in sys.modules)"
+    code = (
+        "import sys, asperity.plots, asperity.io.results, asperity.io.export; print('matplotlib' in "
+        "sys.modules or 'xarray' in sys.modules)"
+    )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
     assert run.stdout.strip() == "False"

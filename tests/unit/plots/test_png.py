@@ -67,7 +67,8 @@ def test_curves_lie_where_the_picture_shows_them() -> None:
     [(2e-5, 1.2, 4.5), (3e3, 1.0, 3.5), (1.1, 0.4, 3.5), (0.0103, 0.2, 3.5), (1.0, 3.0, 4.5)],
 )
 def test_labels_of_logarithmic_axes_do_not_overlap(lowest: float, decades: float, width: float) -> None:
-    """Axes of about a decade, where matplotlib labels the ticks between; two labels at least tell the scale."""
+    """Axes of about a decade, where matplotlib labels the ticks between; two labels at least tell
+    the scale."""
     with style():
         figure = Figure(figsize=(width, 3.0), dpi=100, layout="constrained")
         FigureCanvasAgg(figure)

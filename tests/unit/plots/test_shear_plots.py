@@ -22,7 +22,8 @@ def history() -> asp.HistoryResult:
 
 
 def test_the_loop(history: asp.HistoryResult) -> None:
-    """Shift and force along (0.6, 0.8); both cycles, whose heat is that of their steps and the same."""
+    """Shift and force along (0.6, 0.8); both cycles, whose heat is that of their steps and the
+    same."""
     loop = loop_of(history.steps)
     assert loop.direction == pytest.approx((0.6, 0.8))
     assert loop.cycles == ((3, 15), (15, 27))

@@ -1,4 +1,5 @@
-"""The figures of the stresses that were asked for: which there are, what they show, close-ups of long sections."""
+"""The figures of the stresses that were asked for: which there are, what they show, close-ups of
+long sections."""
 
 from __future__ import annotations
 

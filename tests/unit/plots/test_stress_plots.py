@@ -86,7 +86,8 @@ def test_the_cross_of_a_principal_stress_is_at_the_largest_tension(contact, ax):
 
 
 def test_signed_stresses_are_white_about_zero(contact, ax):
-    """No contour at zero, whose line would follow rounding; colours of either sign are mirror images."""
+    """No contour at zero, whose line would follow rounding; colours of either sign are mirror
+    images."""
     field = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"), friction=0.5)
     plots.plot_stress_section(field, ax, "shear_xz")
     levels = ax.collections[0].levels
@@ -128,7 +129,8 @@ def test_a_line_has_no_place_along_y(ax):
 
 
 def test_logarithmic_steps_of_signed_stresses(contact, ax):
-    """Equal factors on both sides of zero, which is white; small stresses of either sign are told apart."""
+    """Equal factors on both sides of zero, which is white; small stresses of either sign are told
+    apart."""
     field = asp.stress(contact, DEPTHS, on=asp.stresses.Section(y="max"), friction=0.5)
     plots.plot_stress_section(field, ax, "shear_xz", log=True)
     filled = ax.collections[0]

@@ -71,7 +71,8 @@ def ax() -> Axes:
 
 
 RENDERED = ("with holes", "profile", "flat", "point")
-"""Surfaces whose figures are all rendered, besides the measured one; of the others those are whose size follows the map."""
+"""Surfaces whose figures are all rendered, besides the measured one; of the others those are whose
+size follows the map."""
 
 
 @pytest.mark.parametrize("plot", plots.SURFACE_PLOTS, ids=lambda plot: plot.name)

@@ -1,4 +1,5 @@
-"""Figures drawn by several processes are those that one draws, and none is lost whatever becomes of another process."""
+"""Figures drawn by several processes are those that one draws, and none is lost whatever becomes of
+another process."""
 
 from __future__ import annotations
 
@@ -146,7 +147,8 @@ def test_a_system_that_makes_no_process(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_passes_of_a_copy_need_no_threads(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The threads of an engine are not in the copy of a process; its passes are shared out there no more."""
+    """The threads of an engine are not in the copy of a process; its passes are shared out there no
+    more."""
     for module in (blocks, cpu):
         monkeypatch.setattr(module, "SERIAL_BELOW", 0)
     engine = CpuEngine(threads=3)

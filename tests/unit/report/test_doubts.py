@@ -1,4 +1,5 @@
-"""A duality gap above 1e-3 stands above everything that is said of a contact: on pages, on screens, in studies, in notebooks."""
+"""A duality gap above 1e-3 stands above everything that is said of a contact: on pages, on screens,
+in studies, in notebooks."""
 
 from __future__ import annotations
 

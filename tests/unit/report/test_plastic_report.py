@@ -1,4 +1,5 @@
-"""The parts of a report on plastic deformation and load paths: what they say, and when they are there."""
+"""The parts of a report on plastic deformation and load paths: what they say, and when they are
+there."""
 
 from __future__ import annotations
 

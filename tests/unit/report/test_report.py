@@ -1,4 +1,5 @@
-"""A report is one file that states everything, escapes what it is given, and cries when a result is not converged."""
+"""A report is one file that states everything, escapes what it is given, and cries when a result is
+not converged."""
 
 from __future__ import annotations
 

@@ -118,7 +118,8 @@ def number(text: str) -> float:
 def test_summits_of_a_resolved_gaussian_surface_are_those_of_nayak():
     surface = asp.characterise(generated(size=512))
     table = {row[0]: row[1:] for row in summit_comparison(surface)}
-    # eight pixels to the shortest wave: lattice summits are 3 % fewer and blunter; 2000 of them scatter by 5 %
+    # eight pixels to the shortest wave: lattice summits are 3 % fewer and blunter; 2000 of them
+    # scatter by 5 %
     for label in ("density of summits", "mean summit curvature", "summit radius 1/<κ>"):
         measured, _, spectral = table[label]
         assert number(measured) == pytest.approx(number(spectral), rel=0.1), label

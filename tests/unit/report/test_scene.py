@@ -1,4 +1,5 @@
-"""What a page holds for its viewer: the coding of maps, how coarse they are, and how large all of it may be."""
+"""What a page holds for its viewer: the coding of maps, how coarse they are, and how large all of
+it may be."""
 
 from __future__ import annotations
 
@@ -170,7 +171,8 @@ def test_a_scene_is_the_same_from_a_file(path: asp.HistoryResult, tmp_path: Path
     assert made is not None
     (back,), (gaps,) = ([item for item in scene["maps"] if item["name"] == "gap"] for scene in (found, made))
     for one, other in zip(back.pop("arrays"), gaps.pop("arrays"), strict=True):
-        # the gaps of the steps of a path come back within their rounding, so that a value may fall into the next of the equal steps
+        # the gaps of the steps of a path come back within their rounding, so that a value may fall
+        # into the next of the equal steps
         np.testing.assert_allclose(decoded(one), decoded(other), rtol=0.0, atol=1.01 * other["step"])
         assert one["low"] == pytest.approx(other["low"], rel=1e-9)
     assert found == made

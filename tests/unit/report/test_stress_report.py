@@ -1,4 +1,5 @@
-"""Stresses in words: tables by layer, interfaces, yield; and the part of the report that shows them."""
+"""Stresses in words: tables by layer, interfaces, yield; and the part of the report that shows
+them."""
 
 from __future__ import annotations
 

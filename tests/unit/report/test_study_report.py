@@ -109,7 +109,8 @@ def test_a_study_under_way_says_what_is_missing(tmp_path):
 
 
 def test_the_running_mean_of_an_unfinished_study_ends_with_its_samples(tmp_path, monkeypatch):
-    """Samples still to be computed are no samples: a flat line would say that the mean does not change any more."""
+    """Samples still to be computed are no samples: a flat line would say that the mean does not
+    change any more."""
     drawn = []
     monkeypatch.setattr("asperity.report.study.plot_running_mean", lambda y, halves, means, ax: drawn.append(means))
     campaign = made(tmp_path, "histogram")

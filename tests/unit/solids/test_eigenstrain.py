@@ -1,4 +1,5 @@
-"""Response of layered bodies to eigenstrain and surface tractions: exact solutions, other parts of the package, symmetries, conservation."""
+"""Response of layered bodies to eigenstrain and surface tractions: exact solutions, other parts of
+the package, symmetries, conservation."""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ for line in reference("eigenstrain_cuboid_surface"):
 
 
 def polar(largest: float, panel: float, reach: float) -> tuple[RealArray, RealArray, RealArray]:
-    """Wavevectors in polar coordinates up to ``largest`` and their weights, for functions that reach as far as ``reach``."""
+    """Wavevectors in polar coordinates up to ``largest`` and their weights, for functions that
+    reach as far as ``reach``."""
     nodes, weights = np.polynomial.legendre.leggauss(16)
     ends = np.linspace(0.0, largest, int(np.ceil(largest / panel)) + 1)
     half = 0.5 * np.diff(ends)
@@ -44,7 +46,8 @@ def polar(largest: float, panel: float, reach: float) -> tuple[RealArray, RealAr
 
 @pytest.mark.parametrize("case", sorted(CASES, key=str))
 def test_cuboids(case: object) -> None:
-    """Displacement of the surface over a uniform cuboid of each component, known to 1e-11, by quadrature over all wavevectors."""
+    """Displacement of the surface over a uniform cuboid of each component, known to 1e-11, by
+    quadrature over all wavevectors."""
     row = CASES[case][0]
     nu, a, b, half, middle, x, y = (
         float(row[name]) for name in ("nu", "half_x", "half_y", "half_z", "depth_centre", "x", "y")
@@ -66,7 +69,8 @@ def test_cuboids(case: object) -> None:
 
 @pytest.mark.parametrize("rho", [0.0, 0.7, 2.0])
 def test_dilatational_ball(rho: float) -> None:
-    """u_z = -(1 + ν) ε (4 r³/3) d/(ρ² + d²)^(3/2) outside a ball of radius r at the depth d; slices of constant strain converge to it as their thickness squared."""
+    """u_z = -(1 + ν) ε (4 r³/3) d/(ρ² + d²)^(3/2) outside a ball of radius r at the depth d; slices
+    of constant strain converge to it as their thickness squared."""
     radius, depth, nu = 0.6, 1.0, 0.3
     exact = -(1.0 + nu) * 4.0 * radius**3 / 3.0 * depth / (rho**2 + depth**2) ** 1.5
     nodes, weights = np.polynomial.legendre.leggauss(16)
@@ -110,7 +114,8 @@ def product(made: EigenstrainOperator, stress: RealArray, strain: RealArray) -> 
 @pytest.mark.parametrize("free", [False, True])
 @pytest.mark.parametrize("body", [SUBSTRATE, STACK, ON_RIGID], ids=["half-space", "layers", "rigid base"])
 def test_symmetry_and_reciprocity(body: asp.Elastic | asp.Layered, free: bool) -> None:
-    """Betti: eigenstrain to stress is symmetric and takes energy, and by (5.1) tractions do on its displacement what their stress does on it."""
+    """Betti: eigenstrain to stress is symmetric and takes energy, and by (5.1) tractions do on its
+    displacement what their stress does on it."""
     made = operator(body, free=free)
     one, two = random_strain(made, 1), random_strain(made, 2)
     (of_one, moved), (of_two, _) = made.stress(one), made.stress(two)
@@ -162,7 +167,8 @@ def spot(grid: Grid) -> tuple[RealArray, RealArray]:
 
 
 def test_images_of_tractions_on_a_padded_grid() -> None:
-    """Where a contact does not repeat the stress is that on a much larger grid, up to images that fall with the length at least squared."""
+    """Where a contact does not repeat the stress is that on a much larger grid, up to images that
+    fall with the length at least squared."""
 
     def at(count: int) -> RealArray:
         grid = Grid((count, count), (0.5e-6, 0.5e-6))
@@ -195,7 +201,8 @@ def test_layers_of_one_material_are_homogeneous() -> None:
 
 
 def test_no_cell_passes_on_a_net_force() -> None:
-    """Residual tractions on any plane balance each other, and close to the free surface they vanish."""
+    """Residual tractions on any plane balance each other, and close to the free surface they
+    vanish."""
     edges = np.array([0.0, 1e-10, 0.4e-6, 0.8e-6, 1.4e-6, 2.5e-6])
     made = EigenstrainOperator.prepared(GRID, DepthCells(SUBSTRATE, edges), threads=1)
     strain = random_strain(made, 5)
@@ -209,7 +216,8 @@ def test_no_cell_passes_on_a_net_force() -> None:
 
 
 def test_images_of_a_padded_grid_fall_with_its_length() -> None:
-    """The displacement over a strained spot nears that of an unbounded body as the cube of the distance of its images."""
+    """The displacement over a strained spot nears that of an unbounded body as the cube of the
+    distance of its images."""
     error = []
     nodes, depth, nu = 6, 1.5e-6, 0.3
     for count in (16, 32):
@@ -237,7 +245,8 @@ def test_images_of_a_padded_grid_fall_with_its_length() -> None:
 
 
 def test_edges_of_depth_cells() -> None:
-    """Interfaces are edges, cells are thinnest at the surface and beside interfaces, and their number is near the one asked for."""
+    """Interfaces are edges, cells are thinnest at the surface and beside interfaces, and their
+    number is near the one asked for."""
     edges = depth_edges(STACK, 5e-6, 0.1e-6, 40)
     assert abs(edges.size - 41) <= 2
     assert np.diff(edges)[0] == pytest.approx(0.1e-6, rel=0.2)

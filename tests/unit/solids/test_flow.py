@@ -1,4 +1,5 @@
-"""Which law each region of a body flows by, and how far a plastic strain is from the one that the return mapping gives."""
+"""Which law each region of a body flows by, and how far a plastic strain is from the one that the
+return mapping gives."""
 
 import numpy as np
 import pytest
@@ -20,7 +21,8 @@ BODY = asp.Layered([asp.Layer(HARD, 1e-6), asp.Layer(HARD, 0.0)], SOFT)
 
 
 def test_laws_of_strengths() -> None:
-    """Where a yield stress is known the material flows, with its hardening if it has one, elsewhere it is elastic; vanished layers are no region."""
+    """Where a yield stress is known the material flows, with its hardening if it has one, elsewhere
+    it is elastic; vanished layers are no region."""
     hard = asp.Elastic(1e9, 0.3, Strength(hardening=Swift(1e7, 1e-2, 0.1), kinematic=1e8, recall=2.0))
     assert flow_of(hard) == (J2(PLAIN, Swift(1e7, 1e-2, 0.1), 1e8, 2.0),)
     assert regions_of(BODY) == (HARD, SOFT)
@@ -47,7 +49,8 @@ def test_what_is_refused(given: list, shown: str) -> None:
 
 
 def test_plastic_strain_that_the_return_mapping_takes_away_is_not_settled() -> None:
-    """Of a load on the way that was too large: under a smaller one none is left, which is a change by all of it."""
+    """Of a load on the way that was too large: under a smaller one none is left, which is a change
+    by all of it."""
     grid, solid = Grid((6, 5), (1e-6, 1e-6)), asp.Elastic(200e9, 0.3)
     cells = DepthCells(solid, np.linspace(0.0, 4e-6, 5))
     operator = EigenstrainOperator.prepared(grid, cells, free=False, threads=1)

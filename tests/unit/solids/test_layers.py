@@ -48,7 +48,8 @@ def test_layers_are_frozen_and_equal_by_value():
 
 
 def test_compliances_are_equal_where_elastic_constants_are():
-    """Names, sources and strengths (nan where unknown) do not count, so prepared operators serve equal bodies."""
+    """Names, sources and strengths (nan where unknown) do not count, so prepared operators serve
+    equal bodies."""
     one = asp.Layered([asp.Layer(asp.material("DLC"), 5e-9), asp.Layer(SOFT, 0.0)], asp.material("steel"), name="disk")
     steel = asp.material("steel")
     plain = asp.Elastic(steel.youngs_modulus, steel.poisson_ratio, asp.Strength(yield_stress=float("nan")))

@@ -1,4 +1,5 @@
-"""Yield stress and hardening of materials: what bodies say of them, in Python, documents, text and the library."""
+"""Yield stress and hardening of materials: what bodies say of them, in Python, documents, text and
+the library."""
 
 from __future__ import annotations
 

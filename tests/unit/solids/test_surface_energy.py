@@ -1,4 +1,5 @@
-"""Work of adhesion of pairs: the rule, measured energies, sources, own files, and what is refused."""
+"""Work of adhesion of pairs: the rule, measured energies, sources, own files, and what is
+refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Point and patch responses of layered bodies in real space: every row of the tables, lattices, and free convolution."""
+"""Point and patch responses of layered bodies in real space: every row of the tables, lattices, and
+free convolution."""
 
 import functools
 
@@ -40,7 +41,8 @@ def kernels_of(body, plane, traction):
 
 
 def point_response(body, plane, load):
-    """Function of (x, y): all fields of a point force, less those of a homogeneous body in the outermost region."""
+    """Function of (x, y): all fields of a point force, less those of a homogeneous body in the
+    outermost region."""
     traction = "pressure" if load == "z" else "shear"
     terms, kernels = TERMS[traction], kernels_of(body, plane, traction)
 
@@ -64,7 +66,8 @@ def homogeneous_constants(plane):
 @pytest.mark.slow
 @every_row(POINTS, label=label)
 def test_point_forces_on_layered_bodies(row):
-    """The table is accurate to 1e-13 absolute per unit force. Worst difference found: 6e-14, 4e-13 of the field."""
+    """The table is accurate to 1e-13 absolute per unit force. Worst difference found: 6e-14, 4e-13
+    of the field."""
     body = body_of(row)
     plane = plane_of(row, body, row["z"])
     x, y = np.array([row["x"]]), np.array([row["y"]])
@@ -86,7 +89,8 @@ def graded(low, high, levels=14, gauss=12):
 
 
 def patch_by_quadrature(body, plane, row):
-    """All fields of a patch at the point of the ``row``: the point response over the patch, by brute force."""
+    """All fields of a patch at the point of the ``row``: the point response over the patch, by
+    brute force."""
     x, y, a, b, load = row["x"], row["y"], row["a"], row["b"], row["load"]
     if load == "y":
         turned = row | {"x": y, "y": x, "a": b, "b": a, "load": "x"}
@@ -122,7 +126,8 @@ def under_the_pixel(body, plane, grid):
 
 @every_row([row for row in PATCHES if row["x"] == row["y"] == 0.0], label=label)
 def test_coefficients_under_the_loaded_pixel(row):
-    """The stated error is 1e-8 of the largest coefficient, which is this one. Worst found: 2e-14."""
+    """The stated error is 1e-8 of the largest coefficient, which is this one. Worst found:
+    2e-14."""
     body = body_of(row)
     plane = plane_of(row, body, row["z"])
     ready = under_the_pixel(body, plane, asp.Grid((1, 1), (2 * row["a"], 2 * row["b"])))
@@ -138,7 +143,8 @@ def test_reference_rows_exist():
 @pytest.mark.parametrize("depth", [0.0, 0.2, 0.5, 1.3, 5.0])
 @pytest.mark.parametrize("load", ["x", "y", "z"])
 def test_lattices_agree_with_quadrature(load, depth):
-    """Pixels near, at middle distance and far, where the coefficients are made in different ways; dx != dy."""
+    """Pixels near, at middle distance and far, where the coefficients are made in different ways;
+    dx != dy."""
     grid = asp.Grid((40, 60), (1.0, 0.6))
     for plane in planes(LAYERED, [depth]):
         ready = PlaneCoefficients(LAYERED, plane, grid)
@@ -153,7 +159,8 @@ def test_lattices_agree_with_quadrature(load, depth):
 
 @pytest.mark.parametrize("load", ["x", "y", "z"])
 def test_the_effect_of_a_thin_layer_is_proportional_to_its_thickness(load):
-    """At depth 8 a layer of thickness 0.004 acts to first order; the next is some ten times its share 5e-4 of the depth."""
+    """At depth 8 a layer of thickness 0.004 acts to first order; the next is some ten times its
+    share 5e-4 of the depth."""
     base, grid = asp.Elastic(1.0, 0.3), asp.Grid((12, 5), (1.0, 1.0))
 
     def stress(thickness):

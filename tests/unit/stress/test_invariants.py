@@ -90,7 +90,8 @@ def test_invariants_do_not_change_under_rotation():
 
 
 def test_bounds_between_the_invariants():
-    """√J2 lies between the largest shear stress and 2/√3 of it; von Mises never exceeds Tresca; σt never exceeds σ1."""
+    """√J2 lies between the largest shear stress and 2/√3 of it; von Mises never exceeds Tresca; σt
+    never exceeds σ1."""
     s = tensor(random_matrices(2000))
     root, shear = invariants.sqrt_J2(s), invariants.max_shear(s)
     assert (root >= shear * (1.0 - 10 * EPS)).all()

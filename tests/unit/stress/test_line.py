@@ -1,4 +1,5 @@
-"""Stress under line contacts: closed forms, quadrature, limits, agreement with the contact and with other boundaries."""
+"""Stress under line contacts: closed forms, quadrature, limits, agreement with the contact and with
+other boundaries."""
 
 import numpy as np
 import pytest
@@ -30,7 +31,8 @@ def cylinder(body, n=201, half=2.0, radius=50.0, load=0.05):
 
 
 def test_hertz_line_contact():
-    """Stress on the axis in closed form (Johnson 1985, eq. 4.46); pixels of a/45 leave 2e-3 of p0."""
+    """Stress on the axis in closed form (Johnson 1985, eq. 4.46); pixels of a/45 leave 2e-3 of
+    p0."""
     body = asp.Elastic(1.0, 0.3)
     result = cylinder(body)
     answer = HertzLine(body.plane_strain_modulus, 50.0).at_load(0.05)
@@ -47,9 +49,11 @@ def test_hertz_line_contact():
 @pytest.mark.parametrize("load", LOADS)
 @pytest.mark.parametrize("depth", [0.3, 0.8, 1.4, 2.3, 4.0])
 def test_coefficients_agree_with_quadrature(load, depth):
-    """∫ F cos(αx) 2 sin(αa)/α dα by Gauss panels, at both sides of interfaces; 1e-8 was found, near the surface.
+    """∫ F cos(αx) 2 sin(αa)/α dα by Gauss panels, at both sides of interfaces; 1e-8 was found, near
+    the surface.
 
-    Displacements along the load are compared by differences between offsets, which no datum changes.
+    Displacements along the load are compared by differences between offsets, which no datum
+    changes.
     """
     a, dx = 0.5 * GRID.spacing[0], GRID.spacing[0]
     for plane in planes(BODY, [depth]):
@@ -69,7 +73,8 @@ def test_coefficients_agree_with_quadrature(load, depth):
 
 @pytest.mark.parametrize("load", LOADS)
 def test_identical_layers_are_a_half_space(load):
-    """Remainders by transform against closed forms of strips; 1e-9 of unit traction is the accuracy of the tables."""
+    """Remainders by transform against closed forms of strips; 1e-9 of unit traction is the accuracy
+    of the tables."""
     solid = asp.Elastic(2.0, 0.3)
     layered = asp.Layered([asp.Layer(solid, 0.7), asp.Layer(solid, 1.1)], solid)
     for depth in (0.0, 0.4, 1.2, 3.0):
@@ -99,7 +104,8 @@ def test_surface_displacement_is_that_of_the_contact(body):
 
 
 def test_a_long_period_is_nearly_free():
-    """Images in a period of 256 change the stress of a load of width 4 by its share of the cell; the mean mode is left."""
+    """Images in a period of 256 change the stress of a load of width 4 by its share of the cell;
+    the mean mode is left."""
     n = 512
     grid = asp.Grid((n, 1), (0.5, 1.0))
     x = grid.centred_coordinates()[0]
@@ -134,8 +140,9 @@ SLIPPING = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.2), 0.8, asp.Frictionless()
 
 
 def test_a_layer_that_slips_carries_a_sheared_line_to_both_sides():
-    """Nothing else holds it: σxx over its thickness is the force of half the traction on either side, σxy likewise; in the
-    base there is none far away. Gauss points are exact for the smooth profile; waves die out like exp(-πx/h)."""
+    """Nothing else holds it: σxx over its thickness is the force of half the traction on either
+    side, σxy likewise; in the base there is none far away. Gauss points are exact for the smooth
+    profile; waves die out like exp(-πx/h)."""
     grid = asp.Grid((64, 1), (0.25, 1.0))
     pressure, (qx, qy) = np.zeros((2, 64, 1))[0], np.zeros((2, 64, 1))
     qx[30:33], qy[30:33] = 2.0, 1.0

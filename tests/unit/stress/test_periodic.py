@@ -1,4 +1,5 @@
-"""Fields under periodic loads: a plain sum over waves, orientation, equilibrium, energy, precision, mean mode."""
+"""Fields under periodic loads: a plain sum over waves, orientation, equilibrium, energy, precision,
+mean mode."""
 
 from itertools import pairwise
 
@@ -39,7 +40,8 @@ def fields_of(source, plane):
 
 
 def sum_over_waves(loads, body, plane):
-    """The same by the formulas of the turned frame at every wavevector, with both signs of the highest of an even grid."""
+    """The same by the formulas of the turned frame at every wavevector, with both signs of the
+    highest of an even grid."""
     (nx, ny), spacing = loads.grid.shape, loads.grid.spacing
     p, qx, qy = (np.fft.fft2(f) for f in (loads.pressure, loads.shear_x, loads.shear_y))
     xi, eta = (2 * np.pi * np.fft.fftfreq(n, d) for n, d in zip((nx, ny), spacing, strict=True))
@@ -88,8 +90,8 @@ def sum_over_waves(loads, body, plane):
     ],
 )
 def test_every_plane_is_the_sum_over_waves(shape, spacing, shear):
-    """Even and odd grids, dx != dy, lines. The polynomials in wavenumber are good to 1e-13 of the field where it matters
-    and to 1e-15 of the surface traction everywhere."""
+    """Even and odd grids, dx != dy, lines. The polynomials in wavenumber are good to 1e-13 of the
+    field where it matters and to 1e-15 of the surface traction everywhere."""
     loads = random_loads(asp.Grid(shape, spacing), shear)
     source = PeriodicPlanes(loads, BODY, threads=1)
     for plane in planes(BODY, DEPTHS):
@@ -162,7 +164,8 @@ def test_loads_superpose():
 @settings(max_examples=15)
 @given(layered_bodies(contrast=30.0), st.data())
 def test_forces_balance_at_every_point_inside(body, data):
-    """div σ = 0: spectral derivatives along the planes, two sixth-order differences across them that tell their error."""
+    """div σ = 0: spectral derivatives along the planes, two sixth-order differences across them
+    that tell their error."""
     grid = asp.Grid((11, 9), (0.7, 0.9))  # odd: no highest wavenumber without a derivative
     loads = Tractions(grid, *(lambda f: (f[0], ShearTraction(f[1], f[2])))(smooth(grid)))
     source = PeriodicPlanes(loads, body, threads=1)
@@ -205,7 +208,8 @@ def derivative(field, grid, axis):
 
 @pytest.mark.parametrize("base", [asp.Elastic(2.0, 0.25), asp.RigidBase()], ids=["half-space", "rigid base"])
 def test_strain_energy_is_the_work_of_the_tractions(base):
-    """½∫σ:ε dV by Gauss points through every layer equals ½∫(p u_z + q·u) dA, and is positive at every point."""
+    """½∫σ:ε dV by Gauss points through every layer equals ½∫(p u_z + q·u) dA, and is positive at
+    every point."""
     body = asp.Layered([asp.Layer(asp.Elastic(5.0, 0.2), 0.3), asp.Layer(asp.Elastic(0.7, 0.4), 0.8)], base)
     grid = asp.Grid((9, 7), (0.5, 0.6))
     p, qx, qy = (f - f.mean() for f in smooth(grid))
@@ -260,7 +264,8 @@ def test_the_mean_load_on_a_rigid_base_moves_the_surface():
 
 
 def test_single_precision_differs_by_its_rounding_only():
-    """Relative to the largest stress: 1e-7 of single precision times a few, through the transforms."""
+    """Relative to the largest stress: 1e-7 of single precision times a few, through the
+    transforms."""
     loads = random_loads(asp.Grid((64, 48), (2e-9, 3e-9)), "sliding", mean=2e9)
     for plane in planes(BODY, DEPTHS):
         double = PeriodicPlanes(loads, BODY, threads=1).stress(plane)
@@ -280,7 +285,8 @@ def test_results_do_not_depend_on_threads():
 
 
 def test_order_of_planes_does_not_matter():
-    """Waves that do not reach a deep plane leave nothing of a shallow one behind, in stress or in displacement."""
+    """Waves that do not reach a deep plane leave nothing of a shallow one behind, in stress or in
+    displacement."""
     grid = asp.Grid((32, 24), (1e-9, 1e-9))
     loads, found = random_loads(grid), planes(BODY, [2e-9, 40e-9, 300e-9])
     shallow, deep, deepest = found

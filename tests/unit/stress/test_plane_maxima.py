@@ -29,7 +29,8 @@ def of_rows(name, rows):
 
 
 def search(name, rows, least):
-    """Largest value among the candidates, evaluated exactly, and whether the overview admits one above ``least``."""
+    """Largest value among the candidates, evaluated exactly, and whether the overview admits one
+    above ``least``."""
     number = QUANTITIES.index(name)
     bounds = np.full(len(QUANTITIES), np.inf)
     bounds[number] = least
@@ -45,7 +46,8 @@ def search(name, rows, least):
 )
 @settings(max_examples=100, deadline=None)
 def test_the_largest_is_found_for_any_stress(values, pressure):
-    """Down to the rounding of sums of squares, 64 epsilon of the largest component, and what trigonometry may be wrong by."""
+    """Down to the rounding of sums of squares, 64 epsilon of the largest component, and what
+    trigonometry may be wrong by."""
     rows = np.array(values).T.copy()[:, None, :]
     rows[:3] += pressure
     largest = np.abs(rows).max()
@@ -59,7 +61,8 @@ def test_the_largest_is_found_for_any_stress(values, pressure):
 @pytest.mark.parametrize("dtype", ["float64", "float32"])
 @pytest.mark.parametrize("name", QUANTITIES)
 def test_many_points(name, dtype):
-    """What is known already is found no more; anything above it is, at more than two runs of points of a row."""
+    """What is known already is found no more; anything above it is, at more than two runs of points
+    of a row."""
     rows = np.random.default_rng(0).standard_normal((6, 5, 600)).astype(dtype)
     exact = of_rows(name, rows)
     slack = 1e-6  # rounding of single precision, and what trigonometry may be wrong by
@@ -73,7 +76,8 @@ def test_many_points(name, dtype):
 
 
 def test_few_points_are_looked_at_under_uniaxial_strain():
-    """Far below a contact σxx = σyy > σzz: the bound of tension is nearly exact there, or every point would be a candidate."""
+    """Far below a contact σxx = σyy > σzz: the bound of tension is nearly exact there, or every
+    point would be a candidate."""
     spread = 1e-3 * np.random.default_rng(1).standard_normal((6, 8, 512))
     rows = np.array([-0.4, -0.4, -1.0, 0.0, 0.0, 0.0])[:, None, None] + spread
     places, values, _ = candidates(QUANTITIES.index("tension"), rows, -np.inf)

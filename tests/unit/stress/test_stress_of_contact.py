@@ -1,4 +1,5 @@
-"""asp.stress on solved contacts: Hertz, the sphere on a layer, sections, streams, both bodies, boundaries, refusals."""
+"""asp.stress on solved contacts: Hertz, the sphere on a layer, sections, streams, both bodies,
+boundaries, refusals."""
 
 import numpy as np
 import pytest
@@ -28,7 +29,8 @@ def paraboloid(n=65, spacing=1.0, radius=1e3):
 
 @pytest.fixture(scope="module")
 def hertz():
-    """Sphere of R = 1000 on E' = 1/0.91, contact radius 24 on 65² pixels of 1, with p0 = 2E'a/πR."""
+    """Sphere of R = 1000 on E' = 1/0.91, contact radius 24 on 65² pixels of 1, with p0 =
+    2E'a/πR."""
     body = asp.Elastic(1.0, 0.3)
     a = 24.0
     force = 4.0 * a**3 / (3.0 * 1e3) / 0.91
@@ -37,7 +39,8 @@ def hertz():
 
 
 def test_hertz_stress_on_the_axis(hertz):
-    """Pixels of a/24: the contact edge is a staircase of relative area error 1e-3, and so is the pressure's."""
+    """Pixels of a/24: the contact edge is a staircase of relative area error 1e-3, and so is the
+    pressure's."""
     result, a, p0 = hertz
     zeta = np.array([0.1, 0.25, 0.48, 1.0, 2.0])
     field = asp.stress(result, zeta * a, on=asp.stresses.DepthProfile(32.0, 32.0))
@@ -49,9 +52,11 @@ def test_hertz_stress_on_the_axis(hertz):
 
 
 def test_sliding_hertz_on_the_surface(hertz):
-    """Inside the contact σ_xx is in closed form (Hamilton 1983); two pixels from the edge it is right within 3 %.
+    """Inside the contact σ_xx is in closed form (Hamilton 1983); two pixels from the edge it is
+    right within 3 %.
 
-    At the edge itself, x = -a, lies the maximum; it is a cusp that pixels round off by about (Δ/a)^1/2.
+    At the edge itself, x = -a, lies the maximum; it is a cusp that pixels round off by about
+    (Δ/a)^1/2.
     """
     result, a, p0 = hertz
     field = asp.stress(result, [0.0], on=asp.stresses.Section(y="max"), friction=0.5)
@@ -73,7 +78,8 @@ def test_sliding_hertz_on_the_surface(hertz):
 
 @pytest.mark.parametrize("ratio", [0.25, 2.0])
 def test_sphere_on_a_layer(ratio):
-    """Against the integral equation: solver, free coefficients and convolution together, at pixels of a0/16."""
+    """Against the integral equation: solver, free coefficients and convolution together, at pixels
+    of a0/16."""
     exact = SphereOnLayer(ratio, 0.3, 0.3, 1.0)
     scale = 16.0
     surface = paraboloid(n=65, radius=exact.radius * scale)
@@ -156,7 +162,8 @@ def test_interfaces_carry_the_same_tractions_from_both_sides(rough_result):
 
 
 def test_the_counter_body_carries_the_opposite_shear():
-    """Equal bodies: the same pressure, shear reversed; so its stress is that of the body slid the other way."""
+    """Equal bodies: the same pressure, shear reversed; so its stress is that of the body slid the
+    other way."""
     problem = asp.ContactProblem(rough(), DISK, counter_body=DISK)
     result = asp.solve(problem, asp.MeanPressure(1e8))
     depths = [0.0, 30e-9, 120e-9]
@@ -171,9 +178,11 @@ def test_the_counter_body_carries_the_opposite_shear():
 
 
 def test_free_and_periodic_agree_for_a_small_load_in_a_large_box():
-    """A load on 8 of 128 pixels: images change the stress by its ratio of area to box times a few, 1e-3 of the peak.
+    """A load on 8 of 128 pixels: images change the stress by its ratio of area to box times a few,
+    1e-3 of the peak.
 
-    Smooth, so that constant traction on pixels and its trigonometric interpolation differ little (1 %, at the surface).
+    Smooth, so that constant traction on pixels and its trigonometric interpolation differ little
+    (1 %, at the surface).
     """
     grid = asp.Grid((128, 96), (1.0, 1.25))
     x, y = grid.centred_coordinates()
@@ -193,7 +202,8 @@ def test_free_and_periodic_agree_for_a_small_load_in_a_large_box():
 
 
 def test_the_surface_displacement_is_that_of_the_contact():
-    """Three routes to one number: the contact's operator, periodic planes, influence coefficients."""
+    """Three routes to one number: the contact's operator, periodic planes, influence
+    coefficients."""
     for boundary in (asp.Periodic(), asp.Free()):
         for body in (asp.Elastic(100e9, 0.3), DISK):
             result = asp.solve(asp.ContactProblem(rough(), body, boundary=boundary), asp.MeanPressure(1e8))
@@ -202,7 +212,8 @@ def test_the_surface_displacement_is_that_of_the_contact():
 
 
 def test_a_large_load_decays_with_depth():
-    """Saint-Venant: at depths beyond the sphere's contact the stress is that of the force, -3F/2πz² on the axis."""
+    """Saint-Venant: at depths beyond the sphere's contact the stress is that of the force, -3F/2πz²
+    on the axis."""
     result = asp.solve(asp.ContactProblem(sphere(), asp.Elastic(100e9, 0.3), boundary=asp.Free()), asp.Force(5e-5))
     depth = 50 * sphere().grid.size[0]
     top = np.unravel_index(np.argmax(result.pressure), result.pressure.shape)
@@ -278,9 +289,10 @@ def test_more_refusals():
 
 
 def test_shear_without_mean_above_an_interface_that_slips():
-    """Free and periodic agree where images do not count: two Gaussians of shear that cancel up to their second moment, whose
-    field falls like (width/r)³. Constant tractions on pixels lack (αΔ)²/24 of the waves, α about 2/width, along each axis; on the surface
-    edges of pixels count, so only planes below are compared (found: 0.008)."""
+    """Free and periodic agree where images do not count: two Gaussians of shear that cancel up to
+    their second moment, whose field falls like (width/r)³. Constant tractions on pixels lack
+    (αΔ)²/24 of the waves, α about 2/width, along each axis; on the surface edges of pixels count,
+    so only planes below are compared (found: 0.008)."""
     body = asp.Layered([asp.Layer(asp.Elastic(3.0, 0.3), 6.0, asp.Frictionless())], asp.Elastic(1.0, 0.2))
     grid, width = asp.Grid((96, 96), (1.0, 1.0)), 6.0
     x, y = (line - 48.0 for line in grid.coordinates())
@@ -312,7 +324,8 @@ def test_depths_through_a_body():
 
 
 def test_free_fields_pass_through_interfaces():
-    """Coefficients above and below an interface come by different routes (closed forms and transforms, transforms)."""
+    """Coefficients above and below an interface come by different routes (closed forms and
+    transforms, transforms)."""
     body = asp.Layered(
         [asp.Layer(asp.Elastic(5.0, 0.2), 0.7), asp.Layer(asp.Elastic(0.4, 0.4), 2.0)], asp.Elastic(1.0, 0.3)
     )
@@ -326,9 +339,11 @@ def test_free_fields_pass_through_interfaces():
 
 
 def test_trends_of_a_rough_coated_contact():
-    """Friction raises the largest √J2 and σxz and lifts them to the surface; the pressure has nothing to do with it.
+    """Friction raises the largest √J2 and σxz and lifts them to the surface; the pressure has
+    nothing to do with it.
 
-    A stiffer layer bears higher stresses on less area (Peng & Bhushan 2001, figs 8 to 11, in character).
+    A stiffer layer bears higher stresses on less area (Peng & Bhushan 2001, figs 8 to 11, in
+    character).
     """
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsHeight(1e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=0.25e-6

@@ -1,4 +1,5 @@
-"""Stresses of a contact with plastic flow: by tractions and plastic strain together, and what is said of yield then."""
+"""Stresses of a contact with plastic flow: by tractions and plastic strain together, and what is
+said of yield then."""
 
 from __future__ import annotations
 
@@ -47,7 +48,8 @@ def planes(field: asp.stresses.StressField) -> np.ndarray:
 
 @pytest.mark.parametrize("number", [0, 4, 8])
 def test_means_over_cells_are_those_of_the_flow(number: int) -> None:
-    """Gauss points over a depth cell, from sweeps over other cells; what is beside the stress of the elastic contact."""
+    """Gauss points over a depth cell, from sweeps over other cells; what is beside the stress of
+    the elastic contact."""
     result = solved()
     flow = result.plastic_flow
     assert flow.residual_energy > 0.0
@@ -76,7 +78,8 @@ def test_flow_takes_the_stress_down_to_the_yield_stress() -> None:
 
 @pytest.mark.parametrize("boundary", ["periodic", "free"])
 def test_tractions_at_surface_and_interface(boundary: str) -> None:
-    """The surface carries the tractions alone; tractions pass the interface, lateral stresses jump there."""
+    """The surface carries the tractions alone; tractions pass the interface, lateral stresses jump
+    there."""
     result = solved(boundary)
     field = asp.stress(result, [0.0, 60e-9])
     surface, above, below = planes(field)
@@ -89,7 +92,8 @@ def test_tractions_at_surface_and_interface(boundary: str) -> None:
 
 
 def test_below_the_cells_it_decays() -> None:
-    """Deeper than the last cell the residual stress goes on without a jump, and falls by exp(-q z) of the longest wave or faster."""
+    """Deeper than the last cell the residual stress goes on without a jump, and falls by exp(-q z)
+    of the longest wave or faster."""
     residual, flow = solved().plastic_flow.residual(), solved().plastic_flow
     end = float(flow.flowed.edges[-1])
     inside, outside = (residual.at(end * (1.0 + sign * 1e-5), above=True, below=True) for sign in (-1, 1))
@@ -113,7 +117,8 @@ def test_displacements_are_refused() -> None:
 
 
 def test_yield_is_told_by_the_flow() -> None:
-    """A survey of the same contact without its plastic strain says that the body yields; with it what has flowed, and no factor."""
+    """A survey of the same contact without its plastic strain says that the body yields; with it
+    what has flowed, and no factor."""
     request = StressRequest(friction=0.2, direction=0.4, sections=(), profiles=(WantedProfile("max", "max"),))
     flowed = survey(request, solved(), threads=1)
     elastic = survey(request, replace(solved(), couplings={}), threads=1)
@@ -137,7 +142,8 @@ def test_yield_is_told_by_the_flow() -> None:
 
 
 def test_layers_that_stay_elastic_are_not_averaged() -> None:
-    """On an elastic film the survey gives the stress at the depths themselves; in the base that flows the means of its cells, on planes in their middle."""
+    """On an elastic film the survey gives the stress at the depths themselves; in the base that
+    flows the means of its cells, on planes in their middle."""
     _, base = FLOW.plasticity
     result = asp.solve(problem(plastic_flow=asp.PlasticFlow((None, base), cells=14)), asp.MeanPressure(0.3e9))
     found = survey(StressRequest(sections=(WantedSection("y", "pressure"),)), result, threads=1)
@@ -154,7 +160,8 @@ def test_layers_that_stay_elastic_are_not_averaged() -> None:
 
 
 def test_slices_hold_interfaces_and_depth() -> None:
-    """At an edge, within a cell, below the last one with an interface between, and at the surface."""
+    """At an edge, within a cell, below the last one with an interface between, and at the
+    surface."""
     body = asp.Layered([asp.Layer(FILM, 1.0), asp.Layer(STEEL, 2.0)], FILM)
     cells = DepthCells(body, depth_edges(body, 0.8, 0.1, 8))
     for depth in (0.0, float(cells.edges[2]), 0.33, 2.0, 4.0):
@@ -181,7 +188,8 @@ def two_layers(load: float) -> asp.ContactResult:
 
 @pytest.mark.parametrize("load", [0.4e9, 1e6])
 def test_faces_of_layers_are_those_of_the_stress_field(load: float) -> None:
-    """Tractions by the sweeps over depth cells and by the transfer functions of stresses; tensions of layers that flow are means over the cells at their faces."""
+    """Tractions by the sweeps over depth cells and by the transfer functions of stresses; tensions
+    of layers that flow are means over the cells at their faces."""
     result = two_layers(load)
     flow = result.plastic_flow
     means, edges = flow.stress(result.pressure), flow.flowed.edges
@@ -207,7 +215,8 @@ def test_faces_of_layers_are_those_of_the_stress_field(load: float) -> None:
 
 
 def test_interfaces_carry_the_load_and_nothing_without_it() -> None:
-    """Mean tractions balance those at the surface; what remains has no mean, but tension across the interface somewhere."""
+    """Mean tractions balance those at the surface; what remains has no mean, but tension across the
+    interface somewhere."""
     result, shear = two_layers(0.4e9), np.stack([0.1 * np.ones((24, 20)), -0.2 * np.ones((24, 20))]) * 1e9
     for layer in result.plastic_flow.layers(result.pressure, shear):
         assert layer.normal.mean() == pytest.approx(-result.mean_pressure, rel=1e-9)

@@ -1,4 +1,5 @@
-"""Stresses under the tractions of stick and slip: signs on both bodies, and whatever is made of stresses."""
+"""Stresses under the tractions of stick and slip: signs on both bodies, and whatever is made of
+stresses."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ def result() -> asp.ContactResult:
 
 
 def test_the_surface_bears_the_traction(result: asp.ContactResult) -> None:
-    """Traction on a surface whose outward normal is -z: σzz = -p and σxz = -q on the body; on the counter body q turns."""
+    """Traction on a surface whose outward normal is -z: σzz = -p and σxz = -q on the body; on the
+    counter body q turns."""
     shear = result.stick_slip
     assert shear is not None
     size = np.abs(shear.traction).max()

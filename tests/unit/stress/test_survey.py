@@ -1,4 +1,5 @@
-"""The survey of the stresses of a contact: planes that show it, true maxima, sections through them, a stream of planes."""
+"""The survey of the stresses of a contact: planes that show it, true maxima, sections through them,
+a stream of planes."""
 
 from __future__ import annotations
 
@@ -68,7 +69,8 @@ class Heard:
 )
 @pytest.mark.parametrize("dtype", ["float64", "float32"])
 def test_maxima_are_those_of_the_whole_field(boundary: object, dtype: str) -> None:
-    """Against all principal stresses of all points on the same planes; the pruned search must not miss one."""
+    """Against all principal stresses of all points on the same planes; the pruned search must not
+    miss one."""
     result = contact(boundary=boundary)
     found = survey(replace(SLIDING, dtype=dtype), result)
     field = asp.stress(result, found.depths, friction=0.3, direction=0.5, dtype=dtype)
@@ -134,7 +136,8 @@ def test_depths_show_contact_and_layers(coated: asp.ContactResult) -> None:
 
 
 def test_interfaces_far_below_the_contact_count_but_are_not_drawn() -> None:
-    """A thick coating: its interface carries little, but its maxima and those of the base are known."""
+    """A thick coating: its interface carries little, but its maxima and those of the base are
+    known."""
     body = asp.Layered([asp.Layer(FILM, 300.0)], BASE)
     found = survey(SLIDING, contact(body))
     assert found.depths[-1] == 300.0
@@ -187,7 +190,8 @@ def test_sections_through_the_maximum_of_each_stress(coated: asp.ContactResult) 
 
 
 def test_sections_at_a_position_and_at_the_highest_pressure(coated: asp.ContactResult) -> None:
-    """A position is that of figures: 4.0 lies in the pixel from 3.0 to 4.5, whose node is at 3.0."""
+    """A position is that of figures: 4.0 lies in the pixel from 3.0 to 4.5, whose node is at
+    3.0."""
     sections = (WantedSection("y", 4.0), WantedSection("y", "pressure"))
     at, under = survey(replace(SLIDING, sections=sections), coated).sections
     assert float(at.field.y) == 3.0
@@ -254,7 +258,8 @@ def test_no_contact_has_no_stress(coated: asp.ContactResult) -> None:
 
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.FreeLine()], ids=lambda b: b.name)
 def test_line_contacts(boundary: object) -> None:
-    """Rigid cylinder of plane strain (Johnson 1985, sect. 4.2c): τ_max 0.30 p0 at 0.78 of the half-width, on these planes."""
+    """Rigid cylinder of plane strain (Johnson 1985, sect. 4.2c): τ_max 0.30 p0 at 0.78 of the
+    half-width, on these planes."""
     x = (np.arange(256) - 127.5) / 32.0
     surface = asp.Surface(-(x[:, None] ** 2) / 200.0, 1.0 / 32.0, 1.0)
     body = elastic(1.0)
@@ -324,7 +329,8 @@ class Sum:
 
 @pytest.mark.parametrize("criterion", [VonMises(), Tresca(), MaxPrincipal(0.004), Sum()], ids=lambda c: c.name)
 def test_yield_is_that_of_whole_planes(coated: asp.ContactResult, criterion: Criterion) -> None:
-    """Largest equivalent stresses, and what is beyond the limit, by criteria that are bounded and by one that is not."""
+    """Largest equivalent stresses, and what is beyond the limit, by criteria that are bounded and
+    by one that is not."""
     found = survey(replace(SLIDING, criterion=criterion), coated)
     expected = asp.first_yield(asp.stress(coated, found.depths, friction=0.3, direction=0.5), criterion)
     for one, other in zip(found.yielding.regions, expected.regions, strict=True):

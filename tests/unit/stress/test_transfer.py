@@ -1,4 +1,5 @@
-"""Depth transfer in the wavenumber domain: multiprecision rows, equations of elasticity, continuity, limits."""
+"""Depth transfer in the wavenumber domain: multiprecision rows, equations of elasticity,
+continuity, limits."""
 
 import numpy as np
 import pytest
@@ -16,7 +17,8 @@ ROWS = reference("spectral_transfer")
 
 
 def fields(found, nu, c, s, load):
-    """Nine fields (9,) of a unit traction, from the amplitudes at one wavenumber: the turned frame, straightforwardly."""
+    """Nine fields (9,) of a unit traction, from the amplitudes at one wavenumber: the turned frame,
+    straightforwardly."""
     p, qx, qy = {"z": (1, 0, 0), "x": (0, 1, 0), "y": (0, 0, 1)}[load]
     q_L, q_T = c * qx + s * qy, -s * qx + c * qy
     t_L = -1j * q_L
@@ -33,7 +35,8 @@ def fields(found, nu, c, s, load):
 
 @every_row(ROWS, label=label)
 def test_every_reference_row(row):
-    """All digits of the table are good; the scheme is accurate to 5e-13 of the local field. Worst found: 7e-15."""
+    """All digits of the table are good; the scheme is accurate to 5e-13 of the local field. Worst
+    found: 7e-15."""
     body = body_of(row)
     plane = plane_of(
         row,
@@ -59,7 +62,8 @@ def test_reference_rows_cover_bases_loads_and_depths():
 @settings(max_examples=60)
 @given(layered_bodies(), st.floats(-3.0, 1.5), st.floats(0.02, 0.98), st.data())
 def test_the_equations_of_elasticity_hold_inside_every_layer(body, exponent, share, data):
-    """Equilibrium and Hooke's law across depth, d/dz by two sixth-order differences whose difference shows their error."""
+    """Equilibrium and Hooke's law across depth, d/dz by two sixth-order differences whose
+    difference shows their error."""
     alpha = np.array([10.0**exponent])
     number = data.draw(st.integers(0, len(body.layers) - 1))
     top = sum(layer.thickness for layer in body.layers[:number])
@@ -109,7 +113,8 @@ def test_the_equations_of_elasticity_hold_inside_every_layer(body, exponent, sha
 @settings(max_examples=60)
 @given(layered_bodies(contrast=1e6), st.floats(-4.0, 2.0))
 def test_tractions_and_displacements_pass_through_interfaces(body, exponent):
-    """Both sides of a bonded interface; 1e-12 of the local field is the accuracy of the transfer."""
+    """Both sides of a bonded interface; 1e-12 of the local field is the accuracy of the
+    transfer."""
     alpha = np.array([10.0**exponent])
     depth = 0.0
     for layer in body.layers:
@@ -162,9 +167,11 @@ def test_a_frictionless_interface_carries_no_shear_and_lets_the_sides_slip():
 
 @pytest.mark.parametrize("depth", [0.3, 1.0, 1.5])
 def test_a_slipping_layer_without_poisson_contraction_keeps_its_digits(depth):
-    """At long wavelengths amplitudes are smooth in αh: over 2 % a cubic in its logarithm leaves rounding, 4e-14.
+    """At long wavelengths amplitudes are smooth in αh: over 2 % a cubic in its logarithm leaves
+    rounding, 4e-14.
 
-    Where ν = 0 the term of first order in αh of sinh αh - αh cosh αh is absent, and differences lost up to 9e-7 here.
+    Where ν = 0 the term of first order in αh of sinh αh - αh cosh αh is absent, and differences
+    lost up to 9e-7 here.
     """
     layers = [asp.Layer(asp.Elastic(1.0, 0.0), 1.0, asp.Frictionless()), asp.Layer(asp.Elastic(1.0, 0.5), 1.0)]
     body, step = asp.Layered(layers, asp.RigidBase()), np.linspace(-0.01, 0.01, 21)

@@ -1,4 +1,5 @@
-"""Onset of yield, yielded volume, load at yield, fracture indicators: Hertz, scaling, streams, unknown strengths."""
+"""Onset of yield, yielded volume, load at yield, fracture indicators: Hertz, scaling, streams,
+unknown strengths."""
 
 import functools
 
@@ -36,7 +37,8 @@ def around_the_onset(nu):
 )
 @pytest.mark.parametrize("criterion", [VonMises(), Tresca()], ids=lambda c: c.name)
 def test_onset_under_a_sphere(row, criterion):
-    """Pixels of a/40 and depths a/200 apart: 6e-5 in the factor was found, the depth is within one step."""
+    """Pixels of a/40 and depths a/200 apart: 6e-5 in the factor was found, the depth is within one
+    step."""
     report = first_yield(around_the_onset(row["nu"]), criterion)
     assert report.load_factor == pytest.approx(row["p0_over_Y"], rel=2e-4)
     assert report.first.peak.depth / A == pytest.approx(row["z_over_a"], abs=0.005)
@@ -46,7 +48,8 @@ def test_onset_under_a_sphere(row, criterion):
 
 
 def test_friction_brings_yield_to_the_surface():
-    """At μ = 0.5 the largest √J2 = 0.5523 p0 lies at the trailing edge (a cusp, rounded off by the pixels), ν = 0.3."""
+    """At μ = 0.5 the largest √J2 = 0.5523 p0 lies at the trailing edge (a cusp, rounded off by the
+    pixels), ν = 0.3."""
     depths = np.concatenate([[0.0], np.linspace(0.05, 0.8, 16) * A])
     report = first_yield(hertz_field(0.3, depths, on=asp.stresses.Section(y="max"), friction=0.5))
     assert report.first.peak.side == "surface"
@@ -59,7 +62,8 @@ def test_friction_brings_yield_to_the_surface():
 
 
 def test_factor_times_stress_is_the_strength():
-    """Twice the stress halves the factor; at the factor nothing exceeds the strength, just above some does."""
+    """Twice the stress halves the factor; at the factor nothing exceeds the strength, just above
+    some does."""
     depths = np.linspace(0.1, 1.0, 10) * A
     report = first_yield(hertz_field(0.3, depths))
     assert first_yield(hertz_field(0.3, depths, p0=2.0)).load_factor == pytest.approx(0.5 * report.load_factor)
@@ -70,7 +74,8 @@ def test_factor_times_stress_is_the_strength():
 
 
 def test_yielded_volume_is_that_of_a_known_zone():
-    """√(3J2) under uniform pressure is largest at half the strength's level: count the zone on a finer set of planes."""
+    """√(3J2) under uniform pressure is largest at half the strength's level: count the zone on a
+    finer set of planes."""
     coarse, fine = (
         first_yield(
             hertz_field(0.3, np.linspace(0.1, 1.4, n) * A, p0=2.5, on=asp.stresses.Everywhere(), a=16.0)
@@ -133,7 +138,8 @@ def test_unknown_strengths_are_no_number():
 
 
 def test_load_at_yield_of_a_sphere():
-    """Force 4 a³E'/3R at p0 = 1.613 Y (ν = 0.3); pixels resolve the contact by 1/12, a few per cent of the force."""
+    """Force 4 a³E'/3R at p0 = 1.613 Y (ν = 0.3); pixels resolve the contact by 1/12, a few per cent
+    of the force."""
     R, Y, nu = 400.0, 0.03, 0.3
     grid = asp.Grid((49, 49), (1.0, 1.0))
     x, y = grid.centred_coordinates()

@@ -1,4 +1,5 @@
-"""Theories beside the numerical solution: exact cases, deviations, limits, what is left out, files."""
+"""Theories beside the numerical solution: exact cases, deviations, limits, what is left out,
+files."""
 
 from __future__ import annotations
 
@@ -74,7 +75,8 @@ def test_a_comparison_draws_itself(compared: asp.studies.Comparison, film: asp.S
 
 @dataclass(frozen=True)
 class Proportional:
-    """A theory made for the test: area of ``factor`` times p/E* to the power ``exponent``, up to ``most`` Pa."""
+    """A theory made for the test: area of ``factor`` times p/E* to the power ``exponent``, up to
+    ``most`` Pa."""
 
     factor: float
     exponent: float = 1.0
@@ -95,7 +97,8 @@ class Proportional:
 
 
 def test_the_numerical_solution_is_westergaards_where_that_is_exact():
-    """Ends of the contact are known to a pixel, 2/n of the period; the gap to the order 3/2 of the pixel in the half-width."""
+    """Ends of the contact are known to a pixel, 2/n of the period; the gap to the order 3/2 of the
+    pixel in the half-width."""
     n, amplitude, wavelength = 256, 1e-9, 1e-6
     surface = generate.sinusoid(
         asp.Grid((n, 4), (wavelength / n, wavelength / n)), amplitude=amplitude, wavelength=wavelength
@@ -107,7 +110,8 @@ def test_the_numerical_solution_is_westergaards_where_that_is_exact():
     assert curve.valid.all()
     assert curve.comparable_gap
     share = curve.prediction.area_fraction
-    # pixels are counted; a straight contact has no corners, so that the correction takes too much off it, two edges a row
+    # pixels are counted; a straight contact has no corners, so that the correction takes too much
+    # off it, two edges a row
     np.testing.assert_allclose(found.numerical.area_fraction, share, atol=2.0 / n)
     assert np.abs(found.deviation("westergaard")).max() <= (2.0 / n + 0.25 / n) / share.min()
     rms = amplitude / math.sqrt(2.0)
@@ -138,7 +142,8 @@ def test_deviations_are_relative_to_the_corrected_area_and_gaps_in_rms_heights(f
     gap = compared.curve("persson").prediction.mean_gap
     rms = math.sqrt(np.mean((film.heights - film.heights.mean()) ** 2))
     np.testing.assert_allclose(compared.deviation("persson", "gap"), (gap - exact.mean_gap) / rms, rtol=1e-9)
-    # elasticity lies above Persson and close to the asperity theories at these areas (statistical theories, sec. 16)
+    # elasticity lies above Persson and close to the asperity theories at these areas (statistical
+    # theories, sec. 16)
     assert np.all(compared.deviation("persson") < 0.0)
     assert np.all(np.abs(compared.deviation("bush-gibson-thomas")[:2]) < 0.2)
 
@@ -224,7 +229,8 @@ def test_an_anisotropic_surface_is_noted_with_its_ratio(film):
 
 
 def test_limits_belong_to_quantities(compared):
-    """Persson's range of loads is that of the gap, and theories that are far off in the area do not hold for it."""
+    """Persson's range of loads is that of the gap, and theories that are far off in the area do not
+    hold for it."""
     persson = compared.curve("persson")
     relative = compared.pressures / (compared.E_star * compared.roughness.rms_gradient)
     np.testing.assert_array_equal(persson.valid_for["gap"], (relative >= 0.01) & (relative <= 0.2))

@@ -1,4 +1,5 @@
-"""From cases to records: what a path answers, and that nothing but its content decides about the answer."""
+"""From cases to records: what a path answers, and that nothing but its content decides about the
+answer."""
 
 from __future__ import annotations
 
@@ -38,7 +39,8 @@ def collected(tmp_path: Path, **tables):
 
 @pytest.mark.parametrize("problem", [TIGHT, HARD], ids=["elastic", "plastic"])
 def test_a_case_of_a_path_is_that_of_a_contact_on_its_own(tmp_path, problem):
-    """Warm starts change nothing beyond the tolerance: relative errors of energies, at most, so fields by its root."""
+    """Warm starts change nothing beyond the tolerance: relative errors of energies, at most, so
+    fields by its root."""
     names = [item.name for item in Contact().quantities]
     data = collected(tmp_path, problem=problem, axes=[SEEDS, LOADS], quantities=names)
     for seed in (1, 4):
@@ -93,7 +95,8 @@ def test_stresses_are_collected_where_the_problem_asks_for_them(tmp_path):
     case = build(checked(problem))
     result = asp.solve(case.problem, asp.MeanPressure(5e6), solver=case.solver)
     field = asp.stress(result, [0.0, 50e-9, 100e-9, 300e-9], friction=0.4)
-    # the pressures agree to the root of the default tolerance, and so do the stresses, which are linear in them
+    # the pressures agree to the root of the default tolerance, and so do the stresses, which are
+    # linear in them
     assert float(data["max_von_mises"][2]) == pytest.approx(field.von_mises.max(), rel=1e-3, abs=0.0)
     assert float(data["max_tension"][2]) == pytest.approx(field.max_principal.max(), rel=1e-3, abs=0.0)
     assert np.isfinite(data["max_interface_shear"]).all()
@@ -193,8 +196,8 @@ def test_the_limits_of_the_critical_thickness_are_the_homogeneous_solids(tmp_pat
         alone = asp.solve(case.problem, case.control, solver=case.solver)
         assert float(data["max_pressure"][at]) == pytest.approx(alone.max_pressure, rel=3.0 * TOLERANCE**0.5, abs=0.0)
         assert float(data["mean_gap"][at]) == pytest.approx(alone.mean_gap, rel=3.0 * TOLERANCE**0.5, abs=0.0)
-    # 0.1 nm and 1 mm against waves of 1 µm: a layer changes the compliance at wavenumber q by some q h, the substrate
-    # below by some exp(-2 q h)
+    # 0.1 nm and 1 mm against waves of 1 µm: a layer changes the compliance at wavenumber q by some
+    # q h, the substrate below by some exp(-2 q h)
     np.testing.assert_allclose(data["mean_gap"][[1, -2]], data["mean_gap"][[0, -1]], rtol=2e-3)
     found = analysis(data, plan(critical_thickness=table, quantities=["max_pressure", "mean_gap"]).document)
     for name in ("max_pressure", "mean_gap"):
@@ -202,14 +205,16 @@ def test_the_limits_of_the_critical_thickness_are_the_homogeneous_solids(tmp_pat
 
 
 def test_sensitivities_of_an_elastic_contact_obey_its_scaling(tmp_path):
-    """Elastic area depends on p / (E σ) alone: elasticities to pressure, modulus and height are n, -n, -n."""
+    """Elastic area depends on p / (E σ) alone: elasticities to pressure, modulus and height are n,
+    -n, -n."""
     problem = {**TIGHT, "body": {"youngs_modulus": "100 GPa", "poisson_ratio": 0.3}}
     parameters = ["control.mean_pressure", "body.youngs_modulus", "surface.spectrum.rms_height"]
     table = {"parameters": parameters, "change": 0.05}
     data = collected(tmp_path, problem=problem, sensitivity=table, quantities=["max_pressure", "mean_gap"])
     found = analysis(data, plan(problem=problem, sensitivity=table, quantities=["max_pressure", "mean_gap"]).document)
     load, modulus, height = (float(value) for value in found["max_pressure_elasticity"])
-    # max pressure = E σ f(p / (E σ)): elasticities n, 1 - n, 1 - n, the same numbers but for the width of the step
+    # max pressure = E σ f(p / (E σ)): elasticities n, 1 - n, 1 - n, the same numbers but for the
+    # width of the step
     assert load + modulus == pytest.approx(1.0, abs=0.02)
     assert height == pytest.approx(modulus, rel=1e-6, abs=0.0)
     gap = [float(value) for value in found["mean_gap_elasticity"]]
@@ -218,7 +223,8 @@ def test_sensitivities_of_an_elastic_contact_obey_its_scaling(tmp_path):
 
 
 def test_a_smooth_contact_converges_with_the_grid(tmp_path):
-    """Hertz on ever finer grids: the extrapolated approach is nearer to the closed form than the finest value."""
+    """Hertz on ever finer grids: the extrapolated approach is nearer to the closed form than the
+    finest value."""
     problem = {
         "version": 1,
         "surface": {"kind": "sphere", "points": [16, 16], "size": "10 um", "radius": "100 um"},
@@ -247,7 +253,8 @@ def test_computed_quantities_are_those_that_are_there():
 
 
 def test_a_case_with_a_load_path_is_the_last_step_of_it(tmp_path):
-    """Loaded beyond the hardness and unloaded: the peak is an axis, and the residual indentation depends on it."""
+    """Loaded beyond the hardness and unloaded: the peak is an axis, and the residual indentation
+    depends on it."""
     control = {"path": {"mean_pressure": ["20 MPa", "1 MPa"], "steps": 3}}
     problem = {**HARD, "control": control}
     peaks = {"path": "control.path.mean_pressure.0", "values": ["5 MPa", "20 MPa"], "name": "peak"}

@@ -1,4 +1,5 @@
-"""Worker processes and a Dask cluster: nothing is lost when a worker dies, and nothing is left behind."""
+"""Worker processes and a Dask cluster: nothing is lost when a worker dies, and nothing is left
+behind."""
 
 from __future__ import annotations
 
@@ -78,7 +79,8 @@ def test_cases_that_end_their_worker_are_failed_records_grouped_by_cause(tmp_pat
 
 
 def test_one_process_serves_all_cases_of_a_worker(tmp_path, monkeypatch):
-    """Starting Python takes as long as hundreds of answers: 20 cases of one worker start it once, and each is sent once."""
+    """Starting Python takes as long as hundreds of answers: 20 cases of one worker start it once,
+    and each is sent once."""
     started, sent = [], []
 
     class Process(subprocess.Popen):
@@ -146,7 +148,8 @@ class Cluster:
 
 @pytest.mark.slow
 def test_a_cluster_gives_the_same_bits_also_when_a_worker_is_killed(tmp_path):
-    """A real scheduler with two workers on loopback, one of which is killed amid the study; and worker processes here."""
+    """A real scheduler with two workers on loopback, one of which is killed amid the study; and
+    worker processes here."""
     pytest.importorskip("distributed", reason="the extra dask is not installed")
     made = plan(axes=[{**LONG, "count": 8, "last": 8}, LOADS])
     cluster = Cluster(tmp_path, 2)

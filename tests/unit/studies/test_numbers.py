@@ -1,4 +1,5 @@
-"""The numbers of studies: samples and stopping, order of convergence, critical thickness, sensitivity."""
+"""The numbers of studies: samples and stopping, order of convergence, critical thickness,
+sensitivity."""
 
 from __future__ import annotations
 
@@ -36,7 +37,8 @@ def test_distributions_have_the_moments_they_are_given():
         {"path": "surface.spectrum.rms_height", "distribution": "uniform", "low": "1 nm", "high": "3 nm"},
     )
     modulus, ratio, height = found["youngs_modulus"], found["poisson_ratio"], found["spectrum_rms_height"]
-    # four standard errors: of a mean s/√n, of a deviation s√((κ-1)/4n), κ = 3 (normal), 1.8 (uniform), 4.6 (this lognormal)
+    # four standard errors: of a mean s/√n, of a deviation s√((κ-1)/4n), κ = 3 (normal), 1.8
+    # (uniform), 4.6 (this lognormal)
     for values, mean, deviation, kurtosis in (
         (modulus, 2e11, 6e10, 4.6),
         (ratio, 0.3, 0.01, 3.0),
@@ -129,7 +131,8 @@ def test_the_end_does_not_depend_on_the_order_of_arrival(order):
     st.tuples(st.floats(1.3, 4.0), st.floats(1.3, 4.0)),
 )
 def test_a_power_of_the_step_is_found_exactly(order, limit, factor, ratios):
-    """Y(h) = Y(0) + C h^p on levels of any ratios; the differences lose digits, the finer ones most."""
+    """Y(h) = Y(0) + C h^p on levels of any ratios; the differences lose digits, the finer ones
+    most."""
     h = np.array([ratios[0] * ratios[1], ratios[1], 1.0])
     y = limit + factor * h**order
     found = convergence(h, y)
@@ -170,8 +173,9 @@ CURVES = {
 @every_row(reference("critical_thickness_examples"), label=lambda row: f"{row['curve']}-{row['h0_m']}")
 def test_reference_thicknesses(row):
     h0, zero, infinity = row["h0_m"], row["Y_at_0"], row["Y_at_infinity"]
-    # 100 thicknesses per decade: a curve is straight in ln h between them to (Δ ln h)² / 8 of its curvature, 7e-5 of the
-    # transition at most, and at 5 % a transition changes by 0.045 or more per unit of ln h
+    # 100 thicknesses per decade: a curve is straight in ln h between them to (Δ ln h)² / 8 of its
+    # curvature, 7e-5 of the transition at most, and at 5 % a transition changes by 0.045 or more
+    # per unit of ln h
     thickness = h0 * np.geomspace(1e-4, 1e4, 801)
     values = zero + (infinity - zero) * CURVES[row["curve"]](thickness / h0)
     found = critical_thickness(thickness, values, zero, infinity)

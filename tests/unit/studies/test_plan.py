@@ -192,7 +192,8 @@ def test_a_problem_document_is_no_study():
 
 
 def test_cases_are_made_on_the_way():
-    """Going through 2700 cases more takes less than 50 bytes for each; a case that is kept takes some 500."""
+    """Going through 2700 cases more takes less than 50 bytes for each; a case that is kept takes
+    some 500."""
     peaks = []
     for samples in (100, 1000):
         random = [{"path": "surface.seed", "distribution": "seed"}]

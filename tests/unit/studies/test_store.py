@@ -117,7 +117,8 @@ def test_ten_thousand_finished_cases_are_reopened(tmp_path):
 
 @pytest.mark.slow
 def test_the_memory_of_a_run_hardly_grows_with_the_number_of_cases(tmp_path):
-    """8 bytes for the key of each finished case are allowed, four times over while they are sorted, and nothing else."""
+    """8 bytes for the key of each finished case are allowed, four times over while they are sorted,
+    and nothing else."""
     peaks = {}
     for samples in (300, 3000):
         made, path = campaign(samples), tmp_path / f"{samples}.log"

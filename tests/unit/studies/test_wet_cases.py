@@ -1,4 +1,5 @@
-"""Films of liquid in studies: humidity and thickness as axes, menisci as quantities, runaways as records."""
+"""Films of liquid in studies: humidity and thickness as axes, menisci as quantities, runaways as
+records."""
 
 from __future__ import annotations
 
@@ -56,7 +57,8 @@ def test_humidity_is_an_axis_and_menisci_are_quantities(tmp_path):
 
 
 def test_a_wet_load_curve_shares_one_operator_and_agrees_with_its_cases(tmp_path, monkeypatch):
-    """Loads start from those before: forces agree within the pixels that the error of a solve may flip."""
+    """Loads start from those before: forces agree within the pixels that the error of a solve may
+    flip."""
     prepared = []
 
     def counted(*arguments, **options):

@@ -19,7 +19,8 @@ def smooth(x, y):
 
 
 def sampled(size, pixel, origin=(0.0, 0.0), turned=0.0):
-    """Map of the known surface on the rectangle at ``origin``, turned about its middle by ``turned``."""
+    """Map of the known surface on the rectangle at ``origin``, turned about its middle by
+    ``turned``."""
     shape = tuple(round(s / d) for s, d in zip(size, pixel, strict=True))
     x = (np.arange(shape[0])[:, None] + 0.5) * pixel[0] - 0.5 * size[0]
     y = (np.arange(shape[1])[None, :] + 0.5) * pixel[1] - 0.5 * size[1]

@@ -1,4 +1,5 @@
-"""The two-dimensional digital filter: kernel and autocovariance, non-Gaussian input, windows of the endless surface."""
+"""The two-dimensional digital filter: kernel and autocovariance, non-Gaussian input, windows of the
+endless surface."""
 
 import numpy as np
 import pytest

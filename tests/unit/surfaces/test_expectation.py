@@ -1,4 +1,5 @@
-"""What finite windows and pixels show of a known spectrum: reference integrals, limits, simulated maps."""
+"""What finite windows and pixels show of a known spectrum: reference integrals, limits, simulated
+maps."""
 
 from __future__ import annotations
 
@@ -46,7 +47,8 @@ def test_differences_of_plateau_and_power_law(row):
 
 @every_row(reference("surfaces_sampled_peaks"), label=lambda row: f"{row['delta_over_beta_e']:g}")
 def test_differences_of_an_exponential_autocorrelation(row):
-    """A periodic surface with exactly this autocovariance shows 2[R(0) - R(Δ)]/Δ² and its like for curvature."""
+    """A periodic surface with exactly this autocovariance shows 2[R(0) - R(Δ)]/Δ² and its like for
+    curvature."""
     decay = 1.0 / row["delta_over_beta_e"]
     grid = asp.Grid((16 * math.ceil(decay), 16 * math.ceil(decay)), (1.0, 1.0))
     spectrum = asp.generate.ExponentialAutocorrelation(1.0, decay, drop=math.exp(-1.0))
@@ -155,7 +157,8 @@ def test_simulated_windows_agree():
 
 
 def test_effective_number_of_heights():
-    """N_eff = 2A/(π β²) of an exponential autocorrelation; the scatter of the mean square is the predicted one."""
+    """N_eff = 2A/(π β²) of an exponential autocorrelation; the scatter of the mean square is the
+    predicted one."""
     grid, decay = asp.Grid((256, 256), (1.0, 1.0)), 6.0
     spectrum = asp.generate.ExponentialAutocorrelation(1.0, decay, drop=math.exp(-1.0))
     surfaces = [asp.generate.gaussian(grid, spectrum, seed=seed) for seed in range(40)]

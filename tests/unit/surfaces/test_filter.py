@@ -1,4 +1,5 @@
-"""Areal filters: reference maps, transmission in closed form, borders, missing points, spikes, and refusals."""
+"""Areal filters: reference maps, transmission in closed form, borders, missing points, spikes, and
+refusals."""
 
 import re
 
@@ -61,7 +62,8 @@ def test_wave_passes_as_the_standard_says(ratio, order, axis):
     """2^-(λc/λ)², 50 % at the cut-off; order 2: (1 + t) e^-t with t = 1.678 (λc/λ)², 50 % too."""
     n, period = 320, 32
     shape = (n, 16) if axis == "x" else (16, n)
-    # kernels of the ratios below 1 would be finer than the wave: keep the wave at 32 pixels and move the cut-off
+    # kernels of the ratios below 1 would be finer than the wave: keep the wave at 32 pixels and
+    # move the cut-off
     cutoff = period / ratio
     wave = sinusoid(Grid(shape, (1.0, 1.0)), amplitude=1.0, wavelength=float(period), axis=axis)
     low = filtered(wave, short=cutoff, order=order, reach=1.5)
@@ -112,7 +114,8 @@ def test_polynomials_of_the_order_pass_unchanged_up_to_borders_and_holes(shape, 
 
 
 def test_direct_sum_with_missing_points():
-    """One node by its definition: normalised weights exp(-π (r/αλ)²) over the valid nodes within reach."""
+    """One node by its definition: normalised weights exp(-π (r/αλ)²) over the valid nodes within
+    reach."""
     heights = np.random.default_rng(3).standard_normal((30, 26))
     heights[10:13, 5] = np.nan
     low = filtered(Surface(heights, 1.0, 1.5), short=(5.0, 6.0)).heights
@@ -157,7 +160,8 @@ def test_robust_filter_ignores_spikes(order):
     robust = filtered(spoilt, short=20.0, kind="robust", order=order).heights
     plain = filtered(spoilt, short=20.0, order=order).heights
     halo = np.abs(plain - filtered(base, short=20.0, order=order).heights).max()
-    # what is left is the noise of the nodes that the spikes replace, next to spikes of 60 times the noise
+    # what is left is the noise of the nodes that the spikes replace, next to spikes of 60 times the
+    # noise
     assert halo > 1.0
     assert np.abs(robust - clean).max() < 0.15 * halo
     assert spikes.sum() == 60

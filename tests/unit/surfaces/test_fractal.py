@@ -1,4 +1,5 @@
-"""Fractal dimension and amplitude: Weierstrass-Mandelbrot profiles, conversions, and surfaces of known exponent."""
+"""Fractal dimension and amplitude: Weierstrass-Mandelbrot profiles, conversions, and surfaces of
+known exponent."""
 
 from __future__ import annotations
 
@@ -59,17 +60,20 @@ def test_constants(row):
 
 @pytest.mark.parametrize("dimension", [1.3, 1.5, 1.8])
 def test_spectrum_and_structure_function_belong_together(dimension):
-    """S(τ) = 2 ∫ P (1 - cos ωτ) dω over both signs of ω, with P = c1/C ω^-(5-2D) for C η^(2D-3) = 1, at τ = 1."""
+    """S(τ) = 2 ∫ P (1 - cos ωτ) dω over both signs of ω, with P = c1/C ω^-(5-2D) for C η^(2D-3) =
+    1, at τ = 1."""
     power = 5.0 - 2.0 * dimension
     near = quad(lambda w: (1.0 - math.cos(w)) * w**-power, 0.0, 1.0)[0]
-    # the cosine of the far part by the quadrature for oscillating integrands, the rest in closed form
+    # the cosine of the far part by the quadrature for oscillating integrands, the rest in closed
+    # form
     far = 1.0 / (power - 1.0) - quad(lambda w: w**-power, 1.0, math.inf, weight="cos", wvar=1.0)[0]
     assert 4.0 * fractal.spectrum_coefficient(dimension) * (near + far) == pytest.approx(1.0, rel=1e-7)
 
 
 @every_row(reference("fractal_wm_structure"), label=lambda row: f"{row['D']}-{row['tau_m']:g}")
 def test_continuous_structure_function(row):
-    """G turned into C and back: the smooth law is the reference's, and the sum over waves lies within its ripple."""
+    """G turned into C and back: the smooth law is the reference's, and the sum over waves lies
+    within its ripple."""
     dimension, gamma, tau = row["D"], row["gamma"], row["tau_m"]
     smooth = fractal.structure_coefficient(dimension) * row["G_m"] ** (2.0 * dimension - 2.0) / math.log(gamma)
     smooth *= tau ** (4.0 - 2.0 * dimension)
@@ -89,7 +93,8 @@ def test_self_affine_surfaces(hurst):
     for axis in "xy":
         found = fractal.fractal_parameters(surface, axis=axis)
         assert found.self_affine
-        # the range is finite on both sides, which bends the line towards 1.5; handbook figure for such estimates
+        # the range is finite on both sides, which bends the line towards 1.5; handbook figure for
+        # such estimates
         assert found.hurst == pytest.approx(hurst, abs=0.1)
         assert found.first_lag == 4.0
         assert found.residual < 0.1

@@ -1,4 +1,5 @@
-"""Two-slope spectra, the gold film, fixed and nested waves, windows, and the noise they are made of."""
+"""Two-slope spectra, the gold film, fixed and nested waves, windows, and the noise they are made
+of."""
 
 from __future__ import annotations
 
@@ -78,7 +79,8 @@ def test_gold_film_has_the_moments_of_its_published_spectrum(modes, limit):
 
 
 def test_gold_film_to_its_measured_rms_height_takes_a_lower_plateau():
-    # 2.7 nm need C0 = 325 nm⁴ in the convention of the review, not the quoted 380 nm⁴ (three digits are given)
+    # 2.7 nm need C0 = 325 nm⁴ in the convention of the review, not the quoted 380 nm⁴ (three digits
+    # are given)
     measured = {row["quantity"]: row["value"] for row in reference("au_surface") if row["quantity"] != "film_thickness"}
     psd = gold(RmsHeight(measured["sigma"])).lattice_psd(GOLD)
     assert psd[1, 0] / (4.0 * np.pi**2) == pytest.approx(325.0, rel=2e-3)
@@ -225,7 +227,8 @@ def test_nested_noise_is_the_transform_of_real_noise(nx, ny, seed):
 
 @pytest.mark.parametrize("shape", [(16, 12), (15, 9), (8, 30)])
 def test_nested_noise_is_white(shape):
-    """Every mode has the mean power n of white noise: 400 draws of a power whose scatter is 1 (sqrt(2) on real modes)."""
+    """Every mode has the mean power n of white noise: 400 draws of a power whose scatter is 1
+    (sqrt(2) on real modes)."""
     power = np.mean([np.abs(wave_noise(shape, seed)) ** 2 for seed in range(400)], axis=0) / (shape[0] * shape[1])
     power[0, 0] = 1.0
     assert np.abs(power - 1.0).max() < 5.5 * np.sqrt(2.0 / 400.0)
@@ -258,7 +261,8 @@ def test_window_of_a_surface_that_is_too_small_to_be_periodic():
 
 
 def test_opposite_borders_of_a_window_are_independent():
-    """Over 300 windows the correlation across the borders is that of noise, next to 0.87 of neighbours."""
+    """Over 300 windows the correlation across the borders is that of noise, next to 0.87 of
+    neighbours."""
     grid, spectrum = Grid((24, 24), (1.0, 1.0)), ExponentialAutocorrelation(1.0, 16.0)
     ends = np.array([gaussian(grid, spectrum, seed=s, periodic=False).heights[[0, 1, -1], 12] for s in range(300)])
     near, far = np.mean(ends[:, 0] * ends[:, 1]), np.mean(ends[:, 0] * ends[:, 2])
@@ -388,7 +392,8 @@ def test_refusals(make, subject, shown):
 
 
 def test_round_trip_of_the_spectral_moments():
-    """Generate, measure, generate with what was measured: fixed amplitudes return the same moments."""
+    """Generate, measure, generate with what was measured: fixed amplitudes return the same
+    moments."""
     grid = Grid((96, 96), (1.0, 1.0))
     spectrum = SelfAffine(amplitude=RmsHeight(1.0), hurst=0.8, rolloff_wavelength=30.0, shortest_wavelength=4.0)
     first = spectral_moments(power_spectrum(gaussian(grid, spectrum, seed=1, variant="fixed")))
@@ -411,7 +416,8 @@ def test_surface_carries_its_provenance():
 
 @pytest.mark.parametrize("kind", [ExponentialAutocorrelation, GaussianAutocorrelation])
 def test_a_length_is_no_drop_of_an_autocorrelation(kind):
-    """The third number is what is left at the correlation length, and a second length easily stands in its place."""
+    """The third number is what is left at the correlation length, and a second length easily stands
+    in its place."""
     with refused(InputError, "drop of an autocorrelation", "0.001", "5e-07"):
         kind(2e-9, 1e-6, 0.5e-6)
     assert kind(2e-9, 1e-6, 1e-3).drop == 1e-3

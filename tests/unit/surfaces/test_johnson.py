@@ -1,4 +1,5 @@
-"""Johnson's system: reference parameters, moments by independent quadrature, limits and refusals."""
+"""Johnson's system: reference parameters, moments by independent quadrature, limits and
+refusals."""
 
 import numpy as np
 import pytest
@@ -16,7 +17,8 @@ KINDS = {"SU": "unbounded", "SB": "bounded"}
 
 
 def moments(law):
-    """First four moments by Gauss-Legendre panels over the probability, independent of the rule in the library."""
+    """First four moments by Gauss-Legendre panels over the probability, independent of the rule in
+    the library."""
     nodes, weights = np.polynomial.legendre.leggauss(40)
     edges = np.concatenate([np.linspace(-38.0, 38.0, 153)])
     middle, half = 0.5 * (edges[1:] + edges[:-1]), 0.5 * np.diff(edges)
@@ -37,7 +39,8 @@ def test_parameters_are_those_of_the_reference(row):
     law = johnson(row["Ssk"], row["Sku"])
     assert law.kind == KINDS[row["type"]]
     found = (law.gamma, law.delta, law.xi, law.scale)
-    # the file gives twelve digits; parameters far out (bounded near normal) magnify its rounding to 4e-11
+    # the file gives twelve digits; parameters far out (bounded near normal) magnify its rounding to
+    # 4e-11
     assert found == pytest.approx([row[name] for name in ("gamma", "delta", "xi", "lambda")], rel=1e-10, abs=1e-11)
     values = law.of_normal(np.array([-2.0, 0.0, 2.0]))
     assert values == pytest.approx([row[f"z_at_G={g}"] for g in (-2, 0, 2)], rel=1e-10, abs=1e-11)

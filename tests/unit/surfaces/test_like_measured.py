@@ -1,4 +1,5 @@
-"""Surfaces generated like the measured files: rms height, slopes and curvatures of the scan, and its heights where asked for."""
+"""Surfaces generated like the measured files: rms height, slopes and curvatures of the scan, and
+its heights where asked for."""
 
 import pytest
 
@@ -21,7 +22,8 @@ def scan(shared_data, name):
 
 @pytest.mark.parametrize("name", FILES)
 def test_moments_of_a_scan_are_those_of_what_is_generated_from_it(name, shared_data):
-    """With all directions kept. The window weighs the middle of the scan, so heights agree as well as the scan is homogeneous."""
+    """With all directions kept. The window weighs the middle of the scan, so heights agree as well
+    as the scan is homogeneous."""
     seen = scan(shared_data, name)
     made = asp.generate.gaussian(seen.grid, asp.generate.spectrum_of(seen, isotropic=False), seed=1, variant="fixed")
     before, after = r.difference_moments(seen), r.difference_moments(made)

@@ -1,4 +1,5 @@
-"""The six measured files: size, pixels, units, missing points and roughness as documented with the data."""
+"""The six measured files: size, pixels, units, missing points and roughness as documented with the
+data."""
 
 from pathlib import Path
 
@@ -11,7 +12,8 @@ from asperity.surfaces.characterise.slopes import rms_slope
 from asperity.surfaces.prepare.level import levelled
 from asperity.surfaces.read import channels, read
 
-# file: shape, size (m), missing, rms after mean/plane/quadratic (m), peak-valley (m), rms slope, skewness, kurtosis
+# file: shape, size (m), missing, rms after mean/plane/quadratic (m), peak-valley (m), rms slope,
+# skewness, kurtosis
 FILES = {
     "afm_granular_film_10um_512.di": (
         (512, 512), (10e-6, 10e-6), 0, (16.85e-9, 14.32e-9, 14.29e-9), 112e-9, 0.223, 0.55, 3.39,

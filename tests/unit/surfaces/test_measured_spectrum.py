@@ -47,9 +47,11 @@ def test_spectrum_of_a_periodic_surface_is_met_mode_by_mode(shape, anisotropic):
 
 
 def test_moments_survive_the_round_trip_to_another_grid():
-    """Isotropic, on half the pixel and another size: the moments of the ensemble the first surface was drawn from.
+    """Isotropic, on half the pixel and another size: the moments of the ensemble the first surface
+    was drawn from.
 
-    The first map holds N_eff independent heights, so its own moments scatter by sqrt(2/N_eff) (10 % here).
+    The first map holds N_eff independent heights, so its own moments scatter by sqrt(2/N_eff) (10 %
+    here).
     """
     grid = Grid((192, 192), (1.0, 1.0))
     seen = gaussian(grid, BAND, seed=4, variant="fixed")
@@ -64,13 +66,15 @@ def test_moments_survive_the_round_trip_to_another_grid():
 
 @pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 1.5)])
 def test_isotropic_average_keeps_the_shortest_waves_of_the_grid(spacing):
-    """A quarter of the mean square slope of an exponential surface lies beyond the Nyquist circle, along the diagonals."""
+    """A quarter of the mean square slope of an exponential surface lies beyond the Nyquist circle,
+    along the diagonals."""
     seen = gaussian(Grid((256, 256), spacing), ExponentialAutocorrelation(1.0, 6.4), seed=1)
     psd, q = spectrum_of(seen).lattice_psd(seen.grid), seen.grid.wavenumber()
     measured = power_spectrum(seen).psd
     outside = q > np.pi / max(spacing)
     assert mode_sum(seen.grid, q**2 * measured * outside) > 0.2 * mode_sum(seen.grid, q**2 * measured)
-    # rings keep their power; how it lies within their width of 12 % counts for less than a hundredth of that in the slope
+    # rings keep their power; how it lies within their width of 12 % counts for less than a
+    # hundredth of that in the slope
     for power, tolerance in ((0, 1e-3), (2, 2e-3), (4, 5e-3)):
         assert mode_sum(seen.grid, q**power * psd) == pytest.approx(
             mode_sum(seen.grid, q**power * measured), rel=tolerance
@@ -79,7 +83,8 @@ def test_isotropic_average_keeps_the_shortest_waves_of_the_grid(spacing):
 
 @pytest.mark.parametrize("model", [BAND, GaussianAutocorrelation(1.0, 20.0)], ids=["cut off", "steep"])
 def test_isotropic_average_keeps_the_power_of_its_rings(model):
-    """Means over rings alone would lose a tenth of the mean square curvature where the spectrum is cut off."""
+    """Means over rings alone would lose a tenth of the mean square curvature where the spectrum is
+    cut off."""
     seen = gaussian(Grid((256, 256), (1.0, 1.0)), model, seed=1)
     psd, q, measured = spectrum_of(seen).lattice_psd(seen.grid), seen.grid.wavenumber(), power_spectrum(seen).psd
     for power, tolerance in ((0, 1e-3), (2, 5e-3), (4, 1e-2)):
@@ -89,7 +94,8 @@ def test_isotropic_average_keeps_the_power_of_its_rings(model):
 
 
 def test_window_keeps_the_tail_of_a_scan_that_is_not_periodic():
-    """Without a window the jump between the borders would raise the mean square curvature many times."""
+    """Without a window the jump between the borders would raise the mean square curvature many
+    times."""
     model = SelfAffine(amplitude=RmsHeight(2.0), hurst=0.9, rolloff_wavelength=40.0, shortest_wavelength=4.0)
     grid = Grid((160, 160), (1.0, 1.0))
     expected = mode_sum(grid, grid.wavenumber() ** 4 * model.lattice_psd(grid))
@@ -121,7 +127,8 @@ def test_floor_is_subtracted():
     with_floor = mode_sum(grid, q**2 * spectrum_of(noisy).lattice_psd(grid))
     without = mode_sum(grid, q**2 * spectrum_of(noisy, floor=sigma**2).lattice_psd(grid))
     expected = mode_sum(grid, q**2 * power_spectrum(base).psd)
-    # rings of N modes scatter by sqrt(2/N) of the floor, the widest, which matter most, by less than 3 %
+    # rings of N modes scatter by sqrt(2/N) of the floor, the widest, which matter most, by less
+    # than 3 %
     assert with_floor > 3.0 * expected
     assert without == pytest.approx(expected, abs=0.1 * (with_floor - expected))
 

@@ -71,7 +71,8 @@ def test_predistorted_translation_has_the_autocovariance_asked_for():
 
 
 def test_translation_without_predistortion_is_off_by_what_theory_says():
-    # ρ_G = 0.5 becomes 0.484 for (-1, 4) (Johnson reference file); one neighbour away at this length ρ_G = 0.5
+    # ρ_G = 0.5 becomes 0.484 for (-1, 4) (Johnson reference file); one neighbour away at this
+    # length ρ_G = 0.5
     spectrum = ExponentialAutocorrelation(1.0, np.log(10.0) / np.log(2.0))
     found = np.array(
         [
@@ -91,7 +92,8 @@ def test_translation_to_a_curve_of_pearsons_system(moments, kind):
     )
     assert f"(Pearson's type {kind})" in made.origin.history[0]
     assert {"Pearson1895", "Pearson1916"} <= set(made.citation_keys)
-    # heights of the same seed before the translation are normal numbers: equal ranks, and equal probabilities below
+    # heights of the same seed before the translation are normal numbers: equal ranks, and equal
+    # probabilities below
     field = translated(GRID, ROUGH, seed=3, skewness=0.0, kurtosis=3.0, predistorted=False).heights
     law = Pearson(*moments)
     np.testing.assert_allclose(law.cdf(made.heights), ndtr(field), rtol=1e-5)  # spline 1e-8, times the density
@@ -184,7 +186,8 @@ def lags(axis):
 def test_moments_that_the_filter_cannot_give(moments):
     made = rank_ordered(GRID, ROUGH, HeightMoments(*moments), seed=2)
     found = height_parameters(made)
-    # quantiles at (k - 1/2)/N leave out the tails beyond the outermost: 1 % of the fourth moment of the longest tail here
+    # quantiles at (k - 1/2)/N leave out the tails beyond the outermost: 1 % of the fourth moment of
+    # the longest tail here
     assert found.Ssk == pytest.approx(moments[0], abs=0.01 * max(1.0, abs(moments[0])))
     assert found.Sku == pytest.approx(moments[1], rel=0.02)
     assert found.Sq**2 == pytest.approx(mode_sum(GRID, ROUGH.lattice_psd(GRID)), rel=1e-12)
@@ -211,7 +214,8 @@ def test_last_step_decides_what_is_exact():
 
 
 def test_heights_of_a_measured_surface_and_its_spectrum_at_once():
-    """More like this one: the round trip of spectrum and heights of a skewed surface, on a larger grid."""
+    """More like this one: the round trip of spectrum and heights of a skewed surface, on a larger
+    grid."""
     x, y = np.arange(96)[:, None], np.arange(64)[None, :]
     base = gaussian(Grid((96, 64), (1.0, 1.5)), ExponentialAutocorrelation(1.0, 5.0), seed=1).heights
     seen = Surface(np.exp(0.6 * base) + 0.0 * x * y, 1.0, 1.5, periodic=True)

@@ -78,7 +78,8 @@ def test_spikes_do_not_depend_on_scale_and_offset(seed, scale, offset):
 
 
 def test_median_of_the_neighbourhood_by_brute_force():
-    """Where a node is masked follows from the median of its window, borders cut and missing points left out."""
+    """Where a node is masked follows from the median of its window, borders cut and missing points
+    left out."""
     heights = np.random.default_rng(2).standard_t(1.5, size=(14, 12))
     heights[3, 4] = np.nan
     padded = np.pad(heights, 1, constant_values=np.nan)
@@ -100,7 +101,8 @@ def test_offsets_of_scan_lines_are_removed(axis):
     spoilt = heights + offsets[None, :]
     spoilt = spoilt if axis == "x" else spoilt.T
     found = line_corrected(Surface(spoilt, 1.0, 1.0), axis)
-    # slopes along the lines are untouched, offsets between neighbours are those of the surface up to its own median
+    # slopes along the lines are untouched, offsets between neighbours are those of the surface up
+    # to its own median
     number = "xy".index(axis)
     np.testing.assert_allclose(np.diff(found.heights, axis=number), np.diff(spoilt, axis=number), atol=1e-12)
     steps = np.median(np.diff(found.heights, axis=1 - number), axis=number)
@@ -198,7 +200,8 @@ def test_cutoff_is_that_of_the_library_along_x(radius):
     theirs = Topography(seen.heights, seen.size, periodic=True).scanning_probe_reliability_cutoff(radius)
     along_x = Surface(seen.heights, 1.0, 1e3, periodic=True)  # no curvature along y to speak of
     ours = reliability_cutoff(along_x, radius)
-    # both interpolate between stencils of whole pixels: ours linearly on a geometric ladder, theirs on every pixel
+    # both interpolate between stencils of whole pixels: ours linearly on a geometric ladder, theirs
+    # on every pixel
     assert ours == pytest.approx(theirs, abs=2.0 + 0.2 * theirs)
 
 

@@ -1,4 +1,5 @@
-"""Instrument files are read with the one reader they need, and heights are those of the whole library."""
+"""Instrument files are read with the one reader they need, and heights are those of the whole
+library."""
 
 from __future__ import annotations
 
@@ -34,13 +35,14 @@ same = [
     for a, b in zip(first.values(), whole.values())
 ]
 order = reader_library._order(SurfaceTopography.IO)
-print(json.dumps([early, same, [r.__name__ for r in SurfaceTopography.IO.readers] == order, SurfaceTopography.__version__]))
+now = [r.__name__ for r in SurfaceTopography.IO.readers]
+print(json.dumps([early, same, now == order, SurfaceTopography.__version__]))
 """
 
 
 def compared(*files: Path) -> tuple[list[str], list[bool], bool]:
-    """In a fresh Python: what was imported by reading ``files``, whether each has the heights that the whole library gives,
-    and whether the order of its readers is the one that we use."""
+    """In a fresh Python: what was imported by reading ``files``, whether each has the heights that
+    the whole library gives, and whether the order of its readers is the one that we use."""
     command = [sys.executable, "-c", CODE, *map(str, files)]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
     early, same, order, version = json.loads(done.stdout)

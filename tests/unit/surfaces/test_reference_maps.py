@@ -1,4 +1,5 @@
-"""Every applicable row of the reference statistics and series of the six maps, computed by direct sums over nodes."""
+"""Every applicable row of the reference statistics and series of the six maps, computed by direct
+sums over nodes."""
 
 from __future__ import annotations
 
@@ -145,7 +146,8 @@ GROUPS = {
 )
 def test_statistics(row):
     value = GROUPS[row["group"]](prepared(row["map"], row["prep"]), row["quantity"], row)
-    # the mean of a levelled map and odd moments may vanish by cancellation, hence a floor at rounding
+    # the mean of a levelled map and odd moments may vanish by cancellation, hence a floor at
+    # rounding
     assert value == pytest.approx(row["value"], rel=max(row["tol_rel"], PRINTED), abs=1e-13)
 
 

@@ -37,7 +37,8 @@ NAMES = {
 
 @dataclass(frozen=True)
 class Sampled:
-    """The population at the nodes of a grid too coarse for it: waves beyond the Nyquist wavenumber fold back."""
+    """The population at the nodes of a grid too coarse for it: waves beyond the Nyquist wavenumber
+    fold back."""
 
     def lattice_psd(self, grid: Grid) -> RealArray:
         return folded_psd(grid)
@@ -61,7 +62,8 @@ def folded_psd(grid: Grid) -> RealArray:
 
 
 def window(length: float, seed: int) -> asp.Surface:
-    """256 x 256 nodes of the population, cut from a map large enough to be independent of its period."""
+    """256 x 256 nodes of the population, cut from a map large enough to be independent of its
+    period."""
     pixel = length / 256
     nodes = 256 * math.ceil((length + 2.0 * POPULATION.rolloff_wavelength) / length)
     large = asp.generate.gaussian(asp.Grid((nodes, nodes), (pixel, pixel)), Sampled(), seed=seed)
@@ -117,7 +119,8 @@ def test_windows_by_hand(rough):
 
 
 def test_the_slope_falls_with_the_sampling_interval(rough):
-    """Picked points keep σ; m2 by differences goes as Δ^(2H-2), m4 as Δ^(2H-4) well above the shortest wave."""
+    """Picked points keep σ; m2 by differences goes as Δ^(2H-2), m4 as Δ^(2H-4) well above the
+    shortest wave."""
     study = r.sampling_interval_study(rough)
     assert study.length.tolist() == [1.0, 2.0, 4.0, 8.0, 16.0]
     assert study.parts.tolist() == [1.0, 4.0, 16.0, 16.0, 16.0]

@@ -1,4 +1,5 @@
-"""Recovery of spectra from realisations, moments of spectra in closed form, and what a fit must refuse."""
+"""Recovery of spectra from realisations, moments of spectra in closed form, and what a fit must
+refuse."""
 
 from __future__ import annotations
 
@@ -79,8 +80,8 @@ def test_recovery_of_a_known_spectrum(spectra):
         found["noise_floor_ratio"] = [floor / noise for floor in found["noise_floor_ratio"]]
     for row in rows:
         assert row["lower"] < np.mean(found[row["parameter"]]) < row["upper"], row["parameter"]
-    # the standard errors tell the scatter of single maps; a factor of 1.6 is 3 standard deviations of a
-    # standard deviation from 20 values
+    # the standard errors tell the scatter of single maps; a factor of 1.6 is 3 standard deviations
+    # of a standard deviation from 20 values
     errors = {"C0_ratio": "level", "H": "exponent_1", "a1": "exponent_1", "a2": "exponent_2"}
     for row in rows:
         if row["parameter"] in errors and case != "F2":  # leakage adds to the scatter of windowed maps
@@ -158,7 +159,8 @@ def test_scaling_of_heights_and_lengths(first_map, scale, stretch):
     surface, base = first_map
     other = asp.Surface(scale * surface.heights, stretch, periodic=True)
     model = fit_spectrum(power_spectrum(other), plateau=True, slopes=1, floor=False).model
-    # the optimum is flat: rounding in the likelihood leaves up to 7e-7 in the parameters (60 random pairs)
+    # the optimum is flat: rounding in the likelihood leaves up to 7e-7 in the parameters (60 random
+    # pairs)
     assert model.level == pytest.approx(scale**2 * stretch**2 * base.level, rel=1e-5)
     assert model.rolloff_wavelength == pytest.approx(stretch * base.rolloff_wavelength, rel=1e-5)
     assert model.exponents[0] == pytest.approx(base.exponents[0], rel=1e-5)

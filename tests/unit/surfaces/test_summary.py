@@ -1,4 +1,5 @@
-"""The characterisation as a whole: groups, units, remarks, what is not defined, and known surfaces recovered."""
+"""The characterisation as a whole: groups, units, remarks, what is not defined, and known surfaces
+recovered."""
 
 from __future__ import annotations
 

@@ -56,7 +56,8 @@ def test_grooves_have_the_section_asked_for(section, mean, axis):
     grid = Grid((4000, 2), (1e-8, 1e-6)) if axis == "y" else Grid((2, 4000), (1e-6, 1e-8))
     surface = g.grooves(grid, pitch=1e-5, width=4e-6, depth=3e-7, section=section, axis=axis)
     assert np.ptp(surface.heights, axis=1 if axis == "y" else 0).max() == 0.0
-    # mean depth of the section times its share of the pitch; trapezoidal error of 400 nodes per groove
+    # mean depth of the section times its share of the pitch; trapezoidal error of 400 nodes per
+    # groove
     assert surface.heights.mean() == pytest.approx(-3e-7 * mean * 0.4, rel=1e-4)
     assert surface.heights.max() == 0.0
     assert surface.heights.min() == pytest.approx(-3e-7, rel=1e-12)

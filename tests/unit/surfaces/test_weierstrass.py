@@ -1,4 +1,5 @@
-"""Weierstrass-Mandelbrot functions: reference profiles, acceptance intervals, expectations in closed form."""
+"""Weierstrass-Mandelbrot functions: reference profiles, acceptance intervals, expectations in
+closed form."""
 
 import numpy as np
 import pytest
@@ -32,7 +33,8 @@ def profile(row):
 
 @every_row(PROFILES, label=lambda r: f"{r['set']:g}-{r['lag']:g}")
 def test_structure_function_of_the_sampled_profile(row):
-    """All phases zero: the profile itself is that of the reference, so are its sample structure function."""
+    """All phases zero: the profile itself is that of the reference, so are its sample structure
+    function."""
     found = mean_square_increment(profile(row), (int(row["lag"]), 0))
     assert found == pytest.approx(row["S_sample_m2"], rel=1e-9)
 
@@ -48,7 +50,8 @@ def test_powers_of_the_reference_are_the_usual_ones(row):
 
 @every_row(STRUCTURE[::3], label=lambda r: f"{r['D']:g}-{r['tau_m']:g}")
 def test_expected_structure_function_over_random_phases(row):
-    """Mean over 40 profiles of many waves, sampled at lag τ over a window, against the exact expectation."""
+    """Mean over 40 profiles of many waves, sampled at lag τ over a window, against the exact
+    expectation."""
     tau, gamma, first, count = row["tau_m"], row["gamma"], int(row["n_first"]), int(row["n_terms"])
     grid = Grid((400, 1), (tau, 1e-6))
     kept = min(count, 40)  # shorter waves than these add less than 1e-3

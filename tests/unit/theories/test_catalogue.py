@@ -62,8 +62,8 @@ def test_every_theory_answers_about_the_same_surface(name, roughness):
             # second-order differences over a fiftieth in ln p
             assert (found.stiffness / found.pressure)[1:-1] == pytest.approx(slope, rel=1e-2)
     if set(bodies) == {"E_star"}:
-        # elasticity has a coefficient of about two; Onions and Archard, who only know waves longer than the correlation
-        # length, come to eight
+        # elasticity has a coefficient of about two; Onions and Archard, who only know waves longer
+        # than the correlation length, come to eight
         coefficient = found.area_fraction * E_STAR * roughness.rms_gradient / pressures
         assert np.all((coefficient > 0.7) & (coefficient < 10.0))
 

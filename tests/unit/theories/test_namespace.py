@@ -20,7 +20,10 @@ def test_every_name_leads_to_what_its_module_defines():
 
 
 def test_the_package_is_imported_without_its_theories():
-    code = "import sys, json, asperity.theories; print(json.dumps([m for m in sys.modules if m.startswith('asperity.theories.')]))"
+    code = (
+        "import sys, json, asperity.theories; print(json.dumps([m for m in sys.modules if "
+        "m.startswith('asperity.theories.')]))"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
     loaded = {name.removeprefix("asperity.theories.") for name in json.loads(done.stdout)}
     assert not loaded & {"catalogue", "hertz", "persson", "bush_gibson_thomas", "maugis"}

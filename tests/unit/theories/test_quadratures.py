@@ -1,4 +1,5 @@
-"""Integrals of the theories, over decades of their parameters: with other panels, and against integrals of many digits."""
+"""Integrals of the theories, over decades of their parameters: with other panels, and against
+integrals of many digits."""
 
 from __future__ import annotations
 
@@ -35,7 +36,8 @@ def table(more: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def by_mpmath(pressure: float, speed: float, reduction: float) -> tuple[float, float]:
-    """Friction and area over one relaxation, 3 MPa + 3 GPa and 10 µs: integrals over the angle are closed, those over ln q nested."""
+    """Friction and area over one relaxation, 3 MPa + 3 GPa and 10 µs: integrals over the angle are
+    closed, those over ln q nested."""
     E0, E1, tau = mpmath.mpf(3e6), mpmath.mpf(3e9), mpmath.mpf(1e-5)
     q0, C0 = mpmath.mpf(2e3), mpmath.mpf(4e-17) / (2 * mpmath.pi) ** 2
     end = mpmath.log(1000)
@@ -72,7 +74,8 @@ def by_mpmath(pressure: float, speed: float, reduction: float) -> tuple[float, f
     [(1e4, 10.0, 0.3), (1e-3, 1e3, 1.0)],
 )
 def test_friction_of_rubber_over_decades(pressure: float, speed: float, reduction: float) -> None:
-    """The pressure at which contact is lost lies within a share of 1e-20 to 1 of the first decade."""
+    """The pressure at which contact is lost lies within a share of 1e-20 to 1 of the first
+    decade."""
     friction, area = by_mpmath(pressure, speed, reduction)
     theory = asp.theories.PerssonFriction(3e6, [3e9], [1e-5], *table(()), reduction)
     found = theory.at_speed([speed], pressure)
@@ -95,7 +98,8 @@ def test_friction_of_one_spectrum_in_several_tables(more: tuple[float, ...]) -> 
 
 
 def gap_by_mpmath(load: float, gamma: float) -> float:
-    """Mean gap (m) at p/E*, from d ln q integrals of the theory as it is published (Yang & Persson 2008), inner one closed by its parts."""
+    """Mean gap (m) at p/E*, from d ln q integrals of the theory as it is published (Yang & Persson
+    2008), inner one closed by its parts."""
     q0, C0, power = mpmath.mpf(2e3), mpmath.mpf(4e-17), mpmath.mpf(2) / 5  # q³ C dq = q⁴ C d ln q grows as q^0.4
 
     def inner(x):
@@ -124,7 +128,8 @@ def test_mean_gap_over_decades_of_load(load: float) -> None:
         assert found.mean_gap[0] == pytest.approx(expected, rel=1e-8)
 
 
-# All theories of the catalogue: panels that resolve what lies within 1e-9 of their ends change nothing.
+# All theories of the catalogue: panels that resolve what lies within 1e-9 of their ends change
+# nothing.
 
 PARTS = np.array(
     [0.0, *(10.0 ** -np.arange(9.0, 0.0, -2.0)), 0.3, 0.5, 0.7, *(1.0 - 10.0 ** -np.arange(1.0, 10.0, 2.0)), 1.0]
@@ -133,7 +138,8 @@ WHOLE = quadrature.gauss
 
 
 def finer(breaks: np.ndarray, nodes: int) -> tuple[np.ndarray, np.ndarray]:
-    """The rule on panels that are divided, ever finer towards both ends; tables of many panels are left as they are."""
+    """The rule on panels that are divided, ever finer towards both ends; tables of many panels are
+    left as they are."""
     if np.shape(breaks)[-1] > 1000:
         return WHOLE(breaks, nodes)
     low, high = np.asarray(breaks)[..., :-1, None], np.asarray(breaks)[..., 1:, None]
@@ -158,9 +164,11 @@ SCANNED = sorted(set(THEORIES) - LEFT_OUT)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCANNED)
 def test_no_integral_misses_a_layer(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every parameter over twelve decades, what is asked over eight: finer panels give the same, or all is refused.
+    """Every parameter over twelve decades, what is asked over eight: finer panels give the same, or
+    all is refused.
 
-    1e-6 is a tenth of what the least exact of them, the adhesive summits of Fuller and Tabor, states of itself.
+    1e-6 is a tenth of what the least exact of them, the adhesive summits of Fuller and Tabor,
+    states of itself.
     """
     users = [
         module

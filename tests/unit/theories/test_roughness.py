@@ -71,7 +71,8 @@ def test_the_radial_spectrum_gives_back_the_mean_square():
     )
     found = asp.roughness_of(asp.generate.gaussian(asp.Grid((256, 256), (2e-8, 2e-8)), spectrum, seed=3))
     q, psd = found.spectrum.q, found.spectrum.psd
-    # trapezoids over ln q between rings of a twentieth of a decade, the first of which hold few modes
+    # trapezoids over ln q between rings of a twentieth of a decade, the first of which hold few
+    # modes
     integral = np.sum(0.5 * np.diff(np.log(q)) * ((q**2 * psd)[1:] + (q**2 * psd)[:-1])) / (2.0 * np.pi)
     assert integral == pytest.approx(found.m0, rel=0.05)
 

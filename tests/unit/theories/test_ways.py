@@ -81,7 +81,8 @@ NO_NUMBERS = (
 
 
 def test_no_theory_takes_what_is_not_a_number():
-    """Every argument of every way of the catalogue: text, truth values, complex numbers and other things are refused."""
+    """Every argument of every way of the catalogue: text, truth values, complex numbers and other
+    things are refused."""
     taken = []
     for name, way in WAYS:
         arguments = {item.name: 1.0 if item.required else item.default for item in (way.axis, *way.given)}

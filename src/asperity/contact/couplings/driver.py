@@ -1,4 +1,5 @@
-"""The one fixed-point iteration between the normal contact and the couplings of a problem, extrapolated (Anderson 1965)."""
+"""The one fixed-point iteration between the normal contact and the couplings of a problem,
+extrapolated (Anderson 1965)."""
 
 from __future__ import annotations
 
@@ -29,7 +30,8 @@ from .position import Position, without_bracket
 from .protocol import Contact, Coupling, Exchange, Foreseeing, Memory, Posed
 
 REMEMBERED = 3
-"""Rounds before the last that an extrapolation uses. Three take as few rounds as six (sliding, layered hardness)."""
+"""Rounds before the last that an extrapolation uses. Three take as few rounds as six (sliding,
+layered hardness)."""
 
 _RCOND = 1e-8
 
@@ -44,7 +46,8 @@ class Mixing:
     def ahead(
         self, place: tuple[RealArray, ...], move: tuple[RealArray, ...], scales: tuple[float, ...]
     ) -> tuple[RealArray, ...]:
-        """Where the iteration that steps from ``place`` by ``move`` would come to rest if it were linear.
+        """Where the iteration that steps from ``place`` by ``move`` would come to rest if it were
+        linear.
 
         ``scales`` are the sizes of a step of each unknown by which steps are compared.
         """
@@ -81,8 +84,8 @@ _FINER = 0.01
 """Error of the last normal solve over the largest at which a reply still means something."""
 
 _SHARE = 0.01
-"""Error of a normal solve over the square of the largest residual: the error of the pressure goes with its root, so that
-it is a tenth of the residual."""
+"""Error of a normal solve over the square of the largest residual: the error of the pressure goes
+with its root, so that it is a tenth of the residual."""
 
 _NEAR = 3.0
 """Largest residual over tolerance at which the next solve is the last if the estimate holds."""
@@ -96,17 +99,20 @@ _FARTHEST = 2.0
 _SLOWEST = 0.99
 
 _TIGHTER = 0.03
-"""Factor to the error of the next solve for every round without progress: contacts of thin films differ by little energy.
-The search for a position alone has a bracket instead, and rounding may not allow every load to be solved that finely."""
+"""Factor to the error of the next solve for every round without progress: contacts of thin films
+differ by little energy. The search for a position alone has a bracket instead, and rounding may not
+allow every load to be solved that finely."""
 
 _RESCUES = 1000
-"""Changes of couplings at most for a load that they cannot bear; each halves a distance, so that some tens suffice."""
+"""Changes of couplings at most for a load that they cannot bear; each halves a distance, so that
+some tens suffice."""
 
 _INNER = 0.01
 """Miss of a position over the residual of the others at which, when nested, these move again."""
 
 _JOINT_PATIENCE = 12
-"""Rounds without progress after which a position is searched for around the other couplings instead of together with them."""
+"""Rounds without progress after which a position is searched for around the other couplings instead
+of together with them."""
 
 
 @dataclass(frozen=True)
@@ -120,9 +126,10 @@ class Rounds:
     patience
         Rounds without progress after which it counts as stagnated.
     tolerances
-        Residuals by name of a coupling at which it is settled, in place of its own: ``menisci`` force by which
-        contact, load and menisci miss their balance over that of the contact (1e-4), ``sliding`` relative change of the displacement
-        by shear (1e-6), ``hardness`` relative change of the hardness (1e-5).
+        Residuals by name of a coupling at which it is settled, in place of its own: ``menisci``
+        force by which contact, load and menisci miss their balance over that of the contact (1e-4),
+        ``sliding`` relative change of the displacement by shear (1e-6), ``hardness`` relative
+        change of the hardness (1e-5).
 
     Raises
     ------
@@ -152,7 +159,8 @@ class CouplingCheck:
     residual
         Target of the last contact less what it was posed with, relative.
     rate
-        Factor by which the residual fell from round to round, on average of the last three; zero if it was one round.
+        Factor by which the residual fell from round to round, on average of the last three; zero if
+        it was one round.
     tolerance
         Residual at which it counts as settled.
     """
@@ -164,7 +172,8 @@ class CouplingCheck:
 
     @property
     def distance(self) -> float:
-        """residual/(1 - rate): estimate of the relative distance from the balance, by the geometric series of further rounds."""
+        """residual/(1 - rate): estimate of the relative distance from the balance, by the geometric
+        series of further rounds."""
         return self.residual / (1.0 - self.rate)
 
 
@@ -189,7 +198,8 @@ def settle(
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
 ) -> Settled:
-    """Contact that agrees with all ``couplings`` (each with a name of its own, in any order), with their ``memories`` of the step before.
+    """Contact that agrees with all ``couplings`` (each with a name of its own, in any order), with
+    their ``memories`` of the step before.
 
     The tolerance of ``solver`` is that of the last normal solve; those before are looser.
 
@@ -238,7 +248,8 @@ class _Iteration:
         self.spent = 0, 0.0
 
     def settled(self) -> Settled:
-        """Rounds until all couplings are settled by a solve to the full tolerance, or it must be given up."""
+        """Rounds until all couplings are settled by a solve to the full tolerance, or it must be
+        given up."""
         tolerance, lowest, progressed = self._next_tolerance(np.inf, self.active), np.inf, 0
         status: Status | None = None
         joint = Position.name in self.active and len(self.active) > 1  # the position is one of several unknowns
@@ -301,7 +312,8 @@ class _Iteration:
         return Settled(contact, self.exchanges, tuple(checks), count, self.finest, status)
 
     def _reply(self, contact: Contact) -> bool:
-        """Replies of the couplings to ``contact``; whether the position moves, for which when nested all others wait."""
+        """Replies of the couplings to ``contact``; whether the position moves, for which when
+        nested all others wait."""
         exchanges, moves = self.exchanges, Position.name in self.couplings
         if moves:
             exchanges[Position.name] = self.couplings[Position.name].reply(exchanges[Position.name], contact)
@@ -329,8 +341,9 @@ class _Iteration:
     def _nest(self) -> None:
         """From now on search for the position anew whenever the others have moved.
 
-        Joint rounds take a third of the solves, but near full contact of yielding surfaces they may not come to rest.
-        What is not smooth starts again from the interface before the step, to which loads on the way may have been too large.
+        Joint rounds take a third of the solves, but near full contact of yielding surfaces they may
+        not come to rest. What is not smooth starts again from the interface before the step, to
+        which loads on the way may have been too large.
         """
         position = self.couplings[Position.name]
         assert isinstance(position, Position)
@@ -342,7 +355,8 @@ class _Iteration:
                 self.exchanges[name] = self.couplings[name].begin(self.posed, self.memories.get(name, {}))
 
     def _posed(self) -> ContactQP:
-        """Discrete problem with the shares of all couplings; those that cannot bear the load are raised."""
+        """Discrete problem with the shares of all couplings; those that cannot bear the load are
+        raised."""
         posed, external = self.posed, self.posed.external_force
         for _ in range(_RESCUES):
             shares = [coupling.share(self.exchanges[name]) for name, coupling in self.couplings.items()]
@@ -425,10 +439,14 @@ class _Iteration:
             solution = run(solver, qp, None if begun is not None else self._start(qp), self.watched, begun)
             error, asked = solution.state.error, self.solver.tolerance
             if solution.status.outcome is Outcome.STAGNATED and tolerance < error <= asked:
-                # rounding keeps it from a tolerance below that of the solver, which couplings ask for: a strong attraction of short range
-                # is many times the pressure without it. Whether the error is small enough then the couplings say by their residuals
+                # rounding keeps it from a tolerance below that of the solver, which couplings ask
+                # for: a strong attraction of short range is many times the pressure without it.
+                # Whether the error is small enough then the couplings say by their residuals
                 self.reached = error
-                text = f"Converged: relative error {error:.2e} by {self.solver.name}, as far as the arithmetic reaches, tolerance {asked:.0e}."
+                text = (
+                    f"Converged: relative error {error:.2e} by {self.solver.name}, as far as the "
+                    f"arithmetic reaches, tolerance {asked:.0e}."
+                )
                 solution = replace(solution, status=Status(Outcome.CONVERGED, text))
         contact = Contact(self.posed, qp, solution, self.indentation, self.attraction)
         contact, self.spent = contact.with_work_of(self.last, *self.spent), (0, 0.0)
@@ -438,10 +456,12 @@ class _Iteration:
         return contact
 
     def _start(self, qp: ContactQP) -> RealArray | None:
-        """Pressure that a coupling knows, else the last one, extrapolated in the load where that goes on in one direction.
+        """Pressure that a coupling knows, else the last one, extrapolated in the load where that
+        goes on in one direction.
 
-        Measured on self-affine surfaces, 20 steps: about a sixth fewer FFT pairs than from the last pressure itself.
-        Points at their cap go along with it: below a cap that has risen a little all would be free, and have to be found to yield again.
+        Measured on self-affine surfaces, 20 steps: about a sixth fewer FFT pairs than from the last
+        pressure itself. Points at their cap go along with it: below a cap that has risen a little
+        all would be free, and have to be found to yield again.
         """
         known = next((e.pressure for e in self.exchanges.values() if e.pressure is not None), None)
         if known is not None:
@@ -458,7 +478,8 @@ class _Iteration:
         return np.clip(latest + ratio * (latest - self.pressures[-2]), 0.0, qp.cap)
 
     def _ahead(self, qp: ContactQP) -> float | None:
-        """Step to the load of ``qp``, or in time, over that between the last two, where it goes on in one direction."""
+        """Step to the load of ``qp``, or in time, over that between the last two, where it goes on
+        in one direction."""
         if len(self.pressures) >= 2 and self.posed.ahead is not None and self.last is None:
             return min(self.posed.ahead, _FARTHEST)
         if len(self.pressures) < 2 or not isinstance(qp.constraint, FixedMean):
@@ -470,7 +491,8 @@ class _Iteration:
         return ratio if 0.0 < ratio <= _FARTHEST else None
 
     def _goes_on(self) -> bool:
-        """Whether an unknown that is not smooth still moves and has never turned back: it is bounded, and so comes to rest."""
+        """Whether an unknown that is not smooth still moves and has never turned back: it is
+        bounded, and so comes to rest."""
         on = False
         for name, exchange in self.exchanges.items():
             if exchange.smooth:
@@ -487,7 +509,8 @@ class _Iteration:
         return 0.0 if exchange.settled else max(exchange.residual / (exchange.tolerance or np.inf), 1.0 + 1e-9)
 
     def _next_tolerance(self, worst: float, names: Sequence[str]) -> float:
-        """Error of the next solve that is small against the residuals of ``names`` then expected, if they go on falling as they do."""
+        """Error of the next solve that is small against the residuals of ``names`` then expected,
+        if they go on falling as they do."""
         if not self.active or any(exchange.exact for exchange in self.exchanges.values()):
             return self.finest
         rates = {name: max(self._rate(name), self.exchanges[name].slowest) for name in names}
@@ -506,7 +529,8 @@ class _Iteration:
         return float((found[-1] / found[0]) ** (1.0 / (len(found) - 1)))
 
     def _advance(self, moves: bool) -> None:
-        """Next unknowns: targets, extrapolated together where they are smooth; settled ones that are not stay.
+        """Next unknowns: targets, extrapolated together where they are smooth; settled ones that
+        are not stay.
 
         When nested either the position ``moves``, along its secant, or all others do.
         """
@@ -533,7 +557,8 @@ class _Iteration:
 
 
 class _Told:
-    """Progress of all rounds together: one count of iterations, and an error that ends at the tolerance of the solver."""
+    """Progress of all rounds together: one count of iterations, and an error that ends at the
+    tolerance of the solver."""
 
     def __init__(self, progress: Progress, tolerance: float, *, lone: bool) -> None:
         self._progress, self._tolerance, self._lone = progress, tolerance, lone

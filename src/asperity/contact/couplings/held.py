@@ -1,9 +1,12 @@
-"""A prescribed position that no load singles out: held by its offset, where a hardness bounds the pressure.
+"""A prescribed position that no load singles out: held by its offset, where a hardness bounds the
+pressure.
 
-The load is the unknown of a position (``position``), and where nearly every point yields it is a poor one: whole intervals of positions belong to one
-load. Plateaus that yield as a whole sink until others touch, and fully yielded surfaces, at a mean pressure equal to the hardness, go on sinking, the plastic
-indentation taking the rest. With the pressure bounded the problem at a given offset has a solution at every offset
-(a convex function on a compact set), so the bodies are held there instead; a mean gap is a monotone function of the approach, which a bracket encloses.
+The load is the unknown of a position (``position``), and where nearly every point yields it is a
+poor one: whole intervals of positions belong to one load. Plateaus that yield as a whole sink until
+others touch, and fully yielded surfaces, at a mean pressure equal to the hardness, go on sinking,
+the plastic indentation taking the rest. With the pressure bounded the problem at a given offset has
+a solution at every offset (a convex function on a compact set), so the bodies are held there
+instead; a mean gap is a monotone function of the approach, which a bracket encloses.
 """
 
 from __future__ import annotations
@@ -41,7 +44,8 @@ def settle_position(
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
 ) -> Settled:
-    """``settle`` of a prescribed position; where a hardness bounds the pressure and no load is found for it, with the position held. The arguments are the same.
+    """``settle`` of a prescribed position; where a hardness bounds the pressure and no load is
+    found for it, with the position held. The arguments are the same.
 
     Raises
     ------
@@ -92,7 +96,8 @@ def settle_position(
 
 
 def _at_gap(posed: Posed, held: _Holding, start: RealArray | None) -> Settled:
-    """Contact at the mean gap prescribed, by the regula falsi (Illinois) between approaches on either side."""
+    """Contact at the mean gap prescribed, by the regula falsi (Illinois) between approaches on
+    either side."""
     wanted, first = posed.control.value, posed.top - float(posed.dented.max())
     depth = float(np.ptp(posed.dented)) or posed.height_scale
     touch = float(posed.dented.max() - posed.dented.mean())

@@ -1,9 +1,9 @@
 """A prescribed position as a coupling: the load that reaches it is one more unknown.
 
-At prescribed load the discrete problem is well conditioned up to and beyond full contact; at prescribed position on a
-periodic half-space it is not (a uniform pressure moves nothing). Approach and mean gap are monotone in the load, so the
-logarithm of the load takes steps towards the position together with all other unknowns, instead of a search over loads
-around them.
+At prescribed load the discrete problem is well conditioned up to and beyond full contact; at
+prescribed position on a periodic half-space it is not (a uniform pressure moves nothing). Approach
+and mean gap are monotone in the load, so the logarithm of the load takes steps towards the position
+together with all other unknowns, instead of a search over loads around them.
 """
 
 from __future__ import annotations
@@ -17,75 +17,88 @@ from ...core.errors import NoSolutionError
 from ..controls import Approach, MeanGap
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 
-# Pairs of ``benchmarks/constants.py``: periodic elastic contacts (23.7 as it is), near full contact (64.2), with a hardness (23.3) and
-# with a liquid film (25.1).
+# Pairs of ``benchmarks/constants.py``: periodic elastic contacts (23.7 as it is), near full contact
+# (64.2), with a hardness (23.3) and with a liquid film (25.1).
 
 TARGET_ERROR = 1e-9
-"""Relative error of a position that is reached, beside ``_HEIGHT_ERROR`` of the rms height. 1e-7 saves up to 9 % of the pairs, 1e-11
-costs none: the last step lands far within."""
+"""Relative error of a position that is reached, beside ``_HEIGHT_ERROR`` of the rms height. 1e-7
+saves up to 9 % of the pairs, 1e-11 costs none: the last step lands far within."""
 
 _HEIGHT_ERROR = 1e-9
-"""Error of a position over the rms height: the gap is a difference of heights. 1e-7 saves up to 9 % of the pairs, 0 costs none."""
+"""Error of a position over the rms height: the gap is a difference of heights. 1e-7 saves up to 9 %
+of the pairs, 0 costs none."""
 
 _LARGEST_SHARE = 1e2
-"""Positions over which ``_HEIGHT_ERROR`` of the rms height counts at most: near full contact, where the mean gap is far below
-the rms height, it is still reached to 1e-7. 1, 10 and 1e4 take the same pairs."""
+"""Positions over which ``_HEIGHT_ERROR`` of the rms height counts at most: near full contact, where
+the mean gap is far below the rms height, it is still reached to 1e-7. 1, 10 and 1e4 take the same
+pairs."""
 
 _SOLVER_SHARE = 1e-2
-"""Error of a normal solve over the position, where that is less than the rms height: a hundredth, so that the noise leads no step
-astray. Near full contact 1e-3 takes 70 pairs, 0.1 takes 62; elsewhere the normal solve is more accurate anyway."""
+"""Error of a normal solve over the position, where that is less than the rms height: a hundredth,
+so that the noise leads no step astray. Near full contact 1e-3 takes 70 pairs, 0.1 takes 62;
+elsewhere the normal solve is more accurate anyway."""
 
 _FINEST = 1e-10
-"""Accuracy over the rms height that is asked of a normal solve at the finest, about the rounding of its gap; asked for by positions
-below 1e-8 of the rms height alone."""
+"""Accuracy over the rms height that is asked of a normal solve at the finest, about the rounding of
+its gap; asked for by positions below 1e-8 of the rms height alone."""
 
 _LOOSE = 1e3
-"""Errors within which a position counts as reached when the step left for the load is below what the normal solve resolves.
-Near full contact 1 takes 70 pairs, 10 and 1e5 as many as 1e3."""
+"""Errors within which a position counts as reached when the step left for the load is below what
+the normal solve resolves. Near full contact 1 takes 70 pairs, 10 and 1e5 as many as 1e3."""
 
 _PERSSON = 0.45
-"""Mean gap in rms heights by which the logarithm of the load changes by one (Persson's law of self-affine surfaces): the step
-before there are two points for a secant. Periodic for 0.2, 0.3, 0.6, 0.9: 32, 26, 31, 35; hardness 42, 28, 29, 35; film 42, 31, 32, 35."""
+"""Mean gap in rms heights by which the logarithm of the load changes by one (Persson's law of
+self-affine surfaces): the step before there are two points for a secant. Periodic for 0.2, 0.3,
+0.6, 0.9: 32, 26, 31, 35; hardness 42, 28, 29, 35; film 42, 31, 32, 35."""
 
 _LIGHT = 0.8
-"""Power of the load with which the closeness grows where few points touch, between Hertz's 2/3 and proportionality. Periodic for
-0.5, 0.65, 1: 22, 23, 24; all others the same but a hardness 25 for 0.5."""
+"""Power of the load with which the closeness grows where few points touch, between Hertz's 2/3 and
+proportionality. Periodic for 0.5, 0.65, 1: 22, 23, 24; all others the same but a hardness 25 for
+0.5."""
 
 _AT_FULL = 0.8
-"""Logarithm of the load at full contact over rms height times stiffness, for the first guess. Periodic for 0, 0.4, 1.2, 2: 32,
-27, 32, 34; near full contact 72, 71, 53, 73; film 26, 22, 30, 31; at 2 one with a hardness finds no load."""
+"""Logarithm of the load at full contact over rms height times stiffness, for the first guess.
+Periodic for 0, 0.4, 1.2, 2: 32, 27, 32, 34; near full contact 72, 71, 53, 73; film 26, 22, 30, 31;
+at 2 one with a hardness finds no load."""
 
 _BEYOND = 10.0
-"""Logarithm of the load beyond full contact of the first guess at most: of flat bodies, whose rms height is rounding, it would be any number."""
+"""Logarithm of the load beyond full contact of the first guess at most: of flat bodies, whose rms
+height is rounding, it would be any number."""
 
 _FARTHEST = float(np.log(8.0))
-"""Largest step of the logarithm of the load; of a factor of 2 the periodic contacts take 24.4 pairs for 23.7, and any
-larger one changes none: a guard against one extrapolation."""
+"""Largest step of the logarithm of the load; of a factor of 2 the periodic contacts take 24.4 pairs
+for 23.7, and any larger one changes none: a guard against one extrapolation."""
 
 _INSIDE = 1e-3
-"""Share of the bracket that a step keeps from its ends, so that it shrinks in every round. For 0 those with a hardness
-take 23.6 pairs, for 0.1 periodic ones 29.2; at 0.3 a periodic one finds no load any more."""
+"""Share of the bracket that a step keeps from its ends, so that it shrinks in every round. For 0
+those with a hardness take 23.6 pairs, for 0.1 periodic ones 29.2; at 0.3 a periodic one finds no
+load any more."""
 
 _CLOSED = 1e-12
-"""Width of the bracket of the logarithm of the load that counts as closed, its rounding for loads between 1e-4 and 1e4 Pa per Pa
-of modulus; 0, 1e-14 and 1e-9 take the same pairs."""
+"""Width of the bracket of the logarithm of the load that counts as closed, its rounding for loads
+between 1e-4 and 1e4 Pa per Pa of modulus; 0, 1e-14 and 1e-9 take the same pairs."""
 
 _ROUNDING = 8.0 * float(np.finfo(float).eps)
-"""Rounding of a gap over the largest height of the profile: of nearly flat surfaces far from the zero of their heights it is more than the errors above."""
+"""Rounding of a gap over the largest height of the profile: of nearly flat surfaces far from the
+zero of their heights it is more than the errors above."""
 
 _ROUNDED = 1e-14
-"""Height of the highest point above the mean over the largest height, below which it is rounding and the surface flat."""
+"""Height of the highest point above the mean over the largest height, below which it is rounding
+and the surface flat."""
 
 _TOWARDS = 0.5
-"""Share of its own step that a search alone takes at least: where the position hardly depends on the load, as beyond full
-contact of a free body, the extrapolation of earlier rounds may lead back. 0, 0.25 and 1 take the same pairs elsewhere."""
+"""Share of its own step that a search alone takes at least: where the position hardly depends on
+the load, as beyond full contact of a free body, the extrapolation of earlier rounds may lead back.
+0, 0.25 and 1 take the same pairs elsewhere."""
 
 
 @dataclass(frozen=True)
 class _Note:
-    """Mean gap at first touch, closeness wanted from there and what its error is relative to (m); bracket of the logarithm of the load, and the last misses (m).
+    """Mean gap at first touch, closeness wanted from there and what its error is relative to (m);
+    bracket of the logarithm of the load, and the last misses (m).
 
-    ``last``: logarithm of the load and closeness (m) of the last solve, ``slope`` of the former with the latter between the last two.
+    ``last``: logarithm of the load and closeness (m) of the last solve, ``slope`` of the former
+    with the latter between the last two.
     """
 
     touch: float
@@ -100,11 +113,14 @@ class _Note:
 
 @dataclass(frozen=True)
 class Position(Coupling):
-    """Load that brings the bodies to the approach or mean gap prescribed; the unknown is the logarithm of the mean pressure.
+    """Load that brings the bodies to the approach or mean gap prescribed; the unknown is the
+    logarithm of the mean pressure.
 
-    ``alone``: no other coupling has feedback; then every load tried lies on one side of the one looked for, and
-    the bracket holds. ``elastic`` that none limits the pressure: beyond full contact a periodic half-space would carry any
-    pressure, for its mean gap cannot be negative. ``tolerance`` is that of the normal solves. ``nested``: all others wait until the position is reached.
+    ``alone``: no other coupling has feedback; then every load tried lies on one side of the one
+    looked for, and the bracket holds. ``elastic`` that none limits the pressure: beyond full
+    contact a periodic half-space would carry any pressure, for its mean gap cannot be negative.
+    ``tolerance`` is that of the normal solves. ``nested``: all others wait until the position is
+    reached.
     """
 
     alone: bool
@@ -116,7 +132,8 @@ class Position(Coupling):
     remedy: ClassVar[str] = "Prescribe a load, or a position of less overlap."
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
-        """The load of the start, or a guess, which is within a factor of three on self-affine surfaces.
+        """The load of the start, or a guess, which is within a factor of three on self-affine
+        surfaces.
 
         Raises
         ------
@@ -128,7 +145,9 @@ class Position(Coupling):
         known = 0.0 if posed.start is None else float(posed.start.mean())
         if known > 0.0:
             x = np.asarray(np.log(known))
-        else:  # Persson's law from the stiffness of the surface as a whole, in proportion to the load where few points touch
+        # Persson's law from the stiffness of the surface as a whole, in proportion to the load
+        # where few points touch
+        else:
             response = posed.operator.apply(posed.dented)
             stiffness = float(posed.dented.std()) / float(response.std() or 1.0)
             full = float(np.log(posed.height_scale * stiffness or 1.0)) + _AT_FULL
@@ -164,7 +183,8 @@ class Position(Coupling):
         if note.last is not None and note.last[1] != closeness:
             note = replace(note, slope=(x - note.last[0]) / (closeness - note.last[1]))
         note = replace(note, last=(x, closeness))
-        # step of the logarithm of the load by Persson's law, mean gap = -0.45 rms ln p + ..., or by proportionality at light loads
+        # step of the logarithm of the load by Persson's law, mean gap = -0.45 rms ln p + ..., or by
+        # proportionality at light loads
         if closeness <= 0.0:
             step = _FARTHEST
         elif max(closeness, note.wanted) < _PERSSON * posed.height_scale / _LIGHT:
@@ -210,8 +230,9 @@ class Position(Coupling):
         """That no load reaches it, or how far it is."""
         if exchange.stuck:
             return (
-                "No load reaches the prescribed position: where nearly every point yields, the position jumps with the load, and "
-                "at a mean pressure equal to the hardness it is undetermined. This was found"
+                "No load reaches the prescribed position: where nearly every point yields, the position jumps "
+                "with the load, and at a mean pressure equal to the hardness it is undetermined. This was "
+                "found"
             )
         return f"The prescribed position is still missed by {exchange.residual:.1e}"
 
@@ -226,7 +247,8 @@ def without_bracket(exchange: Exchange) -> Exchange:
 
 
 def closeness_wanted(posed: Posed, *, elastic: bool) -> tuple[float, float]:
-    """Mean gap (m) at first touch of the dented surfaces, and how much closer (m) than there the bodies are to come; ``elastic`` as of ``Position``.
+    """Mean gap (m) at first touch of the dented surfaces, and how much closer (m) than there the
+    bodies are to come; ``elastic`` as of ``Position``.
 
     Raises
     ------
@@ -238,14 +260,15 @@ def closeness_wanted(posed: Posed, *, elastic: bool) -> tuple[float, float]:
     flat = touch <= _ROUNDED * float(np.abs(h).max())
     if flat and (elastic or isinstance(control, MeanGap)):
         raise NoSolutionError(
-            f"{control.name} of flat bodies must be zero in contact, which is full as soon as they touch, whatever the load, but is "
-            f"{control.value:.6g} m. Prescribe {{mean_pressure}} instead."
+            f"{control.name} of flat bodies must be zero in contact, which is full as soon as they touch, "
+            f"whatever the load, but is {control.value:.6g} m. Prescribe {{mean_pressure}} instead."
         )
     if isinstance(control, Approach):
         if elastic and control.value >= posed.top - float(h.mean()):
             raise NoSolutionError(
-                f"approach must be less than {posed.top - float(h.mean()):.6g} m, where a periodic elastic contact is full and "
-                f"its mean gap zero, but is {control.value:.6g} m. Prescribe {{mean_pressure}} to go beyond full contact."
+                f"approach must be less than {posed.top - float(h.mean()):.6g} m, where a periodic elastic "
+                f"contact is full and its mean gap zero, but is {control.value:.6g} m. Prescribe "
+                f"{{mean_pressure}} to go beyond full contact."
             )
         wanted = control.value - (posed.top - highest)
         if wanted <= 0.0:

@@ -27,10 +27,12 @@ Memory: TypeAlias = Mapping[str, RealArray]
 
 @dataclass(frozen=True, eq=False)
 class Deflections:
-    """Displacements (m) by pressures (Pa), both (nx, ny), as a solver left them: what the next one need not compute again.
+    """Displacements (m) by pressures (Pa), both (nx, ny), as a solver left them: what the next one
+    need not compute again.
 
-    They hold for the very arrays of pressure in ``pairs``, and for operators of the same ``compliance``, ``boundary`` and ``grid``; the operator itself, whose
-    buffers take as much memory as some steps, is not held.
+    They hold for the very arrays of pressure in ``pairs``, and for operators of the same
+    ``compliance``, ``boundary`` and ``grid``; the operator itself, whose buffers take as much
+    memory as some steps, is not held.
     """
 
     compliance: Compliance
@@ -46,7 +48,8 @@ class Deflections:
         return next((found for known, found in self.pairs if known is pressure), None)
 
     def __reduce__(self) -> tuple[type[None], tuple[()]]:
-        """Copies and pickles are None: their arrays would be others, and the machine of the operator cannot go with them."""
+        """Copies and pickles are None: their arrays would be others, and the machine of the
+        operator cannot go with them."""
         return type(None), ()
 
 
@@ -69,17 +72,21 @@ class Posed:
     start
         Pressure (nx, ny) in Pa to start from; None where nothing is known.
     earlier
-        That of the load before ``start`` on the same leg, beyond which both are extrapolated; None where there is none.
+        That of the load before ``start`` on the same leg, beyond which both are extrapolated; None
+        where there is none.
     tangential
         What is prescribed along the surfaces; None where that is as in the step before.
     deflections
         Displacements by ``start`` and by ``earlier``, where they are at hand.
     retarded
-        Displacement (nx, ny) in m at the end of the step that earlier pressures leave in viscoelastic bodies; zero in elastic ones.
+        Displacement (nx, ny) in m at the end of the step that earlier pressures leave in
+        viscoelastic bodies; zero in elastic ones.
     ahead
-        Length of this step of time over the one before, in which pressures are extrapolated to start from; None where it is not known.
+        Length of this step of time over the one before, in which pressures are extrapolated to
+        start from; None where it is not known.
     held
-        Whether an approach is held by its offset, where the pressure is bounded; else the load that reaches it may be one more unknown.
+        Whether an approach is held by its offset, where the pressure is bounded; else the load that
+        reaches it may be one more unknown.
     """
 
     operator: Operator
@@ -102,7 +109,8 @@ class Posed:
 
     @property
     def external_force(self) -> float | None:
-        """Prescribed external force in N, zero if unloaded, negative if it pulls; None where the position is prescribed."""
+        """Prescribed external force in N, zero if unloaded, negative if it pulls; None where the
+        position is prescribed."""
         if isinstance(self.control, Pull):
             return -self.control.value
         if isinstance(self.control, Unloaded):
@@ -129,7 +137,8 @@ def height_scale(virgin: RealArray, control: Control, operator: Operator) -> flo
 class Contact:
     """Normal contact of one round, solved.
 
-    ``indentation`` (nx, ny) in m and ``attraction`` (nx, ny) in Pa are the sums of what its ``Share``s give.
+    ``indentation`` (nx, ny) in m and ``attraction`` (nx, ny) in Pa are the sums of what its
+    ``Share``s give.
     """
 
     posed: Posed
@@ -140,7 +149,8 @@ class Contact:
 
     @cached_property
     def cap(self) -> float | RealArray:
-        """Largest pressure (Pa) at the indentation reached: where that was posed, the pressure found."""
+        """Largest pressure (Pa) at the indentation reached: where that was posed, the pressure
+        found."""
         if not isinstance(self.indentation, np.ndarray):
             return self.qp.cap
         yields = (self.indentation > 0.0) & self.touching
@@ -168,7 +178,8 @@ class Contact:
 
     @cached_property
     def overlap(self) -> RealArray:
-        """Overlap (nx, ny) in m of the deformed bodies without the indentation of this step, negative where they are apart."""
+        """Overlap (nx, ny) in m of the deformed bodies without the indentation of this step,
+        negative where they are apart."""
         return self.level - (self.solution.state.deflection - self.qp.profile) + self.indentation
 
     @property
@@ -193,7 +204,8 @@ class Contact:
         return same
 
     def with_work_of(self, earlier: Contact | None, iterations: int = 0, pairs: float = 0.0) -> Contact:
-        """The same with the work of the rounds before it added, and with ``iterations`` and FFT ``pairs`` of other methods."""
+        """The same with the work of the rounds before it added, and with ``iterations`` and FFT
+        ``pairs`` of other methods."""
         own = self.solution.state
         iterations, applications, pairs = own.iterations + iterations, own.applications, own.extra_pairs + pairs
         if earlier is not None:
@@ -207,13 +219,15 @@ class Contact:
 
 @dataclass(frozen=True, eq=False)
 class Share:
-    """What one coupling adds to the normal problem gap = offset + K p + lift + indentation - h >= 0, 0 <= p <= cap.
+    """What one coupling adds to the normal problem gap = offset + K p + lift + indentation - h >=
+    0, 0 <= p <= cap.
 
-    Shares combine: loads (N), lifts and indentations (m) add, the smallest cap (Pa) holds at every point. At a prescribed position
-    the loads are passive: they change what holds the bodies there, not the contact. An indentation is a lift at points that
-    yield in this step: their pressure is then what the limit must be. A coupling that finds the position itself gives the
-    ``constraint`` that takes the place of the control. An attraction (Pa), whose displacement is in the lift, tells the other couplings
-    what acts on the surfaces beside the pressure.
+    Shares combine: loads (N), lifts and indentations (m) add, the smallest cap (Pa) holds at every
+    point. At a prescribed position the loads are passive: they change what holds the bodies there,
+    not the contact. An indentation is a lift at points that yield in this step: their pressure is
+    then what the limit must be. A coupling that finds the position itself gives the ``constraint``
+    that takes the place of the control. An attraction (Pa), whose displacement is in the lift,
+    tells the other couplings what acts on the surfaces beside the pressure.
     """
 
     load: float = 0.0
@@ -235,13 +249,16 @@ class Exchange:
     target
         What it would have to be for the last contact.
     residual
-        How far the two are apart, relative; the tolerance of the normal solves follows the largest of all couplings.
+        How far the two are apart, relative; the tolerance of the normal solves follows the largest
+        of all couplings.
     tolerance
         Residual at which it is settled.
     smooth
-        Whether the unknown follows the contact smoothly, so that it may be extrapolated. If not, the target is taken as it is.
+        Whether the unknown follows the contact smoothly, so that it may be extrapolated. If not,
+        the target is taken as it is.
     scale
-        Size of a typical difference of unknowns, by which those of several couplings are made comparable.
+        Size of a typical difference of unknowns, by which those of several couplings are made
+        comparable.
     lowest, highest
         Bounds of the unknown.
     accuracy
@@ -249,13 +266,16 @@ class Exchange:
     final
         Largest error of the last normal solve.
     exact
-        Whether the next solve must be to the full tolerance already, because what its error does to the unknown would stay.
+        Whether the next solve must be to the full tolerance already, because what its error does to
+        the unknown would stay.
     slowest
-        Factor by which the residual is at best expected to fall in the next round; what has been observed counts where it is larger.
+        Factor by which the residual is at best expected to fall in the next round; what has been
+        observed counts where it is larger.
     stuck
         Whether no unknown can be right, so that it must be given up.
     pressure
-        Pressure (nx, ny) in Pa to start the next normal solve from, where the coupling knows the contact; its target is then taken as it is.
+        Pressure (nx, ny) in Pa to start the next normal solve from, where the coupling knows the
+        contact; its target is then taken as it is.
     note
         What else it carries.
     """
@@ -283,7 +303,8 @@ class Exchange:
 
 
 class Ahead(NamedTuple):
-    """FFT ``pairs`` and ``iterations`` that a coupling has spent on the contact with its own unknown, and its ``exchange`` if that has found it."""
+    """FFT ``pairs`` and ``iterations`` that a coupling has spent on the contact with its own
+    unknown, and its ``exchange`` if that has found it."""
 
     pairs: float = 0.0
     iterations: int = 0
@@ -297,9 +318,10 @@ Ended: TypeAlias = "tuple[Memory, object]"
 class Coupling(Protocol):
     """A physics that joins the normal contact: frozen settings, prepared once for a problem.
 
-    ``begin`` is called once a step, then ``share``, a normal solve and ``reply`` alternate until every coupling is
-    settled, then ``end``. All couplings reply to the same contact, so that their order does not matter. A coupling may
-    inherit from this protocol to leave out what does not concern it.
+    ``begin`` is called once a step, then ``share``, a normal solve and ``reply`` alternate until
+    every coupling is settled, then ``end``. All couplings reply to the same contact, so that their
+    order does not matter. A coupling may inherit from this protocol to leave out what does not
+    concern it.
     """
 
     @property
@@ -326,7 +348,8 @@ class Coupling(Protocol):
 
     @property
     def cap(self) -> RealArray | float | None:
-        """Limit (Pa) that it sets to the pressure whatever the contact; None if it depends on the contact, or there is none."""
+        """Limit (Pa) that it sets to the pressure whatever the contact; None if it depends on the
+        contact, or there is none."""
         return None
 
     def at(self, operator: Operator) -> Coupling:
@@ -334,29 +357,35 @@ class Coupling(Protocol):
         return self
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
-        """Exchange before the first round, from the ``memory`` of the step before (empty for a virgin interface)."""
+        """Exchange before the first round, from the ``memory`` of the step before (empty for a
+        virgin interface)."""
 
     def share(self, exchange: Exchange) -> Share:
         """What the next contact is posed with."""
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
-        """Target and residual for ``contact``. May raise NoSolutionError, explained, where there is no balance."""
+        """Target and residual for ``contact``. May raise NoSolutionError, explained, where there is
+        no balance."""
         return exchange
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
-        """Exchange that is nearer to bearing the ``mean`` pressure (Pa), which is above the last cap; None if it limits nothing."""
+        """Exchange that is nearer to bearing the ``mean`` pressure (Pa), which is above the last
+        cap; None if it limits nothing."""
         return None
 
     def unbearable(self, exchange: Exchange, error: NoSolutionError) -> NoSolutionError | None:
-        """The ``error`` that the load cannot be borne in words of this coupling, if it is the cause; else None."""
+        """The ``error`` that the load cannot be borne in words of this coupling, if it is the
+        cause; else None."""
         return None
 
     def settled(self, exchange: Exchange) -> str:
-        """That nothing changes any more: the beginning of a sentence that ends in "after 7 rounds"."""
+        """That nothing changes any more: the beginning of a sentence that ends in "after 7
+        rounds"."""
         return f"The share of {self.name} is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
-        """What still changes and by how much: the beginning of a sentence that ends in "after 40 rounds"."""
+        """What still changes and by how much: the beginning of a sentence that ends in "after 40
+        rounds"."""
         return f"The share of {self.name} still changes by {exchange.residual:.1e}"
 
     def apart(self, exchange: Exchange, contact: Contact) -> Exchange:
@@ -367,7 +396,8 @@ class Coupling(Protocol):
         """Memory for the next step, and what it found (None if that is all in the contact)."""
 
     def end_in_time(self, exchange: Exchange, contact: Contact, ended: Ended, stored: float, heat: float) -> Ended:
-        """The same of a step of time of bodies that hold the energy ``stored`` (J) after its ``heat`` (J), which ``ended`` so by itself."""
+        """The same of a step of time of bodies that hold the energy ``stored`` (J) after its
+        ``heat`` (J), which ``ended`` so by itself."""
         return ended
 
 
@@ -378,7 +408,8 @@ class Foreseeing(Protocol):
     def ahead(
         self, exchange: Exchange, qp: ContactQP, start: RealArray | None, solver: Solver, progress: Progress
     ) -> Ahead:
-        """Unknown and pressure that nearly agree, where the coupling has a method for ``qp``, in which its share is, that finds them; asked if no other feeds back.
+        """Unknown and pressure that nearly agree, where the coupling has a method for ``qp``, in
+        which its share is, that finds them; asked if no other feeds back.
 
         ``start`` is a pressure (nx, ny) in Pa to start from, if one is known.
         """

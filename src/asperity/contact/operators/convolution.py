@@ -1,4 +1,5 @@
-"""From pressure to deflection on a grid: prepared once, applied many times by transforms, periodic and free."""
+"""From pressure to deflection on a grid: prepared once, applied many times by transforms, periodic
+and free."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ from ..boundary import Boundary, Free, FreeLine, Periodic
 
 
 _OCTAVES_AHEAD = 8
-"""Octaves computed in advance beyond the wavenumbers asked for: from the coarsest grid of 64² points up to 16384²."""
+"""Octaves computed in advance beyond the wavenumbers asked for: from the coarsest grid of 64²
+points up to 16384²."""
 
 
 class Spectral(Protocol):
@@ -32,9 +34,11 @@ class Spectral(Protocol):
 
 
 class Octaves:
-    """Compliance at the few wavenumbers, an octave apart or in equal parts of one, that preconditioners of all grids need; values are kept.
+    """Compliance at the few wavenumbers, an octave apart or in equal parts of one, that
+    preconditioners of all grids need; values are kept.
 
-    Few values cost as much as one: 3 to 10 ms for 32 sublayers, eight times in one solve at 512² if nothing is kept.
+    Few values cost as much as one: 3 to 10 ms for 32 sublayers, eight times in one solve at 512² if
+    nothing is kept.
     """
 
     def __init__(self, compliance: Spectral) -> None:
@@ -43,7 +47,8 @@ class Octaves:
         self._adding = Lock()  # chains of a history ask from several threads
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
-        """Displacement per pressure (m/Pa) at each ``wavenumber`` (rad/m, one-dimensional), to 1e-9 of it."""
+        """Displacement per pressure (m/Pa) at each ``wavenumber`` (rad/m, one-dimensional), to 1e-9
+        of it."""
         keys = [round(1e9 * math.log2(q)) for q in wavenumber.tolist()]  # equal where they differ by rounding
         with self._adding:
             if not all(key in self._known for key in keys):
@@ -61,7 +66,8 @@ def octaves_of(compliance: Spectral) -> Octaves:
 
 
 class Operator(Protocol):
-    """Linear, symmetric, positive semi-definite map from pressure (Pa) to normal displacement (m) on a grid."""
+    """Linear, symmetric, positive semi-definite map from pressure (Pa) to normal displacement (m)
+    on a grid."""
 
     @property
     def grid(self) -> Grid:
@@ -81,7 +87,8 @@ class Operator(Protocol):
 
     @property
     def zero_mean_mode(self) -> bool:
-        """Whether a uniform pressure gives no displacement (periodic half-space: its datum is the mean)."""
+        """Whether a uniform pressure gives no displacement (periodic half-space: its datum is the
+        mean)."""
 
     @property
     def pairs_per_application(self) -> float:
@@ -101,7 +108,8 @@ class Operator(Protocol):
 
     @property
     def smallest(self) -> float:
-        """Compliance (m/Pa) of the wave of the grid that gives way least: p·Kp is at least this times p·p, which bounds the error of a pressure."""
+        """Compliance (m/Pa) of the wave of the grid that gives way least: p·Kp is at least this
+        times p·p, which bounds the error of a pressure."""
 
     @property
     def padded(self) -> tuple[int, int]:
@@ -112,22 +120,25 @@ class Operator(Protocol):
         """Operator of the same solid on half as many points per side."""
 
     def convolution(self, dtype: str, scale: float = 1.0) -> Convolution:
-        """Prepared application, divided by ``scale``, on arrays of the engine in the precision ``dtype``."""
+        """Prepared application, divided by ``scale``, on arrays of the engine in the precision
+        ``dtype``."""
 
     def apply(self, pressure: RealArray) -> RealArray:
         """Displacement (nx, ny) in m under ``pressure`` (nx, ny) in Pa; a new array."""
 
     def matrix(self) -> RealArray:
-        """Dense symmetric matrix (n, n) in m/Pa over the n = nx·ny points in C order; for small grids only."""
+        """Dense symmetric matrix (n, n) in m/Pa over the n = nx·ny points in C order; for small
+        grids only."""
 
 
 def prepare_operator(
     compliance: Compliance, grid: Grid, boundary: Boundary, *, engine: Engine | None = None
 ) -> Operator:
-    """Pressure-displacement operator, to be held by the caller and reused in further solves of the same problem.
+    """Pressure-displacement operator, to be held by the caller and reused in further solves of the
+    same problem.
 
-    ``compliance``, ``grid`` and ``boundary`` are those of the problem; ``engine`` is the machine to compute on, the CPU with
-    ASPERITY_THREADS or all cores by default.
+    ``compliance``, ``grid`` and ``boundary`` are those of the problem; ``engine`` is the machine to
+    compute on, the CPU with ASPERITY_THREADS or all cores by default.
 
     Raises
     ------
@@ -146,7 +157,8 @@ _LEAST_SHARE = 0.8
 
 
 class _Prepared:
-    """What periodic and free operators share: transforms and their buffers, prepared at first use and kept."""
+    """What periodic and free operators share: transforms and their buffers, prepared at first use
+    and kept."""
 
     grid: Grid
     engine: Engine
@@ -167,11 +179,13 @@ class _Prepared:
 
     @cached_property
     def smallest(self) -> float:
-        """Least compliance (m/Pa) of the waves on the grid, the mean mode aside where a uniform pressure moves nothing; infinite without waves.
+        """Least compliance (m/Pa) of the waves on the grid, the mean mode aside where a uniform
+        pressure moves nothing; infinite without waves.
 
-        Periodic eigenvalues are the entries of ``kernel``. On padded grids its least is below all, but for coated bodies, whose
-        influence is cut off, far below or negative; there waves an octave apart tell more: of random layered bodies the least
-        eigenvalue was 0.90 to 1.32 of theirs.
+        Periodic eigenvalues are the entries of ``kernel``. On padded grids its least is below all,
+        but for coated bodies, whose influence is cut off, far below or negative; there waves an
+        octave apart tell more: of random layered bodies the least eigenvalue was 0.90 to 1.32 of
+        theirs.
         """
         entries = self._resident.ravel()[1:] if self.zero_mean_mode else self._resident.ravel()
         least = float(entries.min()) if entries.shape[0] else math.inf
@@ -193,9 +207,11 @@ class _Prepared:
         return known[dtype, scale]
 
     def apply(self, pressure: RealArray) -> RealArray:
-        """Displacement (nx, ny) in m under ``pressure`` (nx, ny) in Pa in double precision, a new array.
+        """Displacement (nx, ny) in m under ``pressure`` (nx, ny) in Pa in double precision, a new
+        array.
 
-        It is relative to its mean where the mean mode is zero; on a free grid zero at infinity (strips: at the datum).
+        It is relative to its mean where the mean mode is zero; on a free grid zero at infinity
+        (strips: at the datum).
         """
         field, out = self.engine.array(pressure, "float64"), self.engine.zeros(self.grid.shape, "float64")
         return self.engine.numpy(self.convolution("float64").apply(field, out))
@@ -207,10 +223,12 @@ class _Prepared:
 class PeriodicOperator(_Prepared):
     """u(q) = c(q) p(q) on a periodic grid (Stanley & Kato 1997), spectral discretisation.
 
-    Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
+    Transforms and their buffers are prepared at first use and kept, so one operator serves one
+    solve at a time.
 
-    ``kernel`` is the compliance (m/Pa) on the half spectrum of ``grid`` where it is known already, an array of the host or where the
-    engine computes; ``octaves`` holds values of the compliance to share, from the operator of a finer grid.
+    ``kernel`` is the compliance (m/Pa) on the half spectrum of ``grid`` where it is known already,
+    an array of the host or where the engine computes; ``octaves`` holds values of the compliance to
+    share, from the operator of a finer grid.
     """
 
     pairs_per_application = 1.0
@@ -242,7 +260,8 @@ class PeriodicOperator(_Prepared):
 
     @cached_property
     def coarsened(self) -> PeriodicOperator:
-        """Operator on the grid of half as many points per side, whose waves are the longer half of those here."""
+        """Operator on the grid of half as many points per side, whose waves are the longer half of
+        those here."""
         grid = coarse_grid(self.grid)
         fine, (rows, columns) = self.grid.shape[0], grid.shape
         positive, longer = (rows + 1) // 2, self._resident[:, : columns // 2 + 1]
@@ -257,9 +276,11 @@ class PeriodicOperator(_Prepared):
 
 
 def spectral_kernel(compliance: Compliance, grid: Grid, engine: Engine | None = None) -> Any:
-    """Compliance (m/Pa) on the half spectrum of ``grid``, where the ``engine`` computes; negative frequencies along x are copies of positive ones.
+    """Compliance (m/Pa) on the half spectrum of ``grid``, where the ``engine`` computes; negative
+    frequencies along x are copies of positive ones.
 
-    It is computed there if it is that of a half-space, which any array takes; a GPU does that in a hundredth of the time.
+    It is computed there if it is that of a half-space, which any array takes; a GPU does that in a
+    hundredth of the time.
     """
     nx = grid.shape[0]
     rows = nx // 2 + 1
@@ -294,19 +315,22 @@ def spectral_kernel(compliance: Compliance, grid: Grid, engine: Engine | None = 
 
 
 _STRIP = 64
-"""Rows of a symmetric array that are mirrored at once. A layered kernel of 1024² points takes 5 ms so, and 12 if every wavenumber is looked up; strips of 32 and 128 the same."""
+"""Rows of a symmetric array that are mirrored at once. A layered kernel of 1024² points takes 5 ms
+so, and 12 if every wavenumber is looked up; strips of 32 and 128 the same."""
 
 
 # Free contact: exact discrete convolution with influence coefficients on a zero-padded grid.
 
 
 class FreeOperator(_Prepared):
-    """u = sum of influence coefficients times pressures, by DC-FFT (Liu, Wang & Liu 2000): no periodicity error.
+    """u = sum of influence coefficients times pressures, by DC-FFT (Liu, Wang & Liu 2000): no
+    periodicity error.
 
-    Transforms and their buffers are prepared at first use and kept, so one operator serves one solve at a time.
+    Transforms and their buffers are prepared at first use and kept, so one operator serves one
+    solve at a time.
 
-    ``boundary`` is ``Free()`` or, for strips in plane strain, ``FreeLine()``; ``octaves`` holds values of the compliance to share, from the
-    operator of a finer grid.
+    ``boundary`` is ``Free()`` or, for strips in plane strain, ``FreeLine()``; ``octaves`` holds
+    values of the compliance to share, from the operator of a finer grid.
     """
 
     zero_mean_mode = False
@@ -373,7 +397,8 @@ LARGEST_DENSE = 4096
 
 
 def convolution_matrix(kernel: RealArray, *, periodic: bool) -> RealArray:
-    """Matrix (n, n) of the convolution with ``kernel`` (nx, ny): the response to a unit load at node (0, 0).
+    """Matrix (n, n) of the convolution with ``kernel`` (nx, ny): the response to a unit load at
+    node (0, 0).
 
     If ``periodic`` it wraps around; else it is that at non-negative offsets, and even.
 

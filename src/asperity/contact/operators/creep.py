@@ -1,4 +1,5 @@
-"""The operator of one step of time: a multiple of that of the first instant, or that of a sum of retarded compliances."""
+"""The operator of one step of time: a multiple of that of the first instant, or that of a sum of
+retarded compliances."""
 
 from __future__ import annotations
 
@@ -51,7 +52,8 @@ class _Multiple(Octaves):
 
 
 class SummedOperator(_Prepared):
-    """Operator of a ``compliance`` whose ``kernel`` (m/Pa) on the half spectrum of ``whole``, the operator at the first instant, is known."""
+    """Operator of a ``compliance`` whose ``kernel`` (m/Pa) on the half spectrum of ``whole``, the
+    operator at the first instant, is known."""
 
     def __init__(self, whole: Operator, compliance: Compliance, kernel: RealArray) -> None:
         self.whole, self.compliance, self.kernel = whole, compliance, kernel
@@ -71,14 +73,16 @@ class SummedOperator(_Prepared):
 
 
 class OperatorsInTime:
-    """Operators of the steps of time of one problem, whose operator at the first instant is ``instantaneous``; the last one is kept."""
+    """Operators of the steps of time of one problem, whose operator at the first instant is
+    ``instantaneous``; the last one is kept."""
 
     def __init__(self, creep: AnyCreep, instantaneous: Operator) -> None:
         self.creep, self.instantaneous = creep, instantaneous
         self._last: tuple[bytes, Operator] | None = None
 
     def at(self, weights: RealArray, added: RealArray | None) -> Operator:
-        """Operator of the instantaneous compliance and ``weights`` (terms,) of those that are retarded.
+        """Operator of the instantaneous compliance and ``weights`` (terms,) of those that are
+        retarded.
 
         ``added`` is the sum of these (m/Pa) on the half spectrum, for layers.
         """

@@ -44,8 +44,8 @@ def solver_by_name(
     Raises
     ------
     InputError
-        If no method has this name, the tolerance is not positive, the limit not a whole number >= 1, or the
-        ``precision`` none of those of active_set, the only method with a choice.
+        If no method has this name, the tolerance is not positive, the limit not a whole number >=
+        1, or the ``precision`` none of those of active_set, the only method with a choice.
     """
     make = SOLVERS[require.one_of(name, SOLVERS, "solver")]
     settings: dict[str, Any] = {}

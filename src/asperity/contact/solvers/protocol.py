@@ -19,7 +19,7 @@ from ..operators import Operator
 
 @dataclass(frozen=True)
 class FixedMean:
-    """The mean pressure (Pa) is prescribed; the offset of the bodies is the multiplier of this constraint."""
+    """The mean pressure (Pa) is prescribed; the offset of the bodies is its multiplier."""
 
     mean_pressure: float
 
@@ -37,7 +37,8 @@ Constraint: TypeAlias = FixedMean | FixedOffset
 
 @dataclass(frozen=True, eq=False)
 class ContactQP:
-    """Minimise p·Kp/2 - p·(h - d) over 0 <= p <= cap, with the mean of p or the offset d fixed (Kalker 1977).
+    """Minimise p·Kp/2 - p·(h - d) over 0 <= p <= cap, with the mean of p or the offset d fixed
+    (Kalker 1977).
 
     Parameters
     ----------
@@ -50,8 +51,7 @@ class ContactQP:
     constraint
         ``FixedMean`` or ``FixedOffset``.
     height_scale
-        Rms height of the profile in m, by which errors are made relative where the bodies deform by as much (see
-        ``scaled_error``).
+        Rms height of the profile in m; errors are relative to it (see ``scaled_error``).
     """
 
     operator: Operator
@@ -91,7 +91,7 @@ class ContactQP:
         return (*(array(field, "float64") for field in self.as_computed(state)), cap)
 
     def as_computed(self, state: SolverState) -> tuple[Any, Any, Any]:
-        """Pressure and deflection of ``state``, and the profile, where the machine computes if they are there as well; they take the operations of NumPy."""
+        """Pressure and deflection of ``state``, and the profile, where the machine computes."""
         if state.resident is None:
             return state.pressure, state.deflection, self.profile
         return (*state.resident, self.resident_profile)
@@ -101,8 +101,9 @@ class ContactQP:
 class SolverState:
     """One iterate, everything needed to continue from it.
 
-    Its arrays may be borrowed: ``ActiveSet`` goes on in them, so that a state is good for one step, and after that
-    step must not be used any more. ``copy`` gives a state of its own arrays, from which the same steps follow, to the bit.
+    Its arrays may be borrowed: ``ActiveSet`` goes on in them, so that a state is good for one step,
+    and after that step must not be used any more. ``copy`` gives a state of its own arrays, from
+    which the same steps follow, to the bit.
 
     Attributes
     ----------
@@ -119,13 +120,13 @@ class SolverState:
     exhausted
         Whether the method cannot improve the iterate.
     energy
-        Of the iterate, p·Kp/2 - p·(h - d) summed over the points (Pa·m), where no step can raise it; None otherwise.
+        p·Kp/2 - p·(h - d) summed over the points (Pa·m), where no step can raise it; else None.
     memory
         What the method carries from step to step; frozen, or ``Borrowing``.
     engine
         Whose arrays pressure and deflection are; None for NumPy arrays.
     resident
-        Pressure and deflection where the machine computes as well, if they are NumPy arrays and that is elsewhere.
+        Pressure and deflection where the machine computes as well, if that is elsewhere.
     """
 
     pressure: RealArray
@@ -141,7 +142,7 @@ class SolverState:
     resident: tuple[Any, Any] | None = None
 
     def copy(self) -> SolverState:
-        """State of its own arrays, which steps from this one leave alone, for restarts and branches of a run."""
+        """State of its own arrays, which steps from this one leave alone, for restarts."""
         if isinstance(self.memory, Borrowing):
             return self.memory.copied(self)
         return replace(self, pressure=self.pressure.copy(), deflection=self.deflection.copy())
@@ -175,18 +176,19 @@ class Solver(Protocol):
         """Number of steps after which to give up."""
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
-        """State at the pressure ``start`` (Pa), made feasible, or at a first guess of the method; ``start`` is not changed."""
+        """State at the pressure ``start`` (Pa), made feasible, or at a guess of the method."""
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
         """Next state (a direct method solves the whole problem in one step).
 
-        A method may go on in the arrays of ``state``, which is then used up (see ``SolverState.copy``).
+        A method may go on in the arrays of ``state``, which is then used up (``SolverState.copy``).
         """
 
 
 @dataclass(frozen=True)
 class Iterative:
-    """Base of methods, for any problem, with a tolerance in (0, 1) and an iteration limit, whole and >= 1; InputError names the wrong one."""
+    """Base of methods, for any problem, with a tolerance in (0, 1) and an iteration limit, whole
+    and >= 1; InputError names the wrong one."""
 
     tolerance: float
     max_iterations: int
@@ -199,7 +201,7 @@ class Iterative:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """Last state of a solver and how it ended; ``errors`` holds the relative error after every iteration."""
+    """Last state of a solver and how it ended; ``errors`` are relative, of every iteration."""
 
     state: SolverState
     status: Status
@@ -208,16 +210,17 @@ class Solution:
 
 PATIENCE = 500
 LEAST_PATIENCE = 20
-"""Iterations without a smaller error after which a method counts as stagnated: a quarter of its limit, within these."""
+"""A method stagnates after a quarter of its limit without a smaller error, within these numbers."""
 
 _SMALLER = 0.99
-"""Share of the smallest error so far below which one counts as smaller: near rounding, last digits go on falling."""
+"""Share of the smallest error below which one is smaller: near rounding digits still fall."""
 
 _DESCENT_PATIENCE = 75
 _LOWER = 1e-12
-"""Iterations without a smaller error or a lower energy of a method whose energy cannot rise, and the share by which it must fall to
-count as lower. The error of such a method may rise for long: films of E 1000, 2 pixels thick, white noise of 64² points of 1 : 4,
-go from 0.8 (uniform pressure) to 2000 in three steps, take some 80 to come back below 0.8, and converge in 100 to 500."""
+"""Iterations without a smaller error or a lower energy of a method whose energy cannot rise, and
+the share by which it must fall to count as lower. The error of such a method may rise for long:
+films of E 1000, 2 pixels thick, white noise of 64² points of 1 : 4, go from 0.8 (uniform pressure)
+to 2000 in three steps, take some 80 to come back below 0.8, and converge in 100 to 500."""
 
 
 def run(
@@ -227,7 +230,7 @@ def run(
     progress: Progress | None = None,
     begun: SolverState | None = None,
 ) -> Solution:
-    """Iterate ``solver`` from the pressure ``start`` (Pa), if there is one, or the state ``begun``, until it converges, stagnates or gives up."""
+    """Iterate ``solver`` from the pressure ``start`` (Pa) or the state ``begun`` to its end."""
     ended = iterated(solver, qp, start, progress, begun)
     state, engine = ended.state, ended.state.engine
     finished = replace(state, memory=None)
@@ -247,17 +250,24 @@ def run(
         status = Status(Outcome.CONVERGED, text)
     elif ended.stagnated:
         text = f"Stagnated above the tolerance {solver.tolerance:.0e}: {reached}."
-        remedy = "Try another solver ({solver}; conjugate_gradient is the most robust) or a tolerance the arithmetic can reach ({tolerance})."
+        remedy = (
+            "Try another solver ({solver}; conjugate_gradient is the most robust) or a tolerance the "
+            "arithmetic can reach ({tolerance})."
+        )
         status = Status(Outcome.STAGNATED, text, remedy)
     else:
         text = f"Iteration limit before the tolerance {solver.tolerance:.0e}: {reached}."
-        remedy = f"Raise the number of iterations above {solver.max_iterations} ({{iterations}}) or loosen the tolerance ({{tolerance}})."
+        remedy = (
+            f"Raise the number of iterations above {solver.max_iterations} ({{iterations}}) or loosen the "
+            f"tolerance ({{tolerance}})."
+        )
         status = Status(Outcome.ITERATION_LIMIT, text, remedy)
     return Solution(finished, status, ended.errors)
 
 
 class Ended(NamedTuple):
-    """Last ``state`` of a solver, with the arrays and the memory of the method, the ``errors`` of all, and whether it has ``stagnated``."""
+    """Last ``state`` of a solver, with the arrays and the memory of the method, the ``errors`` of
+    all, and whether it has ``stagnated``."""
 
     state: SolverState
     errors: tuple[float, ...]
@@ -293,17 +303,18 @@ def iterated(
                 least_energy, since = state.energy, 0
 
 
-# How far a feasible pressure is from the solution: multiplier, duality gap and the customary relative error.
+# How far a feasible pressure is from the solution: multiplier, duality gap and relative error.
 #
-# All functions take r = K p - h (m) and the plane level lambda (m), the multiplier of the load; the gap of the bodies is
-# r - lambda.
+# All functions take r = K p - h (m) and the plane level lambda (m), the multiplier of the load; the
+# gap of the bodies is r - lambda.
 
 
 def level(qp: ContactQP, pressure: RealArray, r: RealArray) -> float:
     """Plane level lambda = -offset (m): the multiplier of the prescribed load.
 
-    Prescribed for ``FixedOffset``; else the pressure-weighted mean of r over the points strictly between the bounds.
-    Where there is none (every pressure at a bound), the middle of the interval the conditions leave open.
+    Prescribed for ``FixedOffset``; else the pressure-weighted mean of r over the points strictly
+    between the bounds. Where there is none (every pressure at a bound), the middle of the interval
+    the conditions leave open.
     """
     if isinstance(qp.constraint, FixedOffset):
         return -qp.constraint.offset
@@ -332,15 +343,17 @@ def multiplier(totals: Totals) -> float:
 
 
 def energy(qp: ContactQP, pressure: RealArray, deflection: RealArray) -> float:
-    """Total complementary energy per pixel area (Pa·m), p·Kp/2 - p·(h - d), d = 0 where the load is prescribed."""
+    """Total complementary energy per pixel area (Pa·m), p·Kp/2 - p·(h - d); d = 0 under a load."""
     height = qp.profile - qp.constraint.offset if isinstance(qp.constraint, FixedOffset) else qp.profile
     return float((pressure * (0.5 * deflection - height)).sum())
 
 
 def duality_gap(pressure: RealArray, r: RealArray, cap: float | RealArray, at: float) -> float:
-    """Sum of (r - lambda)+ p + (lambda - r)+ (cap - p) in Pa·m; times the pixel area it bounds V(p) - V(p*).
+    """Sum of (r - lambda)+ p + (lambda - r)+ (cap - p) in Pa·m; times the pixel area it bounds
+    V(p) - V(p*).
 
-    Infinite if r < lambda anywhere without a cap (weak duality of the quadratic programme, Kalker 1977).
+    Infinite if r < lambda anywhere without a cap (weak duality of the quadratic programme, Kalker
+    1977).
     """
     gap = r - at  # sums of products rather than np.vdot, after which idle threads of BLAS keep the processors busy
     if not isinstance(cap, np.ndarray) and cap == np.inf:
@@ -350,7 +363,8 @@ def duality_gap(pressure: RealArray, r: RealArray, cap: float | RealArray, at: f
 
 
 def best_level(pressure: RealArray, r: RealArray, cap: float | RealArray) -> float:
-    """Level (m) with the smallest duality gap, so the sharpest bound: min r without cap, else a weighted median."""
+    """Level (m) with the smallest duality gap, so the sharpest bound: min r without cap, else a
+    weighted median."""
     if not isinstance(cap, np.ndarray) and cap == np.inf:
         return float(r.min())
     # slope of the gap in lambda: sum of (cap - p) where r < lambda, minus sum of p where r > lambda
@@ -358,7 +372,8 @@ def best_level(pressure: RealArray, r: RealArray, cap: float | RealArray) -> flo
 
 
 def _last_needed(heights: RealArray, cap: float | RealArray, total: float) -> float:
-    """Height of the last point that is needed for a sum ``total`` of pressures at the ``cap``, the lowest points first."""
+    """Height of the last point that is needed for a sum ``total`` of pressures at the ``cap``, the
+    lowest points first."""
     values, least = heights.ravel(), float(np.min(cap))
     enough = max(1, math.ceil(total / least)) if total < least * values.size else values.size
     if not isinstance(cap, np.ndarray):
@@ -370,11 +385,13 @@ def _last_needed(heights: RealArray, cap: float | RealArray, total: float) -> fl
 
 
 _LIGHT = 1e-3
-"""Deflection of the mean pressure in the longest wave over the rms height below which a load counts as light."""
+"""Deflection of the mean pressure in the longest wave over the rms height below which a load counts
+as light."""
 
 _OFF_CENTRE, _FAR_FROM_ZERO = 10.0, 0.1
-"""Mean height over rms height beyond which heights are centred: their rounding is then ten times as large; and over the deflection
-of the mean pressure in the longest wave: flat bodies at a height of 1000 such deflections ended at errors of 1e-7, of one at 1e-10."""
+"""Mean height over rms height beyond which heights are centred: their rounding is then ten times as
+large; and over the deflection of the mean pressure in the longest wave: flat bodies at a height of
+1000 such deflections ended at errors of 1e-7, of one at 1e-10."""
 
 MOST_DEFLECTIONS = 30.0
 _FEWEST_DEFLECTIONS = 1e-4
@@ -384,7 +401,8 @@ _UNRESOLVED = 1e-5
 def lightly_loaded(qp: ContactQP) -> bool:
     """Whether a load is prescribed under which the bodies deform by far less than the rms height.
 
-    On a periodic half-space only what differs from the mean pressure deflects: by no more than rms [p (H - p)]^1/2 under a cap H.
+    On a periodic half-space only what differs from the mean pressure deflects: by no more than rms
+    [p (H - p)]^1/2 under a cap H.
     """
     if isinstance(qp.constraint, FixedOffset):
         return False
@@ -395,10 +413,12 @@ def lightly_loaded(qp: ContactQP) -> bool:
 
 
 def heights_near_contact(qp: ContactQP) -> RealArray:
-    """Heights (nx, ny) in m from a level near the contact, a copy only where that matters: roundings would hide the error.
+    """Heights (nx, ny) in m from a level near the contact, a copy only where that matters:
+    roundings would hide the error.
 
-    At prescribed load any level serves: the height down to which rigid bodies would be in contact under a light load, whose
-    deflection is far smaller than the heights, the mean where the profile is far from zero. At prescribed position the profile is as it is.
+    At prescribed load any level serves: the height down to which rigid bodies would be in contact
+    under a light load, whose deflection is far smaller than the heights, the mean where the profile
+    is far from zero. At prescribed position the profile is as it is.
     """
     if isinstance(qp.constraint, FixedOffset):
         return qp.profile
@@ -415,16 +435,19 @@ def heights_near_contact(qp: ContactQP) -> RealArray:
 
 
 def scaled_error(qp: ContactQP, error: float, total: float, energy: float) -> float:
-    """``error`` (m) over the rms height, or over a length that the bodies' deformation sets where that is much different.
+    """``error`` (m) over the rms height, or over a length that the bodies' deformation sets where
+    that is much different.
 
-    ``total`` is the sum of the pressure, ``energy`` the elastic energy per pixel area (Pa·m), so that their ratio is half
-    the mean deflection under load. On self-affine surfaces at loads of 0.01 to 0.2 E* it is 0.3 to 0.5 of the
-    rms height (in full contact 0.1, where most points yield 0.05, on small free grids up to 4.5), and the rms height serves.
+    ``total`` is the sum of the pressure, ``energy`` the elastic energy per pixel area (Pa·m), so
+    that their ratio is half the mean deflection under load. On self-affine surfaces at loads of
+    0.01 to 0.2 E* it is 0.3 to 0.5 of the rms height (in full contact 0.1, where most points yield
+    0.05, on small free grids up to 4.5), and the rms height serves.
 
-    * Where bodies deform by much less, as plateaus under tiny loads do, the length is 30 energies per load (with the error
-      of the energy). An error of 1e-7 then bounds the duality gap by 3e-6 of the elastic energy of this contact. Of 10⁴
-      random small problems with loads over twelve decades none that is called converged has a pressure off by more than
-      1e-3; with the rms height for all, or with the work of yielding in the energy, 10 to 20 in 300 had.
+    * Where bodies deform by much less, as plateaus under tiny loads do, the length is 30 energies
+      per load (with the error of the energy). An error of 1e-7 then bounds the duality gap by 3e-6
+      of the elastic energy of this contact. Of 10⁴ random small problems with loads over twelve
+      decades none that is called converged has a pressure off by more than 1e-3; with the rms
+      height for all, or with the work of yielding in the energy, 10 to 20 in 300 had.
     * It is at least ``least_length``, beyond which rounding hides errors.
     """
     deflection = energy / total if total > 0.0 else 0.0
@@ -436,9 +459,10 @@ def scaled_error(qp: ContactQP, error: float, total: float, energy: float) -> fl
 def least_length(qp: ContactQP, total: float, energy: float) -> float:
     """Length (m) of which errors of 1e-7 to 1e-10 can be resolved.
 
-    1e-4 of the deflection under load, of which roundings of 1e-15 cannot be removed (flat punches, heights that are nearly
-    zero), and 1e-5 of the deflection that the mean pressure would cause in the longest wave (flat bodies in periodic contact,
-    which hardly deflect at all). An error of 1e-7 still bounds the pressure to some 1e-5 of its mean.
+    1e-4 of the deflection under load, of which roundings of 1e-15 cannot be removed (flat punches,
+    heights that are nearly zero), and 1e-5 of the deflection that the mean pressure would cause in
+    the longest wave (flat bodies in periodic contact, which hardly deflect at all). An error of
+    1e-7 still bounds the pressure to some 1e-5 of its mean.
     """
     deflection = energy / total if total > 0.0 else 0.0
     longest = qp.operator.largest * total / qp.profile.size
@@ -446,14 +470,15 @@ def least_length(qp: ContactQP, total: float, energy: float) -> float:
 
 
 ROUNDING = 4.0 * np.finfo(float).eps
-"""Rounding of the sums in the error, relative to their terms: an error below it is reported as this large."""
+"""Rounding of the sums in the error, relative to their terms: the least error reported."""
 
 
 def relative_error(qp: ContactQP, pressure: RealArray, deflection: RealArray) -> float:
-    """``scaled_error`` of the duality gap over total pressure, the customary error of the field; at prescribed offset see below.
+    """``scaled_error`` of the duality gap over total pressure, the customary error of the field; at
+    prescribed offset see below.
 
-    With a prescribed offset and no cap the gap is infinite at any penetration; there the error is the mean of the
-    pressure-weighted gap plus the largest penetration.
+    With a prescribed offset and no cap the gap is infinite at any penetration; there the error is
+    the mean of the pressure-weighted gap plus the largest penetration.
     """
     r = deflection - heights_near_contact(qp)
     total = float(pressure.sum())
@@ -471,14 +496,15 @@ def relative_error(qp: ContactQP, pressure: RealArray, deflection: RealArray) ->
     return scaled_error(qp, found / total, total, energy)
 
 
-# How far a pressure may be from the solution: the duality gap bounds the energy, and the stiffest wave of the bodies the pressure.
+# How far a pressure may be from the solution, by the duality gap and the stiffest wave.
 
 
 def pressure_error(qp: ContactQP, pressure: RealArray, gap: float) -> float:
-    """Bound on the relative error of ``pressure`` (nx, ny) in Pa, in the L2 norm, from its duality ``gap`` (Pa·m); infinite where there is none.
+    """Bound on the relative L2 error of ``pressure`` (nx, ny) in Pa, from its ``gap`` (Pa·m).
 
-    An error e raises the energy by e·Ke/2 at least and by the gap at most, and e·Ke is at least c e·e, c being the compliance of the wave that
-    gives way least: |e| <= (2 gap/c)^1/2. At a prescribed position it is the error from the solution under the load reached.
+    An error e raises the energy by e·Ke/2 at least and by the gap at most, and e·Ke is at least c
+    e·e, c being the compliance of the wave that gives way least: |e| <= (2 gap/c)^1/2. At a
+    prescribed position it is the error from the solution under the load reached.
     """
     squares = float((pressure * pressure).sum(dtype=np.float64))
     if gap <= 0.0:
@@ -488,21 +514,24 @@ def pressure_error(qp: ContactQP, pressure: RealArray, gap: float) -> float:
 
 
 _PRESSURE_BOUND = 0.05
-"""Bound on the error of the pressure that suffices: it is 1e-3 in usual contacts, and the true error is far below it, 1.4e-4 for 0.05
-on a stiff plate on a soft layer whose compliances are 6e6 apart."""
+"""Bound on the error of the pressure that suffices: it is 1e-3 in usual contacts, and the true
+error is far below it, 1.4e-4 for 0.05 on a stiff plate on a soft layer whose compliances are 6e6
+apart."""
 
 _USUAL = 1e-7
-"""Relative error, that of the solvers unless told otherwise, at which pressures are to be bound so; bounds go with its root."""
+"""Relative error, the default of solvers, at which pressures are bound so; bounds go as a root."""
 
 _FINEST = 1e-13
 """Relative error below which none is asked for: rounding."""
 
 
 def error_for_pressure(qp: ContactQP, state: SolverState, totals: Totals, asked: float) -> float:
-    """Relative error at which the pressure of ``state``, of these ``totals``, is bound well enough; infinite where it is.
+    """Relative error at which the pressure of ``state``, of these ``totals``, is bound well enough;
+    infinite where it is.
 
-    Waves that give way little, as those of a stiff plate on a soft layer, change the pressure much and the energy little. On a half-space they
-    give way in proportion to their length, and the error of the energy serves. Who has ``asked`` for a larger relative error gets one.
+    Waves that give way little, as those of a stiff plate on a soft layer, change the pressure much
+    and the energy little. On a half-space they give way in proportion to their length, and the
+    error of the energy serves. Who has ``asked`` for a larger relative error gets one.
     """
     total, energy = totals.pressure, 0.5 * totals.deflected
     if total <= 0.0 or state.error <= _FINEST or isinstance(qp.operator.compliance, HalfSpace):
@@ -524,7 +553,7 @@ LOAD_ROUNDING = 1e-14
 
 
 def feasible_start(qp: ContactQP, start: RealArray | None) -> RealArray:
-    """Feasible pressure (Pa, float64) near ``start``; without one, a uniform pressure or a rough guess from the overlap."""
+    """Feasible pressure (Pa, float64) near ``start``; without one, uniform or from the overlap."""
     given = start is not None and bool(start.any())
     start = None if start is None else np.asarray(start, dtype=np.float64)
     if isinstance(qp.constraint, FixedMean):
@@ -540,11 +569,13 @@ def feasible_start(qp: ContactQP, start: RealArray | None) -> RealArray:
 
 
 def scaled_to_load(pressure: RealArray, cap: float | RealArray, mean: float) -> RealArray:
-    """Pressure (Pa) of the given ``mean``, by scaling the points below ``cap`` and clipping them to it, repeatedly.
+    """Pressure (Pa) of the given ``mean``, by scaling the points below ``cap`` and clipping them to
+    it, repeatedly.
 
-    ``pressure`` must be >= 0 and ``mean`` at most the mean of ``cap``. Where every loaded point is at its cap, the
-    rest of the load is spread over the unloaded ones. At a load that is all the cap bears but for rounding, all points are at
-    it: which of them would bear less, and so the level of the plane, is rounding.
+    ``pressure`` must be >= 0 and ``mean`` at most the mean of ``cap``. Where every loaded point is
+    at its cap, the rest of the load is spread over the unloaded ones. At a load that is all the cap
+    bears but for rounding, all points are at it: which of them would bear less, and so the level of
+    the plane, is rounding.
     """
     if mean >= (1.0 - LOAD_ROUNDING) * np.mean(cap):
         return np.array(np.broadcast_to(cap, pressure.shape), dtype=np.float64)

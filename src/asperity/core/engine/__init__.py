@@ -1,4 +1,5 @@
-"""Machines to compute on: the CPU; in ``gpu`` and ``array_api``, which few runs need, a GPU and any array-API library."""
+"""Machines to compute on: the CPU; in ``gpu`` and ``array_api``, which few runs need, a GPU and any
+array-API library."""
 
 from .cpu import CpuEngine
 from .protocol import (

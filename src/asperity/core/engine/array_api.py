@@ -1,4 +1,5 @@
-"""Engine of any array-API library, such as CuPy on a GPU: whole-array passes, free sets as masks."""
+"""Engine of any array-API library, such as CuPy on a GPU: whole-array passes, free sets as
+masks."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ from .protocol import (
     Violation,
 )
 
-# Free set of the array-API engine: a mask; vectors are arrays that are zero outside it. Methods without docstring: see ``protocol``.
+# Free set of the array-API engine: a mask; vectors are arrays that are zero outside it. Methods
+# without docstring: see ``protocol``.
 
 
 def bound(library: Library, cap: Any, p: Any) -> Any:
@@ -252,7 +254,8 @@ def _totals(library: Library, p: Any, u: Any, h: Any, cap: Any) -> Totals:
 
 
 class ArrayEngine:
-    """Engine on the arrays of a library that follows the array-API standard with its ``fft`` extension.
+    """Engine on the arrays of a library that follows the array-API standard with its ``fft``
+    extension.
 
     Parameters
     ----------

@@ -21,7 +21,8 @@ class Library:
 
     @classmethod
     def of(cls, namespace: Any, device: Any) -> Library:
-        """Library of the module ``namespace``; its gaps to the standard are filled by array_api_compat."""
+        """Library of the module ``namespace``; its gaps to the standard are filled by
+        array_api_compat."""
         if not hasattr(namespace, "zeros") or not hasattr(namespace, "__name__"):
             raise InputError(f"namespace of ArrayEngine must be a module such as cupy, but is {namespace!r}.")
         probe = namespace.zeros(1)

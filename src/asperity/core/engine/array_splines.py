@@ -1,4 +1,5 @@
-"""Nested quadratic B-splines of the array-API engine: whole arrays per level; what they compute: see ``splines``."""
+"""Nested quadratic B-splines of the array-API engine: whole arrays per level; what they compute:
+see ``splines``."""
 
 from __future__ import annotations
 
@@ -9,7 +10,8 @@ from .protocol import MISSING, Products, SplineModel, cells_of
 
 
 class _Overlap(NamedTuple):
-    """Of the cells of a level: the mean of what the four parts between the middles of each and the next ones pass up, and the share that is made up for over its row sum."""
+    """Of the cells of a level: the mean of what the four parts between the middles of each and the
+    next ones pass up, and the share that is made up for over its row sum."""
 
     mean: Any
     per: Any
@@ -73,7 +75,8 @@ class ArraySplines:
         return r - self._library.select(free.inside, self._deflected(change))
 
     def _deflected(self, load: Any) -> Any:
-        """Deflection of all points under the ``load``, their own and that by the cells, averaged over neighbouring ones."""
+        """Deflection of all points under the ``load``, their own and that by the cells, averaged
+        over neighbouring ones."""
         point, x, y, diagonal = self._model.own
         rows = self._moved(load, 0, 1) + self._moved(load, 0, -1)
         found = point * load + 0.5 * x * rows + 0.5 * y * (self._moved(load, 1, 1) + self._moved(load, 1, -1))
@@ -102,7 +105,8 @@ class ArraySplines:
         return factors[0] * x + factors[1] * y
 
     def _moved(self, values: Any, axis: int, places: int) -> Any:
-        """``values`` moved along the axis; zero comes from beyond the rim where it does not wrap."""
+        """``values`` moved along the axis; zero comes from beyond the rim where it does not
+        wrap."""
         xp, n = self._library.xp, values.shape[axis]
         if self._model.wraps[axis]:
             return xp.roll(values, places, axis=axis)
@@ -122,7 +126,8 @@ class ArraySplines:
         return part_of(second, axis, 0, cells) + part_of(last, axis, 0, cells)
 
     def _missing(self, overlap: _Overlap, values: Any) -> Any:
-        """What the products of B-splines of a level times the ``values`` are less than the row sums times them."""
+        """What the products of B-splines of a level times the ``values`` are less than the row sums
+        times them."""
 
         def beyond(fields: Any, places: int, axes: tuple[int, ...]) -> Any:
             for axis in axes:
@@ -178,7 +183,8 @@ def part_of(values: Any, axis: int, first: int, end: int) -> Any:
 
 
 def spread_over(xp: Any, axis: int, own: Any, before: Any, after: Any, length: int) -> Any:
-    """Values at the two parts of every cell along the axis, up to this ``length``: three quarters of the cell's and a quarter of those of the nearer neighbour."""
+    """Values at the two parts of every cell along the axis, up to this ``length``: three quarters
+    of the cell's and a quarter of those of the nearer neighbour."""
     pairs = xp.stack([0.75 * own + 0.25 * before, 0.75 * own + 0.25 * after], axis=axis + 1)
     wide = [*own.shape]
     wide[axis] *= 2

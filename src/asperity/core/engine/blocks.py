@@ -15,15 +15,18 @@ from threading import Thread
 from typing import Any
 
 SERIAL_BELOW = 1 << 19
-"""Points below which handing a pass of the solver, which takes some 0.1 ms, to another thread costs more than it saves. With two threads from 2^17 points on
-a solve took 61 ms at 512² instead of 47, and 198 ms at 1024² instead of 155 (one thread: 180; two-core virtual machine)."""
+"""Points below which handing a pass of the solver, which takes some 0.1 ms, to another thread costs
+more than it saves. With two threads from 2^17 points on a solve took 61 ms at 512² instead of 47,
+and 198 ms at 1024² instead of 155 (one thread: 180; two-core virtual machine)."""
 
 LONG_SERIAL_BELOW = 1 << 17
-"""The same for work that takes ten times as long for each point: planes of stresses, displacements retarded in time."""
+"""The same for work that takes ten times as long for each point: planes of stresses, displacements
+retarded in time."""
 
 
 class Blocks:
-    """Runs compiled passes with a given number of threads. Numba takes long to import, so only when something runs."""
+    """Runs compiled passes with a given number of threads. Numba takes long to import, so only when
+    something runs."""
 
     def __init__(self, threads: int) -> None:
         self.threads = threads
@@ -44,7 +47,8 @@ class Blocks:
         self.share(kernel, blocks, *arguments, serial=size < SERIAL_BELOW)
 
     def share(self, kernel: Callable[..., None], parts: int, *arguments: Any, serial: bool) -> None:
-        """Call ``kernel`` over ``parts`` parts of equal work, shared by the threads unless ``serial``."""
+        """Call ``kernel`` over ``parts`` parts of equal work, shared by the threads unless
+        ``serial``."""
         if self._pool is None or serial or self._process != os.getpid():  # a copy of the process has no other thread
             kernel((0, parts), *arguments)
             return
@@ -59,7 +63,8 @@ class Blocks:
 
 @cache
 def _compile_beside(first: Any) -> None:
-    """Let a second process compile part of what a solve needs (``first_use``), unless ``first``, an early pass, has been compiled here before."""
+    """Let a second process compile part of what a solve needs (``first_use``), unless ``first``, an
+    early pass, has been compiled here before."""
     interpreter = None if getattr(sys, "frozen", False) else sys.executable
     # an application of its own, or Numba is told not to compile
     if not interpreter or not hasattr(first, "stats"):
@@ -76,6 +81,7 @@ def _compile_beside(first: Any) -> None:
         return
     options: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     options["creationflags"] = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # of Windows
-    # the thread waits for its end, so that the system can forget it; the interpreter does not wait for the thread
+    # the thread waits for its end, so that the system can forget it; the interpreter does not wait
+    # for the thread
     command = [interpreter, "-m", f"{__package__}.first_use"]
     Thread(target=subprocess.call, args=(command,), kwargs=options, daemon=True).start()

@@ -1,4 +1,5 @@
-"""Engine of the CPU: FFT library with threads, compiled fused passes on blocks, vectors compressed to the free set."""
+"""Engine of the CPU: FFT library with threads, compiled fused passes on blocks, vectors compressed
+to the free set."""
 
 from __future__ import annotations
 
@@ -28,15 +29,18 @@ from .protocol import (
 if TYPE_CHECKING:
     from .splines import CpuSplines
 
-# Free set of the CPU engine: indices of its points, vectors as compressed arrays. Methods without docstring: see ``protocol``.
+# Free set of the CPU engine: indices of its points, vectors as compressed arrays. Methods without
+# docstring: see ``protocol``.
 
 
 ROW_PAD = 16
-"""Gap in floats (one cache line) between the rows of a field in single precision, see ``CpuEngine.field``."""
+"""Gap in floats (one cache line) between the rows of a field in single precision, see
+``CpuEngine.field``."""
 
 _PADDED_FROM = 1024
-"""Points in a row from which on there is such a gap: 1024² single floats take 3.3 ms a pair with it and 12.4 without, 512² and smaller
-grids the same, and the places of a free set are those in any other array."""
+"""Points in a row from which on there is such a gap: 1024² single floats take 3.3 ms a pair with it
+and 12.4 without, 512² and smaller grids the same, and the places of a free set are those in any
+other array."""
 
 _MANY = 0.05
 """Share of its points on which it takes longer to clear a field than to clear it as a whole."""
@@ -47,10 +51,12 @@ _ZERO = {np.dtype(name): np.zeros(1, name) for name in ("float32", "float64")}
 
 @dataclass(frozen=True, eq=False)
 class _CpuFreeSet:
-    """Free set of points at the flat ``index`` (ascending) of arrays of ``shape``; ``start`` is its residual, of the ``sums`` (parts,).
+    """Free set of points at the flat ``index`` (ascending) of arrays of ``shape``; ``start`` is its
+    residual, of the ``sums`` (parts,).
 
-    ``rows`` (nx + 1,): where the points of every row begin in ``index``, and the number of points; ``kept``: the places of its points in the
-    set from which they were taken by ``loaded``, if they were.
+    ``rows`` (nx + 1,): where the points of every row begin in ``index``, and the number of points;
+    ``kept``: the places of its points in the set from which they were taken by ``loaded``, if they
+    were.
     """
 
     blocks: Blocks
@@ -197,7 +203,8 @@ class _CpuFreeSet:
 
 
 def memory(field: RealArray) -> RealArray:
-    """All memory of a field made by ``CpuEngine.field``, gaps between rows included; of others the field itself."""
+    """All memory of a field made by ``CpuEngine.field``, gaps between rows included; of others the
+    field itself."""
     base = field if field.flags.c_contiguous or not isinstance(field.base, np.ndarray) else field.base
     return base.reshape(-1)
 
@@ -245,7 +252,8 @@ class CpuEngine:
     def field(self, shape: tuple[int, int], dtype: str) -> RealArray:
         """Field of zeros; in single precision with a gap of ``ROW_PAD`` between long rows.
 
-        Rows of 2^k floats map to the same cache lines, which doubles the time of ducc0's last transform back.
+        Rows of 2^k floats map to the same cache lines, which doubles the time of ducc0's last
+        transform back.
         """
         pad = ROW_PAD if dtype == "float32" and shape[1] >= _PADDED_FROM else 0
         return np.zeros((shape[0], shape[1] + pad), dtype)[:, : shape[1]]
@@ -264,7 +272,8 @@ class CpuEngine:
         return self.threads if shape[0] * shape[1] >= SERIAL_BELOW else 1
 
     def points(self, shape: tuple[int, int], index: Any, dtype: str) -> FreeSet:
-        """Free set of the points at the flat ``index`` (ascending) of a grid of ``shape``, with a residual of zero."""
+        """Free set of the points at the flat ``index`` (ascending) of a grid of ``shape``, with a
+        residual of zero."""
         rows = np.searchsorted(index, np.arange(shape[0] + 1) * shape[1])
         index = index.astype(np.uint32 if shape[0] * (shape[1] + ROW_PAD) < 2**31 else np.int64)
         return _CpuFreeSet(self.blocks, shape, index, np.zeros(index.size, dtype), np.zeros(1), rows, index.size, 0)
@@ -342,15 +351,18 @@ class CpuEngine:
 
 
 _LARGEST_KEPT = (1 << 25) - (1 << 13)
-"""Bytes of an array up to which the allocator of glibc learns to keep what is freed: 32 MiB less what it stores itself."""
+"""Bytes of an array up to which the allocator of glibc learns to keep what is freed: 32 MiB less
+what it stores itself."""
 
 
 @cache
 def _keep_freed_memory() -> None:
-    """Let the allocator keep the memory of freed fields of up to 32 MiB for the next ones, instead of giving it back to the system each time.
+    """Let the allocator keep the memory of freed fields of up to 32 MiB for the next ones, instead
+    of giving it back to the system each time.
 
-    glibc does so for sizes that have once been freed, and then keeps at most twice as much free; an array of this size that is freed unused costs
-    nothing. New pages for fields of every solve took 16 % of the time of a call at 512², 13 % at 256² and 1024². Other allocators take no notice.
+    glibc does so for sizes that have once been freed, and then keeps at most twice as much free; an
+    array of this size that is freed unused costs nothing. New pages for fields of every solve took
+    16 % of the time of a call at 512², 13 % at 256² and 1024². Other allocators take no notice.
     """
     np.empty(_LARGEST_KEPT, np.uint8)
 
@@ -414,7 +426,8 @@ class _Convolution:
 
 
 def _read_only(values: RealArray) -> RealArray:
-    """Flat view that cannot be written to: passes are compiled once, whatever heights a user brings."""
+    """Flat view that cannot be written to: passes are compiled once, whatever heights a user
+    brings."""
     flat = values.ravel()
     flat.setflags(write=False)
     return flat

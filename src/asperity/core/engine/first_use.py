@@ -1,7 +1,10 @@
-"""The first use in an environment: a second process compiles the passes of a first solve, those needed last first.
+"""The first use in an environment: a second process compiles the passes of a first solve, those
+needed last first.
 
-Compiling takes Python, one thread of it, for longer than anything else in that solve. The solve compiles in the order of its needs and finds in
-the cache on disk what the other process has compiled from the end, until they meet; whichever is late, nothing waits and the results are the same.
+Compiling takes Python, one thread of it, for longer than anything else in that solve. The solve
+compiles in the order of its needs and finds in the cache on disk what the other process has
+compiled from the end, until they meet; whichever is late, nothing waits and the results are the
+same.
 """
 
 from __future__ import annotations
@@ -17,7 +20,8 @@ from .protocol import SplineModel
 
 
 def passes() -> list[Callable[[], Any]]:
-    """Calls, on arrays of a few points, that compile the later half of the passes of a first solve of an elastic contact, in the order of its needs."""
+    """Calls, on arrays of a few points, that compile the later half of the passes of a first solve
+    of an elastic contact, in the order of its needs."""
     shape, single = (16, 16), "float32"
     engine = CpuEngine(threads=1)
     p, index = np.zeros(shape), np.arange(8)

@@ -1,4 +1,5 @@
-"""Engine of a GPU, by CuPy: every pass a kernel of its own (``gpu_kernels.cu``), transforms by cuFFT; vectors over a free set are arrays that are zero outside it."""
+"""Engine of a GPU, by CuPy: every pass a kernel of its own (``gpu_kernels.cu``), transforms by
+cuFFT; vectors over a free set are arrays that are zero outside it."""
 
 from __future__ import annotations
 
@@ -39,13 +40,16 @@ _THREADS = 256
 """Threads of a block."""
 
 _MOST_BLOCKS = 1024
-"""Blocks of a pass at most: more than any GPU runs at a time. Not a number of the GPU at hand, on which sums would depend."""
+"""Blocks of a pass at most: more than any GPU runs at a time. Not a number of the GPU at hand, on
+which sums would depend."""
 
 _TURNING = 4096
-"""Cells of a level from which on one block goes up and down all levels above, which saves two launches for each."""
+"""Cells of a level from which on one block goes up and down all levels above, which saves two
+launches for each."""
 
 _TOUCHED_FROM = 1 << 26
-"""Bytes from which on new memory of the host is first written to by all threads: its pages take a thread three times as long as the copy from the GPU."""
+"""Bytes from which on new memory of the host is first written to by all threads: its pages take a
+thread three times as long as the copy from the GPU."""
 
 _TYPES = {"float32": "float", "float64": "double"}
 
@@ -68,7 +72,8 @@ class Passes:
         self._kernels[name]((blocks,), (self._threads,), arguments)
 
     def sums(self, name: str, points: int, columns: int, *arguments: Any) -> RealArray:
-        """What each block leaves (columns, blocks) when the kernel ``name`` is called for so many points."""
+        """What each block leaves (columns, blocks) when the kernel ``name`` is called for so many
+        points."""
         partial = self._cupy.empty((columns, blocks_for(points)))
         self.run(name, points, *arguments, partial)
         return np.asarray(self._cupy.asnumpy(partial))
@@ -215,7 +220,8 @@ def _load(sums: list[float]) -> Load:
 
 
 class _GpuSplines:
-    """Compliance of nested splines and its inverse on a free set; sums, factors and deflections of all levels in one array each."""
+    """Compliance of nested splines and its inverse on a free set; sums, factors and deflections of
+    all levels in one array each."""
 
     def __init__(self, passes: Passes, cupy: Any, shape: tuple[int, int], model: SplineModel, dtype: str) -> None:
         self._passes = passes
@@ -304,7 +310,8 @@ class _GpuSplines:
         return self._passes.sums("deflect_points", self._points, 3, *arguments)
 
     def _sweep(self, way: int, weights: list[Any], points: Any) -> None:
-        """Up all levels from the ``points``, and down again to the cells of the first; only up to factorise."""
+        """Up all levels from the ``points``, and down again to the cells of the first; only up to
+        factorise."""
         run, turn, number = self._passes.run, self._turn, len(self._cells) - self._turn
         sums, memory = (self._sums, self._factors), (self._sums, self._factors, self._deflections)
         for level in range(turn):
@@ -355,7 +362,8 @@ class _GpuSurvey:
 
 
 class GpuEngine(ArrayEngine):
-    """A GPU, by the library CuPy, which is installed with the driver of the GPU in mind: ``pip install cupy-cuda12x`` or ``cupy-cuda13x``.
+    """A GPU, by the library CuPy, which is installed with the driver of the GPU in mind:
+    ``pip install cupy-cuda12x`` or ``cupy-cuda13x``.
 
     Parameters
     ----------
@@ -376,13 +384,15 @@ class GpuEngine(ArrayEngine):
                 cupy = import_module("cupy")
             except ImportError:
                 raise InputError(
-                    "library of GpuEngine must be CuPy, but it is not installed. Install the one for your driver: pip install cupy-cuda12x or cupy-cuda13x."
+                    "library of GpuEngine must be CuPy, but it is not installed. Install the one for your "
+                    "driver: pip install cupy-cuda12x or cupy-cuda13x."
                 ) from None
             try:
                 cupy.cuda.runtime.getDeviceCount()
             except cupy.cuda.runtime.CUDARuntimeError as error:
                 raise InputError(
-                    f"machine of GpuEngine must have a GPU, but CuPy finds none ({error}). Leave the engine out to compute on the CPU."
+                    f"machine of GpuEngine must have a GPU, but CuPy finds none ({error}). Leave the engine "
+                    "out to compute on the CPU."
                 ) from None
         self.cupy = cupy
         super().__init__(self.cupy)
@@ -399,7 +409,8 @@ class GpuEngine(ArrayEngine):
         return name.decode()
 
     def passes(self, iterate: str, vector: str) -> Passes:
-        """Kernels for these precisions, compiled when they are first needed and then kept on disk by CuPy."""
+        """Kernels for these precisions, compiled when they are first needed and then kept on disk
+        by CuPy."""
         if (iterate, vector) not in self._passes:
             self._passes[iterate, vector] = self._compiled(iterate, vector)
         return self._passes[iterate, vector]
@@ -446,7 +457,8 @@ class GpuEngine(ArrayEngine):
         return values.copy()
 
     def resident(self, values: Any) -> Any:
-        """``values`` in the memory of the GPU; of those that cannot be written to, as heights of a surface, the last ones stay there as long as they are on the host."""
+        """``values`` in the memory of the GPU; of those that cannot be written to, as heights of a
+        surface, the last ones stay there as long as they are on the host."""
         if isinstance(values, self.cupy.ndarray):
             return values
         if values.flags.writeable or values.base is not None:

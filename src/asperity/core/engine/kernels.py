@@ -1,6 +1,7 @@
 """Fused, compiled passes over whole flat arrays, then over the points of a free set.
 
-Each works on a span (first, last) of fixed blocks and releases the lock. Sums are kept per block and added up in a fixed order by the caller, so results do not depend on the number of threads.
+Each works on a span (first, last) of fixed blocks and releases the lock. Sums are kept per block
+and added up in a fixed order by the caller, so results do not depend on the number of threads.
 """
 
 from __future__ import annotations
@@ -13,19 +14,22 @@ from numba import njit
 from .protocol import NEAR_CAP
 
 BLOCK = 1 << 14
-"""Elements per block: what a thread takes at a time, 128 KiB of float64, small enough for the second-level cache."""
+"""Elements per block, what a thread takes at a time: 128 KiB, less than the second-level cache."""
 
-# What a first solve compiles is waited for. Cheap to compile are plain loops with conditional expressions: every function of
-# NumPy or Python in a kernel (max, sum, slices, complex products) is compiled on its own first, as is a wrapper for C.
+# What a first solve compiles is waited for. Cheap to compile are plain loops with conditional
+# expressions: every function of NumPy or Python in a kernel (max, sum, slices, complex products) is
+# compiled on its own first, as is a wrapper for C.
 
 _OPTIONS: dict[str, Any] = {"nogil": True, "cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 natural: Any = np.uint64
-"""Type of the indices of long loops. A signed index could be negative and count from the end of the array, which Numba tests at every access, so that loops are not
-vectorised; with unsigned ones ``update_solution`` and ``add`` take a quarter of the time, ``scale_spectrum`` a third. Arithmetic of an unsigned and a signed integer gives a float: cast both."""
+"""Type of the indices of long loops. A signed index could be negative and count from the end of the
+array, which Numba tests at every access, so that loops are not vectorised; with unsigned ones
+``update_solution`` and ``add`` take a quarter of the time, ``scale_spectrum`` a third. Arithmetic
+of an unsigned and a signed integer gives a float: cast both."""
 
 in_order: Any = njit(**_OPTIONS)
-"""For differences of differences, which must be rounded one by one: equal residuals are then at no distance from each other."""
+"""For differences of differences, rounded one by one: equal residuals are at no distance then."""
 
 compiled: Any = njit(**_OPTIONS, fastmath={"reassoc", "contract", "nsz"})
 
@@ -49,7 +53,7 @@ def tensor_product(span, x, y, xx, yy, xy):  # type: ignore[no-untyped-def]
 
 @compiled
 def coupled_product(span, x, y, z, xx, yy, xy, zz, zx, zy):  # type: ignore[no-untyped-def]
-    """(x, y, z) = Hermitian tensor times (x, y, z), in which (x, y) and z are coupled by the imaginary i zx and i zy."""
+    """(x, y, z) = Hermitian tensor times (x, y, z), in which i zx and i zy couple (x, y) and z."""
     for i in range(natural(span[0] * BLOCK), natural(min(span[1] * BLOCK, x.size))):
         along, across, normal = x[i], y[i], z[i]
         x[i] = xx[i] * along + xy[i] * across + complex(zx[i] * normal.imag, -zx[i] * normal.real)
@@ -60,9 +64,11 @@ def coupled_product(span, x, y, z, xx, yy, xy, zz, zx, zy):  # type: ignore[no-u
 
 @compiled
 def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-def]
-    """Without a cap, per band of ``side`` rows: sum p, p·u, p·r, min r; per square: number of loaded points, their sum r and r².
+    """Without a cap, per band of ``side`` rows: sum p, p·u, p·r, min r; per square: number of
+    loaded points, their sum r and r².
 
-    Where p < 0 it counts as 0. The sums are without branches, so that they are vectorised; the minimum is not, since it must hold with NaN, and has a loop of its own.
+    Where p < 0 it counts as 0. The sums are without branches, so that they are vectorised; the
+    minimum is not, since it must hold with NaN, and has a loop of its own.
     """
     for band in range(span[0], span[1]):
         total = 0.0
@@ -100,7 +106,8 @@ def survey(span, p, u, h, row, side, sums, squares):  # type: ignore[no-untyped-
 
 @compiled
 def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore[no-untyped-def]
-    """Per band: sum p, p·u, p·r, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of the level.
+    """Per band: sum p, p·u, p·r, sum and p-weighted sum of r where 0 < p < cap, min r, bounds of
+    the level.
 
     Per square: number of points with 0 < p < cap, their sum r and r².
     """
@@ -147,7 +154,8 @@ def survey_capped(span, p, u, h, cap, row, side, sums, squares):  # type: ignore
 
 @in_order
 def violation(span, p, u, h, cap, level, sums):  # type: ignore[no-untyped-def]
-    """Per block: sum (r - level)+ p, sum (level - r)+ (cap - p), max (level - r)+ below the cap; where p < 0 it counts as 0."""
+    """Per block: sum (r - level)+ p, sum (level - r)+ (cap - p), max (level - r)+ below the cap;
+    where p < 0 it counts as 0."""
     each = natural(1) if cap.size > 1 else natural(0)  # one cap for all points, or one for each
     for b in range(span[0], span[1]):
         above = 0.0
@@ -176,7 +184,7 @@ def beyond(span, late, early, ratio, out):  # type: ignore[no-untyped-def]
 
 @compiled
 def add(span, field, row, stride, factor, values):  # type: ignore[no-untyped-def]
-    """values += factor field in the rows of the span, of length ``row``, those of the field ``stride`` apart."""
+    """values += factor field in the rows of the span, those of the field ``stride`` apart."""
     for i in range(span[0], span[1]):
         into, out_of = natural(i * row), natural(i * stride)
         for j in range(natural(row)):
@@ -185,10 +193,12 @@ def add(span, field, row, stride, factor, values):  # type: ignore[no-untyped-de
 
 @compiled
 def entering_levels(squares, level, prior, share, resolved, sums, levels):  # type: ignore[no-untyped-def]
-    """``levels`` of each square from its points between the bounds: their number, sum of r and of r², see ``entering``.
+    """``levels`` of each square from its points between the bounds: their number, sum of r and of
+    r², see ``entering``.
 
-    ``sums`` has room for all squares and the wider ones of twice, four times ... the side: number, sum and mean of a quantity in each. First the
-    quantity is r, then the square of what r differs by from its mean.
+    ``sums`` has room for all squares and the wider ones of twice, four times ... the side: number,
+    sum and mean of a quantity in each. First the quantity is r, then the square of what r differs
+    by from its mean.
     """
     for pass_ in range(2):
         nx, ny, start = squares.shape[0], squares.shape[1], 0
@@ -237,7 +247,8 @@ def entering_levels(squares, level, prior, share, resolved, sums, levels):  # ty
 
 @compiled
 def mark_free_elastic(span, p, u, h, side, lines, loaded, mask, rows, counts):  # type: ignore[no-untyped-def]
-    """``mark_free`` without a cap; ``lines`` holds the level of each point along a band, ``loaded`` the loaded points per square.
+    """``mark_free`` without a cap; ``lines`` holds the level of each point along a band, ``loaded``
+    the loaded points per square.
 
     Row by row and with one comparison per point the loop vectorises, which is five times as fast.
     """
@@ -267,8 +278,8 @@ def mark_free_elastic(span, p, u, h, side, lines, loaded, mask, rows, counts):  
 def mark_free(span, p, u, h, cap, side, levels, mask, rows, counts):  # type: ignore[no-untyped-def]
     """Mask of the free set by two ``levels`` of each square, for points at 0 and at the cap.
 
-    Per row: number of its points; per band: of those entering it. Without branches, which would be mispredicted: membership is as
-    random as the surface.
+    Per row: number of its points; per band: of those entering it. Without branches, which would be
+    mispredicted: membership is as random as the surface.
     """
     each = natural(1) if cap.size > 1 else natural(0)
     row = p.size // rows.size
@@ -293,9 +304,11 @@ def mark_free(span, p, u, h, cap, side, levels, mask, rows, counts):  # type: ig
 
 @compiled
 def fill_free(span, u, h, plane, length, masks, starts, index, residual, sums):  # type: ignore[no-untyped-def]
-    """Indices of the points of the mask in order, and (level - r) / scale there; per band: its sum. A band has ``length`` words of the mask.
+    """Indices of the points of the mask in order, and (level - r) / scale there; per band: its sum.
+    A band has ``length`` words of the mask.
 
-    ``plane`` are the level and the scale, ``masks`` the mask point by point and in words of eight points.
+    ``plane`` are the level and the scale, ``masks`` the mask point by point and in words of eight
+    points.
     """
     mask, words = masks
     level, scale = plane
@@ -319,7 +332,8 @@ def fill_free(span, u, h, plane, length, masks, starts, index, residual, sums): 
 
 @compiled
 def prolong_pressure(span, coarse, coarse_heights, heights, stiffness, out):  # type: ignore[no-untyped-def]
-    """Rows of the span of out: 0 where coarse is, else coarse + stiffness (heights - coarse heights), at least 0."""
+    """Rows of the span of out: 0 where coarse is, else coarse + stiffness (heights - coarse
+    heights), at least 0."""
     for i in range(span[0], span[1]):
         for j in range(out.shape[1]):
             p = coarse[i >> 1, j >> 1]
@@ -329,7 +343,8 @@ def prolong_pressure(span, coarse, coarse_heights, heights, stiffness, out):  # 
 
 @compiled
 def interpolate_rows(span, coarse, wraps, out):  # type: ignore[no-untyped-def]
-    """Rows of the span of out: linear interpolation of coarse values, two points for each along either axis; flat beyond an end that does not wrap."""
+    """Rows of the span of out: linear interpolation of coarse values, two points for each along
+    either axis; flat beyond an end that does not wrap."""
     rows, columns = coarse.shape
     line = np.empty(columns)
     for i in range(span[0], span[1]):
@@ -352,7 +367,7 @@ def interpolate_rows(span, coarse, wraps, out):  # type: ignore[no-untyped-def]
 
 @compiled
 def _join(parent, one, other):  # type: ignore[no-untyped-def]
-    """Make the island of the smaller number the parent of the other, of the two to which ``one`` and ``other`` belong."""
+    """Make the island of the smaller number, of those of ``one`` and ``other``, the parent."""
     while parent[one] != one:
         parent[one] = parent[parent[one]]
         one = parent[one]
@@ -364,10 +379,12 @@ def _join(parent, one, other):  # type: ignore[no-untyped-def]
 
 @compiled
 def island_sizes(mask, wraps, lines, parent, sizes):  # type: ignore[no-untyped-def]
-    """Sizes of the islands of ``mask`` in the order of their first pixels, joined by edges, across the borders that wrap too; their number.
+    """Sizes of the islands of ``mask`` in the order of their first pixels, joined by edges, across
+    the borders that wrap too; their number.
 
-    ``lines`` has room for the numbers of the islands in the first and in the latest row, ``parent`` for an island of a smaller number to which
-    each has turned out to belong; there are at most half as many as pixels, rounded up in each row, and one.
+    ``lines`` has room for the numbers of the islands in the first and in the latest row, ``parent``
+    for an island of a smaller number to which each has turned out to belong; there are at most half
+    as many as pixels, rounded up in each row, and one.
     """
     found = 0
     for i in range(mask.shape[0]):
@@ -504,7 +521,8 @@ def update_solution(span, length, t, kt, mean, d, r, sums):  # type: ignore[no-u
 
 @compiled
 def add_unclipped(span, index, p, d, scale, sums):  # type: ignore[no-untyped-def]
-    """p[index] += scale d; per block: number of tensile points then, the sum of their tension, and that of the other pressures."""
+    """p[index] += scale d; per block: number of tensile points then, the sum of their tension, and
+    that of the other pressures."""
     for b in range(span[0], span[1]):
         tensile = 0
         tension = 0.0
@@ -523,7 +541,8 @@ def add_unclipped(span, index, p, d, scale, sums):  # type: ignore[no-untyped-de
 
 @compiled
 def add_clipped(span, index, p, d, scale, cap, sums):  # type: ignore[no-untyped-def]
-    """p[index] += scale d, clipped to [0, cap]; per block: sum p, sum p below the cap, number below it, number clipped."""
+    """p[index] += scale d, clipped to [0, cap]; per block: sum p, sum p below the cap, number below
+    it, number clipped."""
     each = natural(1) if cap.size > 1 else natural(0)  # one cap for all points, or one for each
     for b in range(span[0], span[1]):
         total = 0.0
@@ -548,7 +567,8 @@ def add_clipped(span, index, p, d, scale, cap, sums):  # type: ignore[no-untyped
 
 @compiled
 def rescale(span, index, p, factor, shift, cap, sums):  # type: ignore[no-untyped-def]
-    """p[index] = factor p + shift where below the cap, clipped to it; per block: sum p, sum and number below the cap."""
+    """p[index] = factor p + shift where below the cap, clipped to it; per block: sum p, sum and
+    number below the cap."""
     each = natural(1) if cap.size > 1 else natural(0)
     for b in range(span[0], span[1]):
         total = 0.0

@@ -1,8 +1,8 @@
 """What a contact solver needs of the machine it runs on: convolutions and fused passes over arrays.
 
-Arrays of an engine are opaque to the solver: NumPy arrays on the CPU, arrays of an array-API library elsewhere. In all
-passes p is the pressure (Pa), u the deflection K p (m), h the heights (m), r = u - h, and a negative p (a tensile point,
-see the solver) counts as 0.
+Arrays of an engine are opaque to the solver: NumPy arrays on the CPU, arrays of an array-API
+library elsewhere. In all passes p is the pressure (Pa), u the deflection K p (m), h the heights
+(m), r = u - h, and a negative p (a tensile point, see the solver) counts as 0.
 """
 
 from __future__ import annotations
@@ -13,20 +13,22 @@ from typing import Any, NamedTuple, Protocol
 from ..arrays import RealArray
 
 NEAR_CAP = 1.0 - 1e-14
-"""Share of its cap from which on a pressure that is rescaled counts as being at the cap: some 50 roundings of float64,
-fewer than the 1e-14 of the load to which the load is restored."""
+"""Share of its cap from which on a pressure that is rescaled counts as being at the cap: some 50
+roundings of float64, fewer than the 1e-14 of the load to which the load is restored."""
 
 SQUARE_SIDE = 16
-"""Points along the side of the squares in which a survey sums up residuals; a multiple of 8. FFT pairs of the fast solver
-for 8, 32, 64: elastic 6.0, 5.9, 6.0; films 6.7, 6.5, 6.5 (16: 5.9 and 6.7; cases: see ``benchmarks/constants.py``)."""
+"""Points along the side of the squares in which a survey sums up residuals; a multiple of 8. FFT
+pairs of the fast solver for 8, 32, 64: elastic 6.0, 5.9, 6.0; films 6.7, 6.5, 6.5 (16: 5.9 and 6.7;
+cases: see ``benchmarks/constants.py``)."""
 
 
 @dataclass(frozen=True)
 class Totals:
-    """Sums over one iterate: p; p·u; p·r; p and p·r strictly between the bounds; and bounds of the plane level.
+    """Sums over one iterate: p; p·u; p·r; p and p·r strictly between the bounds; and bounds of the
+    plane level.
 
-    ``lowest`` is min r, ``highest_capped`` max r at the cap (or -inf), ``lowest_open`` min r at zero pressure (or inf);
-    without a cap, where it matters only if nothing is loaded, min r.
+    ``lowest`` is min r, ``highest_capped`` max r at the cap (or -inf), ``lowest_open`` min r at
+    zero pressure (or inf); without a cap, where it matters only if nothing is loaded, min r.
     """
 
     pressure: float
@@ -41,7 +43,8 @@ class Totals:
 
 @dataclass(frozen=True)
 class Violation:
-    """Sums of (r - level)+ p and (level - r)+ (cap - p), and the largest level - r below the cap."""
+    """Sums of (r - level)+ p and (level - r)+ (cap - p), and the largest level - r below the
+    cap."""
 
     above: float
     below: float
@@ -58,14 +61,16 @@ class Load:
 
 
 class Clipped(NamedTuple):
-    """After a step clipped to the bounds: the ``load`` of the free set, and the ``number`` of points clipped."""
+    """After a step clipped to the bounds: the ``load`` of the free set, and the ``number`` of
+    points clipped."""
 
     load: Load
     number: int
 
 
 class Unclipped(NamedTuple):
-    """After a step that is not clipped: the number of ``tensile`` points of the free set, the sum of their ``tension`` -p, and that of the ``pressure`` of the others."""
+    """After a step that is not clipped: the number of ``tensile`` points of the free set, the sum
+    of their ``tension`` -p, and that of the ``pressure`` of the others."""
 
     tensile: int
     tension: float
@@ -82,23 +87,28 @@ class Products(NamedTuple):
 
 
 def cells_of(n: int, wraps: bool) -> int:
-    """Number of cells that ``n`` cells in a row form in pairs: with one more at either end, where they do not wrap, since B-splines reach beyond the last pairs."""
+    """Number of cells that ``n`` cells in a row form in pairs: with one more at either end, where
+    they do not wrap, since B-splines reach beyond the last pairs."""
     return (n + 1) // 2 if wraps else n // 2 + 2
 
 
 MISSING = 0.609375, 0.234375, 0.140625
-"""What the row sums of B-splines exceed their products by between the middles of four neighbouring cells, per part there: at a cell itself, and less at those beside
-it and across. Along one axis the products are 5/8 and 3/8, so that these are 1 - 25/64, 15/64 and 9/64."""
+"""What the row sums of B-splines exceed their products by between the middles of four neighbouring
+cells, per part there: at a cell itself, and less at those beside it and across. Along one axis the
+products are 5/8 and 3/8, so that these are 1 - 25/64, 15/64 and 9/64."""
 
 
 @dataclass(frozen=True)
 class SplineModel:
-    """A compliance of nested quadratic B-splines on the points of a grid, and coefficients of its inverse on a free set.
+    """A compliance of nested quadratic B-splines on the points of a grid, and coefficients of its
+    inverse on a free set.
 
-    The compliance is B = own + sum over levels of w P C P^T, P being the B-splines of the cells of a level at the points: a part takes three quarters
-    of the deflection of the cell that it lies in and a quarter of that of the nearest other one, along each axis, from level to level. C averages the loads of
-    a cell (half of its own) and those beside it (a quarter on either side, none beyond a rim). The inverse on
-    a set is approximated, level by level, with diagonal matrices for the products of B-splines (see ``splines``) and a local stiffness.
+    The compliance is B = own + sum over levels of w P C P^T, P being the B-splines of the cells of
+    a level at the points: a part takes three quarters of the deflection of the cell that it lies in
+    and a quarter of that of the nearest other one, along each axis, from level to level. C averages
+    the loads of a cell (half of its own) and those beside it (a quarter on either side, none beyond
+    a rim). The inverse on a set is approximated, level by level, with diagonal matrices for the
+    products of B-splines (see ``splines``) and a local stiffness.
 
     Parameters
     ----------
@@ -111,16 +121,19 @@ class SplineModel:
     weights
         w of each level: deflection by a unit load on a cell and all those beside it.
     own
-        Deflection of a point by its own unit load, by two of a half at the nearest points along x, two along y, and four of a quarter at the diagonal ones.
+        Deflection of a point by its own unit load, by two of a half at the nearest points along x,
+        two along y, and four of a quarter at the diagonal ones.
     inverse_weights
         w of each level for the inverse, over the deflection of a point under its own load.
     stiffness
         Load for a unit deflection of a single point, without the cells.
     fall, bend
-        Share of it for the differences from the neighbours in the set, and for the curvature, along x and y.
+        Share of it for the differences from the neighbours in the set, and for the curvature, along
+        x and y.
     corrections
-        Shares, level by level, in which the inverse makes up for what row sums of the products of B-splines exceed these by: zero up to some level, and where there are any
-        points count by the row sums of the local stiffness. None for no level.
+        Shares, level by level, in which the inverse makes up for what row sums of the products of
+        B-splines exceed these by: zero up to some level, and where there are any points count by
+        the row sums of the local stiffness. None for no level.
     """
 
     wraps: tuple[bool, bool]
@@ -143,7 +156,8 @@ class Convolution(Protocol):
 
 
 class FreeSet(Protocol):
-    """The points whose pressure may change in a step. Vectors over a free set are opaque to the solver, but they may be added and multiplied by a number.
+    """The points whose pressure may change in a step. Vectors over a free set are opaque to the
+    solver, but they may be added and multiplied by a number.
 
     A *field* is an array over the whole grid that goes into or comes out of a convolution.
     """
@@ -181,7 +195,8 @@ class FreeSet(Protocol):
         """Vector of the array ``values`` (pressure or deflection) in its precision, and its sum."""
 
     def gather_products(self, field: Any, a: Any, b: Any, out: Any) -> Products:
-        """Vector of ``field``, in the memory of the vector ``out`` where that can be, and its products with a and b."""
+        """Vector of ``field``, in the memory of the vector ``out`` where that can be, and its
+        products with a and b."""
 
     def products(self, vector: Any, a: Any, b: Any) -> Products:
         """``vector`` with its sum and its products with a and b."""
@@ -199,25 +214,30 @@ class FreeSet(Protocol):
         """
 
     def update_direction(self, z: Any, mean: float, ratio: float, t: Any, r: Any, field: Any) -> tuple[Any, float]:
-        """Vector (z - mean) + ratio t, also set in the field if there is one, and its product with r; ``t`` may be overwritten."""
+        """Vector (z - mean) + ratio t, also set in the field if there is one, and its product with
+        r; ``t`` may be overwritten."""
 
     def update_solution(self, length: float, t: Any, kt: Any, mean: float, d: Any, r: Any) -> tuple[Any, Any, float]:
-        """Vectors d + length t and r - length (kt - mean), and the square of the latter; ``d`` and ``r`` may be overwritten."""
+        """Vectors d + length t and r - length (kt - mean), and the square of the latter; ``d`` and
+        ``r`` may be overwritten."""
 
     def add_unclipped(self, p: Any, d: Any, scale: float) -> Unclipped:
         """p + scale d on the set, in place."""
 
     def clear_tension(self, p: Any, factor: float, scale: float) -> Any:
-        """Set p on the set to factor times its positive part; the change over ``scale`` as a vector.
+        """Set p on the set to factor times its positive part; the change over ``scale`` as a
+        vector.
 
         The residual vector may be overwritten.
         """
 
     def loaded(self, values: Any, total: float | None, vector: Any) -> tuple[FreeSet, Any, Any]:
-        """The points of the set where ``values`` > 0, with a residual of zero, and on them the values, scaled to the sum ``total`` if one is given, and ``vector``."""
+        """The points of the set where ``values`` > 0, with a residual of zero, and on them the
+        values, scaled to the sum ``total`` if one is given, and ``vector``."""
 
     def spread(self, left: FreeSet, values: Any) -> Any:
-        """Vector of the set: ``values`` on the points ``left`` of it by ``loaded``, once or several times, zero on the others."""
+        """Vector of the set: ``values`` on the points ``left`` of it by ``loaded``, once or several
+        times, zero on the others."""
 
     def change(self, values: Any, before: Any, scale: float) -> Any:
         """Vector (``values`` - ``before``) / scale in the precision of corrections."""
@@ -229,26 +249,31 @@ class FreeSet(Protocol):
         """p + scale d on the set, clipped to [0, cap], in place."""
 
     def rescale(self, p: Any, factor: float, shift: float, cap: Any) -> Load:
-        """factor p + shift where p is below the cap, clipped to it, in place; the load afterwards."""
+        """factor p + shift where p is below the cap, clipped to it, in place; the load
+        afterwards."""
 
     def interpolate(self, old: Any, share: float, values: Any) -> None:
         """Set the array ``values`` on the set to old + share (values - old)."""
 
 
 class Splines(Protocol):
-    """A compliance of nested splines B and its approximate inverse, positive definite and but for corrections symmetric, on a free set."""
+    """A compliance of nested splines B and its approximate inverse, positive definite and but for
+    corrections symmetric, on a free set."""
 
     def factorise(self, free: FreeSet) -> None:
         """Prepare the inverse for the points of ``free``."""
 
     def solve(self, free: FreeSet, r: Any, other: Any, out: Any) -> Products:
-        """Vector z = inverse times r, z·r and z·other; in the memory of the vector ``out`` where that can be."""
+        """Vector z = inverse times r, z·r and z·other; in the memory of the vector ``out`` where
+        that can be."""
 
     def deflection(self, free: FreeSet, t: Any, other: Any, out: Any) -> Products:
-        """Vector B t on the set, and its products with t and ``other``; in ``out`` where that can be."""
+        """Vector B t on the set, and its products with t and ``other``; in ``out`` where that can
+        be."""
 
     def predicted_residual(self, free: FreeSet, r: Any, loaded: FreeSet, change: Any) -> Any:
-        """Vector r less the deflection of the points of ``free`` by ``change``, a vector of the set ``loaded``."""
+        """Vector r less the deflection of the points of ``free`` by ``change``, a vector of the set
+        ``loaded``."""
 
 
 class Survey(Protocol):
@@ -260,7 +285,8 @@ class Survey(Protocol):
 
     @property
     def squares(self) -> RealArray:
-        """(bands, squares, 3): number of points strictly between the bounds, their sum of r and of r², in each square.
+        """(bands, squares, 3): number of points strictly between the bounds, their sum of r and of
+        r², in each square.
 
         Squares have ``SQUARE_SIDE`` points a side, those at the last row and column fewer.
         """
@@ -268,21 +294,23 @@ class Survey(Protocol):
     def free_set(self, levels: RealArray, level: float, scale: float, dtype: str) -> FreeSet:
         """Free set with the residual (level - r) / scale, its vectors of the precision ``dtype``.
 
-        Its points are those strictly between the bounds, points at zero pressure with r below the first of the
-        ``levels`` (bands, squares, 2) of their square, and points at the cap with r above the second. Tensile points
-        are left out.
+        Its points are those strictly between the bounds, points at zero pressure with r below the
+        first of the ``levels`` (bands, squares, 2) of their square, and points at the cap with r
+        above the second. Tensile points are left out.
         """
 
 
 class Engine(Protocol):
-    """A machine: arrays, convolutions, passes. Results of equal calls do not depend on its number of threads."""
+    """A machine: arrays, convolutions, passes. Results of equal calls do not depend on its number
+    of threads."""
 
     @property
     def name(self) -> str:
         """Name for provenance."""
 
     def array(self, values: RealArray | float, dtype: str) -> Any:
-        """``values`` as an array of this engine of type ``float64`` or ``float32`` (a copy where needed)."""
+        """``values`` as an array of this engine of type ``float64`` or ``float32`` (a copy where
+        needed)."""
 
     def numpy(self, values: Any) -> RealArray:
         """``values`` as a NumPy array."""
@@ -295,7 +323,8 @@ class Engine(Protocol):
         """Whether ``resident`` arrays lie in another memory than those of NumPy."""
 
     def resident(self, values: Any) -> Any:
-        """``values`` where the engine computes, in double precision, if arrays there take the operations of NumPy; else as they are.
+        """``values`` where the engine computes, in double precision, if arrays there take the
+        operations of NumPy; else as they are.
 
         Arrays that cannot be written to may be the same in repeated calls.
         """
@@ -307,25 +336,29 @@ class Engine(Protocol):
         """New array equal to ``values``."""
 
     def field(self, shape: tuple[int, int], dtype: str) -> Any:
-        """Field of zeros for convolutions and free sets, in whatever memory layout suits the transforms."""
+        """Field of zeros for convolutions and free sets, in whatever memory layout suits the
+        transforms."""
 
     def convolution(
         self, kernel: RealArray, shape: tuple[int, int], dtype: str, padded: tuple[int, int] | None = None
     ) -> Convolution:
-        """Periodic convolution of fields of ``shape`` with the half-spectrum ``kernel``, or free: zero-padded to ``padded``, the grid of ``kernel``."""
+        """Periodic convolution of fields of ``shape`` with the half-spectrum ``kernel``, or free:
+        zero-padded to ``padded``, the grid of ``kernel``."""
 
     def splines(self, shape: tuple[int, int], model: SplineModel, dtype: str) -> Splines:
         """Nested splines on points of ``shape``, for vectors of the precision ``dtype``."""
 
     def prolonged(self, coarse: Any, coarse_heights: Any, heights: Any, stiffness: float) -> Any:
-        """Pressure on the points of ``heights`` from the ``coarse`` one, an array of this engine, on half as many points per side.
+        """Pressure on the points of ``heights`` from the ``coarse`` one, an array of this engine,
+        on half as many points per side.
 
-        Heights and what is returned are as ``resident`` leaves them. Where the ``coarse`` pressure is not zero, ``stiffness`` times what the
-        coarse heights do not show is added, down to zero.
+        Heights and what is returned are as ``resident`` leaves them. Where the ``coarse`` pressure
+        is not zero, ``stiffness`` times what the coarse heights do not show is added, down to zero.
         """
 
     def interpolated(self, coarse: Any, shape: tuple[int, int], wraps: tuple[bool, bool]) -> RealArray:
-        """Linear interpolation of ``coarse`` values, an array of this engine, at the points of ``shape``, two for each along either axis; a NumPy array.
+        """Linear interpolation of ``coarse`` values, an array of this engine, at the points of
+        ``shape``, two for each along either axis; a NumPy array.
 
         Beyond the first and last point of an axis that does not wrap they are as there.
         """

@@ -1,8 +1,10 @@
-"""Compiled passes over the half spectra of all internal pressures at once: what they displace, and how they go on over a step of time.
+"""Compiled passes over the half spectra of all internal pressures at once: what they displace, and
+how they go on over a step of time.
 
-Each works on a span (first, last) of rows and releases the lock. Complex rows are given as real and imaginary parts in turn; sums are kept
-per row and added up in a fixed order by the caller, so that results do not depend on the number of threads. ``cuts`` (terms, rows) are the
-numbers of columns beyond which a compliance is zero: there nothing is read or written.
+Each works on a span (first, last) of rows and releases the lock. Complex rows are given as real and
+imaginary parts in turn; sums are kept per row and added up in a fixed order by the caller, so that
+results do not depend on the number of threads. ``cuts`` (terms, rows) are the numbers of columns
+beyond which a compliance is zero: there nothing is read or written.
 """
 
 from __future__ import annotations
@@ -35,7 +37,8 @@ def retarded(span, cuts, weights, kernels, xi, whole, response, total):  # type:
 
 @_compiled
 def advance(span, cuts, weights, kernels, counted, p0, p1, xi, ends, sums):  # type: ignore[no-untyped-def]
-    """ends = weights[0] xi + weights[1] p0 + weights[2] p1; per row and term the products of p0 and p1 with xi, and of the two with each other."""
+    """ends = weights[0] xi + weights[1] p0 + weights[2] p1; per row and term the products of p0 and
+    p1 with xi, and of the two with each other."""
     for row in range(span[0], span[1]):
         first, last = p0[row], p1[row]
         for k in range(weights.shape[1]):

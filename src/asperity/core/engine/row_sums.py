@@ -1,7 +1,9 @@
 """Compiled passes that correct the row sums in the inverse of nested splines.
 
-B-splines of neighbouring cells overlap: the products P^T D P of a level, D being what its parts pass up, are their row sums S less
-a Laplacian H, which follows from D between the middles of neighbouring cells. The inverse takes S for the products; 1 + c H/S times the deflections of a level makes up for most of it.
+B-splines of neighbouring cells overlap: the products P^T D P of a level, D being what its parts
+pass up, are their row sums S less a Laplacian H, which follows from D between the middles of
+neighbouring cells. The inverse takes S for the products; 1 + c H/S times the deflections of a level
+makes up for most of it.
 """
 
 from __future__ import annotations
@@ -13,7 +15,8 @@ from .spline_levels import COLUMNS, MERGE_X, MERGE_Y, PARTS, ROWS, START, STRIDE
 
 @compiled
 def _between(span, levels, depth, wraps, lines, points, sums, mean):  # type: ignore[no-untyped-def]
-    """Mean of what the four parts between the middles of each cell of a level and those after it pass up, a part that is missing counting as zero."""
+    """Mean of what the four parts between the middles of each cell of a level and those after it
+    pass up, a part that is missing counting as zero."""
     fine, level = levels[depth - 1], levels[depth]
     source = points if depth == 1 else sums
     scratch = lines[-(-span[0] * len(lines) // PARTS)]
@@ -49,7 +52,8 @@ def _reciprocals(span, levels, depth, share, sums, g, per):  # type: ignore[no-u
 
 @compiled
 def _excess(own, other, weights, missing):  # type: ignore[no-untyped-def]
-    """What the two blocks between a row of cells and the ``other`` one add to H of a cell: values (before, here, after) of both rows, the ``weights`` of the blocks before and after it."""
+    """What the two blocks between a row of cells and the ``other`` one add to H of a cell: values
+    (before, here, after) of both rows, the ``weights`` of the blocks before and after it."""
     middle, side, corner = missing
     here = middle * own[1] - side * other[1]
     before, after = side * own[0] + corner * other[0], side * own[2] + corner * other[2]
@@ -58,7 +62,8 @@ def _excess(own, other, weights, missing):  # type: ignore[no-untyped-def]
 
 @compiled
 def corrected(span, levels, depth, wraps, nothing, mean, per, raw, cells):  # type: ignore[no-untyped-def]
-    """``cells`` = raw + per H raw on a level, of the rows of the span; H by the ``mean`` of ``_between``. The ``raw`` values themselves where it merges along one axis only."""
+    """``cells`` = raw + per H raw on a level, of the rows of the span; H by the ``mean`` of
+    ``_between``. The ``raw`` values themselves where it merges along one axis only."""
     level = levels[depth]
     rows, wide, kind = level[ROWS], level[COLUMNS], cells.dtype.type
     missing, zero = (kind(MISSING[0]), kind(MISSING[1]), kind(MISSING[2])), kind(0.0)
@@ -92,7 +97,9 @@ def corrected(span, levels, depth, wraps, nothing, mean, per, raw, cells):  # ty
 
 @compiled
 def overlaps(span, levels, way, wraps, shares, lines, points, sums, g, found):  # type: ignore[no-untyped-def]
-    """``_between`` and ``_reciprocals``, left in the two arrays ``found``, of the levels ``way[0]`` to ``way[1]``, of the rows of the span; on levels that merge along one axis only nothing is corrected."""
+    """``_between`` and ``_reciprocals``, left in the two arrays ``found``, of the levels ``way[0]``
+    to ``way[1]``, of the rows of the span; on levels that merge along one axis only nothing is
+    corrected."""
     for depth in range(way[0], way[1] + 1):
         if levels[depth, MERGE_X] + levels[depth, MERGE_Y] == 2:
             _between(span, levels, depth, wraps, lines, points, sums, found[0])

@@ -1,7 +1,8 @@
 """How the levels of nested splines lie in memory.
 
-``levels`` holds for every level the place of its first cell in memory, its cells along x and y, the distance of its rows, whether the level below
-merges along x and y to it, and whether it averages along them. Level 0 are the points themselves, in an array with a margin.
+``levels`` holds for every level the place of its first cell in memory, its cells along x and y, the
+distance of its rows, whether the level below merges along x and y to it, and whether it averages
+along them. Level 0 are the points themselves, in an array with a margin.
 """
 
 from __future__ import annotations
@@ -22,18 +23,25 @@ SOLVE, FACTORISE, DEFLECT = range(3)
 """What a sweep is for: the inverse, g for it, or the deflection by loads."""
 
 PARTS = 64
-"""Parts into which the rows of a level are divided among threads: the line of scratch memory of a thread follows from its first part."""
+"""Parts into which the rows of a level are divided among threads: the line of scratch memory of a
+thread follows from its first part."""
 
 _SHARED, _ALL_SHARED = 1 << 17, 1 << 19
-"""Cells of a level from which on threads share its rows, and those of the points below: the first level from 1024² points on for its sums (0.5 ms), from 2048² for the sweeps down (0.2 ms),
-which take as long as it takes to wake a thread (0.03 to 0.18 ms, the latter in a virtual machine). Shared from the same size on, half-spaces took 1.01 and films of E 10 on 4 pixels 1.04 times as long at 1024², on two threads."""
+"""Cells of a level from which on threads share its rows, and those of the points below: the first
+level from 1024² points on for its sums (0.5 ms), from 2048² for the sweeps down (0.2 ms), which
+take as long as it takes to wake a thread (0.03 to 0.18 ms, the latter in a virtual machine). Shared
+from the same size on, half-spaces took 1.01 and films of E 10 on 4 pixels 1.04 times as long at
+1024², on two threads."""
 
 _GAP = 8
-"""Points between the rows of the array of points: its margins, and so many that rows of 2^k points do not collide in the cache."""
+"""Points between the rows of the array of points: its margins, and so many that rows of 2^k points
+do not collide in the cache."""
 
 
 class Layout(NamedTuple):
-    """Table ``levels`` of the sweeps; the number of levels ``large`` enough for threads to share their sums, of ``larger`` ones with all sweeps shared, and of all; the sizes of the arrays of ``points`` and of ``cells``."""
+    """Table ``levels`` of the sweeps; the number of levels ``large`` enough for threads to share
+    their sums, of ``larger`` ones with all sweeps shared, and of all; the sizes of the arrays of
+    ``points`` and of ``cells``."""
 
     levels: Any
     large: int

@@ -1,10 +1,13 @@
-"""Nested quadratic B-splines of the CPU engine: compiled sweeps sum loads up the levels and prolong deflections down again.
+"""Nested quadratic B-splines of the CPU engine: compiled sweeps sum loads up the levels and prolong
+deflections down again.
 
-A cell of a level merges two of the level below along one axis or both. Its B-spline reaches half a cell beyond it on either side: a part passes
-three quarters of its load to the cell that it lies in and a quarter to the nearest other, along each axis, and takes its deflection from both in
-the same shares. Where the axis wraps, the first cell comes after the last one; else there is one more cell at either end, beyond the points.
-The compliance averages the loads of neighbouring cells of a level (half of a cell's own and a quarter of that beside it on either side) before they
-deflect it, along the axes for which the model says so.
+A cell of a level merges two of the level below along one axis or both. Its B-spline reaches half a
+cell beyond it on either side: a part passes three quarters of its load to the cell that it lies in
+and a quarter to the nearest other, along each axis, and takes its deflection from both in the same
+shares. Where the axis wraps, the first cell comes after the last one; else there is one more cell
+at either end, beyond the points. The compliance averages the loads of neighbouring cells of a level
+(half of a cell's own and a quarter of that beside it on either side) before they deflect it, along
+the axes for which the model says so.
 """
 
 from __future__ import annotations
@@ -41,7 +44,8 @@ from .spline_levels import (
 
 @compiled
 def _surround(levels, wraps, points):  # type: ignore[no-untyped-def]
-    """Values beyond the rim of the array of points: those of the other end where the axis wraps, else zero."""
+    """Values beyond the rim of the array of points: those of the other end where the axis wraps,
+    else zero."""
     start, rows, columns, stride = levels[0, START], levels[0, ROWS], levels[0, COLUMNS], levels[0, STRIDE]
     for row in range(rows):
         for k in range(MARGIN):
@@ -77,9 +81,12 @@ def gather(rows, index, levels, points, out):  # type: ignore[no-untyped-def]
 
 @compiled
 def local_stiffness(span, levels, members, memory, stencil, alone, together):  # type: ignore[no-untyped-def]
-    """Of the local stiffness at the points of a set: its own entry ``alone``, and the sum ``together`` of its row, for points that yield by the values of the array of points.
+    """Of the local stiffness at the points of a set: its own entry ``alone``, and the sum
+    ``together`` of its row, for points that yield by the values of the array of points.
 
-    ``members`` of the set are (rows, index), ``memory`` is (found, under, points) as for ``at_points``. ``stencil`` holds the entry without neighbours, what each nearest point along x and y adds to it, the entries of these, and those of the points at twice the distance.
+    ``members`` of the set are (rows, index), ``memory`` is (found, under, points) as for
+    ``at_points``. ``stencil`` holds the entry without neighbours, what each nearest point along x
+    and y adds to it, the entries of these, and those of the points at twice the distance.
     """
     rows, index = members
     founds, unders, points = memory
@@ -111,9 +118,11 @@ def local_stiffness(span, levels, members, memory, stencil, alone, together):  #
 
 @compiled
 def rise(span, levels, way, wraps, weights, lines, points, sums, g):  # type: ignore[no-untyped-def]
-    """Sums over the cells of the levels ``way[0]`` to ``way[1]`` of the loads on the ``points``, of the rows of the span.
+    """Sums over the cells of the levels ``way[0]`` to ``way[1]`` of the loads on the ``points``, of
+    the rows of the span.
 
-    What a level passes up is left in ``sums``: g S of its sums S, or, to ``DEFLECT``, S itself. To ``FACTORISE`` (``way[2]``), g = 1 / (1 + w S) is set.
+    What a level passes up is left in ``sums``: g S of its sums S, or, to ``DEFLECT``, S itself. To
+    ``FACTORISE`` (``way[2]``), g = 1 / (1 + w S) is set.
     """
     near, far, one = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(1.0)
     scratch = lines[-(-span[0] * len(lines) // PARTS)]
@@ -179,9 +188,12 @@ def rise(span, levels, way, wraps, weights, lines, points, sums, g):  # type: ig
 
 @compiled
 def fall(span, levels, way, wraps, weights, lines, sums, g, cells, target):  # type: ignore[no-untyped-def]
-    """Deflections of the ``cells`` of the levels ``way[0]`` down to ``way[1]``, of the rows of the span, from what ``rise`` has left in ``sums``.
+    """Deflections of the ``cells`` of the levels ``way[0]`` down to ``way[1]``, of the rows of the
+    span, from what ``rise`` has left in ``sums``.
 
-    They are left in ``target``, which is ``cells`` but for a single level. That of a level is w g S plus g times that of the level above; to ``DEFLECT``, w times the average of S over neighbouring cells plus that of the level above.
+    They are left in ``target``, which is ``cells`` but for a single level. That of a level is w g S
+    plus g times that of the level above; to ``DEFLECT``, w times the average of S over neighbouring
+    cells plus that of the level above.
     """
     near, far, half = g.dtype.type(0.75), g.dtype.type(0.25), g.dtype.type(0.5)
     scratch = lines[-(-span[0] * len(lines) // PARTS)]
@@ -248,7 +260,9 @@ def fall(span, levels, way, wraps, weights, lines, sums, g, cells, target):  # t
 
 @compiled
 def _around(points, at, stencil, adds, found):  # type: ignore[no-untyped-def]
-    """What the neighbours among the ``points`` give to those ``at`` a place, a number of them in a row (then the distance of rows), by the ``stencil`` of ``at_points``: added to what is ``found`` there if it ``adds``, else instead of it."""
+    """What the neighbours among the ``points`` give to those ``at`` a place, a number of them in a
+    row (then the distance of rows), by the ``stencil`` of ``at_points``: added to what is ``found``
+    there if it ``adds``, else instead of it."""
     place, number, stride = at
     x1, y1, x2, y2, diagonal, _ = stencil
     here = points[place - MARGIN : place + number + MARGIN]
@@ -277,12 +291,16 @@ def _around(points, at, stencil, adds, found):  # type: ignore[no-untyped-def]
 
 @compiled
 def at_points(span, levels, wraps, members, memory, stencil, vectors, out, products):  # type: ignore[no-untyped-def]
-    """out = alone values + what the neighbours among the ``points`` add + share times the deflection of the cells of level 1, at the points of a set.
+    """out = alone values + what the neighbours among the ``points`` add + share times the
+    deflection of the cells of level 1, at the points of a set.
 
-    ``members`` of the set are (rows, index), ``memory`` is (lines, found, under, points, cells), found and under being lines as well: were they rows of the same array, the
-    loop that writes every second value would not be vectorised. ``stencil`` holds the factors of the nearest points along x and y, of those at twice the distance
-    along x and y, of the diagonal ones (if those are zero), and of the deflection of the cells. ``vectors`` are values, alone and share (of one entry each if they are the same at all points, which is
-    a share of one), and two of which the products with out are left in ``products``, row by row, after the sum of out.
+    ``members`` of the set are (rows, index), ``memory`` is (lines, found, under, points, cells),
+    found and under being lines as well: were they rows of the same array, the loop that writes
+    every second value would not be vectorised. ``stencil`` holds the factors of the nearest points
+    along x and y, of those at twice the distance along x and y, of the diagonal ones (if those are
+    zero), and of the deflection of the cells. ``vectors`` are values, alone and share (of one entry
+    each if they are the same at all points, which is a share of one), and two of which the products
+    with out are left in ``products``, row by row, after the sum of out.
     """
     rows, index = members
     lines, founds, unders, points, cells = memory
@@ -351,7 +369,8 @@ def at_points(span, levels, wraps, members, memory, stencil, vectors, out, produ
 
 @compiled
 def fall_corrected(levels, way, wraps, weights, lines, sums, g, correction, cells):  # type: ignore[no-untyped-def]
-    """``fall`` to solve, through the levels ``way[0]`` down to ``way[1]``, with the ``correction`` (zeros, mean, per, raw) of every level."""
+    """``fall`` to solve, through the levels ``way[0]`` down to ``way[1]``, with the ``correction``
+    (zeros, mean, per, raw) of every level."""
     for depth in range(way[0], way[1] - 1, -1):
         fall((0, PARTS), levels, (depth, depth, SOLVE), wraps, weights, lines, sums, g, cells, correction[3])
         corrected((0, PARTS), levels, depth, wraps, *correction, cells)
@@ -368,7 +387,8 @@ class CpuSplines:
         self._layout = layout(shape, model.merges, model.averages, model.wraps)
         self._points, cells = np.zeros(self._layout.points, dtype), self._layout.cells
         self._sums, self._g, self._cells = (np.zeros(cells, dtype) for _ in range(3))
-        # for each thread: a line of sums or deflections, zeros and ones; what is found at the points of a row
+        # for each thread: a line of sums or deflections, zeros and ones; what is found at the
+        # points of a row
         self._lines = np.zeros((min(blocks.threads, PARTS), 3, shape[1] + 8), dtype)
         self._lines[:, 2] = 1.0
         self._found, self._under = (np.zeros((len(self._lines), shape[1] + 8), dtype) for _ in range(2))
@@ -396,9 +416,11 @@ class CpuSplines:
         self._loaded: Callable[[], Any] = lambda: None
 
     def factorise(self, free: Any, conductance: RealArray | None = None) -> None:
-        """Local stiffness of every point of ``free``, g of all cells, and what the correction takes.
+        """Local stiffness of every point of ``free``, g of all cells, and what the correction
+        takes.
 
-        ``conductance``: factors (of any sign) to the yielding of the points to their own load, one if not given. Then the cells are not corrected.
+        ``conductance``: factors (of any sign) to the yielding of the points to their own load, one
+        if not given. Then the cells are not corrected.
         """
         unit = np.ones(free.size, self._points.dtype) if conductance is None else conductance
         self._alone, together = np.empty_like(unit), np.empty_like(unit)
@@ -420,7 +442,8 @@ class CpuSplines:
     def solve(
         self, free: Any, r: RealArray, other: RealArray, out: RealArray, yielding: RealArray | None = None
     ) -> Products:
-        """Inverse times ``r``, see ``protocol.Splines``, which acts on other points by how they are ``yielding`` to it, if given."""
+        """Inverse times ``r``, see ``protocol.Splines``, which acts on other points by how they are
+        ``yielding`` to it, if given."""
         self._rise(free, r if yielding is None else yielding, SOLVE, self._inverse)
         if self._correct:
             # deflections on all levels, corrected from the first level on that is
@@ -442,7 +465,8 @@ class CpuSplines:
         return self._at_points(free, self._stiff, r, self._alone, self._together, r, other, out)
 
     def solve_with(self, free: Any, r: RealArray, conductance: RealArray) -> RealArray:
-        """Inverse times ``r`` after ``factorise`` with the same ``conductance``; not quite symmetric."""
+        """Inverse times ``r`` after ``factorise`` with the same ``conductance``; not quite
+        symmetric."""
         found: RealArray = self.solve(free, r, r, np.empty_like(r), conductance * r).vector
         found *= conductance
         return found
@@ -475,7 +499,8 @@ class CpuSplines:
         ]
 
     def _rise(self, set_: Any, values: RealArray, purpose: int, weights: RealArray) -> None:
-        """Loads ``values`` of the set at its points and none elsewhere, and the sums of the loads on all levels."""
+        """Loads ``values`` of the set at its points and none elsewhere, and the sums of the loads
+        on all levels."""
         if self._loaded() is not set_:
             self._points[...] = 0.0
             self._loaded = ref(set_)

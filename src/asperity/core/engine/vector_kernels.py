@@ -1,18 +1,22 @@
-"""Compiled sweeps over nested cells, of loads and deflections with two components: summed up the levels, prolonged down again.
+"""Compiled sweeps over nested cells, of loads and deflections with two components: summed up the
+levels, prolonged down again.
 
-The compliance of nested cells is B = 1 + sum over cells of w 1 1^T, in units of the deflection of a point under its own
-load. Its inverse on any set of points follows from the Sherman-Morrison formula, cell by cell: with S the sum over the
-parts of a cell of what they pass up, T the same for unit loads, and g = 1 / (1 + w T), a cell passes up g S and down
-the deflection D = g (D of its parent + w S).
+The compliance of nested cells is B = 1 + sum over cells of w 1 1^T, in units of the deflection of a
+point under its own load. Its inverse on any set of points follows from the Sherman-Morrison
+formula, cell by cell: with S the sum over the parts of a cell of what they pass up, T the same for
+unit loads, and g = 1 / (1 + w T), a cell passes up g S and down the deflection D = g (D of its
+parent + w S).
 
-A point may yield along one direction only, or by more along one than along the other: its conductance is a symmetric tensor. S, T and g
-then are a vector and tensors, which commute, so that the formulas hold as they stand. ``g`` and ``t`` hold the entries xx, xy, yy of all
-cells, ``s`` the components: the sums S on the way up and the deflections D on the way down.
+A point may yield along one direction only, or by more along one than along the other: its
+conductance is a symmetric tensor. S, T and g then are a vector and tensors, which commute, so that
+the formulas hold as they stand. ``g`` and ``t`` hold the entries xx, xy, yy of all cells, ``s`` the
+components: the sums S on the way up and the deflections D on the way down.
 
-``levels`` holds for every hierarchy and level: place of its first cell, cells along x and y, distance of rows, and for
-the step from the level below: whether pairs merge along x and y (1 or 0), and the offsets; then, how far the points are
-rolled along x and y, round the grid, before they form cells. Level 0 are the points. Cells are stored with a rim of empty ones (g = s = 0), so the
-edges are no special case.
+``levels`` holds for every hierarchy and level: place of its first cell, cells along x and y,
+distance of rows, and for the step from the level below: whether pairs merge along x and y (1 or 0),
+and the offsets; then, how far the points are rolled along x and y, round the grid, before they form
+cells. Level 0 are the points. Cells are stored with a rim of empty ones (g = s = 0), so the edges
+are no special case.
 """
 
 from __future__ import annotations
@@ -64,7 +68,8 @@ def _restrict_tensors(below, level, g, t):  # type: ignore[no-untyped-def]
 
 @compiled
 def factorise_tensors(span, levels, weights, shape, rows, index, conductance, g, t):  # type: ignore[no-untyped-def]
-    """g = (1 + w T)^-1 in the hierarchies of the span, for the points ``index`` with the ``conductance`` (3, n)."""
+    """g = (1 + w T)^-1 in the hierarchies of the span, for the points ``index`` with the
+    ``conductance`` (3, n)."""
     for hierarchy in range(span[0], span[1]):
         for depth in range(1, levels.shape[1]):
             level = levels[hierarchy, depth]
@@ -120,7 +125,8 @@ def _prolong_vectors(above, level, weight, g, s):  # type: ignore[no-untyped-def
 
 @compiled
 def vector_deflections(span, levels, weights, shape, rows, index, values, g, s):  # type: ignore[no-untyped-def]
-    """Deflections of the finest cells of the hierarchies of the span, left in s, under the loads ``values`` (2, n)."""
+    """Deflections of the finest cells of the hierarchies of the span, left in s, under the loads
+    ``values`` (2, n)."""
     for hierarchy in range(span[0], span[1]):
         own = levels[hierarchy]
         last = own.shape[0] - 1
@@ -141,7 +147,8 @@ def vector_deflections(span, levels, weights, shape, rows, index, values, g, s):
 
 @compiled
 def subtract_deflections(span, levels, shape, rows, index, values, other, s, out, sums):  # type: ignore[no-untyped-def]
-    """out = values - mean of the deflections of two hierarchies in s; per row: sums of out, with values, with other."""
+    """out = values - mean of the deflections of two hierarchies in s; per row: sums of out, with
+    values, with other."""
     half = s.dtype.type(0.5)
     one, two = levels[0, 1], levels[1, 1]
     merge_one, merge_two = one[MERGE_Y], two[MERGE_Y]

@@ -1,4 +1,5 @@
-"""Vectors on the CPU: convolutions with tensors, and nested cells whose points yield along directions of their own."""
+"""Vectors on the CPU: convolutions with tensors, and nested cells whose points yield along
+directions of their own."""
 
 from __future__ import annotations
 
@@ -17,10 +18,12 @@ from .cpu import CpuEngine
 
 @dataclass(frozen=True)
 class Merge:
-    """How the cells of one level form those of the next: pairs along the axes that ``x`` and ``y`` name.
+    """How the cells of one level form those of the next: pairs along the axes that ``x`` and ``y``
+    name.
 
-    ``offset_x`` and ``offset_y`` (0 or 1) are one where the first cell stays single; ``weight`` is the deflection that a
-    unit load on a merged cell adds to all of its points, over that of a point under its own load.
+    ``offset_x`` and ``offset_y`` (0 or 1) are one where the first cell stays single; ``weight`` is
+    the deflection that a unit load on a merged cell adds to all of its points, over that of a point
+    under its own load.
     """
 
     x: bool
@@ -32,9 +35,11 @@ class Merge:
 
 @dataclass(frozen=True)
 class Hierarchy:
-    """Nested cells from single points up by ``merges``, after the points have been rolled by ``roll`` along x and y.
+    """Nested cells from single points up by ``merges``, after the points have been rolled by
+    ``roll`` along x and y.
 
-    Rolled points re-enter at the other end, so that cells of a periodic grid reach over its borders.
+    Rolled points re-enter at the other end, so that cells of a periodic grid reach over its
+    borders.
     """
 
     merges: tuple[Merge, ...]
@@ -42,10 +47,12 @@ class Hierarchy:
 
 
 class VectorConvolution:
-    """Product of fields with two or three components with a tensor in Fourier space; owns its buffers.
+    """Product of fields with two or three components with a tensor in Fourier space; owns its
+    buffers.
 
-    The ``entries`` are real half spectra of the grid ``padded``: xx, yy and xy of a symmetric tensor of the two components in the plane; with the
-    normal direction also zz, and zx, zy of the coupling i zx, i zy. ``shape`` is that of the fields, which are zero beyond it.
+    The ``entries`` are real half spectra of the grid ``padded``: xx, yy and xy of a symmetric
+    tensor of the two components in the plane; with the normal direction also zz, and zx, zy of the
+    coupling i zx, i zy. ``shape`` is that of the fields, which are zero beyond it.
     """
 
     def __init__(
@@ -79,7 +86,8 @@ class VectorConvolution:
 
 
 class VectorCells:
-    """Exact inverse of nested cells for loads (2, n) along two directions on a free set (see ``vector_kernels``), a hierarchy per thread."""
+    """Exact inverse of nested cells for loads (2, n) along two directions on a free set (see
+    ``vector_kernels``), a hierarchy per thread."""
 
     def __init__(
         self, engine: CpuEngine, shape: tuple[int, int], hierarchies: tuple[Hierarchy, Hierarchy], dtype: str
@@ -93,7 +101,8 @@ class VectorCells:
         self._t = np.zeros((3, size), dtype)
 
     def factorise(self, free: Any, conductance: RealArray) -> None:
-        """g of all cells for the points of ``free``, which yield by the ``conductance``, entries xx, xy, yy (3, n), times their own load."""
+        """g of all cells for the points of ``free``, which yield by the ``conductance``, entries
+        xx, xy, yy (3, n), times their own load."""
         self._sweep("factorise_tensors", free, conductance, self._t)
 
     def solve(self, free: Any, r: RealArray, conductance: RealArray) -> RealArray:
@@ -120,7 +129,8 @@ def _times(tensor: RealArray, vectors: RealArray) -> RealArray:
 
 
 class _Layout(NamedTuple):
-    """Table ``levels`` of ``vector_kernels`` (hierarchy, level, column), and the ``size`` of all cells in elements. Shared: not to be written to."""
+    """Table ``levels`` of ``vector_kernels`` (hierarchy, level, column), and the ``size`` of all
+    cells in elements. Shared: not to be written to."""
 
     levels: Any
     size: int

@@ -1,12 +1,16 @@
-"""Bodies of a problem document: rigid, one material, or layers on a base; as tables or in one line of text.
+"""Bodies of a problem document: rigid, one material, or layers on a base; as tables or in one line
+of text.
 
 DLC                               a material of the library
-E=140GPa,nu=0.25,H=15GPa          elastic constants: E, nu, and if known hardness H (also 700HV, 200HB, 60HRC), yield stress Y, hardening, name
+E=140GPa,nu=0.25,H=15GPa          elastic constants: E, nu, and if known hardness H (also 700HV,
+                                  200HB, 60HRC), yield stress Y, hardening, name
 steel{H=60HRC}                    a material of the library with another strength
-steel{Y=400MPa,hardening=linear(2GPa)}   and with what plastic flow needs; also swift(0.2) and voce(100MPa,20)
+steel{Y=400MPa,hardening=linear(2GPa)}   and with what plastic flow needs; also swift(0.2) and
+                                  voce(100MPa,20)
 DLC:5nm/Cr:2nm/steel              5 nm of DLC on 2 nm of Cr on steel
 DLC:5nm~/rigid                    ~ : the layer slips without friction on what lies below it
-E=3MPa+10MPa@10ms,nu=0.5          10 MPa of Young's modulus relax in 10 ms; further ways in ``relaxation``
+E=3MPa+10MPa@10ms,nu=0.5          10 MPa of Young's modulus relax in 10 ms; further ways in
+                                  ``relaxation``
 """
 
 from __future__ import annotations
@@ -45,7 +49,8 @@ FLOW = ("yield_stress", "hardening", "kinematic", "recall")
 """Keys of plastic flow."""
 
 BESIDE = ("hardness", *FLOW)
-"""Keys of the strength, which elastic constants may bring along, and a named material, too: they replace those of the library."""
+"""Keys of the strength, which elastic constants may bring along, and a named material, too: they
+replace those of the library."""
 
 
 def _text_too(schema: dict[str, Any]) -> None:
@@ -63,7 +68,8 @@ class LinearHardeningTable(Settings):
 
 
 class SwiftTable(Settings):
-    """Yield stress that grows as (1 + q/reference_strain)^exponent; the strain is that at yield, Y/E, by default."""
+    """Yield stress that grows as (1 + q/reference_strain)^exponent; the strain is that at yield,
+    Y/E, by default."""
 
     kind: Literal["swift"]
     exponent: Share = setting(help="Exponent, 0 to 1")
@@ -104,10 +110,12 @@ AnyHardening: TypeAlias = Annotated[LinearHardeningTable | SwiftTable | VoceTabl
 
 
 class MaterialTable(Settings):
-    """One material: a name of the library, or elastic constants with what is known of the strength; ``relaxation`` instead of Young's modulus.
+    """One material: a name of the library, or elastic constants with what is known of the strength;
+    ``relaxation`` instead of Young's modulus.
 
-    It may be text, such as ``"steel"``, ``"E=140GPa,nu=0.25"``, ``"E=3MPa+10MPa@10ms,nu=0.5"`` or ``"steel{Y=400MPa}"``. Yield stress,
-    ``hardening`` and the back stress of a ``kinematic`` modulus with its ``recall`` are those of plastic flow.
+    It may be text, such as ``"steel"``, ``"E=140GPa,nu=0.25"``, ``"E=3MPa+10MPa@10ms,nu=0.5"`` or
+    ``"steel{Y=400MPa}"``. Yield stress, ``hardening`` and the back stress of a ``kinematic``
+    modulus with its ``recall`` are those of plastic flow.
     """
 
     model_config = ConfigDict(json_schema_extra=_text_too)
@@ -134,7 +142,8 @@ class MaterialTable(Settings):
         return self
 
     def _one_of(self, others: dict[str, bool]) -> None:
-        """Refuse all but one way to describe it: a material, constants, or one of the ``others`` that are given."""
+        """Refuse all but one way to describe it: a material, constants, or one of the ``others``
+        that are given."""
         pair = CONSTANTS if self.relaxation is None else ("relaxation", "poisson_ratio")
         constants = [key for key in pair if getattr(self, key) is not None]
         ways = [*(way for way, given in others.items() if given), *(["material"] if self.material else [])]
@@ -166,9 +175,11 @@ class LayerTable(MaterialTable):
 
 
 class GradedTable(Settings):
-    """Coating whose Young's modulus changes from that of ``top`` to that of ``bottom``, as thin homogeneous layers.
+    """Coating whose Young's modulus changes from that of ``top`` to that of ``bottom``, as thin
+    homogeneous layers.
 
-    ``kind`` is the law of its change with depth: ``"linear"``, ``"exponential"``, or ``"power"`` with its ``exponent``.
+    ``kind`` is the law of its change with depth: ``"linear"``, ``"exponential"``, or ``"power"``
+    with its ``exponent``.
     """
 
     kind: Literal["linear", "exponential", "power"]
@@ -216,10 +227,12 @@ class BaseTable(MaterialTable):
 
 
 class BodyTable(BaseTable):
-    """One body: a named ``material``, elastic constants, ``rigid = true``, or ``layers`` from the surface down on a ``base``.
+    """One body: a named ``material``, elastic constants, ``rigid = true``, or ``layers`` from the
+    surface down on a ``base``.
 
-    In a document it may be text as on the command line, such as ``"DLC:5nm/Cr:2nm/steel"``. ``materials_file`` holds
-    the named materials of all its parts; a relative path starts at the folder of the document.
+    In a document it may be text as on the command line, such as ``"DLC:5nm/Cr:2nm/steel"``.
+    ``materials_file`` holds the named materials of all its parts; a relative path starts at the
+    folder of the document.
     """
 
     materials_file: NonEmpty | None = setting(None, help="your own materials, a TOML file")
@@ -304,8 +317,8 @@ def _layer(part: str, number: int) -> dict[str, Any]:
         raise InputError(f" must name a material in each part, such as {EXAMPLE}, but layer {number} is {found}.")
     if not thickness.rstrip(SLIP).strip():
         raise InputError(
-            f" must give the thickness of every layer, such as {name.rstrip(SLIP)}:5nm, but layer {number} is {part!r}; "
-            "only the last part, the base, has none."
+            f" must give the thickness of every layer, such as {name.rstrip(SLIP)}:5nm, but layer {number} is "
+            f"{part!r}; only the last part, the base, has none."
         )
     if name.casefold() == "rigid":
         raise InputError(f" must have rigid as its last part only, but layer {number} is {part!r}.")
@@ -356,7 +369,8 @@ def _constant(part: str) -> tuple[str, str]:
     symbol, _, value = (piece.strip() for piece in part.partition("="))
     if symbol not in SYMBOLS and symbol not in RELAXING:
         raise InputError(
-            f' must be a material, constants such as "E=140GPa,nu=0.25,H=15GPa" ({", ".join(SYMBOLS)}), viscoelastic ones such as '
-            f'"E=3MPa+10MPa@10ms,nu=0.5" ({", ".join(RELAXING)}), or layers such as {EXAMPLE}, but holds {part.strip()!r}.'
+            f' must be a material, constants such as "E=140GPa,nu=0.25,H=15GPa" ({", ".join(SYMBOLS)}), '
+            f'viscoelastic ones such as "E=3MPa+10MPa@10ms,nu=0.5" ({", ".join(RELAXING)}), or layers such as '
+            f"{EXAMPLE}, but holds {part.strip()!r}."
         )
     return symbol, value

@@ -1,4 +1,5 @@
-"""The core of a problem document: two surfaces, two bodies, boundary, law, control and solver. Parts add their tables to it."""
+"""The core of a problem document: two surfaces, two bodies, boundary, law, control and solver.
+Parts add their tables to it."""
 
 from __future__ import annotations
 
@@ -16,13 +17,16 @@ from .bodies import BodyTable
 from .surfaces import FileSurface, SurfaceTable
 
 FROM_BODY = "from body"
-"""Hardness that stands for that of the softer body: the effective one where it is layered and all of its strengths are known."""
+"""Hardness that stands for that of the softer body: the effective one where it is layered and all
+of its strengths are known."""
 
 SURFACE = "surface"
-"""Hardness that stands for the lower known one of the materials at the two surfaces, whatever lies below them."""
+"""Hardness that stands for the lower known one of the materials at the two surfaces, whatever lies
+below them."""
 
 EFFECTIVE = "effective"
-"""Hardness that stands for that of the softer body with all its layers, by the depth of the indentation."""
+"""Hardness that stands for that of the softer body with all its layers, by the depth of the
+indentation."""
 
 NONE = "0"
 """Turning point of a load path without load."""
@@ -68,9 +72,11 @@ STEPS = 10
 
 
 class BoundaryTable(Settings):
-    """What lies outside the grid: the same again, no load, or for a surface of one row the same line contact for ever.
+    """What lies outside the grid: the same again, no load, or for a surface of one row the same
+    line contact for ever.
 
-    ``datum`` is the distance at which displacements of a line contact are called zero, by default the length of the grid.
+    ``datum`` is the distance at which displacements of a line contact are called zero, by default
+    the length of the grid.
     """
 
     kind: Literal["periodic", "free", "line"] = setting(
@@ -98,8 +104,9 @@ class HardnessTable(Settings):
 
     kind: Literal["hardness"]
     hardness: PressureOrBody = setting(
-        help='limit of the pressure, "body" for the hardness of the softer body, with its layers by depth where their strengths are known '
-        '("effective": refused where not), or "surface" for that of the material at its surface alone'
+        help='limit of the pressure, "body" for the hardness of the softer body, with its layers by depth '
+        'where their strengths are known ("effective": refused where not), or "surface" for that of '
+        "the material at its surface alone"
     )
 
 
@@ -108,9 +115,11 @@ LawTable: TypeAlias = Annotated[HardWallTable | HardnessTable, Field(discriminat
 
 
 class PathTable(Settings):
-    """A load or position that runs from zero through turning points: exactly one list of them, and ``steps`` from one to the next.
+    """A load or position that runs from zero through turning points: exactly one list of them, and
+    ``steps`` from one to the next.
 
-    Zero, with or without a unit, takes the load away. A mean gap starts at its first value and is never zero.
+    Zero, with or without a unit, takes the load away. A mean gap starts at its first value and is
+    never zero.
     """
 
     mean_pressure: tuple[PathPressure, ...] | None = None

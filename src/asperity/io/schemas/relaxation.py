@@ -1,4 +1,5 @@
-"""How the modulus of a viscoelastic material relaxes, in a problem document; as tables or in the text of a material.
+"""How the modulus of a viscoelastic material relaxes, in a problem document; as tables or in the
+text of a material.
 
 E=3MPa+10MPa@10ms+3MPa@0.1s,nu=0.5       3 MPa and two terms that relax, each with its time
 E=1MPa@10s,nu=0.5                        Maxwell: all of it relaxes
@@ -30,7 +31,8 @@ USUAL_RATIO = 1e4
 
 
 class WlfTable(Settings):
-    """Williams, Landel and Ferry's shift of the times with temperature: log10 a = -c1 (T - reference)/(c2 + T - reference)."""
+    """Williams, Landel and Ferry's shift of the times with temperature: log10 a = -c1 (T -
+    reference)/(c2 + T - reference)."""
 
     kind: Literal["wlf"]
     reference: Temperature
@@ -39,7 +41,8 @@ class WlfTable(Settings):
 
 
 class ArrheniusTable(Settings):
-    """Arrhenius' shift of the times with temperature: ln a = activation_energy/R (1/T - 1/reference)."""
+    """Arrhenius' shift of the times with temperature: ln a = activation_energy/R (1/T -
+    1/reference)."""
 
     kind: Literal["arrhenius"]
     reference: Temperature
@@ -60,7 +63,8 @@ class Relaxing(Settings):
 
 
 class PronyTable(Relaxing):
-    """Young's modulus E(t) = relaxed + sum of ``moduli`` exp(-t/``times``), generalised Maxwell model; without ``relaxed`` a fluid."""
+    """Young's modulus E(t) = relaxed + sum of ``moduli`` exp(-t/``times``), generalised Maxwell
+    model; without ``relaxed`` a fluid."""
 
     kind: Literal["prony"]
     relaxed: RelaxedModulus = setting("0 Pa", help="Young's modulus after all relaxation")
@@ -71,14 +75,15 @@ class PronyTable(Relaxing):
     def _pairs(self) -> PronyTable:
         if len(self.moduli) != len(self.times) or not self.moduli:
             raise InputError(
-                f".times must hold one time for each of moduli, at least one, but there are {len(self.times)} times and "
-                f"{len(self.moduli)} moduli."
+                f".times must hold one time for each of moduli, at least one, but there are {len(self.times)} "
+                f"times and {len(self.moduli)} moduli."
             )
         return self
 
 
 class StandardLinearTable(Relaxing):
-    """Young's modulus from ``instantaneous`` to ``relaxed`` with one relaxation ``time`` (Zener)."""
+    """Young's modulus from ``instantaneous`` to ``relaxed`` with one relaxation ``time``
+    (Zener)."""
 
     kind: Literal["standard_linear"]
     relaxed: Pressure
@@ -95,7 +100,8 @@ class MaxwellTable(Relaxing):
 
 
 class KelvinVoigtTable(Relaxing):
-    """A spring (``relaxed``) and a dashpot side by side, of retardation ``time``; ``instantaneous`` is the first over the relaxed modulus."""
+    """A spring (``relaxed``) and a dashpot side by side, of retardation ``time``; ``instantaneous``
+    is the first over the relaxed modulus."""
 
     kind: Literal["kelvin_voigt"]
     relaxed: Pressure
@@ -104,7 +110,8 @@ class KelvinVoigtTable(Relaxing):
 
 
 class PowerLawTable(Relaxing):
-    """Young's modulus ``coefficient`` (t/s)^-``exponent`` from the ``shortest`` to the ``longest`` time, as a Prony series."""
+    """Young's modulus ``coefficient`` (t/s)^-``exponent`` from the ``shortest`` to the ``longest``
+    time, as a Prony series."""
 
     kind: Literal["power_law"]
     coefficient: Pressure
@@ -114,7 +121,8 @@ class PowerLawTable(Relaxing):
 
 
 class MeasuredTable(Relaxing):
-    """Storage and loss modulus (Young's) against frequency in a text file, fitted by a Prony series."""
+    """Storage and loss modulus (Young's) against frequency in a text file, fitted by a Prony
+    series."""
 
     kind: Literal["measured"]
     moduli_file: NonEmpty = setting(
@@ -134,20 +142,23 @@ SYMBOLS = ("retardation", "power", "shortest", "longest", "moduli", "bulk", "WLF
 
 
 def relaxation_from_symbols(symbols: dict[str, str]) -> dict[str, Any]:
-    """Table of the relaxation for the ``symbols`` of the text of a material, taking away those it uses.
+    """Table of the relaxation for the ``symbols`` of the text of a material, taking away those it
+    uses.
 
     Raises
     ------
     InputError
-        If they do not go together; the message lacks the name of the option or key at its beginning.
+        If they do not go together; the message lacks the name of the option or key at its
+        beginning.
     """
     modulus = symbols.pop("E", None)
     found = {key: symbols.pop(key) for key in SYMBOLS if key in symbols}
     ways = {"retardation", "power", "moduli"} & found.keys() | ({AT} if AT in (modulus or "") else set())
     if len(ways) != 1 or (modulus is None) != ("moduli" in ways):
         raise InputError(
-            " must relax in one way, such as E=3MPa+10MPa@10ms, E=3MPa,retardation=1s, E=2GPa,power=0.1,shortest=1ms,longest=1e4s or "
-            f"moduli=rubber.csv, but gives {' and '.join(sorted(ways)) or 'none'}{'' if modulus else ' without E'}."
+            " must relax in one way, such as E=3MPa+10MPa@10ms, E=3MPa,retardation=1s, "
+            "E=2GPa,power=0.1,shortest=1ms,longest=1e4s or moduli=rubber.csv, but gives "
+            f"{' and '.join(sorted(ways)) or 'none'}{'' if modulus else ' without E'}."
         )
     made = _way(ways.pop(), modulus or "", found)
     bulk = found.pop("bulk", None)

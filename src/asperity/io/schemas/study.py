@@ -14,7 +14,8 @@ DEFAULT_QUANTITIES = ("area_fraction_corrected", "max_pressure", "approach", "me
 """What is collected unless the document asks for something else."""
 
 Value: TypeAlias = str | int | float | tuple[int, int]
-"""One value of an axis: text with a unit where the document has one, a number, or the points of a grid."""
+"""One value of an axis: text with a unit where the document has one, a number, or the points of a
+grid."""
 
 
 def _values(value: object) -> object:
@@ -29,7 +30,8 @@ Values: TypeAlias = Annotated[tuple[Value, ...], BeforeValidator(_values)]
 
 
 class _Range(Settings):
-    """Values: a list, or ``count`` values from ``first`` to ``last``, equally spaced on a ``scale``."""
+    """Values: a list, or ``count`` values from ``first`` to ``last``, equally spaced on a
+    ``scale``."""
 
     values: Values | None = None
     first: str | int | float | None = None
@@ -54,7 +56,8 @@ class _Range(Settings):
 class AxisTable(_Range):
     """One scalar of the problem and its values; scalars named in ``also`` follow it.
 
-    ``also`` gives for each further path as many values, or a number: that many times the value of this axis.
+    ``also`` gives for each further path as many values, or a number: that many times the value of
+    this axis.
     """
 
     path: NonEmpty
@@ -63,10 +66,11 @@ class AxisTable(_Range):
 
 
 class RandomTable(Settings):
-    """One uncertain scalar: ``seed`` (another whole number for every sample), or a distribution of a number.
+    """One uncertain scalar: ``seed`` (another whole number for every sample), or a distribution of
+    a number.
 
-    ``normal`` and ``lognormal`` have ``mean`` and standard ``deviation`` of the value itself, ``uniform`` runs from
-    ``low`` to ``high``.
+    ``normal`` and ``lognormal`` have ``mean`` and standard ``deviation`` of the value itself,
+    ``uniform`` runs from ``low`` to ``high``.
     """
 
     path: NonEmpty
@@ -88,9 +92,11 @@ class RandomTable(Settings):
 
 
 class StopTable(Settings):
-    """Samples end when the confidence interval of the mean of ``quantity`` is narrow enough, everywhere on the other axes.
+    """Samples end when the confidence interval of the mean of ``quantity`` is narrow enough,
+    everywhere on the other axes.
 
-    Exactly one of ``width`` (SI units of the quantity) and ``relative_width``; both are half the interval.
+    Exactly one of ``width`` (SI units of the quantity) and ``relative_width``; both are half the
+    interval.
     """
 
     quantity: NonEmpty
@@ -108,7 +114,8 @@ class StopTable(Settings):
 
 
 class MonteCarloTable(Settings):
-    """Samples of random scalars, all from one ``seed``; at most ``samples``, or fewer where ``stop`` ends them."""
+    """Samples of random scalars, all from one ``seed``; at most ``samples``, or fewer where
+    ``stop`` ends them."""
 
     seed: Seed
     samples: Count
@@ -127,8 +134,8 @@ class MonteCarloTable(Settings):
 class ConvergenceTable(Settings):
     """The same contact at several ``levels``, the coarsest first.
 
-    ``of`` is ``"grid"`` (levels are numbers of points along x), ``"tolerance"`` (of the solver) or ``"domain"`` (factors
-    on size and points at constant pixel).
+    ``of`` is ``"grid"`` (levels are numbers of points along x), ``"tolerance"`` (of the solver) or
+    ``"domain"`` (factors on size and points at constant pixel).
     """
 
     of: Literal["grid", "tolerance", "domain"]
@@ -151,8 +158,8 @@ class ConvergenceTable(Settings):
 class CriticalThicknessTable(_Range):
     """Thicknesses of one layer, between which floor and ceiling are sought.
 
-    ``share`` is how far a quantity may be from that without the layer (floor) or without what lies below (ceiling), as a
-    share of the difference of both (Peng 2001, eq. 4.1).
+    ``share`` is how far a quantity may be from that without the layer (floor) or without what lies
+    below (ceiling), as a share of the difference of both (Peng 2001, eq. 4.1).
     """
 
     layer: NonEmpty = "body.layers.0"
@@ -160,7 +167,8 @@ class CriticalThicknessTable(_Range):
 
 
 class ParameterTable(Settings):
-    """One scalar that is varied on its own: from ``low`` to ``high``, or by a ``change``, a share of its value."""
+    """One scalar that is varied on its own: from ``low`` to ``high``, or by a ``change``, a share
+    of its value."""
 
     path: NonEmpty
     low: str | int | float | None = None
@@ -181,7 +189,8 @@ def _parameters(value: object) -> object:
 
 
 class SensitivityTable(Settings):
-    """Every one of the ``parameters`` varied on its own, by the share ``change`` unless it gives its own range."""
+    """Every one of the ``parameters`` varied on its own, by the share ``change`` unless it gives
+    its own range."""
 
     parameters: Annotated[tuple[ParameterTable, ...], BeforeValidator(_parameters)]
     change: Fraction = 0.05
@@ -198,10 +207,11 @@ KINDS = ("monte_carlo", "convergence", "critical_thickness", "sensitivity")
 
 
 class StudyDocument(Settings):
-    """A study, as text: the ``problem`` (a table, or the path of a problem document), axes, and a kind.
+    """A study, as text: the ``problem`` (a table, or the path of a problem document), axes, and a
+    kind.
 
-    ``combine`` is ``"grid"`` for all combinations of the axes or ``"list"`` for their first values together, their
-    second, and so on.
+    ``combine`` is ``"grid"`` for all combinations of the axes or ``"list"`` for their first values
+    together, their second, and so on.
     """
 
     version: Literal[1]

@@ -1,4 +1,5 @@
-"""Where a surface comes from, a file or a declared function of ``asperity.generate``, and the steps that prepare it."""
+"""Where a surface comes from, a file or a declared function of ``asperity.generate``, and the steps
+that prepare it."""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ from ...surfaces.prepare.filter import filtered, tip_limited
 from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, filled, levelled, line_corrected
 from ...surfaces.surface import Surface
 
-# Steps of preparation: the table of a step has the parameters of its function, which ``prepared`` calls.
+# Steps of preparation: the table of a step has the parameters of its function, which ``prepared``
+# calls.
 
 
 @checked
@@ -53,7 +55,8 @@ def filter_waves(
     kind: Annotated[Literal["gaussian", "robust", "sharp"], "kind of filter"] = "gaussian",
     order: Annotated[Literal[0, 1, 2], "of the polynomial fitted around each node"] = 0,
 ) -> Surface:
-    """Remove the waves shorter than ``short`` and longer than ``long``; ``short_y``, ``long_y`` where y differs from x."""
+    """Remove the waves shorter than ``short`` and longer than ``long``; ``short_y``, ``long_y``
+    where y differs from x."""
     cutoffs = {"short": (short, short_y), "long": (long, long_y)}
     pairs = {name: (x, x if y is None else y) for name, (x, y) in cutoffs.items() if x is not None}
     return filtered(surface, short=pairs.get("short"), long=pairs.get("long"), kind=kind, order=order)
@@ -157,9 +160,11 @@ HeightUnit: TypeAlias = Annotated[str, _LengthUnit()]
 
 
 class Place(Settings):
-    """Where a counter surface lies: ``shift`` of its middle from that of the surface, ``angle`` from +x towards +y.
+    """Where a counter surface lies: ``shift`` of its middle from that of the surface, ``angle``
+    from +x towards +y.
 
-    Both surfaces are resampled on one grid that covers their overlap, with the finer pixel or the given one.
+    Both surfaces are resampled on one grid that covers their overlap, with the finer pixel or the
+    given one.
     """
 
     shift: tuple[SignedLength, SignedLength] | None = setting(
@@ -174,10 +179,12 @@ class Place(Settings):
 
 
 class AnySurface(Settings):
-    """What all surfaces have: preparation steps, and for a counter surface how it is turned over and where it lies.
+    """What all surfaces have: preparation steps, and for a counter surface how it is turned over
+    and where it lies.
 
-    ``mirror`` is ``"x"`` or ``"y"`` for a map measured facing its own body, and ``"none"`` for one that is already
-    in the lateral frame of the other surface. With ``place`` the two need not have the same grid.
+    ``mirror`` is ``"x"`` or ``"y"`` for a map measured facing its own body, and ``"none"`` for one
+    that is already in the lateral frame of the other surface. With ``place`` the two need not have
+    the same grid.
     """
 
     prepare: tuple[Step, ...] = ()
@@ -230,7 +237,8 @@ def tabulated(
     wavelengths: Annotated[tuple[Length, ...], "wavelengths of a table, descending, with commas between"],
     psd: Annotated[tuple[Psd, ...], "spectrum C at the wavelengths of a table, with commas between"],
 ) -> spectra.TabulatedSpectrum:
-    """Isotropic spectrum C at some ``wavelengths``, in descending order; straight in between on logarithmic scales."""
+    """Isotropic spectrum C at some ``wavelengths``, in descending order; straight in between on
+    logarithmic scales."""
     return spectra.TabulatedSpectrum([2.0 * math.pi / length for length in wavelengths], psd)
 
 

@@ -24,19 +24,24 @@ from .solver.soft_core import SoftCoreNewton
 from .solver.solver import MajoriseMinimise
 
 RESOLVED, RESOLVED_ZONE = 5.0, 6.0
-"""Least pixels in the cohesive length, and in the radius of a contact spot with its zone, for a pull-off to 1e-2 of a law that falls over its range."""
+"""Least pixels in the cohesive length, and in the radius of a contact spot with its zone, for a
+pull-off to 1e-2 of a law that falls over its range."""
 
 FALL = 2.0
-"""Pixels over the share of the range in which a law falls that both must have for that: below it the front of the zone advances pixel by pixel."""
+"""Pixels over the share of the range in which a law falls that both must have for that: below it
+the front of the zone advances pixel by pixel."""
 
 STEP, STEP_RADIUS = 75.0, 50.0
-"""Pixels from which on even a step holds 1e-2: its error is 0.7 pixels over the cohesive length, half a pixel over the radius of the zone."""
+"""Pixels from which on even a step holds 1e-2: its error is 0.7 pixels over the cohesive length,
+half a pixel over the radius of the zone."""
 
 RESOLVED_RADIUS = 20.0
-"""Pixels in the radius of a contact spot from which on the pull-off without a range is right to 8 %; its error is of first order."""
+"""Pixels in the radius of a contact spot from which on the pull-off without a range is right to
+8 %; its error is of first order."""
 
 PINNED = 1.0
-"""Pixels in the cohesive length below which single pixels snap (1.122 Δx max|σ'| > E*), and the hysteresis is one of the grid."""
+"""Pixels in the cohesive length below which single pixels snap (1.122 Δx max|σ'| > E*), and the
+hysteresis is one of the grid."""
 
 
 TABLE = (
@@ -74,16 +79,19 @@ class AdhesiveContact(Answer, Shown):
     elastic_energy
         Half of net traction times displacement in J.
     margin
-        1 - ρ, ρ being the largest eigenvalue of |σ'|^½ (K/C) |σ'|^½ on the free points: its sign is that of the smallest
-        eigenvalue of the Hessian of the energy there. Positive: the contact is a minimum at what is prescribed.
-        Of an attraction without range 1 less the energy that the most strained point would release over w.
+        1 - ρ, ρ being the largest eigenvalue of |σ'|^½ (K/C) |σ'|^½ on the free points: its sign is
+        that of the smallest eigenvalue of the Hessian of the energy there. Positive: the contact is
+        a minimum at what is prescribed. Of an attraction without range 1 less the energy that the
+        most strained point would release over w.
     cohesive_length
         ℓ = E* w/σ0² in m.
     pixel
         Larger spacing of the grid in m.
     dissipated
-        Energy in J that was lost in this step, the work of the force between the solids less the change of the energy. Elastic bodies lose none without
-        a jump, for on a branch the work is that change; where they jump, or something else takes energy, the work is by the trapezoidal rule.
+        Energy in J that was lost in this step, the work of the force between the solids less the
+        change of the energy. Elastic bodies lose none without a jump, for on a branch the work is
+        that change; where they jump, or something else takes energy, the work is by the trapezoidal
+        rule.
     jumped
         Whether that is the loss of a jump.
     jumps
@@ -93,18 +101,22 @@ class AdhesiveContact(Answer, Shown):
     residual
         Largest difference of attraction and σ(gap) over σ0.
     energies
-        Energy in J after every step of the solver; none is larger than the one before, but without range.
+        Energy in J after every step of the solver; none is larger than the one before, but without
+        range.
     steps, newton_steps, fft_pairs
         Work of the adhesive solver in this step.
     status
         How it ended.
     spot_radius
-        Radius in m of a disc as large as the mean contact spot, of a line half the mean width; zero without contact.
+        Radius in m of a disc as large as the mean contact spot, of a line half the mean width; zero
+        without contact.
     dissipated_error
-        Bound of the error of ``dissipated`` in J: of the rule half of |ΔF Δδ|, that of a force anywhere between those before and after; without a
-        jump what the rule misses, in which a smaller jump may hide.
+        Bound of the error of ``dissipated`` in J: of the rule half of |ΔF Δδ|, that of a force
+        anywhere between those before and after; without a jump what the rule misses, in which a
+        smaller jump may hide.
     zone_radius
-        The same as ``spot_radius`` of spots with the zone that attracts around them, each weighted by its area.
+        The same as ``spot_radius`` of spots with the zone that attracts around them, each weighted
+        by its area.
     """
 
     law: Adhesion = given()
@@ -159,7 +171,8 @@ class AdhesiveContact(Answer, Shown):
         return self.attractive_force
 
     def outside(self, force: float, *, alone: bool) -> float:
-        """The external force, which is known to the last digit; ``force`` is that of the contact."""
+        """The external force, which is known to the last digit; ``force`` is that of the
+        contact."""
         return self.external_force
 
     def held_at(self) -> float:
@@ -194,7 +207,8 @@ class AdhesiveContact(Answer, Shown):
         return {"law": problem.adhesion}
 
     def memory(self, gap: RealArray, approach: float) -> Memory:
-        """What the next step starts from, with the ``gap`` (nx, ny) in m and the ``approach`` in m of this one."""
+        """What the next step starts from, with the ``gap`` (nx, ny) in m and the ``approach`` in m
+        of this one."""
         return {"gap": gap, **self.remembered(approach)}
 
     def remembered(self, approach: float) -> Memory:
@@ -210,17 +224,20 @@ class AdhesiveContact(Answer, Shown):
 
     @property
     def resolving_length(self) -> float:
-        """Length in m that the grid must resolve: ℓ, or of an attraction without range the radius of a contact spot."""
+        """Length in m that the grid must resolve: ℓ, or of an attraction without range the radius
+        of a contact spot."""
         return self.spot_radius if self.short_range else self.cohesive_length
 
     @property
     def pixels_needed(self) -> float:
-        """Pixels that ``resolving_length`` must span: for a pull-off to 1e-2, without a range to 8 %."""
+        """Pixels that ``resolving_length`` must span: for a pull-off to 1e-2, without a range to
+        8 %."""
         return RESOLVED_RADIUS if self.short_range else pixels_in_length(self.law)
 
     @property
     def radius_needed(self) -> float:
-        """Pixels that the radius of spots with their zone must span for the same; zero without a range."""
+        """Pixels that the radius of spots with their zone must span for the same; zero without a
+        range."""
         return 0.0 if self.short_range else pixels_in_length(self.law, RESOLVED_ZONE, STEP_RADIUS)
 
     @property
@@ -235,7 +252,8 @@ class AdhesiveContact(Answer, Shown):
 
     @property
     def resolved(self) -> bool:
-        """Whether the grid resolves both; also where nothing touches without a range, or nothing attracts with one."""
+        """Whether the grid resolves both; also where nothing touches without a range, or nothing
+        attracts with one."""
         if self.short_range and self.spot_radius == 0.0:
             return True
         return self.pixels_per_length >= self.pixels_needed and self.pixels_per_radius >= self.radius_needed
@@ -255,8 +273,8 @@ class AdhesiveContact(Answer, Shown):
 
 
 def pixels_in_length(law: Adhesion, least: float = RESOLVED, most: float = STEP) -> float:
-    """Pixels that the cohesive length of a ``law`` with a range must span, of those of a gentle fall and of a step: ``FALL`` over the share of the range in
-    which it falls."""
+    """Pixels that the cohesive length of a ``law`` with a range must span, of those of a gentle
+    fall and of a step: ``FALL`` over the share of the range in which it falls."""
     return min(max(least, FALL * law.steepest * law.range / law.strength), most)
 
 

@@ -1,10 +1,13 @@
-"""A rigorous lower bound of the energy of an adhesive contact, by a convex problem that lies below it.
+"""A rigorous lower bound of the energy of an adhesive contact, by a convex problem that lies below
+it.
 
-The energy Π = ½ u·K⁻¹u + Σ φ(g), g = d + u - h >= 0, is not convex: a contact that is found may be one minimum of several. Every contact
-whose energy is not above that found has displacements within ±U, for u_i² <= K_ii u·K⁻¹u, K_ii the compliance of one point. There its gaps lie
-between L_i and G_i, and φ, which is concave, above its chord. With the chords in place of φ the problem is a contact with a hard wall under a
-fixed pull, whose dual gives a bound from below for any pressure p: Π >= dual + ½ (u - u_p)·K⁻¹(u - u_p), u_p = K (p - pull). That in turn bounds the
-distance from u_p, and with it the gaps. No contact at this approach has less energy.
+The energy Π = ½ u·K⁻¹u + Σ φ(g), g = d + u - h >= 0, is not convex: a contact that is found may be
+one minimum of several. Every contact whose energy is not above that found has displacements within
+±U, for u_i² <= K_ii u·K⁻¹u, K_ii the compliance of one point. There its gaps lie between L_i and
+G_i, and φ, which is concave, above its chord. With the chords in place of φ the problem is a
+contact with a hard wall under a fixed pull, whose dual gives a bound from below for any pressure p:
+Π >= dual + ½ (u - u_p)·K⁻¹(u - u_p), u_p = K (p - pull). That in turn bounds the distance from u_p,
+and with it the gaps. No contact at this approach has less energy.
 """
 
 from __future__ import annotations
@@ -43,7 +46,8 @@ class EnergyBound:
     available
         Work of adhesion times nominal area, by which the two are made comparable.
     displacement
-        Largest difference in m of the displacements of a contact with no more energy from those of the convex problem.
+        Largest difference in m of the displacements of a contact with no more energy from those of
+        the convex problem.
     """
 
     energy: float
@@ -53,7 +57,8 @@ class EnergyBound:
 
     @property
     def gap(self) -> float:
-        """Energy by which another contact might at most be lower, over the work of adhesion times nominal area."""
+        """Energy by which another contact might at most be lower, over the work of adhesion times
+        nominal area."""
         return (self.energy - self.lower) / self.available
 
 
@@ -72,16 +77,19 @@ def energy_bound(result: ContactResult, *, rounds: int = 8, operator: Operator |
     Raises
     ------
     InputError
-        If there is no adhesion, or a hardness, film or friction beside it, or its law has a core: the energy is then another.
+        If there is no adhesion, or a hardness, film or friction beside it, or its law has a core:
+        the energy is then another.
     """
     problem, law = result.problem, result.require_adhesion().law
     if not isinstance(problem.law, HardWall) or len(problem.physics) > 1:
         raise InputError(
-            "problem of a bound of the energy must have adhesion alone, but has a hardness, a film of liquid or friction beside it. Leave them out."
+            "problem of a bound of the energy must have adhesion alone, but has a hardness, a film of liquid "
+            "or friction beside it. Leave them out."
         )
     if law.spacing > 0.0:
         raise InputError(
-            f"adhesion of a bound of the energy must be a law beside a hard wall, but {law.name} has a core that repels. Use "
+            f"adhesion of a bound of the energy must be a law beside a hard wall, but {law.name} has a core "
+            "that repels. Use "
             "another law ({gentle_law}) of the same work and strength.",
             subject="adhesion",
         )

@@ -1,4 +1,5 @@
-"""Adhesive contacts between the steps of a history: branches through their folds, stable or not, and where jumps begin."""
+"""Adhesive contacts between the steps of a history: branches through their folds, stable or not,
+and where jumps begin."""
 
 from __future__ import annotations
 
@@ -46,10 +47,12 @@ class AdhesiveBranch:
     approach, force
         Approach of the bodies (m) and external force (N, negative pulls).
     turn
-        Change of the offset of the bodies per length: zero at a fold, negative where the approach grows along the branch.
+        Change of the offset of the bodies per length: zero at a fold, negative where the approach
+        grows along the branch.
     margin
-        1 less the largest eigenvalue of the response of the free points to the attraction: its sign is that of the smallest eigenvalue of the
-        Hessian of the energy at a given approach, negative where rigid grips cannot hold the contact.
+        1 less the largest eigenvalue of the response of the free points to the attraction: its sign
+        is that of the smallest eigenvalue of the Hessian of the energy at a given approach,
+        negative where rigid grips cannot hold the contact.
     energy
         Elastic energy and that of the interface in J.
     contact_fraction
@@ -57,7 +60,8 @@ class AdhesiveBranch:
     fft_pairs
         Work in FFT pairs of the size of the grid.
     needed_pixel
-        Largest pixel in m with which branches can be followed for sure; above it single points snap, and folds are those of the grid.
+        Largest pixel in m with which branches can be followed for sure; above it single points
+        snap, and folds are those of the grid.
     """
 
     length: RealArray
@@ -77,15 +81,18 @@ class AdhesiveBranch:
 
     @property
     def stiffness(self) -> RealArray:
-        """dF/dδ in N/m by differences along the branch, negative where a dead load cannot hold the contact, or rigid grips cannot."""
+        """dF/dδ in N/m by differences along the branch, negative where a dead load cannot hold the
+        contact, or rigid grips cannot."""
         return np.asarray(np.gradient(self.force, self.length) / np.gradient(self.approach, self.length))
 
     @cached_property
     def folds(self) -> tuple[Fold, ...]:
-        """Folds in the order of the branch, by the cubic through two points and their slopes; forces by the cubic through four."""
+        """Folds in the order of the branch, by the cubic through two points and their slopes;
+        forces by the cubic through four."""
         found = []
         for k in np.flatnonzero(np.sign(self.turn[:-1]) * np.sign(self.turn[1:]) < 0.0):
-            # the cubic of both approaches, whose slopes are as the turns, negative; where it is stationary
+            # the cubic of both approaches, whose slopes are as the turns, negative; where it is
+            # stationary
             length, turn, approach = (values[k : k + 2] for values in (self.length, self.turn, self.approach))
             step, rise = float(length[1] - length[0]), float(approach[1] - approach[0])
             share = float(turn[0] / (turn[0] - turn[1]))
@@ -102,7 +109,8 @@ class AdhesiveBranch:
 
     @property
     def pull_off_force(self) -> float:
-        """Largest tensile force in N along the branch, by the parabola through three points; zero where none was met."""
+        """Largest tensile force in N along the branch, by the parabola through three points; zero
+        where none was met."""
         k = int(np.argmin(self.force))
         if k in (0, self.force.size - 1):
             return max(-float(self.force[k]), 0.0)
@@ -119,7 +127,8 @@ def adhesive_branch(
     points: int = 200,
     step: float = 0.25,
 ) -> AdhesiveBranch:
-    """Follow the branch that an adhesive contact lies on, through folds, by pseudo-arclength continuation (Keller 1977, Feng 2000).
+    """Follow the branch that an adhesive contact lies on, through folds, by pseudo-arclength
+    continuation (Keller 1977, Feng 2000).
 
     Parameters
     ----------
@@ -132,25 +141,28 @@ def adhesive_branch(
     points
         Number of points at most, >= 2.
     step
-        Length of a step over the range of the attraction, > 0. Halved where Newton's method does not follow.
+        Length of a step over the range of the attraction, > 0. Halved where Newton's method does
+        not follow.
 
     Raises
     ------
     InputError
-        If the problem has no adhesion, or a hardness, film or friction beside it; or its law no range (JKR) or a step (Dugdale without
-        smoothing); or a number is out of range.
+        If the problem has no adhesion, or a hardness, film or friction beside it; or its law no
+        range (JKR) or a step (Dugdale without smoothing); or a number is out of range.
     NoSolutionError
-        If the contact is no equilibrium, or the branch cannot be followed; the message names the pixel needed where that is the reason.
+        If the contact is no equilibrium, or the branch cannot be followed; the message names the
+        pixel needed where that is the reason.
     """
     problem, law = result.problem, result.require_adhesion().law
     if not isinstance(problem.law, HardWall) or len(problem.physics) > 1:
         raise InputError(
-            "problem of a branch must have adhesion alone, but has a hardness, a film of liquid or friction beside it. Leave them out, or "
-            "follow a history of {grips}."
+            "problem of a branch must have adhesion alone, but has a hardness, a film of liquid or friction "
+            "beside it. Leave them out, or follow a history of {grips}."
         )
     if math.isinf(law.steepest):
         raise InputError(
-            f"adhesion of a branch must change smoothly with the gap, but {law.name} has a step. Use a smooth one, such as "
+            f"adhesion of a branch must change smoothly with the gap, but {law.name} has a step. Use a smooth "
+            "one, such as "
             "{gentle_law}.",
             subject="adhesion",
         )
@@ -158,7 +170,8 @@ def adhesive_branch(
     require.integer(points, 2, "number of points of a branch")
     if not farthest < result.approach < deepest:
         raise InputError(
-            f"approach of the contact must be between the farthest {farthest:g} m and the deepest {deepest:g} m, but is {result.approach:g} m."
+            f"approach of the contact must be between the farthest {farthest:g} m and the deepest {deepest:g} "
+            f"m, but is {result.approach:g} m."
         )
     operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
     profile, pixel = problem.profile(), operator.grid.pixel_area
@@ -220,9 +233,11 @@ class Jump:
 
 
 def adhesive_jumps(history: HistoryResult, tolerance: float) -> tuple[Jump, ...]:
-    """Jumps of a history of grips, each closed in to a ``tolerance`` (m, > 0) of the approach of the grips.
+    """Jumps of a history of grips, each closed in to a ``tolerance`` (m, > 0) of the approach of
+    the grips.
 
-    The interval of the step is halved, every time from the contact before it; about ten further solves for a thousandth of a step.
+    The interval of the step is halved, every time from the contact before it; about ten further
+    solves for a thousandth of a step.
 
     Raises
     ------

@@ -1,8 +1,10 @@
-"""Adhesion as a coupling: the surfaces attract each other where they do not touch, and the attraction bends them together.
+"""Adhesion as a coupling: the surfaces attract each other where they do not touch, and the
+attraction bends them together.
 
-Its unknown is the attraction (nx, ny). The normal problem takes it as a fixed pull: a lift -Kσ and the load Σσ. Its own solver
-(``adhesion.solver``) finds both together, nearest downhill from the attraction of the step before, so that a history follows its
-branch until that ends; the normal solve of the next round confirms the contact, and other couplings see it.
+Its unknown is the attraction (nx, ny). The normal problem takes it as a fixed pull: a lift -Kσ and
+the load Σσ. Its own solver (``adhesion.solver``) finds both together, nearest downhill from the
+attraction of the step before, so that a history follows its branch until that ends; the normal
+solve of the next round confirms the contact, and other couplings see it.
 """
 
 from __future__ import annotations
@@ -36,16 +38,19 @@ TOLERANCE = 1e-5
 """Change of the attraction over its largest value that does not count."""
 
 _FINAL = 1e-13
-"""Error of the last normal solve: the attraction changes with the gap, whose error goes with its root."""
+"""Error of the last normal solve: the attraction changes with the gap, whose error goes with its
+root."""
 
 _JUMP = 0.25
-"""Share of |ΔF Δδ| above which energy that is lost in a step is that of a jump: a smooth branch loses none to second order."""
+"""Share of |ΔF Δδ| above which energy that is lost in a step is that of a jump: a smooth branch
+loses none to second order."""
 
 _FAR = 2.0
 """Change of the gap over that of the approach above which it is no smooth response."""
 
 _JUMPED_SHARE = 0.2
-"""Share of the contact that has to open or close in a step to count as a jump where the attraction has no range."""
+"""Share of the contact that has to open or close in a step to count as a jump where the attraction
+has no range."""
 
 _TRIES = 8
 """Solutions in a row that do not converge after which no further one is sought."""
@@ -56,7 +61,8 @@ _POSITION_ERROR = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class _Before:
-    """Energy (J), external force (N), approach (m), gap (nx, ny) in m, jumps and energy lost (J) so far; NaN before a first step."""
+    """Energy (J), external force (N), approach (m), gap (nx, ny) in m, jumps and energy lost (J) so
+    far; NaN before a first step."""
 
     energy: float = math.nan
     force: float = math.nan
@@ -68,7 +74,8 @@ class _Before:
 
 @dataclass(frozen=True, eq=False)
 class _Note:
-    """The step's beginning, the profile (nx, ny) in m and problem of the last solution, and that; how often in a row it did not converge."""
+    """The step's beginning, the profile (nx, ny) in m and problem of the last solution, and that;
+    how often in a row it did not converge."""
 
     posed: Posed
     before: _Before
@@ -79,7 +86,8 @@ class _Note:
 
 
 class MachineOperator(SummedOperator):
-    """Operator of the ``bodies``, whatever it is made of, with a testing machine of ``stiffness`` (N/m) in series: each pixel moves all of it."""
+    """Operator of the ``bodies``, whatever it is made of, with a testing machine of ``stiffness``
+    (N/m) in series: each pixel moves all of it."""
 
     def __init__(self, bodies: Operator, stiffness: float) -> None:
         kernel = np.array(bodies.kernel)
@@ -99,9 +107,11 @@ class MachineOperator(SummedOperator):
 
 @dataclass(frozen=True, eq=False)
 class AdhesionCoupling(Coupling):
-    """Attraction of the surfaces; the unknown is the attraction (nx, ny) in Pa that the contact is posed with.
+    """Attraction of the surfaces; the unknown is the attraction (nx, ny) in Pa that the contact is
+    posed with.
 
-    ``conserves``: nothing but jumps takes energy, neither yielding nor shear nor points of an edge without range.
+    ``conserves``: nothing but jumps takes energy, neither yielding nor shear nor points of an edge
+    without range.
     """
 
     law: Adhesion
@@ -168,7 +178,8 @@ class AdhesionCoupling(Coupling):
         pull: RealArray,
         pressure: RealArray | None,
     ) -> AdhesiveSolution:
-        """Equilibrium under the ``mean`` external pressure, or at the position prescribed where that is None."""
+        """Equilibrium under the ``mean`` external pressure, or at the position prescribed where
+        that is None."""
         if mean is not None:
             return self.solver.solve(
                 AdhesiveProblem(self.operator, profile, self.law, FixedMean(mean), cap), pull, pressure
@@ -191,7 +202,8 @@ class AdhesionCoupling(Coupling):
                 places.append((offset, miss))
                 offset -= miss / max(slope, 0.1)
             raise NoSolutionError(
-                f"mean gap must be one that the contact reaches without a jump, but {control.value:.6g} m is not. Prescribe {{grips}}.",
+                f"mean gap must be one that the contact reaches without a jump, but {control.value:.6g} m is "
+                f"not. Prescribe {{grips}}.",
                 subject="mean gap",
             )
         stiffness = control.stiffness if isinstance(control, FixedGrips) else math.inf
@@ -200,8 +212,9 @@ class AdhesionCoupling(Coupling):
         if operator.zero_mean_mode and offset <= float(profile.mean()):
             most = float(profile.max() - profile.mean())
             raise NoSolutionError(
-                f"approach must be less than {most:.6g} m, where a periodic elastic contact is full and its mean gap zero, but is "
-                f"{float(profile.max()) - offset:.6g} m. Prescribe {{mean_pressure}} to go beyond full contact.",
+                f"approach must be less than {most:.6g} m, where a periodic elastic contact is full and its "
+                f"mean gap zero, but is {float(profile.max()) - offset:.6g} m. Prescribe {{mean_pressure}} to "
+                "go beyond full contact.",
                 subject="approach",
             )
         solution = self.solver.solve(
@@ -216,7 +229,8 @@ class AdhesionCoupling(Coupling):
         return replace(solution, state=bodies)
 
     def share(self, exchange: Exchange) -> Share:
-        """The attraction as a lift and a load; the load between the solids that the position came to."""
+        """The attraction as a lift and a load; the load between the solids that the position came
+        to."""
         grid, note = self.operator.grid, exchange.note
         constraint: FixedMean | FixedOffset | None = None
         if note.posed.external_force is None:
@@ -227,11 +241,13 @@ class AdhesionCoupling(Coupling):
         return Share(load=load, lift=lift, constraint=constraint, attraction=exchange.x)
 
     def _core(self, state: Adhered) -> RealArray | float:
-        """Gap (nx, ny) in m of the ``state`` up to that of the largest attraction, from which on points touch; none at a wall."""
+        """Gap (nx, ny) in m of the ``state`` up to that of the largest attraction, from which on
+        points touch; none at a wall."""
         return np.minimum(state.gap, self.law.peak) if isinstance(self.law, SoftAdhesion) and self.law.spacing else 0.0
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
-        """The attraction of the gap of ``contact``; solved anew where other couplings have moved it."""
+        """The attraction of the gap of ``contact``; solved anew where other couplings have moved
+        it."""
         note: _Note = exchange.note
         pressure = np.asarray(contact.pressure, dtype=float)
         core = self._core(note.solution.state)
@@ -241,7 +257,8 @@ class AdhesionCoupling(Coupling):
         mean = None if force is None else force / self.operator.grid.area
         if mean is not None and isinstance(contact.qp.constraint, FixedMean):
             mean = contact.qp.constraint.mean_pressure - float(exchange.x.mean())
-        # where the last solution is of this profile and load already only the normal solve is to be more accurate
+        # where the last solution is of this profile and load already only the normal solve is to be
+        # more accurate
         moved = float(np.abs(base - note.base).max())
         same_profile = contact.qp.elastic and moved <= 1e-12 * max(float(np.ptp(base)), self.law.range)
         same_load = mean is note.mean
@@ -262,7 +279,8 @@ class AdhesionCoupling(Coupling):
         return "The attraction is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
-        """The change of the attraction, and the pixel that it needs where the grid does not resolve it."""
+        """The change of the attraction, and the pixel that it needs where the grid does not resolve
+        it."""
         length, pixel = cohesive_length(self.law, self.E_star), max(self.operator.grid.pixels)
         text = f"The attraction still changes by {exchange.residual:.1e} of its largest value"
         if length == 0.0 or pixel <= (least := length / pixels_in_length(self.law)):
@@ -329,7 +347,8 @@ class AdhesionCoupling(Coupling):
         return found.memory(gap, approach), found
 
     def _radius(self, inside: BoolArray, *, weighted: bool = False) -> float:
-        """Radius in m of the mean spot of the points ``inside``, of the mean ``weighted`` by area if asked for."""
+        """Radius in m of the mean spot of the points ``inside``, of the mean ``weighted`` by area
+        if asked for."""
         grid = self.operator.grid
         spots = measure.contact_spots(inside, wraps=self.operator.boundary.wraps)
         if not spots.size:
@@ -341,7 +360,8 @@ class AdhesionCoupling(Coupling):
         return math.sqrt(area / math.pi)
 
     def end_in_time(self, exchange: Exchange, contact: Contact, ended: Ended, stored: float, heat: float) -> Ended:
-        """Memory and outcome of a step of time. What is lost is neither stored nor heat of the bodies: a jump, or the error of the trapezium."""
+        """Memory and outcome of a step of time. What is lost is neither stored nor heat of the
+        bodies: a jump, or the error of the trapezium."""
         found, before = ended[1], exchange.note.before
         assert isinstance(found, AdhesiveContact)
         approach = exchange.note.posed.top + contact.level
@@ -360,10 +380,11 @@ class AdhesionCoupling(Coupling):
 
 
 def _lost(before: _Before, force: float, approach: float, energy: float, gap: RealArray) -> tuple[float, float, bool]:
-    """Energy (J) lost since the step before by the trapezoidal rule, its error, and whether in a jump: more than the rule misses on a smooth branch.
+    """Energy (J) lost since the step before by the trapezoidal rule, its error, and whether in a
+    jump: more than the rule misses on a smooth branch.
 
-    A smooth branch loses nothing to second order, and its gap changes about as much as the approach. Where the rule finds energy made, which no step
-    does, that is its error.
+    A smooth branch loses nothing to second order, and its gap changes about as much as the
+    approach. Where the rule finds energy made, which no step does, that is its error.
     """
     if math.isnan(before.energy):
         return 0.0, 0.0, False

@@ -1,4 +1,5 @@
-"""Figures of adhesion: where the surfaces touch and attract, net traction, and the loop of force and approach."""
+"""Figures of adhesion: where the surfaces touch and attract, net traction, and the loop of force
+and approach."""
 
 from __future__ import annotations
 
@@ -21,14 +22,16 @@ CLASSES = (("apart", NO_CONTACT), ("attracts", ORANGE), ("touches", BLUE))
 
 
 def adhesion_kinds(result: ContactResult) -> Kinds:
-    """Where the surfaces of ``result`` touch, and where they attract within the range; InputError if it has no adhesion."""
+    """Where the surfaces of ``result`` touch, and where they attract within the range; InputError
+    if it has no adhesion."""
     law = result.require_adhesion().law
     kinds = np.where(result.contact, 2.0, np.where(result.gap < law.range, 1.0, 0.0))
     return Kinds(kinds, result.problem.grid, CLASSES)
 
 
 def plot_adhesion(result: ContactResult, ax: Axes) -> Axes:
-    """Draw on ``ax`` where the surfaces of ``result`` touch, and where they attract within the range."""
+    """Draw on ``ax`` where the surfaces of ``result`` touch, and where they attract within the
+    range."""
     return plot_map(adhesion_kinds(result), ax)
 
 
@@ -47,7 +50,8 @@ def plot_traction_section(result: ContactResult, ax: Axes) -> Axes:
 
 
 def plot_adhesion_loop(history: HistoryResult, ax: Axes) -> Axes:
-    """Draw the external force of ``history`` against the approach on ``ax``: the way there, the way back, jumps and pull-off."""
+    """Draw the external force of ``history`` against the approach on ``ax``: the way there, the way
+    back, jumps and pull-off."""
     loop = adhesion_loop(history.steps)
     in_m, in_n = scale(loop.approach, "m"), scale(loop.force, "N")
     x, y = in_m(loop.approach), in_n(loop.force)
@@ -67,7 +71,8 @@ def plot_adhesion_loop(history: HistoryResult, ax: Axes) -> Axes:
 
 
 def plot_branch(values: Mapping[str, Any], ax: Axes) -> Axes:
-    """Draw on ``ax`` the external force along a branch, ``branch_force`` (N) of ``values``, against ``branch_approach`` (m)."""
+    """Draw on ``ax`` the external force along a branch, ``branch_force`` (N) of ``values``, against
+    ``branch_approach`` (m)."""
     approach, force = np.asarray(values["branch_approach"]), np.asarray(values["branch_force"])
     stable = np.asarray(values["branch_margin"]) > 0.0
     in_m, in_n = scale(approach, "m"), scale(force, "N")
@@ -88,7 +93,8 @@ ADHESION_PLOTS = (
     Plot(
         "adhesive_zone",
         "Adhesive zone",
-        "Where the surfaces touch, and where they attract without touching, within the range of the adhesion; shares of the nominal area.",
+        "Where the surfaces touch, and where they attract without touching, within the range of the adhesion; "
+        "shares of the nominal area.",
         plot_adhesion,
         "map",
         shows=adhesion_kinds,
@@ -105,7 +111,8 @@ ADHESION_PLOTS = (
 ADHESION_LOOP = Plot(
     "adhesion_loop",
     "Force against approach",
-    "External force against the approach of the bodies; a tensile force is negative. Jumps lose energy, and with the loop they make the hysteresis.",
+    "External force against the approach of the bodies; a tensile force is negative. Jumps lose energy, and "
+    "with the loop they make the hysteresis.",
     plot_adhesion_loop,
 )
 """Figure of a history with adhesion."""
@@ -113,7 +120,8 @@ ADHESION_LOOP = Plot(
 BRANCH_PLOT = Plot(
     "adhesive_branch",
     "Branch between the jumps",
-    "External force along the branch from the deepest contact on. Where grips cannot hold the contact, the smallest eigenvalue of its energy is negative; they jump at the folds.",
+    "External force along the branch from the deepest contact on. Where grips cannot hold the contact, the "
+    "smallest eigenvalue of its energy is negative; they jump at the folds.",
     plot_branch,
 )
 """Figure of the values of a branch."""

@@ -14,20 +14,23 @@ from ...core.arrays import RealArray
 
 @dataclass(frozen=True)
 class JKRAdhesion:
-    """Surfaces that gain the energy w per area where they touch, and do not attract where they are apart (Johnson, Kendall & Roberts 1971).
+    """Surfaces that gain the energy w per area where they touch, and do not attract where they are
+    apart (Johnson, Kendall & Roberts 1971).
 
-    The edge of a contact is a crack: it recedes where it would release more than w, by Griffith's criterion, and closes where it would
-    release less. On a grid a point comes loose at the tension sqrt(2w/s), s the compliance of a point at a step of the edge, which
-    ``adhesion.solver.front`` finds from the discrete operator (after Pohrt & Popov 2015): the tension grows as the grid is refined, the
-    energy does not.
+    The edge of a contact is a crack: it recedes where it would release more than w, by Griffith's
+    criterion, and closes where it would release less. On a grid a point comes loose at the tension
+    sqrt(2w/s), s the compliance of a point at a step of the edge, which ``adhesion.solver.front``
+    finds from the discrete operator (after Pohrt & Popov 2015): the tension grows as the grid is
+    refined, the energy does not.
 
     Parameters
     ----------
     work
         Work of adhesion w in J/m², > 0.
     closes
-        Whether the edge also closes by itself. If not, contact grows by touching alone, as on a first approach of surfaces that hold
-        only what has been pressed together (Pohrt & Popov 2015).
+        Whether the edge also closes by itself. If not, contact grows by touching alone, as on a
+        first approach of surfaces that hold only what has been pressed together (Pohrt & Popov
+        2015).
 
     Examples
     --------

@@ -1,7 +1,8 @@
 """Adhesion laws: the attraction σ(g) of two surfaces at the gap g, its energy and its slope.
 
-The energy φ(g) = -∫_g^∞ σ dg' is that per area, J/m², so that φ' = σ; the work of adhesion w is -φ at the smallest gap of
-equilibrium: zero at a hard wall, the spacing z0 of a law with a repulsive core. σ > 0 attracts.
+The energy φ(g) = -∫_g^∞ σ dg' is that per area, J/m², so that φ' = σ; the work of adhesion w is -φ
+at the smallest gap of equilibrium: zero at a hard wall, the spacing z0 of a law with a repulsive
+core. σ > 0 attracts.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ from ...core.errors import InputError
 
 @runtime_checkable
 class Adhesion(Protocol):
-    """Attraction of two surfaces; all methods take gaps of any shape in m, >= 0 (> 0 for a law with a core)."""
+    """Attraction of two surfaces; all methods take gaps of any shape in m, >= 0 (> 0 for a law with
+    a core)."""
 
     @property
     def name(self) -> str:
@@ -49,7 +51,8 @@ class Adhesion(Protocol):
 
     @property
     def spacing(self) -> float:
-        """Gap in m at which the attraction is zero and below which the surfaces repel; zero for a law beside a hard wall."""
+        """Gap in m at which the attraction is zero and below which the surfaces repel; zero for a
+        law beside a hard wall."""
 
     def attraction(self, gap: RealArray) -> RealArray:
         """σ in Pa."""
@@ -89,13 +92,15 @@ class _BesideWall:
 
     @classmethod
     def of_strength(cls, work: float, strength: float) -> Self:
-        """Law with this work of adhesion (J/m²) and largest attraction (Pa), both > 0; InputError if one is not."""
+        """Law with this work of adhesion (J/m²) and largest attraction (Pa), both > 0; InputError
+        if one is not."""
         require.magnitude(strength, "strength of the adhesion (Pa)")
         return cls(work, require.magnitude(work, "work of adhesion (J/m^2)") / strength)  # type: ignore[call-arg]
 
 
 DUGDALE_SMOOTHING = 0.2
-"""Usual share of the range over which the attraction of Dugdale's law falls: a step takes seven times as many pixels (``couplings.adhesion``)."""
+"""Usual share of the range over which the attraction of Dugdale's law falls: a step takes seven
+times as many pixels (``couplings.adhesion``)."""
 
 
 @dataclass(frozen=True)
@@ -109,9 +114,9 @@ class DugdaleAdhesion(_BesideWall):
     range
         ϱ in m, > 0, beyond which there is no attraction.
     smoothing
-        Share ε of the range, from 0 to 2, over which the attraction falls to zero, from ϱ(1 - ε/2) to ϱ(1 + ε/2), with the
-        same work; 0.2 by default. A step, zero, makes the zone advance pixel by pixel on a grid: it takes seven times as many
-        pixels for a pull-off to 1e-2.
+        Share ε of the range, from 0 to 2, over which the attraction falls to zero, from ϱ(1 - ε/2)
+        to ϱ(1 + ε/2), with the same work; 0.2 by default. A step, zero, makes the zone advance
+        pixel by pixel on a grid: it takes seven times as many pixels for a pull-off to 1e-2.
     """
 
     work: float
@@ -233,7 +238,8 @@ class ExponentialAdhesion(_BesideWall):
 
 @dataclass(frozen=True)
 class VanDerWaalsAdhesion:
-    """σ = A/(6π (D0 + g)³) beside a hard wall, so that w = A/(12π D0²) (Israelachvili 2011, ch. 13).
+    """σ = A/(6π (D0 + g)³) beside a hard wall, so that w = A/(12π D0²) (Israelachvili 2011, ch.
+    13).
 
     Parameters
     ----------
@@ -242,8 +248,9 @@ class VanDerWaalsAdhesion:
     spacing_at_contact
         D0 in m, > 0: distance of the atomic planes where the gap is zero.
     reach
-        Distance D0 + g in m from which on there is no attraction, more than D0: σ is lowered by its value there, so that it
-        ends continuously, and all of it raised to keep w. Infinite by default.
+        Distance D0 + g in m from which on there is no attraction, more than D0: σ is lowered by its
+        value there, so that it ends continuously, and all of it raised to keep w. Infinite by
+        default.
     """
 
     work: float
@@ -258,12 +265,14 @@ class VanDerWaalsAdhesion:
         require.magnitude(self.spacing_at_contact, "spacing at contact (m)")
         if not self.reach > self.spacing_at_contact:
             raise InputError(
-                f"reach of the adhesion (m) must be more than the spacing at contact {self.spacing_at_contact:g}, but is {self.reach:g}."
+                "reach of the adhesion (m) must be more than the spacing at contact "
+                f"{self.spacing_at_contact:g}, but is {self.reach:g}."
             )
 
     @classmethod
     def of_hamaker(cls, constant: float, spacing_at_contact: float = 0.165e-9, reach: float = math.inf) -> Self:
-        """Law of the Hamaker ``constant`` A in J, > 0; w = A/(12π D0²). InputError if it is not positive."""
+        """Law of the Hamaker ``constant`` A in J, > 0; w = A/(12π D0²). InputError if it is not
+        positive."""
         require.positive(constant, "Hamaker constant (J)")
         require.positive(spacing_at_contact, "spacing at contact (m)")
         return cls(constant / (12.0 * math.pi * spacing_at_contact**2), spacing_at_contact, reach)
@@ -316,10 +325,12 @@ class VanDerWaalsAdhesion:
 
 @dataclass(frozen=True)
 class LennardJonesAdhesion:
-    """σ = (8w/3z0) [(z0/g)³ - (z0/g)⁹]: two half-spaces of Lennard-Jones' atoms; no wall, the repulsion is in the law.
+    """σ = (8w/3z0) [(z0/g)³ - (z0/g)⁹]: two half-spaces of Lennard-Jones' atoms; no wall, the
+    repulsion is in the law.
 
-    In a contact approaches count from where the undeformed surfaces are z0 apart, and points nearer than the gap of the largest
-    attraction as touching, under the wall pressure σ0 - σ(g); the net traction is that less the attraction, as with other laws.
+    In a contact approaches count from where the undeformed surfaces are z0 apart, and points nearer
+    than the gap of the largest attraction as touching, under the wall pressure σ0 - σ(g); the net
+    traction is that less the attraction, as with other laws.
 
     Parameters
     ----------
@@ -384,10 +395,11 @@ Curve = Callable[[RealArray], RealArray]
 
 @dataclass(frozen=True)
 class CustomAdhesion:
-    """A law of one's own: σ(g) with its energy and its slope, beside a hard wall, or with a core that repels.
+    """A law of one's own: σ(g) with its energy and its slope, beside a hard wall, or with a core
+    that repels.
 
-    Beside a wall σ >= 0 does not rise with the gap. With an ``equilibrium`` σ is negative nearer than that, rises to its largest
-    value and falls from there on.
+    Beside a wall σ >= 0 does not rise with the gap. With an ``equilibrium`` σ is negative nearer
+    than that, rises to its largest value and falls from there on.
 
     Parameters
     ----------
@@ -398,10 +410,11 @@ class CustomAdhesion:
     slope_of_gap
         σ' in Pa/m of gaps in m.
     far
-        Gap in m, > 0, beyond which the attraction is negligible; up to there the three functions are checked.
+        Gap in m, > 0, beyond which the attraction is negligible; up to there the three functions
+        are checked.
     equilibrium
-        Gap z0 in m at which a law with a core has no traction; zero, the default, for a law beside a wall. A law with a core is checked
-        from z0/2 on.
+        Gap z0 in m at which a law with a core has no traction; zero, the default, for a law beside
+        a wall. A law with a core is checked from z0/2 on.
 
     Raises
     ------
@@ -421,7 +434,8 @@ class CustomAdhesion:
         require.not_negative(self.equilibrium, "equilibrium gap (m)")
         if not require.positive(self.far, "far gap of the adhesion (m)") > self.equilibrium:
             raise InputError(
-                f"far gap of the adhesion (m) must be more than the equilibrium gap {self.equilibrium:g}, but is {self.far:g}."
+                f"far gap of the adhesion (m) must be more than the equilibrium gap {self.equilibrium:g}, but "
+                f"is {self.far:g}."
             )
         g = self._gaps
         s, phi, fall = self.attraction(g), self.energy(g), self.slope(g)
@@ -438,19 +452,22 @@ class CustomAdhesion:
                 and s[-1] >= 0.0
             ):
                 raise InputError(
-                    "attraction of an adhesion law with a core must be finite, negative below the equilibrium gap "
-                    f"{self.equilibrium:g} m, zero there, and rise to one largest value from which it falls, but its values from {s.min():g} to "
-                    f"{s.max():g} Pa are not so. See LennardJonesAdhesion(...)."
+                    "attraction of an adhesion law with a core must be finite, negative below the equilibrium "
+                    f"gap {self.equilibrium:g} m, zero there, and rise to one largest value from which it "
+                    f"falls, but its values from {s.min():g} to {s.max():g} Pa are not so. See "
+                    "LennardJonesAdhesion(...)."
                 )
         elif not (np.isfinite(s).all() and s.min() >= 0.0 and np.diff(s).max() <= 1e-9 * s[0] and s[0] > 0.0):
             raise InputError(
-                "attraction of an adhesion law must be finite, not negative and not rise with the gap, but its values from "
-                f"{s.min():g} to {s.max():g} Pa are not so. Give the equilibrium gap for a core that repels."
+                "attraction of an adhesion law must be finite, not negative and not rise with the gap, but "
+                f"its values from {s.min():g} to {s.max():g} Pa are not so. Give the equilibrium gap for a "
+                "core that repels."
             )
         for values, rate, what in ((phi, s, "energy"), (s, fall, "slope")):
             step = np.diff(g)
             miss = np.abs(np.diff(values) - 0.5 * step * (rate[1:] + rate[:-1]))
-            # a trapezium misses by the second difference of the rate; kinks lie in one interval each, extrema between two
+            # a trapezium misses by the second difference of the rate; kinks lie in one interval
+            # each, extrema between two
             turns = np.abs(np.diff(rate))
             if self.equilibrium > 0.0:
                 turns = np.maximum(turns, np.maximum(np.roll(turns, 1), np.roll(turns, -1)))
@@ -458,8 +475,8 @@ class CustomAdhesion:
             if not (miss <= allowed).all():
                 where = g[int(np.argmax(miss - allowed))]
                 raise InputError(
-                    f"{what} of an adhesion law must belong to its attraction, but at the gap {where:.4g} m it does not: φ' = σ, and "
-                    "slope σ'."
+                    f"{what} of an adhesion law must belong to its attraction, but at the gap {where:.4g} m it "
+                    "does not: φ' = σ, and slope σ'."
                 )
 
     @property
@@ -520,7 +537,8 @@ class CustomAdhesion:
 
 
 def cohesive_length(law: Adhesion, E_star: float) -> float:
-    """ℓ = E* w/σ0² in m: the attracting zone around a contact is about as wide; a grid must resolve it.
+    """ℓ = E* w/σ0² in m: the attracting zone around a contact is about as wide; a grid must resolve
+    it.
 
     InputError if ``E_star`` (Pa) is not positive.
     """

@@ -1,4 +1,5 @@
-"""Approach and retraction of adhesive contacts: the loop of force and approach, pull-off, hysteresis, effective work of adhesion."""
+"""Approach and retraction of adhesive contacts: the loop of force and approach, pull-off,
+hysteresis, effective work of adhesion."""
 
 from __future__ import annotations
 
@@ -48,12 +49,14 @@ LOOP_SCALARS = (
 def adhesion_cycle(
     farthest: float, deepest: float, *, steps: int = 20, cycles: int = 1, stiffness: float = math.inf
 ) -> tuple[FixedGrips, ...]:
-    """Controls of a history in which grips approach from ``farthest`` to ``deepest`` (m) and go back.
+    """Controls of a history in which grips approach from ``farthest`` to ``deepest`` (m) and go
+    back.
 
     Parameters
     ----------
     farthest, deepest
-        Approach of the grips in m at the ends, farthest < deepest; negative where the surfaces are apart.
+        Approach of the grips in m at the ends, farthest < deepest; negative where the surfaces are
+        apart.
     steps
         Steps of each way.
     cycles
@@ -86,7 +89,8 @@ class AdhesionLoop:
     energy
         Elastic energy and that of the interface (J) after each step.
     lost, error
-        Energy (J) that each step lost of the solids, without the liquid, and the bound of its error.
+        Energy (J) that each step lost of the solids, without the liquid, and the bound of its
+        error.
     pulled
         Force (N) with which what else pulls, menisci, holds the surfaces together after each step.
     grips
@@ -127,7 +131,8 @@ class AdhesionLoop:
 
     @cached_property
     def work(self) -> RealArray:
-        """∫F dδ (J) up to each step: what the solids store and lose, less what the menisci do, that by the trapezoidal rule."""
+        """∫F dδ (J) up to each step: what the solids store and lose, less what the menisci do, that
+        by the trapezoidal rule."""
         liquid = 0.5 * (self.pulled[1:] + self.pulled[:-1]) * np.diff(self.approach)
         done = np.diff(self.energy) + self.lost[1:] - liquid
         return np.concatenate([[0.0], np.cumsum(done)])
@@ -145,7 +150,8 @@ class AdhesionLoop:
 
     @property
     def hysteresis_error(self) -> float:
-        """Bound (J) of the error of the energy lost: of each step, and of the menisci half of the change of their force over it."""
+        """Bound (J) of the error of the energy lost: of each step, and of the menisci half of the
+        change of their force over it."""
         liquid = 0.5 * np.abs(np.diff(self.pulled) * np.diff(self.approach))
         return float(self.error[1:].sum() + liquid.sum())
 
@@ -155,7 +161,8 @@ class AdhesionLoop:
         return tuple((float(self.grips[k - 1]), float(self.grips[k])) for k in np.flatnonzero(self.jumped))
 
     def closed_in(self, jumps: Sequence[Jump]) -> AdhesionLoop:
-        """The same with the energies of ``jumps`` that were closed in on (``adhesive_jumps``), which are better known."""
+        """The same with the energies of ``jumps`` that were closed in on (``adhesive_jumps``),
+        which are better known."""
         lost, error = self.lost.copy(), self.error.copy()
         for jump in jumps:
             lost[jump.step], error[jump.step] = jump.lost, jump.lost_error
@@ -163,10 +170,11 @@ class AdhesionLoop:
 
     @property
     def effective_work(self) -> float:
-        """Work (J/m²) of parting from the last step without tension: -∫F dδ from there over the nominal area; NaN if the path ends pressed.
+        """Work (J/m²) of parting from the last step without tension: -∫F dδ from there over the
+        nominal area; NaN if the path ends pressed.
 
-        Of surfaces that part at the end of the path. Rough surfaces need less than their work of adhesion, or more where
-        energy is lost in jumps.
+        Of surfaces that part at the end of the path. Rough surfaces need less than their work of
+        adhesion, or more where energy is lost in jumps.
         """
         pressed = np.flatnonzero(self.force >= 0.0)
         first = int(pressed[-1]) if pressed.size else 0

@@ -1,4 +1,5 @@
-"""Adhesion: the law of the attraction, approach and parting, pull-off and hysteresis, and criteria of stickiness beside them."""
+"""Adhesion: the law of the attraction, approach and parting, pull-off and hysteresis, and criteria
+of stickiness beside them."""
 
 from __future__ import annotations
 
@@ -38,11 +39,13 @@ USUAL_STEPS = 20
 
 
 class AdhesionSettings(Settings):
-    """Attraction of the surfaces, by its work of adhesion and either its range or its strength, the largest stress: range = work/strength.
+    """Attraction of the surfaces, by its work of adhesion and either its range or its strength, the
+    largest stress: range = work/strength.
 
-    The law "van der waals" needs neither; ``range`` is then half the distance of the atomic planes in contact, by default 0.165 nm.
-    The law "jkr" has none: its range is infinitely short.
-    With ``retract`` the bodies approach from that distance to the approach of the table [control] and part again.
+    The law "van der waals" needs neither; ``range`` is then half the distance of the atomic planes
+    in contact, by default 0.165 nm. The law "jkr" has none: its range is infinitely short. With
+    ``retract`` the bodies approach from that distance to the approach of the table [control] and
+    part again.
     """
 
     work: SurfaceTension | None = setting(None, option="--adhesion", help="Work of adhesion: 50mJ/m**2")
@@ -77,7 +80,8 @@ class AdhesionSettings(Settings):
         if (self.work is None) == (self.pair is None):
             gives = "neither" if self.work is None else "both"
             raise InputError(
-                " must give either the work of adhesion, such as {adhesion.work=50 mJ/m**2}, or a pair of solids, such as "
+                " must give either the work of adhesion, such as {adhesion.work=50 mJ/m**2}, or a pair of "
+                "solids, such as "
                 f"{{adhesion.pair=polystyrene/paraffin wax}}, but gives {gives}."
             )
         if self.pair is not None and self.pair.count("/") != 1:
@@ -87,24 +91,27 @@ class AdhesionSettings(Settings):
                 self.of_pair()
             except InputError as error:
                 raise InputError(
-                    f".pair must be two solids that were measured together or whose energies are known, but is {self.pair!r}: {error}"
+                    ".pair must be two solids that were measured together or whose energies are known, but is "
+                    f"{self.pair!r}: {error}"
                 ) from None
         given = (self.range is not None) + (self.strength is not None)
         if given and self.law == WITHOUT_RANGE:
             raise InputError(
-                f" must give neither a range ({{adhesion.range}}) nor a strength ({{adhesion.strength}}) for the law {WITHOUT_RANGE}, "
+                f" must give neither a range ({{adhesion.range}}) nor a strength ({{adhesion.strength}}) for "
+                f"the law {WITHOUT_RANGE}, "
                 "whose range is infinitely short, but does. Leave it out, or choose {adhesion.law=exponential}."
             )
         if given > 1 or (given == 0 and self.law not in (WITHOUT_RANGE, OWN_RANGE)):
             raise InputError(
-                f" must give either a range ({{adhesion.range}}) or a strength ({{adhesion.strength}}) for the law {self.law}, but gives "
-                f"{'both' if given else 'neither'}. Give for example {{adhesion.range=1 nm}}."
+                f" must give either a range ({{adhesion.range}}) or a strength ({{adhesion.strength}}) for the "
+                f"law {self.law}, but gives {'both' if given else 'neither'}. Give for example "
+                f"{{adhesion.range=1 nm}}."
             )
         further = self.stiffness is not None or self.branch or self.jump_tolerance is not None
         if self.retract is None and (further or self.cycles != 1 or self.steps != USUAL_STEPS):
             raise InputError(
-                " must give the distance to which the bodies part, {adhesion.retract}, with its steps, cycles, branch, jumps and the stiffness of "
-                "the machine, but does not."
+                " must give the distance to which the bodies part, {adhesion.retract}, with its steps, "
+                "cycles, branch, jumps and the stiffness of the machine, but does not."
             )
         if self.retract is not None and self.steps < 2:
             raise InputError(f".steps must be at least 2, but is {self.steps}.")
@@ -209,8 +216,8 @@ class Adhesion(Part):
         table: AdhesionSettings = document.adhesion
         if table.retract is not None and document.control.approach is None:
             raise InputError(
-                "approach must be given as the deepest position of approach and parting ({adhesion.retract}), but is not. Give "
-                "for example {control.approach=5 nm}.",
+                "approach must be given as the deepest position of approach and parting ({adhesion.retract}), "
+                "but is not. Give for example {control.approach=5 nm}.",
                 subject="approach",
             )
         return Asked(table, table.adhesion())

@@ -1,4 +1,5 @@
-"""Adhesion as a physics of a problem: what it refuses, its coupling, and its share of the energies of a history."""
+"""Adhesion as a physics of a problem: what it refuses, its coupling, and its share of the energies
+of a history."""
 
 from __future__ import annotations
 
@@ -34,7 +35,8 @@ if TYPE_CHECKING:
 
 
 RESOLVED_ZONE = 3.0
-"""Least pixels in the cohesive length from which on the edge under an attraction is an elastic one."""
+"""Least pixels in the cohesive length from which on the edge under an attraction is an elastic
+one."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,8 @@ class Adhesive(Physics):
         """A core has no wall whose pressure a hardness could limit."""
         if self.law.spacing > 0.0 and not isinstance(problem.law, HardWall):
             raise InputError(
-                f"law of a contact with the adhesion {self.law.name} must be HardWall(), but is {problem.law!r}: its core has no wall whose "
+                f"law of a contact with the adhesion {self.law.name} must be HardWall(), but is "
+                f"{problem.law!r}: its core has no wall whose "
                 "pressure a hardness could limit. Use another law ({gentle_law}) of the same work and strength."
             )
 
@@ -71,8 +74,8 @@ class Adhesive(Physics):
         """An edge without range would lose energy at all wavelengths."""
         if isinstance(self.law, JKRAdhesion):
             raise InputError(
-                "adhesion of viscoelastic bodies must have a range, but is JKRAdhesion (coupling adhesion), whose edge would lose energy at all "
-                "wavelengths. Take ExponentialAdhesion(work, range)."
+                "adhesion of viscoelastic bodies must have a range, but is JKRAdhesion (coupling adhesion), "
+                "whose edge would lose energy at all wavelengths. Take ExponentialAdhesion(work, range)."
             )
 
     def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:

@@ -1,8 +1,10 @@
-"""A long step of an adhesive contact, divided by the range of the attraction so that the contact stays on its branch.
+"""A long step of an adhesive contact, divided by the range of the attraction so that the contact
+stays on its branch.
 
-Newton's method and the descent of the energy find the equilibrium downhill from where they start. A step of more than about a range may start behind
-the ridge that ends another branch. Parts of half a range follow the branch. A part whose work does not agree with the change of the energy is divided further,
-to an eighth of the range; where both agree and the bodies are pressed together parts grow.
+Newton's method and the descent of the energy find the equilibrium downhill from where they start. A
+step of more than about a range may start behind the ridge that ends another branch. Parts of half a
+range follow the branch. A part whose work does not agree with the change of the energy is divided
+further, to an eighth of the range; where both agree and the bodies are pressed together parts grow.
 """
 
 from __future__ import annotations
@@ -26,16 +28,19 @@ Solved = Callable[[Control, InterfaceState | None], ContactResult]
 """Contact under a control, started from a state."""
 
 PART = 0.5
-"""Longest part over the range, or over the least gap where that is more: a Lennard-Jones contact of Tabor's parameter 1.5 kept its branch with 0.9."""
+"""Longest part over the range, or over the least gap where that is more: a Lennard-Jones contact of
+Tabor's parameter 1.5 kept its branch with 0.9."""
 
 _SMOOTH = 0.04
-"""Share of |ΔF Δδ| by which the trapezoidal work of a smooth part may miss the change of the energy; a parabola misses less."""
+"""Share of |ΔF Δδ| by which the trapezoidal work of a smooth part may miss the change of the
+energy; a parabola misses less."""
 
 _LEVEL = 0.005
 """Share of |F Δδ| that it may miss besides, for at the largest pull ΔF is zero."""
 
 _REFINED = 0.25
-"""Smallest part over the longest: a jump is closed in to that, since a part across the largest pull looks like one."""
+"""Smallest part over the longest: a jump is closed in to that, since a part across the largest pull
+looks like one."""
 
 _SHARES = 1.0 / 32.0
 """Smallest part of a step of force, whose jumps have no smallest length."""
@@ -43,7 +48,8 @@ _SHARES = 1.0 / 32.0
 
 @dataclass(frozen=True, eq=False)
 class _Way:
-    """From where the step begins, ``start``, to its ``end`` (m or N), under controls ``at`` each value; ``force`` if that is prescribed."""
+    """From where the step begins, ``start``, to its ``end`` (m or N), under controls ``at`` each
+    value; ``force`` if that is prescribed."""
 
     start: float
     end: float
@@ -52,9 +58,11 @@ class _Way:
 
 
 def divides(problem: ContactProblem, state: InterfaceState | None) -> bool:
-    """Whether steps from ``state`` may be divided: adhesion of a finite range, and no physics beside it but a hardness or gross sliding.
+    """Whether steps from ``state`` may be divided: adhesion of a finite range, and no physics
+    beside it but a hardness or gross sliding.
 
-    Where the cohesive length is less than a pixel single points snap, and there is no branch to follow.
+    Where the cohesive length is less than a pixel single points snap, and there is no branch to
+    follow.
     """
     if problem.adhesion is None or math.isinf(problem.adhesion.strength) or state is None:
         return False
@@ -67,10 +75,11 @@ def divides(problem: ContactProblem, state: InterfaceState | None) -> bool:
 
 
 def in_ranges(problem: ContactProblem, control: Control, state: InterfaceState, solved: Solved) -> ContactResult:
-    """Result under ``control`` by parts, see the module; of one part where the step is no longer than that.
+    """Result under ``control`` by parts, see the module; of one part where the step is no longer
+    than that.
 
-    Its losses, jumps and work are those of all parts. Where a part has no solution or does not converge, the whole step is
-    solved at once, so that errors name what was asked for.
+    Its losses, jumps and work are those of all parts. Where a part has no solution or does not
+    converge, the whole step is solved at once, so that errors name what was asked for.
     """
     law = problem.adhesion
     assert law is not None

@@ -12,9 +12,11 @@ from ...theories.adhesion.stickiness import Stickiness, stickiness_of
 
 
 def stickiness(problem: ContactProblem) -> Stickiness:
-    """Pastewka and Robbins' and Persson and Tosatti's criteria for the profile of ``problem``, taken to repeat.
+    """Pastewka and Robbins' and Persson and Tosatti's criteria for the profile of ``problem``,
+    taken to repeat.
 
-    Slope, Laplacian and the energy of full contact are sums over the waves of the grid; the energy is that of the layered bodies.
+    Slope, Laplacian and the energy of full contact are sums over the waves of the grid; the energy
+    is that of the layered bodies.
 
     Raises
     ------

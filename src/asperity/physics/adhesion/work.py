@@ -1,4 +1,5 @@
-"""Adhesion asked for by a document: approach and parting, pull-off, hysteresis and criteria of stickiness computed, shown and in words."""
+"""Adhesion asked for by a document: approach and parting, pull-off, hysteresis and criteria of
+stickiness computed, shown and in words."""
 
 from __future__ import annotations
 
@@ -135,8 +136,8 @@ class AdhesionWork(Work):
             what = "edge of the contact" if contact.short_range else "attracting zone"
             resolved = "" if contact.resolved else f" The {what} is NOT resolved by the grid."
             sentence = (
-                f"The surfaces attract each other with {show(contact.attractive_force, 'N')} against an external force of "
-                f"{show(contact.external_force, 'N')}, {branch}.{resolved}"
+                f"The surfaces attract each other with {show(contact.attractive_force, 'N')} against an "
+                f"external force of {show(contact.external_force, 'N')}, {branch}.{resolved}"
             )
             return Words(sentence, rows=rows, remarks=(REMARK,))
         looped = found.detail if isinstance(found.detail, Looped) else Looped(found.detail)
@@ -149,8 +150,8 @@ class AdhesionWork(Work):
         error = f" (to {show(loop.hysteresis_error, 'J', 2)})" if loop.hysteresis_error > 0.0 else ""
         lost = f"{show(loop.hysteresis, 'J')}{error} were lost, with {jumps} jump{'' if jumps == 1 else 's'}"
         sentence = (
-            f"The largest tensile force was {show(loop.pull_off_force, 'N')} at an approach of {show(loop.pull_off_approach, 'm')}; "
-            f"{lost}."
+            f"The largest tensile force was {show(loop.pull_off_force, 'N')} at an approach of "
+            f"{show(loop.pull_off_approach, 'm')}; {lost}."
         )
         return Words(sentence, headline, rows, tables, (REMARK,))
 
@@ -164,9 +165,9 @@ def _findings(solved: Solved) -> tuple[Advice, ...]:
     found, made = solved.result.require_adhesion(), []
     if not found.resolved and found.short_range:
         fact = (
-            f"The contact spots are not resolved for adhesion of infinitely short range: their mean radius is {show(found.spot_radius, 'm', 3)}, "
-            f"{found.pixels_per_length:.2g} pixels, and should be at least {RESOLVED_RADIUS:g}; pull-off is too large, by an error in "
-            "proportion to the pixel."
+            "The contact spots are not resolved for adhesion of infinitely short range: their mean radius is "
+            f"{show(found.spot_radius, 'm', 3)}, {found.pixels_per_length:.2g} pixels, and should be at least "
+            f"{RESOLVED_RADIUS:g}; pull-off is too large, by an error in proportion to the pixel."
         )
         remedy = f"Take a pixel of at most {show(found.needed_pixel, 'm', 3)} ({{resample}})."
         numbers = {"pixels": found.pixels_per_length, "least": RESOLVED_RADIUS, "needed_pixel": found.needed_pixel}
@@ -177,16 +178,17 @@ def _findings(solved: Solved) -> tuple[Advice, ...]:
             "single pixels snap, and hysteresis and pull-off are those of the grid" if pinned else "pull-off may be off"
         )
         where = (
-            f"the cohesive length E*w/σ0² is {show(found.cohesive_length, 'm', 3)}, {found.pixels_per_length:.2g} pixels, and should be at "
-            f"least {found.pixels_needed:.3g}"
+            f"the cohesive length E*w/σ0² is {show(found.cohesive_length, 'm', 3)}, "
+            f"{found.pixels_per_length:.2g} pixels, and should be at least {found.pixels_needed:.3g}"
         )
         if found.pixels_per_length >= found.pixels_needed:
             where = (
-                f"the mean radius of contact spots with their zone is {show(found.zone_radius, 'm', 3)}, {found.pixels_per_radius:.2g} pixels, "
-                f"and should be at least {found.radius_needed:.3g}"
+                f"the mean radius of contact spots with their zone is {show(found.zone_radius, 'm', 3)}, "
+                f"{found.pixels_per_radius:.2g} pixels, and should be at least {found.radius_needed:.3g}"
             )
         remedy = (
-            f"Take a pixel of at most {show(found.needed_pixel, 'm', 3)} ({{resample}}), or a larger range at the same work of adhesion "
+            f"Take a pixel of at most {show(found.needed_pixel, 'm', 3)} ({{resample}}), or a larger range at "
+            "the same work of adhesion "
             "({adhesion.range})."
         )
         numbers = {
@@ -206,9 +208,10 @@ def _findings(solved: Solved) -> tuple[Advice, ...]:
 
 
 REMARK = (
-    "Pressures are those of the wall; the net traction is the pressure less the attraction. Each step goes downhill in energy from the "
-    "attraction of the step before, so that a path follows its branch until that ends in a jump. On a periodic surface the images "
-    "attract each other, and a fixed mean gap is stiffer than a real machine."
+    "Pressures are those of the wall; the net traction is the pressure less the attraction. Each step goes "
+    "downhill in energy from the attraction of the step before, so that a path follows its branch until that "
+    "ends in a jump. On a periodic surface the images attract each other, and a fixed mean gap is stiffer "
+    "than a real machine."
 )
 """What the numbers mean."""
 

@@ -1,4 +1,5 @@
-"""Branch and jumps of an adhesive loop, and the bound of its energy, as numbers, text and a figure of the part ``adhesion``."""
+"""Branch and jumps of an adhesive loop, and the bound of its energy, as numbers, text and a figure
+of the part ``adhesion``."""
 
 from __future__ import annotations
 
@@ -13,7 +14,8 @@ from .branch import Jump, adhesive_branch
 
 
 def branch_values(solved: Solved, farthest: float) -> tuple[dict[str, Any], tuple[Advice, ...]]:
-    """Values of ``BRANCH`` from the deepest contact of the path to the ``farthest`` approach (m), none where there is no branch; what stopped it.
+    """Values of ``BRANCH`` from the deepest contact of the path to the ``farthest`` approach (m),
+    none where there is no branch; what stopped it.
 
     Where the pixel is larger than the branch needs its folds may be those of single points.
     """
@@ -26,7 +28,10 @@ def branch_values(solved: Solved, farthest: float) -> tuple[dict[str, Any], tupl
     findings: tuple[Advice, ...] = ()
     pixel = max(solved.problem.grid.pixels)
     if pixel > branch.needed_pixel:
-        fact = f"The branch between the jumps may have folds of single points of the grid: its pixel is {show(pixel, 'm', 3)}."
+        fact = (
+            "The branch between the jumps may have folds of single points of the grid: its pixel is "
+            f"{show(pixel, 'm', 3)}."
+        )
         remedy = (
             f"Take one of at most {show(branch.needed_pixel, 'm', 3)} ({{resample}}), or a law that falls more gently "
             "({adhesion.law=exponential})."

@@ -1,4 +1,5 @@
-"""A block on a belt, held by a spring: stick-slip with static and kinetic friction, and with rate-and-state friction."""
+"""A block on a belt, held by a spring: stick-slip with static and kinetic friction, and with
+rate-and-state friction."""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ BeltSpeed = Annotated[float, Number("speed", above=0.0)]
 
 @dataclass(frozen=True)
 class StaticKinetic(Declared):
-    """Friction with a static coefficient, above which slip begins, and a kinetic one while it slips.
+    """Friction with a static coefficient, above which slip begins, and a kinetic one while it
+    slips.
 
     Parameters
     ----------
@@ -60,13 +62,15 @@ class RateState(Declared):
     direct
         a, > 0: growth of the friction at once with the speed.
     evolution
-        b, >= 0: decay of the friction as the contacts are renewed; friction falls with the speed if it is above a.
+        b, >= 0: decay of the friction as the contacts are renewed; friction falls with the speed if
+        it is above a.
     distance
         D in m, > 0: slip that renews the contacts.
     reference_speed
         V_0 in m/s, > 0.
     law
-        "ageing": dθ/dt = 1 - Vθ/D (Dieterich 1979), or "slip": dθ/dt = -(Vθ/D) ln(Vθ/D) (Ruina 1983).
+        "ageing": dθ/dt = 1 - Vθ/D (Dieterich 1979), or "slip": dθ/dt = -(Vθ/D) ln(Vθ/D) (Ruina
+        1983).
 
     Raises
     ------
@@ -98,12 +102,14 @@ BeltFriction: TypeAlias = StaticKinetic | RateState
 
 
 LONGEST, SHORTEST = 0.3, 0.003
-"""Bounds in rad of the longest step of a slip; a lead of the block on the belt that is shorter than the second is lost."""
+"""Bounds in rad of the longest step of a slip; a lead of the block on the belt that is shorter than
+the second is lost."""
 
 
 @dataclass(frozen=True)
 class BeltOscillator(Declared):
-    """Block of mass M, pressed with N on a belt of speed U, and held by a spring k and a dashpot c: M d²x/dt² = -k x - c dx/dt + T.
+    """Block of mass M, pressed with N on a belt of speed U, and held by a spring k and a dashpot c:
+    M d²x/dt² = -k x - c dx/dt + T.
 
     Parameters
     ----------
@@ -151,16 +157,18 @@ class BeltOscillator(Declared):
 
     @property
     def growth_rate(self) -> float:
-        """Largest real part in 1/s of the eigenvalues about steady sliding; unstable where it is above zero.
+        """Largest real part in 1/s of the eigenvalues about steady sliding; unstable where it is
+        above zero.
 
-        With static and kinetic friction that is -c/2M: steady sliding is stable to small disturbances, and only a start from
-        rest, or a large disturbance, leads to stick-slip.
+        With static and kinetic friction that is -c/2M: steady sliding is stable to small
+        disturbances, and only a start from rest, or a large disturbance, leads to stick-slip.
         """
         k, c, M, N, U = self.stiffness, self.damping, self.mass, self.normal_force, self.speed
         law = self.friction
         if isinstance(law, StaticKinetic):
             return float(np.real(np.linalg.eigvals(np.array([[0.0, 1.0], [-k / M, -c / M]]))).max())
-        # states: displacement, ln of the sliding speed V = U - dx/dt, ln of the age; both laws of renewal are alike about steady sliding
+        # states: displacement, ln of the sliding speed V = U - dx/dt, ln of the age; both laws of
+        # renewal are alike about steady sliding
         rate = U / law.distance
         jacobian = np.array(
             [
@@ -193,8 +201,9 @@ class BeltOscillator(Declared):
         duration
             In s, > 0.
         start
-            With static and kinetic friction displacement (m) and velocity (m/s); with rate-and-state friction displacement, velocity below
-            the speed of the belt, and age of the contacts (s). If not given: on the belt with the spring unstretched, or sliding
+            With static and kinetic friction displacement (m) and velocity (m/s); with
+            rate-and-state friction displacement, velocity below the speed of the belt, and age of
+            the contacts (s). If not given: on the belt with the spring unstretched, or sliding
             steadily but for 1 % in the age. The ``end`` of another motion goes on from there.
         samples
             Number of intervals in which the motion is given.
@@ -215,18 +224,25 @@ class BeltOscillator(Declared):
 
         Notes
         -----
-        Stick and slip are phases that end where the friction needed exceeds the static one, and where the sliding speed reaches zero.
-        Rate-and-state friction is stiff; it is integrated in the logarithms of sliding speed and age by the implicit Radau method.
+        Stick and slip are phases that end where the friction needed exceeds the static one, and
+        where the sliding speed reaches zero. Rate-and-state friction is stiff; it is integrated in
+        the logarithms of sliding speed and age by the implicit Radau method.
         """
         times = sample_times(duration, samples)
         require.between(tolerance, 0.0, 1e-2, "tolerance")
         if isinstance(self.friction, StaticKinetic):
             return self._stick_slip(self.friction, times, (0.0, self.speed) if start is None else start, tolerance)
-        # states: displacement, ln(V/V_0) of the sliding speed V, ln(V_0 θ/D), work of the belt, heat
+        # states: displacement, ln(V/V_0) of the sliding speed V, ln(V_0 θ/D), work of the belt,
+        # heat
         law = self.friction
         U, V0, D, N, M, c = (
-            self.speed, law.reference_speed, law.distance, self.normal_force, self.mass, self.damping,
-        )  # fmt: skip
+            self.speed,
+            law.reference_speed,
+            law.distance,
+            self.normal_force,
+            self.mass,
+            self.damping,
+        )
         x0, v0, age = (self.steady_displacement, 0.0, 1.01 * D / U) if start is None else start
         sliding = U - require.finite(v0, "velocity at the start (m/s)")
         if sliding <= 0.0 or require.positive(age, "age of the contacts at the start (s)") <= 0.0:
@@ -274,7 +290,8 @@ class BeltOscillator(Declared):
         x0, v0 = started(start)
         bound, kinetic = law.static * self.normal_force, law.kinetic * self.normal_force
         U, M, c = self.speed, self.mass, self.damping
-        # the block is ahead of the belt for this long at the end of a slip; a step across it would miss that it sticks
+        # the block is ahead of the belt for this long at the end of a slip; a step across it would
+        # miss that it sticks
         lead = 2.0 * math.atan((bound - kinetic) / self.stiffness * self.natural_frequency / U)
         longest = min(max(0.25 * lead, SHORTEST), LONGEST) / self.natural_frequency
 

@@ -1,4 +1,5 @@
-"""A sliding block with three degrees of freedom on a rough interface: steady sliding and its linear stability."""
+"""A sliding block with three degrees of freedom on a rough interface: steady sliding and its linear
+stability."""
 
 from __future__ import annotations
 
@@ -20,18 +21,21 @@ from .interface import NormalCompliance
 from .normal_motion import Mass
 
 NODES = 16
-"""Points of the Gauss-Legendre rule along the base; where parts of it lift off, the result depends on them."""
+"""Points of the Gauss-Legendre rule along the base; where parts of it lift off, the result depends
+on them."""
 
 BlockLength = Annotated[float, Number("length", above=0.0)]
 
 
 @dataclass(frozen=True)
 class SlidingBlock(Declared):
-    """Rigid rectangular block on a belt, held by a spring, free to move along x, to penetrate and to tilt (Martins, Oden and Simoes 1990).
+    """Rigid rectangular block on a belt, held by a spring, free to move along x, to penetrate and
+    to tilt (Martins, Oden and Simoes 1990).
 
-    M x'' = -k x - c x' + T,  M y'' = W - N,  I φ'' = M_p + (H/2) T + h_s (k x + c x'), with I = M (b² + H²)/12, the local approach
-    δ = y - ξφ along the base, N and M_p force and moment of the pressure on it, and the friction T = -s w ∫ c_t δ^{m_t} dξ, where s is the
-    sign of the sliding velocity v = x' + (H/2) φ' - U.
+    M x'' = -k x - c x' + T, M y'' = W - N, I φ'' = M_p + (H/2) T + h_s (k x + c x'), with I = M
+    (b² + H²)/12, the local approach δ = y - ξφ along the base, N and M_p force and moment of the
+    pressure on it, and the friction T = -s w ∫ c_t δ^{m_t} dξ, where s is the sign of the sliding
+    velocity v = x' + (H/2) φ' - U.
 
     Parameters
     ----------
@@ -60,7 +64,8 @@ class SlidingBlock(Declared):
     Examples
     --------
     >>> law = NormalCompliance.amontons(2.8e18, 2.0, friction=0.3)
-    >>> block = SlidingBlock(law, mass=1.0, length=0.1, width=0.02, height=0.05, load=100.0, stiffness=2e5, speed=1e-3)
+    >>> sides = {"length": 0.1, "width": 0.02, "height": 0.05}
+    >>> block = SlidingBlock(law, mass=1.0, **sides, load=100.0, stiffness=2e5, speed=1e-3)
     >>> block.stability.kind
     'flutter'
     """
@@ -114,12 +119,14 @@ class SlidingBlock(Declared):
 
     @cached_property
     def base(self) -> tuple[RealArray, RealArray]:
-        """Coordinates ξ along the base in m, and the areas in m² that the points of the rule stand for."""
+        """Coordinates ξ along the base in m, and the areas in m² that the points of the rule stand
+        for."""
         nodes, weights = rule(NODES)
         return 0.5 * self.length * nodes, 0.5 * self.length * self.width * weights
 
     def forces(self, penetration: float, tilt: float) -> tuple[float, float, float]:
-        """Normal force N, its moment M_p (N m) and the largest friction (N) at rest in that position."""
+        """Normal force N, its moment M_p (N m) and the largest friction (N) at rest in that
+        position."""
         xi, area = self.base
         approach = penetration - xi * tilt
         pressed = area * self.law.pressure(approach)
@@ -148,15 +155,17 @@ class SlidingBlock(Declared):
         y, tilt = unit * float(found.x[0]), unit * float(found.x[1]) / self.length
         if np.abs(unbalanced(found.x)).max() > 1e-9:
             raise NoSolutionError(
-                f"The block topples: friction {self.friction:.3g} at the arm {arm:.3g} m is more than the base of length {self.length:.3g} m bears. "
-                "Lower the height or the friction, or make the block longer."
+                f"The block topples: friction {self.friction:.3g} at the arm {arm:.3g} m is more than the base "
+                f"of length {self.length:.3g} m bears. Lower the height or the friction, or make the block "
+                "longer."
             )
         friction = float(area @ self.law.friction(y - xi * tilt))
         return SteadySliding(friction / self.stiffness, y, tilt, friction)
 
     @cached_property
     def stability(self) -> Stability:
-        """Eigenvalues about steady sliding, all points of which slide with one sign of the velocity."""
+        """Eigenvalues about steady sliding, all points of which slide with one sign of the
+        velocity."""
         stiffness, damping = self.linearised()
         inertia = np.array([self.mass, self.mass, self.inertia])
         zero, one = np.zeros((3, 3)), np.eye(3)
@@ -167,7 +176,8 @@ class SlidingBlock(Declared):
         return Stability.of(values, vectors)
 
     def linearised(self) -> tuple[RealArray, RealArray]:
-        """Stiffness and damping matrices, (3, 3) for displacement, penetration and tilt, about steady sliding; not symmetric by the friction."""
+        """Stiffness and damping matrices, (3, 3) for displacement, penetration and tilt, about
+        steady sliding; not symmetric by the friction."""
         found, law, (xi, area) = self.steady, self.law, self.base
         ell = law.exponents[1]
         approach = np.maximum(found.penetration - xi * found.tilt, 0.0)
@@ -187,7 +197,8 @@ class SlidingBlock(Declared):
         return stiffness, damping
 
     def critical_friction(self, most: float = 2.0) -> float:
-        """Smallest friction coefficient above which steady sliding is unstable; infinite if there is none up to ``most``, or before it topples.
+        """Smallest friction coefficient above which steady sliding is unstable; infinite if there
+        is none up to ``most``, or before it topples.
 
         By bisection between the last stable and the first unstable of 200 coefficients, to 1e-10.
         """
@@ -243,7 +254,8 @@ class Stability:
     Attributes
     ----------
     growth_rates
-        (3,) real parts in 1/s, in the order of the frequencies, of two modes in flutter the growing one first.
+        (3,) real parts in 1/s, in the order of the frequencies, of two modes in flutter the growing
+        one first.
     frequencies
         (3,) angular frequencies in rad/s; 0 for a motion that only grows or decays.
     """
@@ -271,7 +283,8 @@ class Stability:
 
     @property
     def kind(self) -> Kind:
-        """ "stable", "flutter" (a growing oscillation), or "divergence" (growth without oscillation)."""
+        """ "stable", "flutter" (a growing oscillation), or "divergence" (growth without
+        oscillation)."""
         if self.margin <= 0.0:
             return "stable"
         return "flutter" if self.frequencies[int(np.argmax(self.growth_rates))] > 0.0 else "divergence"

@@ -1,4 +1,5 @@
-"""Rates of the sliding block, compiled: they are evaluated a million times a second of motion. Import this where a motion is computed."""
+"""Rates of the sliding block, compiled: they are evaluated a million times a second of motion.
+Import this where a motion is computed."""
 
 from __future__ import annotations
 
@@ -40,7 +41,8 @@ def interface_forces(y, tilt, rate, tilt_rate, numbers, xi, area):  # type: igno
 
 @compiled
 def stick_force(moment, held, numbers):  # type: ignore[no-untyped-def]
-    """Friction force on the block under which its base keeps the speed of the belt; ``held`` is the force of the spring on the block."""
+    """Friction force on the block under which its base keeps the speed of the belt; ``held`` is the
+    force of the spring on the block."""
     h, inertia = numbers[ARM], numbers[INERTIA]
     turning = moment - numbers[SPRING_HEIGHT] * held
     return -(held / numbers[MASS] + h * turning / inertia) / (1.0 / numbers[MASS] + h * h / inertia)
@@ -50,7 +52,8 @@ def stick_force(moment, held, numbers):  # type: ignore[no-untyped-def]
 def block_rates(state, scales, numbers, xi, area, sign):  # type: ignore[no-untyped-def]
     """d/dt of the scaled state x, y, φ, x', y', φ', work supplied, heat.
 
-    ``sign`` is that of the sliding velocity; 0 while the base sticks, 2 for friction that is smoothed about a velocity of zero.
+    ``sign`` is that of the sliding velocity; 0 while the base sticks, 2 for friction that is
+    smoothed about a velocity of zero.
     """
     x, y, tilt = state[0] * scales[0], state[1] * scales[1], state[2] * scales[2]
     v, rate, tilt_rate = state[3] * scales[3], state[4] * scales[4], state[5] * scales[5]
@@ -71,7 +74,8 @@ def block_rates(state, scales, numbers, xi, area, sign):  # type: ignore[no-unty
     rates[3] = (held + force) / numbers[MASS] / scales[3]
     rates[4] = (numbers[LOAD] - normal) / numbers[MASS] / scales[4]
     rates[5] = turning / numbers[INERTIA] / scales[5]
-    # the spring pulls at its height without being stretched by the tilt: what that turns into motion is supplied
+    # the spring pulls at its height without being stretched by the tilt: what that turns into
+    # motion is supplied
     rates[6] = (force * numbers[SPEED] - numbers[SPRING_HEIGHT] * held * tilt_rate) / scales[6]
     rates[7] = (heat - force * sliding + numbers[DAMPING] * v * v) / scales[7]
     return rates

@@ -1,4 +1,5 @@
-"""Motion of a sliding block in time: with smoothed friction, or with stick and slip as events; and what it comes to."""
+"""Motion of a sliding block in time: with smoothed friction, or with stick and slip as events; and
+what it comes to."""
 
 from __future__ import annotations
 
@@ -19,17 +20,20 @@ from .block import SlidingBlock
 from .motion import Event, Guard, Motion, Phase, integrated, sample_times
 
 TOLERANCE = 1e-8
-"""Local error of the integration unless said otherwise. At 1e-6 LSODA damps weak flutter away (growth below 30 1/s at 5 kHz was lost)."""
+"""Local error of the integration unless said otherwise. At 1e-6 LSODA damps weak flutter away
+(growth below 30 1/s at 5 kHz was lost)."""
 
 PROMINENCE = 0.05
-"""Rise and fall of the displacement, over that under static friction, from which it counts as stick-slip."""
+"""Rise and fall of the displacement, over that under static friction, from which it counts as
+stick-slip."""
 
 
 NO_SLIP = 1e-6
 """Sliding speed over that of the belt below which the base is at rest on it."""
 
 NO_VIBRATION = 1e-6
-"""Standard deviation of the penetration over that at rest below which errors of the integration may have made it: no frequency is given."""
+"""Standard deviation of the penetration over that at rest below which errors of the integration may
+have made it: no frequency is given."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +55,8 @@ class BlockRun:
     smoothing: float = 0.0
 
     def numbers(self, start: float = 0.0) -> dict[str, float]:
-        """``BLOCK_SCALARS`` by name, of the motion from the time ``start`` in s on; the peak is that of the whole motion."""
+        """``BLOCK_SCALARS`` by name, of the motion from the time ``start`` in s on; the peak is
+        that of the whole motion."""
         from scipy.signal import find_peaks
 
         late, block = self.motion.after(start), self.block
@@ -126,19 +131,23 @@ def move_block(
     duration
         In s, > 0.
     start
-        x, y (m), φ (rad) and their rates at the start; at rest with the spring unstretched if not given. The ``end`` of another motion goes on
-        from there.
+        x, y (m), φ (rad) and their rates at the start; at rest with the spring unstretched if not
+        given. The ``end`` of another motion goes on from there.
     smoothing_speed
-        ε in m/s, >= 0: friction is v/sqrt(v² + ε²) times its largest value. A twentieth of the speed of the belt if not given. With 0 the
-        base sticks and slips, with an event for each change: exact, and slower.
+        ε in m/s, >= 0: friction is v/sqrt(v² + ε²) times its largest value. A twentieth of the
+        speed of the belt if not given. With 0 the base sticks and slips, with an event for each
+        change: exact, and slower.
     samples
-        Number of intervals in which the motion is given; ten a period of the normal vibration if not given.
+        Number of intervals in which the motion is given; ten a period of the normal vibration if
+        not given.
     tolerance
-        Local error of the integration, relative to the penetration at rest, the displacement under friction and the speed of the belt.
+        Local error of the integration, relative to the penetration at rest, the displacement under
+        friction and the speed of the belt.
     disturbance
-        Amplitude over the penetration at rest, >= 0, of a normal impulse that the block gets, as from roughness, half a period of its spring
-        after it begins to slide; only with smoothed friction. Without it a block that was long at rest is as quiet as rounding
-        lets it, and the integration, which takes long steps then, damps flutter before it begins.
+        Amplitude over the penetration at rest, >= 0, of a normal impulse that the block gets, as
+        from roughness, half a period of its spring after it begins to slide; only with smoothed
+        friction. Without it a block that was long at rest is as quiet as rounding lets it, and the
+        integration, which takes long steps then, damps flutter before it begins.
 
     Returns
     -------
@@ -153,8 +162,9 @@ def move_block(
 
     Notes
     -----
-    Smoothed friction is stiff, at a rate of μN (1/M + h²/I)/ε, while the block oscillates freely in between: LSODA, which changes between implicit and
-    explicit steps. It also damps: at small U/ε it can suppress flutter (compare with 0).
+    Smoothed friction is stiff, at a rate of μN (1/M + h²/I)/ε, while the block oscillates freely in
+    between: LSODA, which changes between implicit and explicit steps. It also damps: at small U/ε
+    it can suppress flutter (compare with 0).
     """
     smoothing = (
         block.speed / 20.0
@@ -187,7 +197,8 @@ class _Solving:
 
     @cached_property
     def scales(self) -> RealArray:
-        """What the parts of the state are divided by: else absolute tolerances mean nothing for amplitudes of 1e-7 m."""
+        """What the parts of the state are divided by: else absolute tolerances mean nothing for
+        amplitudes of 1e-7 m."""
         block = self.block
         y, U = block.rest, block.speed
         x = max(block.reference_displacement, U / block.normal_frequency)
@@ -201,12 +212,24 @@ class _Solving:
         m, ell, power = law.exponents
         found = np.empty(kernel.COUNT)
         found[: kernel.NORMAL] = [
-            block.mass, block.inertia, 0.5 * block.height, block.spring_height, block.stiffness, block.damping,
-            block.load, block.speed, self.smoothing,
-        ]  # fmt: skip
+            block.mass,
+            block.inertia,
+            0.5 * block.height,
+            block.spring_height,
+            block.stiffness,
+            block.damping,
+            block.load,
+            block.speed,
+            self.smoothing,
+        ]
         found[kernel.NORMAL :] = [
-            law.normal_coefficient, m, law.damping_coefficient, ell, law.friction_coefficient, power,
-        ]  # fmt: skip
+            law.normal_coefficient,
+            m,
+            law.damping_coefficient,
+            ell,
+            law.friction_coefficient,
+            power,
+        ]
         return found
 
     def rates(self, state: RealArray, sign: float) -> RealArray:
@@ -234,7 +257,8 @@ class _Solving:
         return self._motion(times, states, np.full(times.size, 2.0), events, first + second)
 
     def _integrated(self, times: RealArray, state: RealArray) -> tuple[RealArray, int]:
-        """States at the ``times`` with smoothed friction, and the number of evaluations of the rates."""
+        """States at the ``times`` with smoothed friction, and the number of evaluations of the
+        rates."""
         from scipy.integrate import odeint
 
         scales, numbers, (xi, area), rates = self.scales, self.numbers, self.block.base, kernel.block_rates

@@ -1,4 +1,5 @@
-"""Figures of motion on a rough interface: the fitted law, time series, phase portraits, stability, friction against speed, frames of a run."""
+"""Figures of motion on a rough interface: the fitted law, time series, phase portraits, stability,
+friction against speed, frames of a run."""
 
 from __future__ import annotations
 
@@ -40,7 +41,8 @@ LAST = 300
 def plot_compliance(values: Mapping[str, Any], ax: Axes) -> Axes:
     """Draw the contact curve and the law that was fitted to it on ``ax``, on logarithmic axes.
 
-    ``values`` are ``curve_approach`` (n,) in m from where the law begins, ``curve_pressure`` (n,) in Pa, and ``interface_exponent``.
+    ``values`` are ``curve_approach`` (n,) in m from where the law begins, ``curve_pressure`` (n,)
+    in Pa, and ``interface_exponent``.
     """
     depth, pressure, power = values["curve_approach"], values["curve_pressure"], values["interface_exponent"]
     in_m, in_pa = scale(depth, "m"), scale(pressure, "Pa")
@@ -140,7 +142,8 @@ PLOTS = (
         Plot(
             "dynamics_law",
             "Law of the interface",
-            "Mean pressure against approach of the solved contact, and the power law of normal compliance that was fitted to it.",
+            "Mean pressure against approach of the solved contact, and the power law of normal compliance "
+            "that was fitted to it.",
             plot_compliance,
         ),
     ),
@@ -149,7 +152,8 @@ PLOTS = (
         Plot(
             "dynamics_forces",
             "Forces in time",
-            "Forces against time. The largest spring force is the apparent static friction, its mean the apparent kinetic one.",
+            "Forces against time. The largest spring force is the apparent static friction, its mean the "
+            "apparent kinetic one.",
             plot_forces,
         ),
     ),
@@ -185,7 +189,8 @@ PLOTS = (
         Plot(
             "dynamics_stability",
             "Stability of steady sliding",
-            "Largest growth rate of small motion about steady sliding, over friction and damping of the interface. Beyond the line it grows.",
+            "Largest growth rate of small motion about steady sliding, over friction and damping of the "
+            "interface. Beyond the line it grows.",
             plot_stability_of,
         ),
     ),
@@ -194,7 +199,8 @@ PLOTS = (
         Plot(
             "dynamics_speed",
             "Friction against speed",
-            "Mean and largest spring force over the load against the speed of the belt, each from a run that begins just below sliding.",
+            "Mean and largest spring force over the load against the speed of the belt, each from a run that "
+            "begins just below sliding.",
             plot_friction_curve,
         ),
     ),
@@ -208,7 +214,8 @@ def figures_of(values: Mapping[str, Any]) -> tuple[Figure, ...]:
 
 
 def plot_branches(found: Branches, ax: Axes, *, label: str = "") -> Axes:
-    """Draw the extremes of the penetration along a parameter that grows and then falls on ``ax``."""
+    """Draw the extremes of the penetration along a parameter that grows and then falls on
+    ``ax``."""
     for branch, (colour, name) in enumerate(((VERMILLION, "growing"), (BLUE, "falling"))):
         ax.plot(found.axis_values, found.highest[branch], "o-", color=colour, markersize=3, label=name)
         ax.plot(found.axis_values, found.lowest[branch], "o-", color=colour, markersize=3, fillstyle="none")
@@ -242,10 +249,11 @@ FRAME_SIZE = (5.6, 2.8)
 
 
 def plot_frame(run: BlockRun, place: int, ax: Axes) -> Axes:
-    """Draw the block of ``run`` at the sample ``place`` on ``ax``: position, spring, and pressure along the base.
+    """Draw the block of ``run`` at the sample ``place`` on ``ax``: position, spring, and pressure
+    along the base.
 
-    Displacement and penetration are drawn enlarged: the largest displacement of the run as a fifth of the length of the block, the
-    penetration at rest as a tenth of its height.
+    Displacement and penetration are drawn enlarged: the largest displacement of the run as a fifth
+    of the length of the block, the penetration at rest as a tenth of its height.
     """
     block, motion = run.block, run.motion
     if not 0 <= place < motion.time.size:
@@ -294,7 +302,8 @@ def frames(run: BlockRun, places: Sequence[int], *, dpi: int = 100) -> tuple[byt
 
 
 def save_animation(run: BlockRun, path: str | Path, *, count: int = 100, overwrite: bool = False) -> Path:
-    """Write ``count`` frames of ``run``, evenly spaced in time, as an animated picture (.gif, .png or .webp) of 20 a second.
+    """Write ``count`` frames of ``run``, evenly spaced in time, as an animated picture (.gif, .png
+    or .webp) of 20 a second.
 
     Raises
     ------

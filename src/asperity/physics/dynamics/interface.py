@@ -1,4 +1,5 @@
-"""Law of a rough interface for dynamics: pressure and friction as powers of the approach (normal compliance), and its fit to a contact curve."""
+"""Law of a rough interface for dynamics: pressure and friction as powers of the approach (normal
+compliance), and its fit to a contact curve."""
 
 from __future__ import annotations
 
@@ -20,9 +21,11 @@ Exponent = Annotated[float, Number(least=0.5, most=10.0, fix="Metal joints have 
 
 @dataclass(frozen=True)
 class NormalCompliance(Declared):
-    """Normal compliance with damping and friction (Oden and Martins 1985), for an approach δ > 0; without contact all is zero.
+    """Normal compliance with damping and friction (Oden and Martins 1985), for an approach δ > 0;
+    without contact all is zero.
 
-        p = c_n δ^{m_n} + b_n δ^{l_n} dδ/dt >= 0,   |τ| <= c_t δ^{m_t},   μ = c_t δ^{m_t} / (c_n δ^{m_n}) = C p^α,
+        p = c_n δ^{m_n} + b_n δ^{l_n} dδ/dt >= 0,   |τ| <= c_t δ^{m_t},
+        μ = c_t δ^{m_t} / (c_n δ^{m_n}) = C p^α,
         α = m_t/m_n - 1,   C = c_t c_n^{-m_t/m_n}.
 
     Parameters
@@ -47,7 +50,8 @@ class NormalCompliance(Declared):
 
     Notes
     -----
-    The sign of the damping term is that of Oden and Martins (1985); Bhushan (1998) eq. 51 prints the opposite one.
+    The sign of the damping term is that of Oden and Martins (1985); Bhushan (1998) eq. 51 prints
+    the opposite one.
 
     Examples
     --------
@@ -69,7 +73,8 @@ class NormalCompliance(Declared):
     def amontons(
         cls, normal_coefficient: float, normal_exponent: float, *, friction: float = 0.0, relative_damping: float = 0.0
     ) -> NormalCompliance:
-        """Law with the friction coefficient ``friction`` at any pressure and b_n = ``relative_damping`` c_n, l_n = m_n.
+        """Law with the friction coefficient ``friction`` at any pressure and b_n =
+        ``relative_damping`` c_n, l_n = m_n.
 
         ``relative_damping`` in s/m: the pressure is c_n δ^m (1 + relative_damping dδ/dt).
         """
@@ -91,7 +96,8 @@ class NormalCompliance(Declared):
         return self.normal_exponent if self.friction_exponent is None else self.friction_exponent
 
     def pressure(self, approach: ArrayLike, rate: ArrayLike = 0.0) -> RealArray:
-        """p in Pa at ``approach`` δ in m and its ``rate`` in m/s, arrays that fit together; never negative."""
+        """p in Pa at ``approach`` δ in m and its ``rate`` in m/s, arrays that fit together; never
+        negative."""
         m, ell, _ = self.exponents
         depth = np.maximum(np.asarray(approach, dtype=float), 0.0)
         found = self.normal_coefficient * depth**m + self.damping_coefficient * depth**ell * np.asarray(rate)
@@ -136,7 +142,8 @@ class NormalCompliance(Declared):
         return found
 
     def damped(self, ratio: float, inertia: float, pressure: float) -> NormalCompliance:
-        """This law with the damping ``ratio`` >= 0 of the normal oscillation of a mass per area ``inertia`` (kg/m²) about ``pressure`` (Pa).
+        """This law with the damping ``ratio`` >= 0 of the normal oscillation of a mass per area
+        ``inertia`` (kg/m²) about ``pressure`` (Pa).
 
         l_n = m_n; the ratio is b_n δ^m / (2 sqrt(dp/dδ inertia)).
         """
@@ -163,7 +170,8 @@ def _power(depth: RealArray, exponent: float) -> RealArray:
 def metal_joint(compliance: float, exponent: float = 2.0, *, friction: float = 0.0) -> NormalCompliance:
     """Law of a ground or turned metal joint, δ = c p^{1/m} (Back, Burdekin and Cowley 1973).
 
-    ``compliance`` is c in µm/MPa^{1/m}, as that paper prints it: 0.3 to 1 for steel and iron with m = 2.
+    ``compliance`` is c in µm/MPa^{1/m}, as that paper prints it: 0.3 to 1 for steel and iron with
+    m = 2.
     """
     c = 1e-6 * require.positive(compliance, "compliance (um/MPa^(1/m))")
     return NormalCompliance.amontons(1e6 / c**exponent, exponent, friction=friction)
@@ -172,7 +180,8 @@ def metal_joint(compliance: float, exponent: float = 2.0, *, friction: float = 0
 # From a contact curve.
 
 FEWEST = 4
-"""Points of a curve to which a power of the approach is fitted: one more than there are parameters."""
+"""Points of a curve to which a power of the approach is fitted: one more than there are
+parameters."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,16 +241,19 @@ def fit_compliance(
     Parameters
     ----------
     approach
-        u, (n,) in m, n >= 4, in any order, all different: approach of the mean planes, from first touch or anywhere else.
+        u, (n,) in m, n >= 4, in any order, all different: approach of the mean planes, from first
+        touch or anywhere else.
     pressure
         Mean pressure (n,) in Pa, > 0, that grows with the approach.
     offset
-        Approach in m at which the law begins: 0 for first touch, where contact is lost in motion; fitted if not given. The pressure on a rough
-        surface grows nearly exponentially: a fitted offset follows it over a wider range, with an exponent that grows with that range and
-        has no limit.
+        Approach in m at which the law begins: 0 for first touch, where contact is lost in motion;
+        fitted if not given. The pressure on a rough surface grows nearly exponentially: a fitted
+        offset follows it over a wider range, with an exponent that grows with that range and has no
+        limit.
     shear
-        Largest mean shear traction (n,) in Pa at the same points, >= 0, for a law of friction: for Amontons friction μ p, for a shear
-        strength of the real contact that times the area fraction.
+        Largest mean shear traction (n,) in Pa at the same points, >= 0, for a law of friction: for
+        Amontons friction μ p, for a shear strength of the real contact that times the area
+        fraction.
 
     Returns
     -------
@@ -250,20 +262,21 @@ def fit_compliance(
     Raises
     ------
     InputError
-        If there are too few points, the shapes differ, the pressure does not grow with the approach, or no power law with an exponent of 0.5
-        to 10 fits.
+        If there are too few points, the shapes differ, the pressure does not grow with the
+        approach, or no power law with an exponent of 0.5 to 10 fits.
 
     Notes
     -----
-    With a given offset ln p is linear in ln(u - g). Otherwise g is found by a search in one variable on (-∞, min u), through s = ln(min u - g),
-    and the errors are those of the linearised fit of all three parameters.
+    With a given offset ln p is linear in ln(u - g). Otherwise g is found by a search in one
+    variable on (-∞, min u), through s = ln(min u - g), and the errors are those of the linearised
+    fit of all three parameters.
     """
     u, p = np.asarray(approach, dtype=float), np.asarray(pressure, dtype=float)
     order = np.argsort(p)
     if u.ndim != 1 or u.shape != p.shape or u.size < FEWEST:
         raise InputError(
-            f"approach and pressure must be one-dimensional, of one length and have at least {FEWEST} points, but have the shapes {u.shape} and "
-            f"{p.shape}."
+            f"approach and pressure must be one-dimensional, of one length and have at least {FEWEST} points, "
+            f"but have the shapes {u.shape} and {p.shape}."
         )
     if not (np.isfinite(u).all() and np.isfinite(p).all() and (p > 0.0).all()):
         raise InputError("approach must be finite and pressure greater than zero at every point, but some are not.")
@@ -279,8 +292,8 @@ def fit_compliance(
     slope, level, scatter = _line(np.log(u - g), np.log(p))
     if not 0.5 <= slope <= 10.0:
         raise InputError(
-            f"power of the approach that the pressure follows must be 0.5 to 10 for a law of normal compliance, but is {slope:.3g}. Fit a smaller range of "
-            "pressures, or give the offset."
+            "power of the approach that the pressure follows must be 0.5 to 10 for a law of normal "
+            f"compliance, but is {slope:.3g}. Fit a smaller range of pressures, or give the offset."
         )
     # standard errors from the linearised fit of ln p = ln c + m ln(u - g)
     columns, scale = [np.ones_like(u), np.log(u - g)], float(u[-1] - u[0])
@@ -323,7 +336,8 @@ def _best_offset(u: RealArray, log_p: RealArray) -> float:
     def scatter(s: float) -> float:
         return _line(np.log(u - u[0] + span * math.exp(s)), log_p)[2]
 
-    # the distance of g from the first point, from 1e-6 to 100 of the range of approaches; the best of a scan is refined
+    # the distance of g from the first point, from 1e-6 to 100 of the range of approaches; the best
+    # of a scan is refined
     scan = np.linspace(math.log(1e-6), math.log(1e2), 60)
     values = [scatter(float(s)) for s in scan]
     best = int(np.argmin(values))

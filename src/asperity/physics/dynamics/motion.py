@@ -1,4 +1,5 @@
-"""A motion in time: its labelled values, its events, and its energy balance; and the integration phase by phase that makes it."""
+"""A motion in time: its labelled values, its events, and its energy balance; and the integration
+phase by phase that makes it."""
 
 from __future__ import annotations
 
@@ -41,7 +42,8 @@ ENERGIES = (
 
 @dataclass(frozen=True)
 class Event:
-    """What happened at a ``time`` in s: ``kind`` is "stick", "slip", "loss of contact", "contact" or "disturbance"."""
+    """What happened at a ``time`` in s: ``kind`` is "stick", "slip", "loss of contact", "contact"
+    or "disturbance"."""
 
     time: float = measured("s", "when it happened")
     kind: str = measured("", "what happened")
@@ -90,14 +92,16 @@ class Motion:
 
     @property
     def energy_residual(self) -> RealArray:
-        """(n,) in J: change of kinetic and elastic energy, less what was supplied, plus what was dissipated. Zero for an exact motion."""
+        """(n,) in J: change of kinetic and elastic energy, less what was supplied, plus what was
+        dissipated. Zero for an exact motion."""
         stored = self["kinetic_energy"] + self["elastic_energy"]
         found: RealArray = stored - stored[0] - self["supplied"] + self["dissipated"]
         return found
 
     @property
     def energy_error(self) -> float:
-        """Largest energy residual over the largest of: change of one of the energies, work, dissipation."""
+        """Largest energy residual over the largest of: change of one of the energies, work,
+        dissipation."""
         scale = max(float(np.ptp(self[item.name])) for item in ENERGIES)
         return float(np.abs(self.energy_residual).max()) / scale if scale > 0.0 else 0.0
 
@@ -116,9 +120,11 @@ class Motion:
         return Motion(self.time[kept], values, tuple(e for e in self.events if e.time >= start), self.end)
 
     def dominant_frequency(self, name: str) -> float:
-        """Frequency in Hz of the largest peak of the spectrum of a quantity; 0 where it does not move.
+        """Frequency in Hz of the largest peak of the spectrum of a quantity; 0 where it does not
+        move.
 
-        The times are resampled evenly; a Hann window and a parabola through the three points about the peak give a fraction of 1/duration.
+        The times are resampled evenly; a Hann window and a parabola through the three points about
+        the peak give a fraction of 1/duration.
         """
         import scipy.signal
 
@@ -144,7 +150,8 @@ Function: TypeAlias = Callable[[float, RealArray], float]
 
 @dataclass(frozen=True, eq=False)
 class Guard:
-    """Ends a phase where ``function`` crosses zero in ``direction`` (+1 upwards, -1 downwards); ``then`` gives the name of the next phase.
+    """Ends a phase where ``function`` crosses zero in ``direction`` (+1 upwards, -1 downwards);
+    ``then`` gives the name of the next phase.
 
     ``kind`` names the event.
     """
@@ -159,7 +166,8 @@ class Guard:
 class Phase:
     """Equations of motion that hold until a guard ends them.
 
-    ``on_entry`` sets what is exact in the phase. Two crossings within a step are not seen: no step is longer than ``longest`` in s.
+    ``on_entry`` sets what is exact in the phase. Two crossings within a step are not seen: no step
+    is longer than ``longest`` in s.
     """
 
     rates: Rates
@@ -170,7 +178,8 @@ class Phase:
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """States (n, k) at the ``time`` (n,), the phase of each, the events, and the number of evaluations."""
+    """States (n, k) at the ``time`` (n,), the phase of each, the events, and the number of
+    evaluations."""
 
     time: RealArray
     states: RealArray
@@ -180,7 +189,8 @@ class Course:
 
 
 MOST_PHASES = 200_000
-"""Phases after which a motion is taken for one that chatters: changes of phase that follow each other without end."""
+"""Phases after which a motion is taken for one that chatters: changes of phase that follow each
+other without end."""
 
 
 def integrated(
@@ -193,9 +203,11 @@ def integrated(
     tolerance: float,
     scales: RealArray,
 ) -> Course:
-    """States at the ascending ``times`` from ``state`` in the phase ``first`` on, by SciPy's solver ``method``.
+    """States at the ascending ``times`` from ``state`` in the phase ``first`` on, by SciPy's solver
+    ``method``.
 
-    Local errors are held to ``tolerance`` times the state plus ``scales``. A crossing of a guard ends the phase where it is.
+    Local errors are held to ``tolerance`` times the state plus ``scales``. A crossing of a guard
+    ends the phase where it is.
 
     Raises
     ------
@@ -236,8 +248,8 @@ def integrated(
         current = phases[name].on_entry(current.copy())
         events.append(Event(now, guard.kind if name != "stick" else "stick"))
     raise ConvergenceError(
-        f"The motion changes between {first} and other phases more than {MOST_PHASES} times before {times[-1]:g} s. Shorten the "
-        "duration, or smooth the friction."
+        f"The motion changes between {first} and other phases more than {MOST_PHASES} times before "
+        f"{times[-1]:g} s. Shorten the duration, or smooth the friction."
     )
 
 

@@ -1,4 +1,5 @@
-"""A mass on a rough interface: normal vibration, free or forced, with loss of contact, and impact."""
+"""A mass on a rough interface: normal vibration, free or forced, with loss of contact, and
+impact."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class NormalOscillator(Declared):
-    """Mass that its load W + F cos(Ωt) presses on a rough interface: M d²y/dt² = W + F cos(Ωt) - A p(y, dy/dt).
+    """Mass that its load W + F cos(Ωt) presses on a rough interface: M d²y/dt² = W + F cos(Ωt) - A
+    p(y, dy/dt).
 
     Parameters
     ----------
@@ -51,7 +53,8 @@ class NormalOscillator(Declared):
 
     Examples
     --------
-    >>> joint = NormalOscillator(NormalCompliance.amontons(2.8e18, 2.0), mass=1.0, area=2e-3, load=100.0)
+    >>> law = NormalCompliance.amontons(2.8e18, 2.0)
+    >>> joint = NormalOscillator(law, mass=1.0, area=2e-3, load=100.0)
     >>> f"{joint.natural_frequency:.0f} rad/s"
     '38686 rad/s'
     """
@@ -102,8 +105,8 @@ class NormalOscillator(Declared):
         duration
             In s, > 0.
         start
-            Penetration in m and its rate in m/s at the start, a negative penetration above the surface; at rest if not given. The ``end`` of
-            another motion goes on from there.
+            Penetration in m and its rate in m/s at the start, a negative penetration above the
+            surface; at rest if not given. The ``end`` of another motion goes on from there.
         samples
             Number of intervals in which the motion is given.
         tolerance
@@ -122,8 +125,9 @@ class NormalOscillator(Declared):
 
         Notes
         -----
-        Dormand and Prince's method of order 8 (the motion is not stiff), restarted where contact is lost or made, where the higher
-        derivatives jump. The work of the forcing and the heat of the damping are integrated beside the motion.
+        Dormand and Prince's method of order 8 (the motion is not stiff), restarted where contact is
+        lost or made, where the higher derivatives jump. The work of the forcing and the heat of the
+        damping are integrated beside the motion.
         """
         times = sample_times(duration, samples)
         require.between(tolerance, 0.0, 1e-2, "tolerance")

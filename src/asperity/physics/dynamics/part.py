@@ -1,4 +1,5 @@
-"""Friction in motion: the law of the interface that the contact gives, and a mass, a block on a belt or a sliding block that moves on it."""
+"""Friction in motion: the law of the interface that the contact gives, and a mass, a block on a
+belt or a sliding block that moves on it."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ if TYPE_CHECKING:
     pass
 
 MODELS = ("block", "mass", "belt")
-"""What moves: a block that may tilt, a mass that vibrates normally, a block on a belt that only slides."""
+"""What moves: a block that may tilt, a mass that vibrates normally, a block on a belt that only
+slides."""
 
 Model = Annotated[str, Choice({name: name for name in MODELS})]
 Start = Annotated[str, Choice({name: name for name in ("rest", "sliding")})]
@@ -30,10 +32,11 @@ Frequency: TypeAlias = Annotated[float, Number("1/s", above=0.0)]
 class DynamicsSettings(Settings):
     """Motion on the interface that the solved contact describes, under its mean pressure.
 
-    The mass lies on a base of ``base`` with the mean pressure of the contact, which with the weight is the load of the motion. Speed and friction are
-    those of the table [friction]; of a contact with a film the static friction with its menisci. ``block`` has three degrees of freedom, ``mass``
-    only the normal one, ``belt`` only that along the surface, with a static friction above the kinetic one or, with a ``slip_distance``, with
-    rate-and-state friction.
+    The mass lies on a base of ``base`` with the mean pressure of the contact, which with the weight
+    is the load of the motion. Speed and friction are those of the table [friction]; of a contact
+    with a film the static friction with its menisci. ``block`` has three degrees of freedom,
+    ``mass`` only the normal one, ``belt`` only that along the surface, with a static friction above
+    the kinetic one or, with a ``slip_distance``, with rate-and-state friction.
     """
 
     model: Model = setting("block", option="--motion", help="What moves")
@@ -60,7 +63,8 @@ class DynamicsSettings(Settings):
     start: Start | None = setting(
         None,
         option="--start",
-        help="With the spring unstretched, or about to slide; the first by default, if loading the spring does not take too long",
+        help="With the spring unstretched, or about to slide; the first by default, if loading the spring "
+        "does not take too long",
     )
     amplitude: Positive = setting(
         1.5, option="--amplitude", help="Of a mass: penetration at the start over that at rest"
@@ -98,7 +102,8 @@ class DynamicsSettings(Settings):
     disturbance: NonNegative = setting(
         1e-3,
         option="--disturbance",
-        help="Vibration over the penetration at rest that an impulse gives to a block when it slides, as roughness does",
+        help="Vibration over the penetration at rest that an impulse gives to a block when it slides, as "
+        "roughness does",
     )
     points: Annotated[int, Whole(4, 64)] = setting(8, option="--law-points", help="Loads to which the law is fitted")
     law_begins: Begin = setting(
@@ -116,7 +121,8 @@ class DynamicsSettings(Settings):
             raise InputError(f" must give {', '.join(missing)} for the motion of a {self.model}, but does not.")
         if self.speeds is not None and self.model != "block":
             raise InputError(
-                f" must give no speeds ({{dynamics.speeds}}) for the motion of a {self.model}, but does: the curve is that of a block."
+                f" must give no speeds ({{dynamics.speeds}}) for the motion of a {self.model}, but does: the "
+                "curve is that of a block."
             )
         return self
 
@@ -180,7 +186,8 @@ class Dynamics(Part):
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
-        """Law, stability, what the run comes to, the curve of the interface, and the run in time."""
+        """Law, stability, what the run comes to, the curve of the interface, and the run in
+        time."""
         from .block_motion import BLOCK_SCALARS
         from .motion import QUANTITIES
 
@@ -204,7 +211,8 @@ class Dynamics(Part):
             )
         if settings.model != "mass" and not coefficient and getattr(document, "film", None) is None:
             raise InputError(
-                "friction must be given for the motion along the surface, but its coefficient is 0. Give {friction.coefficient=0.3}.",
+                "friction must be given for the motion along the surface, but its coefficient is 0. Give "
+                "{friction.coefficient=0.3}.",
                 subject="friction.coefficient",
             )
         return Moving(settings, float(speed), float(coefficient))

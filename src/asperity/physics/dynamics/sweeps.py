@@ -1,4 +1,5 @@
-"""Many motions of sliding blocks: apparent friction against speed or any other parameter, branches of limit cycles, maps of stability."""
+"""Many motions of sliding blocks: apparent friction against speed or any other parameter, branches
+of limit cycles, maps of stability."""
 
 from __future__ import annotations
 
@@ -18,10 +19,12 @@ Mapper: TypeAlias = Callable[..., Iterable[Any]]
 """``map``, or that of a pool of processes, for independent cases."""
 
 LAW_AXES = ("friction", "damping_ratio")
-"""What may vary beside the parameters of the block: the coefficient of friction, and the ratio of the damping of the interface."""
+"""What may vary beside the parameters of the block: the coefficient of friction, and the ratio of
+the damping of the interface."""
 
 SLIDES_FROM = 0.995
-"""Spring force over the friction at rest from which a run of a sweep begins, so that it does not spend its time on loading the spring."""
+"""Spring force over the friction at rest from which a run of a sweep begins, so that it does not
+spend its time on loading the spring."""
 
 
 def varied(block: SlidingBlock, name: str, value: float) -> SlidingBlock:
@@ -56,7 +59,8 @@ class BlockSweep:
     numbers
         ``BLOCK_SCALARS`` by name, each (n,); NaN where the run failed.
     growth_rate
-        (n,) largest growth rate of small motion about steady sliding in 1/s; NaN where there is none.
+        (n,) largest growth rate of small motion about steady sliding in 1/s; NaN where there is
+        none.
     failures
         Sentence of each run that failed, by its place.
     """
@@ -117,17 +121,20 @@ def sweep_block(
     block
         The block, of which one parameter varies.
     axis
-        Name of a parameter of the block (``"speed"``, ``"stiffness"``, ``"load"`` …), ``"friction"`` or ``"damping_ratio"``.
+        Name of a parameter of the block (``"speed"``, ``"stiffness"``, ``"load"`` …),
+        ``"friction"`` or ``"damping_ratio"``.
     values
         (n,) in SI units.
     duration
         Of each run in s.
     window
-        Length in s of the end of the run that the numbers are taken from; half of the duration if not given.
+        Length in s of the end of the run that the numbers are taken from; half of the duration if
+        not given.
     smoothing_speed, tolerance
         As for ``move_block``.
     mapper
-        ``map``, or that of a pool, such as ``concurrent.futures.ProcessPoolExecutor().map``: the runs do not depend on each other.
+        ``map``, or that of a pool, such as ``concurrent.futures.ProcessPoolExecutor().map``: the
+        runs do not depend on each other.
 
     Returns
     -------
@@ -152,7 +159,8 @@ def sweep_block(
 
 @dataclass(frozen=True, eq=False)
 class Branches:
-    """Extremes of a limit cycle along a parameter that grows and then falls again, each run from the end of the one before.
+    """Extremes of a limit cycle along a parameter that grows and then falls again, each run from
+    the end of the one before.
 
     Attributes
     ----------
@@ -161,8 +169,9 @@ class Branches:
     axis_values
         (n,) its values, ascending.
     lowest, highest
-        (2, n) smallest and largest penetration over that at rest; first while the parameter grows, then while it falls. Where both
-        differ, there are two motions, and which is seen depends on the past.
+        (2, n) smallest and largest penetration over that at rest; first while the parameter grows,
+        then while it falls. Where both differ, there are two motions, and which is seen depends on
+        the past.
     """
 
     axis: str
@@ -181,10 +190,11 @@ def bifurcation(
     tolerance: float = TOLERANCE,
     disturbance: float = 1e-3,
 ) -> Branches:
-    """Extremes of the penetration in the second half of runs of ``duration`` (s) along ascending, then descending ``values`` of ``axis``.
+    """Extremes of the penetration in the second half of runs of ``duration`` (s) along ascending,
+    then descending ``values`` of ``axis``.
 
-    Every run but the first starts from the end of the one before, with the penetration off by ``disturbance`` times that at rest, so
-    that what is unstable is left.
+    Every run but the first starts from the end of the one before, with the penetration off by
+    ``disturbance`` times that at rest, so that what is unstable is left.
 
     Raises
     ------
@@ -231,7 +241,8 @@ class StabilityMap:
 
 
 def stability_map(block: SlidingBlock, axes: Mapping[str, Sequence[float]]) -> StabilityMap:
-    """Growth rates of ``block`` for all pairs of the values of two ``axes``, parameters as for ``sweep_block``, in their order.
+    """Growth rates of ``block`` for all pairs of the values of two ``axes``, parameters as for
+    ``sweep_block``, in their order.
 
     Raises
     ------

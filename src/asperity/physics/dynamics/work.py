@@ -61,12 +61,16 @@ class DynamicsWork(Work):
             sentence = "The block has not begun to slide: there is no apparent friction."
         else:
             frequency = show(values["normal_frequency"], "Hz", 3)
-            sentence = f"The interface vibrates at {frequency}; the normal force is between {values['smallest_normal_force']:.3g} and {values['largest_normal_force']:.3g} of the load."
+            sentence = (
+                f"The interface vibrates at {frequency}; the normal force is between "
+                f"{values['smallest_normal_force']:.3g} and {values['largest_normal_force']:.3g} of the "
+                "load."
+            )
         return Words(sentence, headline, rows, remarks=(REMARK,))
 
 
 REMARK = (
-    "The whole base follows the law of normal compliance of the solved contact; friction follows the approach without delay. Vibration of the "
-    "bodies themselves is left out."
+    "The whole base follows the law of normal compliance of the solved contact; friction follows the approach "
+    "without delay. Vibration of the bodies themselves is left out."
 )
 """What the model is."""

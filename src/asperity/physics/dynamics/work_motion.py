@@ -1,4 +1,5 @@
-"""From a solved contact to a motion on it: the law of its interface, the model that is asked for, its motion, and what that comes to."""
+"""From a solved contact to a motion on it: the law of its interface, the model that is asked for,
+its motion, and what that comes to."""
 
 from __future__ import annotations
 
@@ -26,10 +27,12 @@ from .part import TRACES, Moving
 from .sweeps import SLIDES_FROM, stability_map, sweep_block
 
 MOST_PERIODS = 20_000
-"""Periods of the normal vibration that loading the spring may take in a run that starts from rest: some ten seconds of work."""
+"""Periods of the normal vibration that loading the spring may take in a run that starts from rest:
+some ten seconds of work."""
 
 USUAL_PERIODS = 300
-"""Periods of the normal vibration after the spring is loaded: flutter has grown by then where it grows faster than 1 % a period."""
+"""Periods of the normal vibration after the spring is loaded: flutter has grown by then where it
+grows faster than 1 % a period."""
 
 SLID = 0.9
 """Largest spring force over the friction at rest above which the block has begun to slide."""
@@ -50,10 +53,12 @@ WIDEST = 2.5
 """Largest pressure of the curve over that of the load: vibrating blocks reach about this much."""
 
 FEWEST_PIXELS = 50
-"""Touching pixels under the load below which the law is that of single pixels: one has an exponent of exactly 1, whatever the surface."""
+"""Touching pixels under the load below which the law is that of single pixels: one has an exponent
+of exactly 1, whatever the surface."""
 
 DRIFTS = 0.03
-"""Change of the spring force over the end of a motion, over its mean, from which on that mean is none of a steady state."""
+"""Change of the spring force over the end of a motion, over its mean, from which on that mean is
+none of a steady state."""
 
 POOR_FIT = 0.1
 """Largest relative error of the fitted law above which that is a finding."""
@@ -63,14 +68,16 @@ MAP_POINTS = 25
 
 
 def fitted_law(ask: Moving, solved: Solved) -> ComplianceFit:
-    """Law of normal compliance of the contact about its mean pressure: from the load path where that spans it, else from a path of its own."""
+    """Law of normal compliance of the contact about its mean pressure: from the load path where
+    that spans it, else from a path of its own."""
     pressure = solved.result.mean_pressure
     if pressure <= 0.0:
         raise InputError("The contact must bear a load for motion on it, but its mean pressure is zero.")
     pixels = int(np.count_nonzero(solved.result.contact))
     if pixels < FEWEST_PIXELS:
         raise InputError(
-            f"contact must have at least {FEWEST_PIXELS} touching pixels under the load for a law of its interface, but has {pixels}. "
+            f"contact must have at least {FEWEST_PIXELS} touching pixels under the load for a law of its "
+            f"interface, but has {pixels}. "
             "Raise the load ({load}), or refine the grid ({resample}).",
             subject="control",
         )
@@ -103,7 +110,8 @@ class Made:
 
     @cached_property
     def friction(self) -> float:
-        """Coefficient of friction under the load: that of the table, or the static one with the menisci of a film."""
+        """Coefficient of friction under the load: that of the table, or the static one with the
+        menisci of a film."""
         known = (answer.friction_under_load() for answer in self.solved.result.answers)
         return next((found for found in known if found is not None), self.ask.friction)
 
@@ -264,8 +272,9 @@ class Made:
         return found
 
     def _of_model(self) -> dict[str, Any]:
-        """What the model comes to; of a block also growth rates over friction and damping, both from nothing to twice what is asked, or what
-        flutters at all, and its friction against speed."""
+        """What the model comes to; of a block also growth rates over friction and damping, both
+        from nothing to twice what is asked, or what flutters at all, and its friction against
+        speed."""
         settings, model = self.ask.settings, self.ask.settings.model
         if model == "belt":
             motion, spring = self.motion, self.motion["spring_force"] / self.load
@@ -337,21 +346,25 @@ class Made:
         elif self.ask.settings.model == "block":
             growth = self.block.stability.margin
             if growth > 0.0 and growth * self.duration < 10.0:
-                fact = f"Steady sliding is unstable, but at {growth:.3g} 1/s the vibration has not grown within {show(self.duration, 's', 3)}."
+                fact = (
+                    f"Steady sliding is unstable, but at {growth:.3g} 1/s the vibration has not grown "
+                    f"within {show(self.duration, 's', 3)}."
+                )
                 numbers = {"growth_rate": growth, "duration": self.duration}
                 remedy = "Take a longer duration ({dynamics.duration})."
                 made.append(Advice("note", "duration of the motion", fact, remedy, numbers, VIBRATION))
             elif growth > 0.0 and self._late_numbers["penetration_vibration"] < QUIET:
                 fact = (
-                    f"Steady sliding is unstable, with a growth of {growth:.3g} 1/s, but the motion does not vibrate: friction that turns over smoothly, or errors of the "
-                    "integration, damp it."
+                    f"Steady sliding is unstable, with a growth of {growth:.3g} 1/s, but the motion does not "
+                    "vibrate: friction that turns over smoothly, or errors of the integration, damp it."
                 )
                 remedy = (
                     "Start about to slide ({dynamics.start=sliding}), or smooth friction less ({dynamics.smoothing})."
                 )
                 numbers = {"growth_rate": growth, "vibration": self._late_numbers["penetration_vibration"]}
                 made.append(Advice("warning", "vibration of the motion", fact, remedy, numbers, VIBRATION))
-            # whether the apparent friction is that of a steady state, and the phase of the vibration one of the equations
+            # whether the apparent friction is that of a steady state, and the phase of the
+            # vibration one of the equations
             late, numbers = self.motion.after(self._window), self._late_numbers
             spring = late["spring_force"]
             slope = np.polyfit(late.time - late.time[0], spring, 1)[0]
@@ -359,8 +372,9 @@ class Made:
             if math.isnan(numbers["stick_slip_period"]) and abs(change) > DRIFTS:
                 how = "runs backwards" if change < 0.0 else "is still dragged along"
                 fact = (
-                    f"The block {how} in the time of the apparent friction: the spring force changes by {percent(change)} over the last "
-                    f"{show(float(np.ptp(late.time)), 's', 3)}, so that its mean is not that of a steady state."
+                    f"The block {how} in the time of the apparent friction: the spring force changes by "
+                    f"{percent(change)} over the last {show(float(np.ptp(late.time)), 's', 3)}, so that its "
+                    "mean is not that of a steady state."
                 )
                 remedy, found = "Take a longer duration ({dynamics.duration}).", {"change": change, "largest": DRIFTS}
                 made.append(Advice("warning", "window of the motion", fact, remedy, found, SLIDING))
@@ -371,7 +385,10 @@ class Made:
                     if self.ask.settings.disturbance == 0.0
                     else "The block loses contact in an unstable vibration"
                 )
-                fact = f"{why}: its phase hangs on rounding. Only means and extremes can be relied on, not the time of an event."
+                fact = (
+                    f"{why}: its phase hangs on rounding. Only means and extremes can be relied on, not "
+                    "the time of an event."
+                )
                 made.append(Advice("note", "phase of the motion", fact, concerns=("motion_",)))
         return tuple(made)
 
@@ -380,8 +397,9 @@ class Made:
         fit = self.fit
         if fit.largest_error > POOR_FIT:
             fact = (
-                f"The power law of the interface differs from the contact by up to {percent(fit.largest_error)}. A rough contact follows a power of the approach "
-                "only over part of the range: the law holds near the load."
+                "The power law of the interface differs from the contact by up to "
+                f"{percent(fit.largest_error)}. A rough contact follows a power of the approach only over part "
+                "of the range: the law holds near the load."
             )
             numbers = {"error": fit.largest_error, "largest": POOR_FIT}
             yield Advice("note", "law of the interface", fact, numbers=numbers, concerns=("interface_",))
@@ -390,8 +408,8 @@ class Made:
             largest = float(self.motion["normal_force"].max()) / self.area
             if largest > 1.05 * high:
                 fact = (
-                    f"The motion reaches a mean pressure of {show(largest, 'Pa', 3)}, but the law was fitted from {show(low, 'Pa', 3)} to {show(high, 'Pa', 3)} "
-                    "and is extrapolated."
+                    f"The motion reaches a mean pressure of {show(largest, 'Pa', 3)}, but the law was fitted "
+                    f"from {show(low, 'Pa', 3)} to {show(high, 'Pa', 3)} and is extrapolated."
                 )
                 remedy = (
                     "Take a smaller disturbance ({dynamics.disturbance}), or more damping ({dynamics.damping_ratio})."

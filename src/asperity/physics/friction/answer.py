@@ -26,7 +26,8 @@ GROSS = 1.0 - 1e-9
 
 @dataclass(frozen=True, eq=False)
 class StickSlip(Answer):
-    """Shear and slip at the end of one step. Fields are (nx, ny) arrays or (2, nx, ny) arrays of x and y components, all values SI.
+    """Shear and slip at the end of one step. Fields are (nx, ny) arrays or (2, nx, ny) arrays of x
+    and y components, all values SI.
 
     Attributes
     ----------
@@ -37,15 +38,18 @@ class StickSlip(Answer):
     traction
         Shear traction (2, nx, ny) on the body in Pa.
     slip_increment, slip
-        Slip (2, nx, ny) of the counter body over the body in this step, and since the start of the history, in m. Under a force that is all that
-        friction bears it is the least that slides every point.
+        Slip (2, nx, ny) of the counter body over the body in this step, and since the start of the
+        history, in m. Under a force that is all that friction bears it is the least that slides
+        every point.
     tangential_displacement
-        Displacement (2, nx, ny) of the body relative to the counter body along the surface, elastic, in m.
+        Displacement (2, nx, ny) of the body relative to the counter body along the surface,
+        elastic, in m.
     shear_displacement
         Normal displacement (nx, ny) in m by the shear traction.
     shift_x, shift_y, twist
-        Rigid displacement (m) and rotation (rad) of the counter body since the start; the displacement is NaN once a tangential force was all that
-        friction bears, since it is not determined then.
+        Rigid displacement (m) and rotation (rad) of the counter body since the start; the
+        displacement is NaN once a tangential force was all that friction bears, since it is not
+        determined then.
     force_x, force_y, torque
         Tangential force (N) and torque about the centre of the grid (N·m) on the body.
     friction_limit
@@ -59,8 +63,8 @@ class StickSlip(Answer):
     duality_gap
         Bound on the relative error of the tangential energy for the pressure found.
     complementarity
-        De Saxcé's residual Σ [p (g + μ|s|) - q·s] over Σ p |shift of the step|, which vanishes at solutions of the coupled problem; over the
-        work of the slip where nothing was shifted.
+        De Saxcé's residual Σ [p (g + μ|s|) - q·s] over Σ p |shift of the step|, which vanishes at
+        solutions of the coupled problem; over the work of the slip where nothing was shifted.
     iterations, fft_pairs
         Newton steps, and FFT pairs of the grid, of all tangential and joint solves.
     status
@@ -140,7 +144,10 @@ class StickSlip(Answer):
             return
         if slides_freely(self.tangential, self.friction_limit):
             limit = show(self.friction_limit, "N")
-            why = f"The tangential force is all that friction bears, {limit}: every point slides, and the shift is not determined"
+            why = (
+                f"The tangential force is all that friction bears, {limit}: every point slides, and the "
+                "shift is not determined"
+            )
         else:
             why = (
                 "In an earlier step the tangential force was all that friction bears: the shift is not determined since"
@@ -183,10 +190,11 @@ class StickSlip(Answer):
         yield from (Labelled(item, value) for item, value in zip(MEASURES, measures, strict=True))
 
     def work_by(self, moved: RealArray, displaced: RealArray, pixel: float) -> float:
-        """Work (J) of tangential force and torque while the counter body ``moved`` (3,), on points of ``pixel`` m².
+        """Work (J) of tangential force and torque while the counter body ``moved`` (3,), on points
+        of ``pixel`` m².
 
-        ``displaced`` (2, nx, ny) in m is what the step added to the displacement along the surface. Where the shift is not determined it is that of
-        the slip stated.
+        ``displaced`` (2, nx, ny) in m is what the step added to the displacement along the surface.
+        Where the shift is not determined it is that of the slip stated.
         """
         if np.isnan(moved).any():
             return pixel * float(np.einsum("kij,kij->", self.traction, self.slip_increment + displaced))
@@ -239,5 +247,6 @@ MEASURES = (
 
 
 def slides_freely(control: Tangential, limit: float) -> bool:
-    """Whether ``control`` is a force that is all of the ``limit`` (N) that friction bears: how far the body then slides is not determined."""
+    """Whether ``control`` is a force that is all of the ``limit`` (N) that friction bears: how far
+    the body then slides is not determined."""
     return isinstance(control, TangentialForce) and control.magnitude >= GROSS * limit

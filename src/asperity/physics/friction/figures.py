@@ -1,4 +1,5 @@
-"""Figures of stick and slip: where points stick and slip, what slip dissipates, traction along a line, and loops of force and shift."""
+"""Figures of stick and slip: where points stick and slip, what slip dissipates, traction along a
+line, and loops of force and shift."""
 
 from __future__ import annotations
 
@@ -21,12 +22,14 @@ CLASSES = (("open", NO_CONTACT), ("sticks", BLUE), ("slips", VERMILLION))
 
 
 def stick_slip_kinds(result: ContactResult) -> Kinds:
-    """Where the surfaces of ``result`` are open, stick, and slip in the last step; InputError if it has no stick and slip."""
+    """Where the surfaces of ``result`` are open, stick, and slip in the last step; InputError if it
+    has no stick and slip."""
     return Kinds(np.asarray(kinds(result), dtype=float), result.problem.grid, CLASSES)
 
 
 def dissipation_field(thing: ContactResult | HistoryResult) -> Field:
-    """Energy per area that slip has dissipated in the step of a result, or in all steps of a history; blank where nothing slips."""
+    """Energy per area that slip has dissipated in the step of a result, or in all steps of a
+    history; blank where nothing slips."""
     steps = thing.steps if isinstance(thing, HistoryResult) else (thing,)
     density = np.sum([step.require_stick_slip().dissipation_density for step in steps], axis=0)
     drawn = np.where(density > 0.0, density, np.nan)
@@ -36,7 +39,8 @@ def dissipation_field(thing: ContactResult | HistoryResult) -> Field:
 
 
 def plot_shear_section(result: ContactResult, ax: Axes) -> Axes:
-    """Draw the shear traction of ``result`` along x through its largest value on ``ax``, between the bounds of the friction.
+    """Draw the shear traction of ``result`` along x through its largest value on ``ax``, between
+    the bounds of the friction.
 
     The traction is that along the tangential force.
     """
@@ -63,7 +67,8 @@ def plot_shear_section(result: ContactResult, ax: Axes) -> Axes:
 
 
 def plot_shear_loop(history: HistoryResult, ax: Axes) -> Axes:
-    """Draw the tangential force of ``history`` against the shift, both along the largest shift, on ``ax``."""
+    """Draw the tangential force of ``history`` against the shift, both along the largest shift, on
+    ``ax``."""
     loop = loop_of(history.steps)
     first = loop.cycles[0][0] if loop.cycles else len(loop.shift) - 1
     zero = [0.0] if history.start is None and loop.shift[0] != 0.0 else []
@@ -90,8 +95,8 @@ SHEAR_PLOTS = (
     Plot(
         "shear_section",
         "Shear traction",
-        "Shear traction along x through its largest value, along the tangential force, between the bounds that the friction sets. "
-        "Points on the bound slip.",
+        "Shear traction along x through its largest value, along the tangential force, between the bounds "
+        "that the friction sets. Points on the bound slip.",
         plot_shear_section,
     ),
     map_of(
@@ -109,7 +114,8 @@ LOOP_PLOTS = (
     Plot(
         "loop",
         "Tangential force against shift",
-        "Tangential force against shift, both along the largest shift. The area within a loop is the energy that a cycle takes.",
+        "Tangential force against shift, both along the largest shift. The area within a loop is the energy "
+        "that a cycle takes.",
         plot_shear_loop,
     ),
     map_of(

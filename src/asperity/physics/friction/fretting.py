@@ -1,4 +1,5 @@
-"""What a step with stick and slip comes to in numbers, and the cycles of a history with what they dissipate."""
+"""What a step with stick and slip comes to in numbers, and the cycles of a history with what they
+dissipate."""
 
 from __future__ import annotations
 
@@ -47,7 +48,8 @@ class Loop:
     dissipated
         Energy (J) dissipated by slip in each step.
     cycles
-        First and last step of each closed cycle: from one turning point to the next of the same side.
+        First and last step of each closed cycle: from one turning point to the next of the same
+        side.
     """
 
     shift: RealArray

@@ -1,4 +1,5 @@
-"""Laws of friction: the largest shear traction that a point of the contact bears before it slips."""
+"""Laws of friction: the largest shear traction that a point of the contact bears before it
+slips."""
 
 from __future__ import annotations
 
@@ -26,29 +27,33 @@ class FrictionLaw(Protocol):
         """Keys of the papers the law rests on."""
 
     def bound(self, pressure: RealArray) -> RealArray:
-        """Largest shear traction (nx, ny) in Pa under ``pressure`` (nx, ny) in Pa; zero where that is zero, infinite where nothing slips."""
+        """Largest shear traction (nx, ny) in Pa under ``pressure`` (nx, ny) in Pa; zero where that
+        is zero, infinite where nothing slips."""
 
 
 @dataclass(frozen=True, eq=False)
 class Coulomb:
     """Shear traction at most μ p, or at most the smaller of μ p and a limit.
 
-    In a step without a tangential control all points slide: the shear traction is μ p in one direction. With one
-    (``Shift``, ``TangentialForce``) the surfaces stick where the traction is smaller.
+    In a step without a tangential control all points slide: the shear traction is μ p in one
+    direction. With one (``Shift``, ``TangentialForce``) the surfaces stick where the traction is
+    smaller.
 
     Parameters
     ----------
     coefficient
         μ >= 0, shear traction over pressure of the solid contact: a number, or an (nx, ny) array.
     direction
-        Angle in rad of the shear traction on ``body`` of the problem where all points slide, from +x towards +y.
+        Angle in rad of the shear traction on ``body`` of the problem where all points slide, from
+        +x towards +y.
     speed
         Sliding speed in m/s, >= 0, for the viscous force of a film of liquid.
     coupled
-        Whether the shear of gross sliding changes the pressure, as it does between unlike bodies (Dundurs 1969); if not, it only adds
-        forces.
+        Whether the shear of gross sliding changes the pressure, as it does between unlike bodies
+        (Dundurs 1969); if not, it only adds forces.
     limit
-        Largest shear traction in Pa whatever the pressure, > 0, for steps with a tangential control: shear strength of the interface.
+        Largest shear traction in Pa whatever the pressure, > 0, for steps with a tangential
+        control: shear strength of the interface.
 
     Raises
     ------
@@ -101,7 +106,8 @@ class Coulomb:
 
 @dataclass(frozen=True, eq=False)
 class TrescaFriction:
-    """Shear traction at most τ wherever the surfaces touch, whatever the pressure: soft films, adhesive friction.
+    """Shear traction at most τ wherever the surfaces touch, whatever the pressure: soft films,
+    adhesive friction.
 
     Parameters
     ----------
@@ -139,14 +145,16 @@ class FullStick:
 
 
 def at_points(law: FrictionLaw, index: np.ndarray[tuple[int], np.dtype[np.int64]]) -> FrictionLaw:
-    """``law``, a dataclass, for the points at the flat ``index`` (n,) alone: its maps become arrays (1, n)."""
+    """``law``, a dataclass, for the points at the flat ``index`` (n,) alone: its maps become arrays
+    (1, n)."""
     values = {item.name: getattr(law, item.name) for item in fields(law)}  # type: ignore[arg-type]
     maps = {name: value.reshape(-1)[index][None] for name, value in values.items() if isinstance(value, np.ndarray)}
     return replace(law, **maps) if maps else law  # type: ignore[type-var]
 
 
 def _number_or_map(value: float | RealArray, what: str) -> float | RealArray:
-    """``value``, a number or an (nx, ny) array of numbers >= 0, as float or as an array that cannot be written to."""
+    """``value``, a number or an (nx, ny) array of numbers >= 0, as float or as an array that cannot
+    be written to."""
     if not isinstance(value, np.ndarray) or value.ndim == 0:
         return require.not_negative(value, what)  # type: ignore[arg-type]
     found = np.array(value, dtype=float)

@@ -1,8 +1,10 @@
-"""Small changes of a contact with stick and slip: its tangential stiffness, and how fast pressure and shear settle in turn.
+"""Small changes of a contact with stick and slip: its tangential stiffness, and how fast pressure
+and shear settle in turn.
 
-Both linearise the last step on its sets: sticking points move with the counter body, slipping ones turn on their circles and follow the
-pressure, and the free points of the normal contact keep their gap of zero (``friction.solver.joint``). Where shear changes the pressure the load
-or the position is held, as it was prescribed; under a hardness the pressure is.
+Both linearise the last step on its sets: sticking points move with the counter body, slipping ones
+turn on their circles and follow the pressure, and the free points of the normal contact keep their
+gap of zero (``friction.solver.joint``). Where shear changes the pressure the load or the position
+is held, as it was prescribed; under a hardness the pressure is.
 """
 
 from __future__ import annotations
@@ -27,14 +29,16 @@ from .solver.linear_system import GeneralSystem, gmres
 from .solver.problem import Points, Sets, size_of
 
 _REDUCTION = 1e-5
-"""Reduction of the residual in the systems of the stiffness: single precision holds no more, and the stiffness is off by no more than 3e-6 in the tests."""
+"""Reduction of the residual in the systems of the stiffness: single precision holds no more, and
+the stiffness is off by no more than 3e-6 in the tests."""
 
 _PRODUCTS = 80
 """Products in one of these systems at most; about 12 are the rule."""
 
 _ROUNDS = 3
 _COARSE = 0.02
-"""Rounds of the linearised alternation, and the reduction in their systems. Rough contact, 64²: the factor of the third is within 2 % of that of the tenth."""
+"""Rounds of the linearised alternation, and the reduction in their systems. Rough contact, 64²: the
+factor of the third is within 2 % of that of the tenth."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +48,8 @@ class TangentialStiffness:
     Attributes
     ----------
     matrix
-        (2, 2) in N/m: force along x and y (rows) by shift along x and y. On a free boundary (3, 3), with the torque about the centre of the
-        grid in N·m and the twist in rad last.
+        (2, 2) in N/m: force along x and y (rows) by shift along x and y. On a free boundary (3, 3),
+        with the torque about the centre of the grid in N·m and the twist in rad last.
     """
 
     matrix: RealArray
@@ -57,10 +61,11 @@ class TangentialStiffness:
 
 
 def tangential_stiffness(result: ContactResult) -> TangentialStiffness:
-    """Tangential stiffness of ``result``: derivative of the force of its last step by the shift at its end, by one linear solve for each.
+    """Tangential stiffness of ``result``: derivative of the force of its last step by the shift at
+    its end, by one linear solve for each.
 
-    It is that of a shift which goes on as the step did, slipping points slipping further; a shift that turns back meets sticking points
-    everywhere at first.
+    It is that of a shift which goes on as the step did, slipping points slipping further; a shift
+    that turns back meets sticking points everywhere at first.
 
     Raises
     ------
@@ -82,10 +87,11 @@ def tangential_stiffness(result: ContactResult) -> TangentialStiffness:
 
 
 def contraction_factor(result: ContactResult) -> float:
-    """Factor by which a round between pressure and shear multiplies their error: of the alternation linearised at ``result``.
+    """Factor by which a round between pressure and shear multiplies their error: of the alternation
+    linearised at ``result``.
 
-    Below one the plain alternation contracts there, to the one solution nearby; above one it does not, whatever method found the solution. Zero
-    where shear does not change the pressure.
+    Below one the plain alternation contracts there, to the one solution nearby; above one it does
+    not, whatever method found the solution. Zero where shear does not change the pressure.
 
     Raises
     ------
@@ -161,7 +167,8 @@ class _Linearised:
         return gmres(system, self.system.centred(r * rows) * rows, reduction, _PRODUCTS)[0]
 
     def traction_by(self, moved: RealArray) -> RealArray:
-        """Change of traction (2, nx, ny) in Pa by the displacement ``moved`` (2, nx, ny) in m of the counter body."""
+        """Change of traction (2, nx, ny) in Pa by the displacement ``moved`` (2, nx, ny) in m of
+        the counter body."""
         s = self.place.points.gathered(moved)
         r = np.concatenate([0.0 * s[:1], self.place.sets.free_part(s) * self.system.bears]).astype("float32")
         z = self._solved(_ALL if self.coupled else _SHEAR, r, _REDUCTION)
@@ -169,7 +176,8 @@ class _Linearised:
         return self.place.points.scattered(change, moved.shape[1:])
 
     def contraction(self) -> float:
-        """Ratio of the normal displacements by shear of two rounds in a row of the linearised alternation."""
+        """Ratio of the normal displacements by shear of two rounds in a row of the linearised
+        alternation."""
         lift = self._lift(self.place.q.astype("float32"))
         factor = 0.0
         for _ in range(_ROUNDS):
@@ -183,7 +191,8 @@ class _Linearised:
         return factor
 
     def _lift(self, traction: RealArray) -> RealArray:
-        """Normal displacement by ``traction`` (2, n), in the first row of (3, n), without what a prescribed load leaves free."""
+        """Normal displacement by ``traction`` (2, n), in the first row of (3, n), without what a
+        prescribed load leaves free."""
         change = np.concatenate([traction, 0.0 * traction[:1]])
         self.system.respond(change)
         out = np.zeros_like(change)

@@ -1,8 +1,9 @@
-"""From shear traction to tangential displacement on a grid, and the coupling of both with the normal direction.
+"""From shear traction to tangential displacement on a grid, and the coupling of both with the
+normal direction.
 
-Tractions act on the body, displacements are those of the body relative to the counter body, arrays (2, nx, ny) of their x and y
-components. The two-body compliance is that of Kalker (1990): the bodies' own compliances add up, their coupling between normal and
-tangential directions subtracts.
+Tractions act on the body, displacements are those of the body relative to the counter body, arrays
+(2, nx, ny) of their x and y components. The two-body compliance is that of Kalker (1990): the
+bodies' own compliances add up, their coupling between normal and tangential directions subtracts.
 """
 
 from __future__ import annotations
@@ -23,12 +24,14 @@ from ...solids.compliance.tensor import BodiesSurface, SurfaceCompliance
 from ...solids.layers import Body
 
 NO_COUPLING = 1e-11
-"""Coupling over compliance that is rounding: equal bodies, or an incompressible one on a rigid one."""
+"""Coupling over compliance that is rounding: equal bodies, or an incompressible one on a rigid
+one."""
 
 
 @dataclass(frozen=True, eq=False)
 class CouplingKernel:
-    """Coupling between normal and tangential directions in Fourier space: C_zx = i ``zx``, C_xz = -i ``zx``, likewise y (m/Pa).
+    """Coupling between normal and tangential directions in Fourier space: C_zx = i ``zx``, C_xz =
+    -i ``zx``, likewise y (m/Pa).
 
     ``transform`` takes fields of the grid to the half spectra of ``zx`` and ``zy`` and back.
     """
@@ -89,7 +92,8 @@ def padded_shape(grid: Grid) -> tuple[int, int]:
 
 
 class TangentialOperator:
-    """u = C q for shear tractions q on ``grid``: periodic by the spectrum, free by influence coefficients.
+    """u = C q for shear tractions q on ``grid``: periodic by the spectrum, free by influence
+    coefficients.
 
     Parameters
     ----------
@@ -103,7 +107,8 @@ class TangentialOperator:
     Raises
     ------
     InputError
-        If both bodies are rigid, or, when ``entries`` are first read, on a free boundary a layer may slip: it would move without end.
+        If both bodies are rigid, or, when ``entries`` are first read, on a free boundary a layer
+        may slip: it would move without end.
     """
 
     def __init__(
@@ -129,7 +134,8 @@ class TangentialOperator:
 
     @cached_property
     def entries(self) -> tuple[RealArray, RealArray, RealArray]:
-        """``xx``, ``yy`` and ``xy`` (m/Pa) on the half spectrum of the grid or of its padded form."""
+        """``xx``, ``yy`` and ``xy`` (m/Pa) on the half spectrum of the grid or of its padded
+        form."""
         if self._entries is not None:
             return self._entries
         if isinstance(self.boundary, Periodic):
@@ -158,7 +164,8 @@ class TangentialOperator:
 
     @property
     def mean(self) -> float:
-        """Displacement by a uniform traction, m/Pa; of a periodic half-space none, whose datum is the mean."""
+        """Displacement by a uniform traction, m/Pa; of a periodic half-space none, whose datum is
+        the mean."""
         return float(self.entries[0][0, 0])
 
     @cached_property
@@ -175,7 +182,8 @@ class TangentialOperator:
         return self._convolutions[dtype]
 
     def coupled_convolution(self, dtype: str, normal: Operator) -> VectorConvolution:
-        """Prepared product with all three components of traction, ``normal`` being the operator of the pressure on the same grid."""
+        """Prepared product with all three components of traction, ``normal`` being the operator of
+        the pressure on the same grid."""
         if dtype not in self._coupled_convolutions:
             entries = (*self.entries, normal.kernel, self.coupling.zx, self.coupling.zy)
             made = VectorConvolution(self.engine, entries, self.grid.shape, self.padded, dtype)
@@ -183,17 +191,20 @@ class TangentialOperator:
         return self._coupled_convolutions[dtype]
 
     def displacement(self, traction: RealArray) -> RealArray:
-        """Tangential displacement (2, nx, ny) in m under ``traction`` (2, nx, ny) in Pa, in double precision; a new array."""
+        """Tangential displacement (2, nx, ny) in m under ``traction`` (2, nx, ny) in Pa, in double
+        precision; a new array."""
         values, out = np.ascontiguousarray(traction, dtype=np.float64), np.empty(traction.shape)
         self.convolution("float64").apply((values[0], values[1]), (out[0], out[1]))
         return out
 
     def drawn(self, pressure: RealArray) -> RealArray:
-        """Tangential displacement (2, nx, ny) in m under ``pressure`` (nx, ny) in Pa; zero for bodies that do not couple."""
+        """Tangential displacement (2, nx, ny) in m under ``pressure`` (nx, ny) in Pa; zero for
+        bodies that do not couple."""
         return self.coupling.drawn(pressure) if self.coupled else np.zeros((2, *pressure.shape))
 
     def lift(self, traction: RealArray) -> RealArray:
-        """Normal displacement (nx, ny) in m under ``traction`` (2, nx, ny) in Pa; zero for bodies that do not couple."""
+        """Normal displacement (nx, ny) in m under ``traction`` (2, nx, ny) in Pa; zero for bodies
+        that do not couple."""
         return self.coupling.lift(traction) if self.coupled else np.zeros(traction.shape[1:])
 
     @cached_property

@@ -23,7 +23,8 @@ class SummedTangential(TangentialOperator):
 
     @cached_property
     def entries(self) -> tuple[RealArray, RealArray, RealArray]:
-        """``xx``, ``yy`` and ``xy`` (m/Pa) on the half spectrum of the grid or of its padded form."""
+        """``xx``, ``yy`` and ``xy`` (m/Pa) on the half spectrum of the grid or of its padded
+        form."""
         xx, yy, xy = (self._sum([part.entries[number] for part in self.parts]) for number in range(3))
         return xx, yy, xy
 

@@ -27,9 +27,11 @@ Law = Annotated[str, Choice({name: name for name in LAWS})]
 
 
 class FrictionSettings(Settings):
-    """Friction of the contact; stresses, menisci, plastic flow in the volume and, if it is ``coupled``, the pressure take it from here.
+    """Friction of the contact; stresses, menisci, plastic flow in the volume and, if it is
+    ``coupled``, the pressure take it from here.
 
-    Beside a table [shear], and under any law but plain Coulomb's, the surfaces stick and slip; else all points slide.
+    Beside a table [shear], and under any law but plain Coulomb's, the surfaces stick and slip; else
+    all points slide.
     """
 
     law: Law = setting("coulomb", option="--friction-law", help="Largest shear traction of a point")
@@ -56,18 +58,21 @@ class FrictionSettings(Settings):
     def _fitting(self) -> FrictionSettings:
         if (self.strength is None) != (self.law != "tresca"):
             raise InputError(
-                f" must give the strength ({{friction.strength}}) for the law tresca and for no other, but the law is {self.law} "
-                f"{'with' if self.strength else 'without'} one. Give both, such as {{friction.law=tresca}} and {{friction.strength=20 MPa}}."
+                f" must give the strength ({{friction.strength}}) for the law tresca and for no other, but the "
+                f"law is {self.law} {'with' if self.strength else 'without'} one. Give both, such as "
+                f"{{friction.law=tresca}} and {{friction.strength=20 MPa}}."
             )
         if self.law != "coulomb" and (self.coefficient or self.limit):
             raise InputError(
-                f" must give no coefficient and limit for the law {self.law}, but does: they are those of Coulomb friction."
+                f" must give no coefficient and limit for the law {self.law}, but does: they are those of "
+                "Coulomb friction."
             )
         return self
 
 
 def friction_law(settings: FrictionSettings, *, sheared: bool = False) -> Coulomb | TrescaFriction | FullStick:
-    """Law of friction of a problem with these ``settings``; ``sheared`` where it has stick and slip."""
+    """Law of friction of a problem with these ``settings``; ``sheared`` where it has stick and
+    slip."""
     from .law import Coulomb, FullStick, TrescaFriction
 
     if settings.law == "tresca":
@@ -80,7 +85,8 @@ def friction_law(settings: FrictionSettings, *, sheared: bool = False) -> Coulom
 
 
 def sticks(document: Any) -> bool:
-    """Whether the surfaces of a ``document`` stick and slip: with a table [shear], or a law that is not plain Coulomb's; not where they roll."""
+    """Whether the surfaces of a ``document`` stick and slip: with a table [shear], or a law that is
+    not plain Coulomb's; not where they roll."""
     table: FrictionSettings = document.friction
     if rolls(document):
         return False

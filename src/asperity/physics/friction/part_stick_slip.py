@@ -1,4 +1,5 @@
-"""Stick and slip: what is prescribed along the surfaces, and what it comes to in forces, areas, slip and heat."""
+"""Stick and slip: what is prescribed along the surfaces, and what it comes to in forces, areas,
+slip and heat."""
 
 from __future__ import annotations
 
@@ -35,13 +36,16 @@ LINEAR = (
 """Numbers of the last step, linearised."""
 
 USUAL_STEPS = 8
-"""Steps from zero to the largest value where it turns, if not said otherwise; one where it does not."""
+"""Steps from zero to the largest value where it turns, if not said otherwise; one where it does
+not."""
 
 
 class ShearStep(Settings):
-    """One step: the load or position, that before if it is left out, and a shift or tangential force.
+    """One step: the load or position, that before if it is left out, and a shift or tangential
+    force.
 
-    One value is along the direction of the friction, two are along x and y. As text ``"50 MPa, 5 nm"``.
+    One value is along the direction of the friction, two are along x and y. As text
+    ``"50 MPa, 5 nm"``.
     """
 
     mean_pressure: Annotated[float, Number("pressure", above=0.0)] | None = None
@@ -54,7 +58,8 @@ class ShearStep(Settings):
     @model_validator(mode="before")
     @classmethod
     def _from_line(cls, value: Any) -> Any:
-        """Table of the step in text such as ``"50 MPa, 5 nm"`` or ``"1 mN, 5 nm, 2 nm"``: load or approach, then shift or force.
+        """Table of the step in text such as ``"50 MPa, 5 nm"`` or ``"1 mN, 5 nm, 2 nm"``: load or
+        approach, then shift or force.
 
         The message lacks the name of the option or key at its beginning.
         """
@@ -109,10 +114,12 @@ def _key_of(text: str, kinds: dict[str, str]) -> str | None:
 
 
 class ShearSettings(Settings):
-    """What is prescribed along the surfaces after they are pressed: turning points of a shift, tangential force or twist.
+    """What is prescribed along the surfaces after they are pressed: turning points of a shift,
+    tangential force or twist.
 
-    They are along the direction of the table [friction]. ``cycles`` run to the opposite of the last one and back. A list of
-    ``history`` steps with load and shift of each takes the place of all that. With nothing the surfaces are pressed only.
+    They are along the direction of the table [friction]. ``cycles`` run to the opposite of the last
+    one and back. A list of ``history`` steps with load and shift of each takes the place of all
+    that. With nothing the surfaces are pressed only.
     """
 
     shift: tuple[SignedLength, ...] | None = setting(
@@ -141,8 +148,8 @@ class ShearSettings(Settings):
             raise InputError(".history must be given alone, without shift, force, twist, cycles and steps.")
         if not given and (self.cycles or self.steps):
             raise InputError(
-                " must give a shift, force or twist ({shear.shift}, {shear.force}, {shear.twist}) with its cycles and steps ({shear.cycles}, "
-                "{shear.steps}), but gives none."
+                " must give a shift, force or twist ({shear.shift}, {shear.force}, {shear.twist}) with its "
+                "cycles and steps ({shear.cycles}, {shear.steps}), but gives none."
             )
         return self
 
@@ -171,7 +178,8 @@ def _require_at_most_one(table: Settings, keys: Sequence[str]) -> str | None:
 
 
 def _control(key: str, values: Sequence[float], direction: float) -> Tangential:
-    """The shift, force or twist with these ``values``: one along ``direction`` (rad), or along x and y."""
+    """The shift, force or twist with these ``values``: one along ``direction`` (rad), or along x
+    and y."""
     from ...contact.tangential import Shift, TangentialForce
 
     if key == "twist":
@@ -190,7 +198,8 @@ class Sheared:
 
 
 class StickSlip(Part):
-    """Shear tractions within the bound of friction: where the surfaces stick, where they slip, and the heat."""
+    """Shear tractions within the bound of friction: where the surfaces stick, where they slip, and
+    the heat."""
 
     name = "stick_slip"
     title = "Stick and slip"
@@ -218,8 +227,8 @@ class StickSlip(Part):
         friction = document.friction
         if friction.law == "coulomb" and not friction.coefficient:
             raise InputError(
-                "friction must be given together with a shift, tangential force or twist, but its coefficient is 0. Give "
-                "{friction.coefficient=0.3} or {friction.law=full stick}.",
+                "friction must be given together with a shift, tangential force or twist, but its coefficient "
+                "is 0. Give {friction.coefficient=0.3} or {friction.law=full stick}.",
                 subject="friction",
             )
         return Sheared(settings, friction.direction)

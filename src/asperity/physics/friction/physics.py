@@ -1,4 +1,5 @@
-"""Friction as a physics of a problem: what it refuses, its coupling, and its share of the energies of a history."""
+"""Friction as a physics of a problem: what it refuses, its coupling, and its share of the energies
+of a history."""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
 
 
 UNUSUAL = 2.0
-"""Coefficient above which friction is a finding: clean metals in vacuum and soft rubber reach it."""
+"""Coefficient above which friction is a finding: clean metals in vacuum and soft rubber reach
+it."""
 
 
 @dataclass(frozen=True)
@@ -65,8 +67,9 @@ class Rubbing(Physics):
             yield Advice(
                 "warning",
                 "friction coefficient",
-                f"The friction coefficient is {self.law.largest:.4g} (more than {UNUSUAL:g}), the shear traction over the pressure: 0.3 for 30 %. "
-                "Check whether it was meant in per cent; for full stick it is as it should be.",
+                f"The friction coefficient is {self.law.largest:.4g} (more than {UNUSUAL:g}), the shear "
+                "traction over the pressure: 0.3 for 30 %. Check whether it was meant in per cent; for full "
+                "stick it is as it should be.",
             )
 
     def conserves(self) -> bool:
@@ -99,13 +102,15 @@ class Rubbing(Physics):
             yield SlidingCoupling.prepared(problem, self.law, operator.largest, tolerance, how.threads)
 
     def sticks(self, state: InterfaceState | None, *, tangential: bool) -> bool:
-        """Where a step prescribes it, the interface remembers it, or the law knows no gross sliding."""
+        """Where a step prescribes it, the interface remembers it, or the law knows no gross
+        sliding."""
         gross = isinstance(self.law, Coulomb) and self.law.limit == np.inf
         return tangential or not gross or (state is not None and "stick_slip" in state.memory)
 
     def normal_tolerance(self, *, sticks: bool) -> float | None:
-        """1e-12 where shear changes the pressure, so that the error of the normal solve (which goes with its root) does not hide that the
-        displacement by shear has settled to 1e-6; 1e-8 with stick and slip, which settle to 1e-5."""
+        """1e-12 where shear changes the pressure, so that the error of the normal solve (which goes
+        with its root) does not hide that the displacement by shear has settled to 1e-6; 1e-8 with
+        stick and slip, which settle to 1e-5."""
         if sticks:
             return 1e-8
         return 1e-12 if isinstance(self.law, Coulomb) and self.law.couples else None
@@ -116,8 +121,9 @@ class Rubbing(Physics):
         return Coulomb, FullStick, TrescaFriction
 
     def works(self, steps: Sequence[ContactResult]) -> Mapping[str, RealArray]:
-        """Work of the displacement by the shear of gross sliding; of surfaces that stick and slip that of the tangential force, what slip
-        dissipates, and what the length of implicit steps takes."""
+        """Work of the displacement by the shear of gross sliding; of surfaces that stick and slip
+        that of the tangential force, what slip dissipates, and what the length of implicit steps
+        takes."""
         pixel = steps[0].problem.grid.pixel_area
         none: RealArray = np.zeros(steps[0].pressure.shape)
         pressure, lift, before = none, none, None

@@ -1,8 +1,10 @@
-"""Gross sliding as a coupling: shear traction moves the surfaces up and down, and so changes the pressure (Dundurs 1969).
+"""Gross sliding as a coupling: shear traction moves the surfaces up and down, and so changes the
+pressure (Dundurs 1969).
 
-All points slide: the shear traction is the friction coefficient times the pressure, in one direction, and lifts the
-surface of the softer or more compressible body by a field that is linear in the pressure. Every round on its own reduces
-the change by about friction times Dundurs' β; extrapolation over the last rounds does the rest.
+All points slide: the shear traction is the friction coefficient times the pressure, in one
+direction, and lifts the surface of the softer or more compressible body by a field that is linear
+in the pressure. Every round on its own reduces the change by about friction times Dundurs' β;
+extrapolation over the last rounds does the rest.
 """
 
 from __future__ import annotations
@@ -35,7 +37,8 @@ class GrossSliding(Answer):
     Attributes
     ----------
     friction, direction
-        Coefficient μ (number or map), and angle in rad of the shear traction on ``body`` from +x towards +y.
+        Coefficient μ (number or map), and angle in rad of the shear traction on ``body`` from +x
+        towards +y.
     shear_displacement
         Normal displacement (nx, ny) in m caused by the shear traction alone.
     """
@@ -56,10 +59,12 @@ class GrossSliding(Answer):
 
 
 class ShearKernel:
-    """Normal displacement under shear that is the pressure times the ratios (kx, ky), prepared once.
+    """Normal displacement under shear that is the pressure times the ratios (kx, ky), prepared
+    once.
 
-    The coupling of the two bodies subtracts, for they carry opposite tractions: equal bodies have none, nor has an
-    incompressible body against a rigid one. On a free line shear along y moves nothing up or down.
+    The coupling of the two bodies subtracts, for they carry opposite tractions: equal bodies have
+    none, nor has an incompressible body against a rigid one. On a free line shear along y moves
+    nothing up or down.
     """
 
     def __init__(self, coupling: CouplingKernel, ratios: tuple[float, float]) -> None:
@@ -78,7 +83,8 @@ class ShearKernel:
         return float(np.abs(self._kernel).max())
 
     def displacement(self, pressure: RealArray) -> RealArray:
-        """Normal displacement (nx, ny) in m of ``body`` relative to the counter body under the shear of ``pressure``."""
+        """Normal displacement (nx, ny) in m of ``body`` relative to the counter body under the
+        shear of ``pressure``."""
         field = np.ascontiguousarray(pressure, dtype=np.float64)
         spectrum = self._transform.forward(field, np.empty(self._transform.spectrum_shape, np.complex128))
         spectrum *= self._kernel
@@ -89,7 +95,8 @@ class ShearKernel:
 class SlidingCoupling(Coupling):
     """Lift by the shear of ``friction``; the unknown is that displacement (nx, ny) in m.
 
-    In a step of time of viscoelastic bodies the ``kernel`` is that of the step, and ``retarded`` (m) what earlier shear displaces at its end.
+    In a step of time of viscoelastic bodies the ``kernel`` is that of the step, and ``retarded``
+    (m) what earlier shear displaces at its end.
     """
 
     friction: Coulomb
@@ -104,12 +111,14 @@ class SlidingCoupling(Coupling):
     def prepared(
         cls, problem: ContactProblem, friction: Coulomb, stiffest: float, tolerance: float, threads: int | None
     ) -> Self:
-        """Coupling of the bodies of ``problem``; passive where it is nothing beside ``stiffest``, the largest normal compliance (m/Pa)."""
+        """Coupling of the bodies of ``problem``; passive where it is nothing beside ``stiffest``,
+        the largest normal compliance (m/Pa)."""
         kernel = ShearKernel.of(problem, _ratios(friction), threads=threads)
         return cls(friction, kernel, kernel.largest > NO_COUPLING * stiffest, tolerance)
 
     def in_time(self, coupling: CouplingKernel, retarded: RealArray) -> Self:
-        """The same in a step of time with this ``coupling``, at whose end the past displaces ``retarded`` (nx, ny) in m."""
+        """The same in a step of time with this ``coupling``, at whose end the past displaces
+        ``retarded`` (nx, ny) in m."""
         return replace(self, kernel=ShearKernel(coupling, _ratios(self.friction)), retarded=retarded)
 
     def traction(self, pressure: RealArray) -> RealArray:
@@ -124,7 +133,8 @@ class SlidingCoupling(Coupling):
         return pressure
 
     def displacement(self, pressure: RealArray) -> RealArray:
-        """Normal displacement (nx, ny) in m under friction times ``pressure``, and by earlier shear."""
+        """Normal displacement (nx, ny) in m under friction times ``pressure``, and by earlier
+        shear."""
         return self.kernel.displacement(self._weighted(pressure)) + self.retarded
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:

@@ -1,13 +1,16 @@
-"""Stick and slip as a coupling: shear tractions within the bound of a friction law, which lift the surfaces and so change the pressure.
+"""Stick and slip as a coupling: shear tractions within the bound of a friction law, which lift the
+surfaces and so change the pressure.
 
-For the pressure of a round the tangential problem is a convex programme (``friction.solver``); its traction lifts the surfaces of
-unlike bodies, which changes the pressure (Panagiotopoulos 1975). Both are solved for together by Newton's method
-(``friction.solver.joint``), and the next round checks the result: a normal solve under its lift, and a tangential one under that
-pressure. Where they cannot be, as under a hardness or while a position is searched for, or do not come nearer, the rounds alternate between them: each reduces the change by about
-friction times Dundurs' β, and extrapolation does the rest. Where bodies do not couple, one tangential solve follows the contact.
+For the pressure of a round the tangential problem is a convex programme (``friction.solver``); its
+traction lifts the surfaces of unlike bodies, which changes the pressure (Panagiotopoulos 1975).
+Both are solved for together by Newton's method (``friction.solver.joint``), and the next round
+checks the result: a normal solve under its lift, and a tangential one under that pressure. Where
+they cannot be, as under a hardness or while a position is searched for, or do not come nearer, the
+rounds alternate between them: each reduces the change by about friction times Dundurs' β, and
+extrapolation does the rest. Where bodies do not couple, one tangential solve follows the contact.
 
-A step is implicit: the traction at its end is along the slip of the whole step (Alart & Curnier 1991), so that paths must be
-sampled finely enough that slip does not turn or reverse within a step.
+A step is implicit: the traction at its end is along the slip of the whole step (Alart & Curnier
+1991), so that paths must be sampled finely enough that slip does not turn or reverse within a step.
 """
 
 from __future__ import annotations
@@ -34,23 +37,27 @@ from .solver.newton import StickSlipNewton
 from .solver.problem import Deviation, TangentialQP, TangentialSolution, TangentialSolver, size_of
 
 TOLERANCE = 1e-5
-"""Relative change of the displacement by shear that does not count. On a rough surface (512², ν = 0.3, rigid counter body, Q up to half
-the limit) tractions are then within 2e-6 and pressures within 1e-7 of those for 1e-8."""
+"""Relative change of the displacement by shear that does not count. On a rough surface (512², ν =
+0.3, rigid counter body, Q up to half the limit) tractions are then within 2e-6 and pressures within
+1e-7 of those for 1e-8."""
 
 _FINER = 0.1
 """Error of tangential solves over that tolerance, where bodies do not couple."""
 
 _COUPLED = 0.3
-"""The same where they do. Joint solves and tractions of a history at 256² for 0.1, 0.3, 1: 87, 82, 77 pairs a step, within 7e-7, 2e-6, 6e-6."""
+"""The same where they do. Joint solves and tractions of a history at 256² for 0.1, 0.3, 1: 87, 82,
+77 pairs a step, within 7e-7, 2e-6, 6e-6."""
 
 _SHARE = 0.03
-"""Error of a tangential solve over the residual of the coupling: replies are that much finer than what still changes."""
+"""Error of a tangential solve over the residual of the coupling: replies are that much finer than
+what still changes."""
 
 _LOOSEST = 1e-2
 """Error of the first tangential solve of a step where rounds alternate: its pressure is a guess."""
 
 _NORMAL = 0.03
-"""Error of the normal contact over that of the shear at which they are no longer solved for together."""
+"""Error of the normal contact over that of the shear at which they are no longer solved for
+together."""
 
 _GAIN = 0.5
 """Residual over that of the round before above which they are not solved for together again."""
@@ -61,10 +68,11 @@ _RESTLESS = 3
 
 @dataclass(frozen=True, eq=False)
 class Held:
-    """What earlier tractions and pressures displace in viscoelastic bodies at the end of a step of time.
+    """What earlier tractions and pressures displace in viscoelastic bodies at the end of a step of
+    time.
 
-    ``displacement`` (2, nx, ny) along the surface and ``lift`` (nx, ny) by shear, m; ``start`` (2, nx, ny), the whole displacement along the surface
-    before the step.
+    ``displacement`` (2, nx, ny) along the surface and ``lift`` (nx, ny) by shear, m; ``start`` (2,
+    nx, ny), the whole displacement along the surface before the step.
     """
 
     displacement: RealArray
@@ -74,7 +82,8 @@ class Held:
 
 @dataclass(frozen=True, eq=False)
 class _Before:
-    """What a step starts from: traction, displacement along the surface, slip so far (2, nx, ny); shift (3,); work (J)."""
+    """What a step starts from: traction, displacement along the surface, slip so far (2, nx, ny);
+    shift (3,); work (J)."""
 
     traction: RealArray
     displacement: RealArray
@@ -88,8 +97,9 @@ class _Before:
 class _Note:
     """The step's beginning, and where its rounds are.
 
-    ``traction`` (2, nx, ny) is the last one, of which ``slipping`` points are at their bound; ``solution`` that for the pressure
-    ``solved_for``. ``joint``: pressure and traction may be solved for together. ``turns`` (nx, ny) is how often each point has opened or closed.
+    ``traction`` (2, nx, ny) is the last one, of which ``slipping`` points are at their bound;
+    ``solution`` that for the pressure ``solved_for``. ``joint``: pressure and traction may be
+    solved for together. ``turns`` (nx, ny) is how often each point has opened or closed.
     """
 
     before: _Before
@@ -135,9 +145,11 @@ _JUMPING = (TrescaFriction, FullStick)
 
 @dataclass(frozen=True, eq=False)
 class StickSlipCoupling(Coupling):
-    """Shear tractions by a law of friction; the unknown is the normal displacement (nx, ny) in m by them.
+    """Shear tractions by a law of friction; the unknown is the normal displacement (nx, ny) in m by
+    them.
 
-    In a step of time of viscoelastic bodies the ``operator`` is that of the step, and ``held`` what the past leaves.
+    In a step of time of viscoelastic bodies the ``operator`` is that of the step, and ``held`` what
+    the past leaves.
     """
 
     law: FrictionLaw
@@ -159,7 +171,8 @@ class StickSlipCoupling(Coupling):
 
     @classmethod
     def prepared(cls, problem: ContactProblem, tolerance: float, threads: int | None) -> Self:
-        """Coupling of the bodies of ``problem``, passive where shear does not lift them or is not to.
+        """Coupling of the bodies of ``problem``, passive where shear does not lift them or is not
+        to.
 
         InputError if an interface inside a periodic body carries no shear.
         """
@@ -168,20 +181,23 @@ class StickSlipCoupling(Coupling):
         # a mean traction would move it without end
         if any(isinstance(body, Layered) and body.reduced.slips for body in bodies):
             raise InputError(
-                "layers of a body with stick and slip must be bonded, but one is Frictionless(): nothing would hold it. Use Bonded()."
+                "layers of a body with stick and slip must be bonded, but one is Frictionless(): nothing "
+                "would hold it. Use Bonded()."
             )
         operator = TangentialOperator(problem.grid, bodies, problem.boundary, engine=CpuEngine(threads))
         found = cls(law, operator, StickSlipNewton(_FINER * tolerance), tolerance=tolerance)
         return found.lifting(coupled=operator.coupled)
 
     def lifting(self, *, coupled: bool) -> Self:
-        """The same for bodies that are ``coupled``: whether shear lifts their surfaces now or later."""
+        """The same for bodies that are ``coupled``: whether shear lifts their surfaces now or
+        later."""
         lifts = coupled and not (isinstance(self.law, Coulomb) and not self.law.coupled)
         finer = _COUPLED if lifts else _FINER
         return replace(self, feedback=lifts, solver=replace_tolerance(self.solver, finer * self.tolerance))
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
-        """What is remembered, with the displacement by the shear traction under the pressure to start from."""
+        """What is remembered, with the displacement by the shear traction under the pressure to
+        start from."""
         zero = np.zeros((2, *posed.profile.shape))
         shift, control, traction, slip, dissipated = np.zeros(3), posed.tangential or Shift(), zero, zero, 0.0
         if memory:
@@ -192,8 +208,9 @@ class StickSlipCoupling(Coupling):
             control, dissipated = posed.tangential or kept, float(memory["dissipated"])
         if isinstance(control, Shift) and np.isnan(shift).any():
             raise NoSolutionError(
-                "shift must follow a step whose shift is known, but the tangential force of the step before was all that friction bears: how far "
-                "the body slid is not determined. Prescribe a shift ({shift}) in that step, or a smaller tangential force.",
+                "shift must follow a step whose shift is known, but the tangential force of the step before "
+                "was all that friction bears: how far the body slid is not determined. Prescribe a shift "
+                "({shift}) in that step, or a smaller tangential force.",
                 subject="shift",
             )
         if isinstance(control, Shift) and control.twist and any(posed.operator.boundary.wraps):
@@ -213,7 +230,8 @@ class StickSlipCoupling(Coupling):
         return Exchange(lift, lift, np.inf, self.tolerance, note=note)
 
     def _lift(self, traction: RealArray) -> RealArray:
-        """Normal displacement (nx, ny) in m by ``traction`` (2, nx, ny) in Pa at the end of the step, and by earlier ones."""
+        """Normal displacement (nx, ny) in m by ``traction`` (2, nx, ny) in Pa at the end of the
+        step, and by earlier ones."""
         found = self.operator.lift(traction)
         return found if self.held is None else found + self.held.lift
 
@@ -253,7 +271,9 @@ class StickSlipCoupling(Coupling):
         note: _Note = exchange.note
         searched = contact.posed.external_force is None and isinstance(contact.qp.constraint, FixedMean)
         if not note.joint or searched or not contact.pressure.any():
-            return None  # where a position is searched for, each load on the way would be solved for to the end: 415 pairs for 126
+            # where a position is searched for, each load on the way would be solved for to the end:
+            # 415 pairs for 126
+            return None
         before, grid = note.before, self.operator.grid
         lifted = exchange.x if self.held is None else exchange.x - self.held.lift
         normal = replace(contact.qp, profile=contact.qp.profile + lifted)
@@ -288,7 +308,8 @@ class StickSlipCoupling(Coupling):
         )
 
     def _solved(self, note: _Note, pressure: RealArray, solver: TangentialSolver) -> _Note:
-        """Note with the tangential problem solved under ``pressure`` (Pa), from the last traction of this step or the step before."""
+        """Note with the tangential problem solved under ``pressure`` (Pa), from the last traction
+        of this step or the step before."""
         before, grid = note.before, self.operator.grid
         bound = self.law.bound(pressure)
         target = self._free(before) - self.operator.drawn(pressure)
@@ -329,14 +350,18 @@ class StickSlipCoupling(Coupling):
         return "The displacement by shear is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
-        """The change of the displacement, and which points open and close by turns where the bound jumps."""
+        """The change of the displacement, and which points open and close by turns where the bound
+        jumps."""
         text = f"The normal displacement by the shear of stick and slip still changes by {exchange.residual:.1e}"
         turns = exchange.note.turns
         restless = 0 if turns is None else int(np.count_nonzero(turns >= _RESTLESS))
         if not isinstance(self.law, _JUMPING) or not restless:
             return text
         which = "1 point, which opens and closes" if restless == 1 else f"{restless} points, which open and close"
-        why = "it bears its whole shear strength as soon as it touches, and that shear opens it: between the two this law has no solution"
+        why = (
+            "it bears its whole shear strength as soon as it touches, and that shear opens it: between "
+            "the two this law has no solution"
+        )
         return f"{text} because of {which} by turns ({why})"
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, StickSlip]:
@@ -353,7 +378,8 @@ class StickSlipCoupling(Coupling):
             if limit == 0.0:
                 why = "friction is zero" if contact.pressure.any() else "the surfaces do not touch"
                 raise NoSolutionError(
-                    f"tangential force must be zero where {why}, but is {control.magnitude:.6g} N: nothing bears it. Prescribe a shift ({{shift}}) instead.",
+                    f"tangential force must be zero where {why}, but is {control.magnitude:.6g} N: nothing "
+                    f"bears it. Prescribe a shift ({{shift}}) instead.",
                     subject="tangential force",
                 )
             raise NoSolutionError(

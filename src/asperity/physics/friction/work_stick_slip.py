@@ -1,4 +1,5 @@
-"""Stick and slip asked for by a document: forces, areas, slip and heat in numbers, figures and words."""
+"""Stick and slip asked for by a document: forces, areas, slip and heat in numbers, figures and
+words."""
 
 from __future__ import annotations
 
@@ -28,14 +29,16 @@ COARSE = 0.1
 
 
 class StickSlipWork(Work):
-    """Shear tractions within the bound of friction: where the surfaces stick, where they slip, and the heat: what is done for it."""
+    """Shear tractions within the bound of friction: where the surfaces stick, where they slip, and
+    the heat: what is done for it."""
 
     def check(self, ask: Sheared, problem: ContactProblem) -> None:
         """Refuse a twist of a contact that repeats."""
         settings = ask.settings
         if any(problem.boundary.wraps) and (settings.twist or any(step.twist for step in settings.history)):
             raise InputError(
-                f"twist must be left out for the boundary {problem.boundary.name}, where the contact repeats, but is given. "
+                f"twist must be left out for the boundary {problem.boundary.name}, where the contact repeats, "
+                "but is given. "
                 "Choose {boundary.kind=free}."
             )
 
@@ -80,7 +83,10 @@ class StickSlipWork(Work):
             work = float(abs(balance.tangential_work).max())
             lost = abs(float(balance.step_work[-1])) / work if work > 0.0 else 0.0
             if lost > COARSE:
-                fact = f"The length of the steps takes {percent(lost)} of the tangential work, which is neither stored nor heat."
+                fact = (
+                    f"The length of the steps takes {percent(lost)} of the tangential work, which is "
+                    "neither stored nor heat."
+                )
                 remedy = "Take more steps ({shear.steps}; of time, {viscoelastic.steps}) where slip reverses or turns."
                 numbers, concerns = (
                     {"share": lost, "largest": COARSE},
@@ -95,7 +101,10 @@ class StickSlipWork(Work):
             remedy, numbers = "", {"factor": factor, "largest": 1.0}
             if factor >= 1.0:
                 text += ": the alternation does not contract, and the solution found may be one of several"
-                remedy = "Lower the friction coefficient ({friction.coefficient}), or follow the path in smaller steps ({shear.steps})."
+                remedy = (
+                    "Lower the friction coefficient ({friction.coefficient}), or follow the path in "
+                    "smaller steps ({shear.steps})."
+                )
             level: Literal["note", "warning"] = "warning" if factor >= 1.0 else "note"
             made.append(Advice(level, "contraction of pressure and shear", f"{text}.{met}", remedy, numbers))
         return Found(values, None, tuple(made), found.citation_keys)
@@ -165,8 +174,8 @@ class StickSlipWork(Work):
 
 
 REMARK = (
-    "A point sticks while its shear traction is below the bound of the friction, and slips along its traction at the bound. Steps are "
-    "implicit: slip that turns or reverses within a step is seen at its end only."
+    "A point sticks while its shear traction is below the bound of the friction, and slips along its traction "
+    "at the bound. Steps are implicit: slip that turns or reverses within a step is seen at its end only."
 )
 """What the model is."""
 

@@ -1,1 +1,2 @@
-"""Hardness: a limit of the pressure that changes with depth, as of layers; the load at which a contact becomes plastic."""
+"""Hardness: a limit of the pressure that changes with depth, as of layers; the load at which a
+contact becomes plastic."""

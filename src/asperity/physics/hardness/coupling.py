@@ -1,25 +1,33 @@
-"""Hardness as a coupling: it limits the pressure; its memory is the permanent indentation that the limit has caused.
+"""Hardness as a coupling: it limits the pressure; its memory is the permanent indentation that the
+limit has caused.
 
-A load ends where p <= H(w) everywhere and p = H(w) wherever the surface went deeper, w being the indentation *reached*.
-Taking H at the indentation before the load instead would make the answer depend on the number of steps; here a step of
-any size ends in agreement, and steps are needed only for loads that go up and down.
+A load ends where p <= H(w) everywhere and p = H(w) wherever the surface went deeper, w being the
+indentation *reached*. Taking H at the indentation before the load instead would make the answer
+depend on the number of steps; here a step of any size ends in agreement, and steps are needed only
+for loads that go up and down.
 
-With a constant hardness this takes one round. A hardness that changes with depth is itself the unknown; it starts at the
-indentation so far. Where the solid softens with depth (hard film), limits fall and the indentation grows from round to
-round towards the smallest that agrees: the one a growing load meets first, though others may agree, too. Where limits fall
-so steeply that a pixel may come to rest at several depths, one that yields by the error of a normal solve stays indented, so all
-solves are to the full tolerance. Where they fall gently, the fast solver finds limits and pressure together (``solver``),
-and one round confirms them: on self-affine surfaces of 512² points, with a film of hardness 0.6 E*, 4 pixels thick, on 0.3 E*, in as many FFT
-pairs as elastic contact takes. With other solvers, or beside other couplings with feedback, it takes rounds, in which solves follow the residual, and limits
-are foreseen: a point sinks by some compliance times the fall of its limit, at least twice its own since the points around it give way as well, later as
-much as it did in the last round. This and starts in which yielding points go along with their limits take 6.1 times the pairs instead of 12.9.
+With a constant hardness this takes one round. A hardness that changes with depth is itself the
+unknown; it starts at the indentation so far. Where the solid softens with depth (hard film), limits
+fall and the indentation grows from round to round towards the smallest that agrees: the one a
+growing load meets first, though others may agree, too. Where limits fall so steeply that a pixel
+may come to rest at several depths, one that yields by the error of a normal solve stays indented,
+so all solves are to the full tolerance. Where they fall gently, the fast solver finds limits and
+pressure together (``solver``), and one round confirms them: on self-affine surfaces of 512² points,
+with a film of hardness 0.6 E*, 4 pixels thick, on 0.3 E*, in as many FFT pairs as elastic contact
+takes. With other solvers, or beside other couplings with feedback, it takes rounds, in which solves
+follow the residual, and limits are foreseen: a point sinks by some compliance times the fall of its
+limit, at least twice its own since the points around it give way as well, later as much as it did
+in the last round. This and starts in which yielding points go along with their limits take 6.1
+times the pairs instead of 12.9.
 
-Where the solid hardens (soft film) there is only one answer. A pixel whose limit rises springs back by its own compliance c,
-along the line p + w/c = y, which crosses the curve p = H(w) once: the place y of that crossing is the unknown, extrapolated
-with the other smooth ones. Where the curve is flat (slope below 1/c) the limit H(w) is posed and the depth follows; where it is steep,
-as that of a film far thinner than the indentation, the depth w is posed and the pressure follows. Either way an error
-of what is posed shrinks. 24 random soft films of 1e-4 to 3 times the rms height (24 x 20): all settle in 3 to 17 rounds, 205 in all
-and 2804 FFT pairs; with limits everywhere 12 of them did not settle (791 rounds, 5578 pairs).
+Where the solid hardens (soft film) there is only one answer. A pixel whose limit rises springs back
+by its own compliance c, along the line p + w/c = y, which crosses the curve p = H(w) once: the
+place y of that crossing is the unknown, extrapolated with the other smooth ones. Where the curve is
+flat (slope below 1/c) the limit H(w) is posed and the depth follows; where it is steep, as that of
+a film far thinner than the indentation, the depth w is posed and the pressure follows. Either way
+an error of what is posed shrinks. 24 random soft films of 1e-4 to 3 times the rms height (24 x 20):
+all settle in 3 to 17 rounds, 205 in all and 2804 FFT pairs; with limits everywhere 12 of them did
+not settle (791 rounds, 5578 pairs).
 """
 
 from __future__ import annotations
@@ -39,12 +47,14 @@ from ...core.status import Progress
 from .solver import FallingLimit, follow
 
 TOLERANCE = 1e-5
-"""Relative difference of the limit used and the limit at the indentation reached; the law itself is good to per cents."""
+"""Relative difference of the limit used and the limit at the indentation reached; the law itself is
+good to per cents."""
 
 _HALVINGS = 60
 
 _STEEP = 1.0
-"""Slope of H(w) over 1/c, the stiffness of a pixel, above which the depth is prescribed and the pressure follows."""
+"""Slope of H(w) over 1/c, the stiffness of a pixel, above which the depth is prescribed and the
+pressure follows."""
 
 _STEP = 1e-3
 """Relative change of a depth over which the slope of the limit is taken."""
@@ -52,26 +62,32 @@ _STEP = 1e-3
 _ROUNDING = 1e-12
 
 _RESOLVED = 1e-10
-"""Depth over the rms height below which differences do not count: the limit of the thinnest films changes within them."""
+"""Depth over the rms height below which differences do not count: the limit of the thinnest films
+changes within them."""
 
 _CHANGING = 0.1
 """Change of the limit over its tolerance down to which it matters."""
 
 _FINAL = 1e-11
-"""Error of the last normal solve where depths are prescribed: of the pressures there, which go with its root, it is 3e-6."""
+"""Error of the last normal solve where depths are prescribed: of the pressures there, which go with
+its root, it is 3e-6."""
 
 _SINKING = 2.0
-"""Compliance by which a yielding point sinks over that of its pixel alone, at least. Pairs over those of elastic contact, 512² as above,
-for this alone: 8.1; together with the compliance of the last round: 6.1; with 0.6 of that, 6.4."""
+"""Compliance by which a yielding point sinks over that of its pixel alone, at least. Pairs over
+those of elastic contact, 512² as above, for this alone: 8.1; together with the compliance of the
+last round: 6.1; with 0.6 of that, 6.4."""
 
 _GENTLE = 0.6
-"""Slope -H'(w) times such a compliance, at most: from one on there is no depth at which the point would come to rest."""
+"""Slope -H'(w) times such a compliance, at most: from one on there is no depth at which the point
+would come to rest."""
 
 _RESOLVED_FALL = 1e-7
-"""Fall of a limit, relative to the pressure, from which it tells by what compliance the point sank."""
+"""Fall of a limit, relative to the pressure, from which it tells by what compliance the point
+sank."""
 
 _FORESEEN = 0.8
-"""Share of the tolerance to which limits are found with the pressure, before the round that confirms it."""
+"""Share of the tolerance to which limits are found with the pressure, before the round that
+confirms it."""
 
 _FALL = 0.6
 """Factor by which residuals of softening films at best fall from round to round."""
@@ -81,9 +97,10 @@ _MORE_DEPTHS = tuple(10.0**power for power in range(-12, 7))
 
 @dataclass(frozen=True)
 class _Note:
-    """Indentation before the step (nx, ny) in m, its memory, the last unknown (nx, ny) in Pa whose limits bore the load, and whether
-    some did not: then depths are prescribed everywhere, for where all points yield limits alone do not determine the contact.
-    Limits (Pa) and depths (m) of the last round.
+    """Indentation before the step (nx, ny) in m, its memory, the last unknown (nx, ny) in Pa whose
+    limits bore the load, and whether some did not: then depths are prescribed everywhere, for where
+    all points yield limits alone do not determine the contact. Limits (Pa) and depths (m) of the
+    last round.
     """
 
     before: RealArray
@@ -97,9 +114,10 @@ class _Note:
 class DepthHardness(Coupling):
     """Limit of the pressure that follows the indentation reached.
 
-    The unknown (nx, ny) in Pa is the place H(w) + w/c where the solid hardens, else the limit itself. ``own_compliance`` c is the
-    displacement (m) of a pixel by one Pa on it alone, ``deepest`` (m) where the limit no longer changes, ``fall`` (Pa/m) the steepest
-    fall of the limit with depth, ``falls`` whether it nowhere rises.
+    The unknown (nx, ny) in Pa is the place H(w) + w/c where the solid hardens, else the limit
+    itself. ``own_compliance`` c is the displacement (m) of a pixel by one Pa on it alone,
+    ``deepest`` (m) where the limit no longer changes, ``fall`` (Pa/m) the steepest fall of the
+    limit with depth, ``falls`` whether it nowhere rises.
     """
 
     law: LimitByDepth
@@ -112,7 +130,8 @@ class DepthHardness(Coupling):
     feedback: ClassVar[bool] = True
     bounds: ClassVar[bool] = True
     remedy: ClassVar[str] = (
-        "Take smaller steps of load or a finer grid; a layer that is a billion times thinner than the roughness can be left out."
+        "Take smaller steps of load or a finer grid; a layer that is a billion times thinner than the "
+        "roughness can be left out."
     )
 
     @classmethod
@@ -159,14 +178,16 @@ class DepthHardness(Coupling):
         return Ahead(found.pairs, found.iterations, known)
 
     def _limits(self, depth: RealArray) -> RealArray:
-        """Limit (nx, ny) in Pa at a depth (nx, ny) in m; most points are not indented, and all of these have the same."""
+        """Limit (nx, ny) in Pa at a depth (nx, ny) in m; most points are not indented, and all of
+        these have the same."""
         index = np.flatnonzero(depth)
         limits = np.full(depth.shape, self.law.cap_at(np.zeros((1, 1))))
         limits.reshape(-1)[index] = self.law.cap_at(depth.reshape(-1)[index][None])
         return limits
 
     def share(self, exchange: Exchange) -> Share:
-        """The limit, or the indentation that goes with it where the limit is steep; the indentation before the step as a lift."""
+        """The limit, or the indentation that goes with it where the limit is steep; the indentation
+        before the step as a lift."""
         before = exchange.note.before
         if not exchange.smooth:
             return Share(lift=before, cap=exchange.x)
@@ -178,11 +199,13 @@ class DepthHardness(Coupling):
         return Share(lift=before, cap=np.where(steep, most, limit), indentation=np.where(steep, depth - before, 0.0))
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
-        """The limit at the depth reached; where the solid hardens, at the one that a pixel on its own would reach."""
+        """The limit at the depth reached; where the solid hardens, at the one that a pixel on its
+        own would reach."""
         before = exchange.note.before
         reached = before + added_indentation(contact)
         limit = self._limits(reached)
-        # relative excess of the pressure over the limit, at yielding points its difference from it either way
+        # relative excess of the pressure over the limit, at yielding points its difference from it
+        # either way
         p, resolved = contact.pressure, _RESOLVED * contact.posed.height_scale
         index, nearest = np.flatnonzero(reached > exchange.note.before), limit.copy()
         deep, first, there = (field.reshape(-1)[index] for field in (reached, exchange.note.before, limit))
@@ -199,7 +222,8 @@ class DepthHardness(Coupling):
         else:
             target, sinking, last = limit, contact.pressure > limit, exchange.note.last
             if residual > self.tolerance and self._gentle and sinking.any():
-                # the limit falls gently: at sinking points that at the depth to which they sink while their pressure follows it
+                # the limit falls gently: at sinking points that at the depth to which they sink
+                # while their pressure follows it
                 begin, pressure = reached[sinking], contact.pressure[sinking]
                 compliance = np.full(begin.shape, _SINKING * self.own_compliance)
                 if last is not None:
@@ -233,7 +257,8 @@ class DepthHardness(Coupling):
     def _depth(self, before: RealArray, place: RealArray) -> RealArray:
         """Depth w (nx, ny) in m, at least ``before``, of a ``place`` y = H(w) + w/c in Pa.
 
-        By bisection: the limit of a soft film is flat, steep and flat again, on which Newton's method fails.
+        By bisection: the limit of a soft film is flat, steep and flat again, on which Newton's
+        method fails.
         """
         wanted = self.own_compliance * place
         most = wanted - self.own_compliance * self._limits(before)
@@ -249,7 +274,8 @@ class DepthHardness(Coupling):
         return depth
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
-        """Half the way to limits that bear ``mean``: the last that did, or those at the first depth that is the same more everywhere."""
+        """Half the way to limits that bear ``mean``: the last that did, or those at the first depth
+        that is the same more everywhere."""
         note, bearing, smooth = exchange.note, exchange.note.bearing, exchange.smooth
         last = self._limits(self._depth(note.before, bearing)) if smooth and bearing is not None else bearing
         if last is None or not np.mean(last) >= mean:

@@ -1,4 +1,5 @@
-"""Pressure limited by the hardness of a coated body, which changes with the depth of the indentation."""
+"""Pressure limited by the hardness of a coated body, which changes with the depth of the
+indentation."""
 
 from __future__ import annotations
 
@@ -23,23 +24,26 @@ _SHOWN = 1e-4
 
 @dataclass(frozen=True)
 class LayeredHardness:
-    """0 <= p <= H_e(w): every point bears the effective hardness at its own permanent indentation w.
+    """0 <= p <= H_e(w): every point bears the effective hardness at its own permanent indentation
+    w.
 
     Parameters
     ----------
     body
-        ``Layered`` body, every material of which has a known hardness, or a yield stress Y: then 2.8 Y serves. Where both sides of a face
-        state their yield stresses, these enter the law; else Y = H/2.8 on both.
+        ``Layered`` body, every material of which has a known hardness, or a yield stress Y: then
+        2.8 Y serves. Where both sides of a face state their yield stresses, these enter the law;
+        else Y = H/2.8 on both.
 
     Notes
     -----
-    The depth in the law of Bhattacharya & Nix is that of an indenter; here it is the local permanent indentation, which
-    is what a pixel has been pressed in beyond its elastic recovery.
+    The depth in the law of Bhattacharya & Nix is that of an indenter; here it is the local
+    permanent indentation, which is what a pixel has been pressed in beyond its elastic recovery.
 
     Raises
     ------
     InputError
-        If the body is not ``Layered``, lies on a rigid base, or neither hardness nor yield stress of one of its materials is known.
+        If the body is not ``Layered``, lies on a rigid base, or neither hardness nor yield stress
+        of one of its materials is known.
     """
 
     body: Layered
@@ -66,8 +70,9 @@ class LayeredHardness:
             known = yield_pressure(solid.strength).value
             if known is None:
                 raise InputError(
-                    f"hardness of {solid.name or 'the material'} in {place} must be known for an effective hardness, but is "
-                    "not, nor is a yield stress. Give it as Strength(hardness=...) (hardness, H=...), or limit the pressure by a number."
+                    f"hardness of {solid.name or 'the material'} in {place} must be known for an effective "
+                    "hardness, but is not, nor is a yield stress. Give it as Strength(hardness=...) "
+                    "(hardness, H=...), or limit the pressure by a number."
                 )
             hardnesses.append(known)
         depths = np.cumsum([layer.thickness for layer in reduced.layers])
@@ -94,7 +99,8 @@ class LayeredHardness:
 
     @property
     def limit_text(self) -> str:
-        """The limit in words, with its extremes between surface and base where there are any beyond both."""
+        """The limit in words, with its extremes between surface and base where there are any beyond
+        both."""
         top, base = self._ends
         low, high = (top, base) if self._stack is None else self._stack.extremes
         extremes = [
@@ -106,7 +112,8 @@ class LayeredHardness:
         return f"{show(top, 'Pa')} at the surface to {show(base, 'Pa')} deep in the base{between}, by local indentation"
 
     def cap_at(self, indentation: RealArray) -> float | RealArray:
-        """Largest pressure (nx, ny) in Pa where the surface is indented by ``indentation`` (nx, ny) in m."""
+        """Largest pressure (nx, ny) in Pa where the surface is indented by ``indentation`` (nx, ny)
+        in m."""
         return self.pressure_cap() if self._stack is None else self._stack.at(indentation)
 
     def work_at(self, indentation: RealArray) -> RealArray:

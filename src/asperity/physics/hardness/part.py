@@ -9,7 +9,8 @@ from ...parts.part import Part
 
 
 class PlasticLoadSettings(Settings):
-    """A search for the load at which the plastic ``share`` of the real area is passed, 0.02 by default (some 15 solves)."""
+    """A search for the load at which the plastic ``share`` of the real area is passed, 0.02 by
+    default (some 15 solves)."""
 
     share: Fraction = setting(
         0.02, option="--plastic-share", help="Search the load at which this share of the real area is plastic"

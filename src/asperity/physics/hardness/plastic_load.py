@@ -1,4 +1,5 @@
-"""The load at which a contact counts as plastic: a search over loads for a share of the real area at the hardness."""
+"""The load at which a contact counts as plastic: a search over loads for a share of the real area
+at the hardness."""
 
 from __future__ import annotations
 
@@ -24,15 +25,16 @@ _KEEP = Keep(stiffness=False)
 
 @dataclass(frozen=True, eq=False)
 class PlasticLoad:
-    """Two first loads close to one another, between which the plastic share of the real area passes ``fraction``.
+    """Two first loads close to one another, between which the plastic share of the real area passes
+    ``fraction``.
 
     Parameters
     ----------
     fraction
         The share asked for; 0.02 is the criterion of Greenwood & Williamson (1966).
     below, above
-        Results with at most and with more than this share. In pixels the share jumps: the larger the contact in pixels,
-        the closer the shares of the two.
+        Results with at most and with more than this share. In pixels the share jumps: the larger
+        the contact in pixels, the closer the shares of the two.
     """
 
     fraction: float
@@ -61,10 +63,11 @@ def plastic_load(
 ) -> PlasticLoad:
     """Load of virgin surfaces at which the plastic area passes ``fraction`` of the real area.
 
-    A contact is called plastic when more than 2 % of its real area is at the hardness (Greenwood & Williamson 1966). From an
-    elastic contact the load is doubled until the contact is plastic, and the last interval then halved in the logarithm, each solve from
-    virgin surfaces. The share need not grow steadily with the load, so this is the first passage that doubling does
-    not jump over. On rough surfaces it may come when only a few pixels touch; look at ``below.contact`` then.
+    A contact is called plastic when more than 2 % of its real area is at the hardness (Greenwood &
+    Williamson 1966). From an elastic contact the load is doubled until the contact is plastic, and
+    the last interval then halved in the logarithm, each solve from virgin surfaces. The share need
+    not grow steadily with the load, so this is the first passage that doubling does not jump over.
+    On rough surfaces it may come when only a few pixels touch; look at ``below.contact`` then.
 
     Parameters
     ----------
@@ -95,7 +98,8 @@ def plastic_load(
     def at(load: float) -> ContactResult:
         return solve(problem, MeanPressure(load), solver=solver, operator=ready, keep=_KEEP, progress=progress)
 
-    # the lower load lies between an elastic contact and the first of its doubled loads that is plastic
+    # the lower load lies between an elastic contact and the first of its doubled loads that is
+    # plastic
     below = at(hardest / _START)
     while below.plastic_area_fraction > 0.0:
         below = at(below.mean_pressure / _DOWN)
@@ -103,8 +107,8 @@ def plastic_load(
         load = below.mean_pressure
         if load > _LARGEST * hardest:
             raise NoSolutionError(
-                f"No load below the hardness brings more than {fraction:g} of the real area to it, but all of it at once does. "
-                "Such smooth surfaces yield as a whole; ask for a smaller share.",
+                f"No load below the hardness brings more than {fraction:g} of the real area to it, but all of "
+                "it at once does. Such smooth surfaces yield as a whole; ask for a smaller share.",
                 subject=f"plastic share {fraction:g}",
             )
         above = at(min(load * _UP, math.sqrt(load * hardest)))
@@ -131,6 +135,7 @@ def mean_cap(problem: ContactProblem) -> float:
     mean = float(np.mean(problem.law.pressure_cap()))
     if not math.isfinite(mean):
         raise InputError(
-            f"law of a contact with a plastic load must limit the pressure, but is {problem.law.name}. Use {{hardness}}."
+            f"law of a contact with a plastic load must limit the pressure, but is {problem.law.name}. Use "
+            f"{{hardness}}."
         )
     return mean

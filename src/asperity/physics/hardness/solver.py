@@ -1,18 +1,23 @@
-"""Newton's method on pressures and limits together, where the limit falls gently with the depth to which a point yields.
+"""Newton's method on pressures and limits together, where the limit falls gently with the depth to
+which a point yields.
 
-Where a point yields, p = H(w) with w = level - r, the depth by which r = K p - h is below the level. With s = -H'(w) a change d of the
-pressures obeys, up to the change of the level,
+Where a point yields, p = H(w) with w = level - r, the depth by which r = K p - h is below the
+level. With s = -H'(w) a change d of the pressures obeys, up to the change of the level,
 
     (K d) = level - r                  at free points,
     (K d) - d / s = (p - H(w)) / s     at yielding points:
 
-one symmetric system, solved with the model of nested splines in place of K, on the sets of the fast solver. Since
-it is indefinite, conjugate gradients are replaced by conjugate residuals, which make the sum of squares of the residual smaller with every step, that of a
-yielding point counted as the pressure that it stands for. The inverse of nested splines is the preconditioner: a yielding point is one of own compliance c - 1/s.
+one symmetric system, solved with the model of nested splines in place of K, on the sets of the fast
+solver. Since it is indefinite, conjugate gradients are replaced by conjugate residuals, which make
+the sum of squares of the residual smaller with every step, that of a yielding point counted as the
+pressure that it stands for. The inverse of nested splines is the preconditioner: a yielding point
+is one of own compliance c - 1/s.
 
-A step solves twice: for the whole set, and for what the bounds leave of it. The change of pressure is then multiplied by K itself: one FFT pair a step. On self-affine
-surfaces of 512² points with a film of hardness 0.6 E*, 4 pixels thick, on 0.3 E* limits that agree with their depths to 1e-5 take 7.0 to 8.1 pairs, the
-confirming contact included, elastic contact 6.7 to 8.0. Newton's method with products with K took 20.2, rounds of solves at given limits six times those of elastic contact.
+A step solves twice: for the whole set, and for what the bounds leave of it. The change of pressure
+is then multiplied by K itself: one FFT pair a step. On self-affine surfaces of 512² points with a
+film of hardness 0.6 E*, 4 pixels thick, on 0.3 E* limits that agree with their depths to 1e-5 take
+7.0 to 8.1 pairs, the confirming contact included, elastic contact 6.7 to 8.0. Newton's method with
+products with K took 20.2, rounds of solves at given limits six times those of elastic contact.
 """
 
 from __future__ import annotations
@@ -33,24 +38,30 @@ from ...core.engine import CpuEngine
 from ...core.status import NoProgress, Progress
 
 _REDUCTION = 0.05
-"""Reduction of the residual of the model in a solution. FFT pairs, mean of 27 contacts of 256² points with three films, for 0.1, 0.2: 1 %, 6 % more."""
+"""Reduction of the residual of the model in a solution. FFT pairs, mean of 27 contacts of 256²
+points with three films, for 0.1, 0.2: 1 %, 6 % more."""
 
 _MOST_PRODUCTS = 7
 """Products with the model at most in a step; three are the rule."""
 
 _YIELDING = 0.5
-"""Deflection of a yielding point under its own load, over that of any point in the inverse of nested splines. FFT pairs as above for 0.3, 0.7, 1: 1 %, 2 %, 230 % more."""
+"""Deflection of a yielding point under its own load, over that of any point in the inverse of
+nested splines. FFT pairs as above for 0.3, 0.7, 1: 1 %, 2 %, 230 % more."""
 
 _MOST_STEPS, _MOST_COARSE = 40, 8
-"""Steps after which it is given up, and after which a coarser grid gives what it has; four to six are the rule. A pixel of twice the width gives way twice as
-much under a pressure, so that limits which fall gently on the fine grid may let points of the coarser one rest at several depths, between which they go to and fro.
-Of 204 contacts of 256² points with nine films 28 were given up when coarser grids had to be solved; now none to two, by rounding, in which more than half of all points yield."""
+"""Steps after which it is given up, and after which a coarser grid gives what it has; four to six
+are the rule. A pixel of twice the width gives way twice as much under a pressure, so that limits
+which fall gently on the fine grid may let points of the coarser one rest at several depths, between
+which they go to and fro. Of 204 contacts of 256² points with nine films 28 were given up when
+coarser grids had to be solved; now none to two, by rounding, in which more than half of all points
+yield."""
 
 _COARSE_LIMITS = 0.03
 """Relative difference of limits that suffices on coarser grids."""
 
 _DIFFERENCE = 1e-6, 1e-9
-"""Increment of a depth for the slope of the limit: over the depth, and over the rms height at least."""
+"""Increment of a depth for the slope of the limit: over the depth, and over the rms height at
+least."""
 
 _FLATTEST = 1e-6
 """Slope of a limit over the stiffness of a pixel below which its fall does not count."""
@@ -65,7 +76,8 @@ class Limit(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class FallingLimit:
-    """Limit (Pa) that falls with the depth ``before`` (nx, ny) in m plus what is added, from ``highest`` to ``lowest`` (nx, ny) in Pa.
+    """Limit (Pa) that falls with the depth ``before`` (nx, ny) in m plus what is added, from
+    ``highest`` to ``lowest`` (nx, ny) in Pa.
 
     It is settled when it agrees to the relative ``tolerance`` with the depth reached.
     """
@@ -77,7 +89,8 @@ class FallingLimit:
     tolerance: float
 
     def at(self, index: Any, depth: RealArray) -> RealArray:
-        """Limit (n,) at the points of the flat ``index``, indented by ``depth`` (n,) beyond what they were before."""
+        """Limit (n,) at the points of the flat ``index``, indented by ``depth`` (n,) beyond what
+        they were before."""
         found = np.asarray(self.law.cap_at((self.before.reshape(-1)[index] + depth)[None]), dtype=float)
         limits: RealArray = np.broadcast_to(found, (1, depth.size))[0]
         return limits
@@ -90,7 +103,8 @@ class FallingLimit:
 
 
 class Followed(NamedTuple):
-    """The work, FFT ``pairs`` and ``iterations`` on the fine grid; if it was not in vain, ``pressure`` and the limits ``cap`` (nx, ny) in Pa that agree with it."""
+    """The work, FFT ``pairs`` and ``iterations`` on the fine grid; if it was not in vain,
+    ``pressure`` and the limits ``cap`` (nx, ny) in Pa that agree with it."""
 
     pairs: float = 0.0
     iterations: int = 0
@@ -105,9 +119,11 @@ def follow(
     start: RealArray | None = None,
     progress: Progress | None = None,
 ) -> Followed:
-    """Contact of ``qp``, whose cap is ignored, under the falling ``limit``, unless it was not found or may not exist.
+    """Contact of ``qp``, whose cap is ignored, under the falling ``limit``, unless it was not found
+    or may not exist.
 
-    It is a first guess: limits are found with the pressure, but what is called a solution must be a contact at these limits whose depths agree.
+    It is a first guess: limits are found with the pressure, but what is called a solution must be a
+    contact at these limits whose depths agree.
     """
     engine, constraint = qp.operator.engine, qp.constraint
     if not isinstance(engine, CpuEngine) or min(qp.profile.shape) < 2:
@@ -121,7 +137,8 @@ def follow(
 def _nested(
     qp: ContactQP, limit: FallingLimit, solver: ActiveSet, start: RealArray | None, progress: Progress | None
 ) -> Followed:
-    """Contact from ``start``, or from that of the coarser grid; without ``progress``, a guess at it."""
+    """Contact from ``start``, or from that of the coarser grid; without ``progress``, a guess at
+    it."""
     if (start is not None and start.any()) or min(qp.profile.shape) <= COARSEST:
         begin = feasible_start(replace(qp, cap=limit.highest), start)
         return _Iteration(qp, limit, solver, begin, limit.highest).found(0.0, progress)
@@ -138,7 +155,8 @@ def _nested(
 
 
 class _Points(NamedTuple):
-    """Points of the joint system: their flat ``index``, pressures (Pa) and residuals r (m); which of them yield; their limits (Pa); the set of the engine."""
+    """Points of the joint system: their flat ``index``, pressures (Pa) and residuals r (m); which
+    of them yield; their limits (Pa); the set of the engine."""
 
     index: Any
     pressure: RealArray
@@ -149,7 +167,8 @@ class _Points(NamedTuple):
 
 
 class _Iteration:
-    """Steps on one grid. ``unit`` is the deflection of a yielding point under its own load, over the scale of the operator."""
+    """Steps on one grid. ``unit`` is the deflection of a yielding point under its own load, over
+    the scale of the operator."""
 
     def __init__(self, qp: ContactQP, limit: FallingLimit, solver: ActiveSet, begin: RealArray, cap: RealArray) -> None:
         self.limit, self.solver = limit, solver
@@ -164,7 +183,8 @@ class _Iteration:
         self.pairs = qp.operator.pairs_per_application
 
     def found(self, pairs: float, progress: Progress | None) -> Followed:
-        """The contact; ``pairs`` have been spent before. Without ``progress`` what a few steps give."""
+        """The contact; ``pairs`` have been spent before. Without ``progress`` what a few steps
+        give."""
         solver, limit, most = self.solver, self.limit, _MOST_STEPS if progress else _MOST_COARSE
         for count in range(most + 1):
             survey = self.work.survey()
@@ -213,9 +233,11 @@ class _Iteration:
         return _Points(index, pressure, r, yields, limits, points)
 
     def _correction(self, set_: _Points, level: float) -> RealArray:
-        """Solution d (n,) of the joint system with the model of K by preconditioned conjugate residuals, in units of ``Workspace.unit``.
+        """Solution d (n,) of the joint system with the model of K by preconditioned conjugate
+        residuals, in units of ``Workspace.unit``.
 
-        The system is over the scale of the operator, its residual over the rms height; ``stiff`` is what the diagonal of K is less, ``w`` the weights of squares.
+        The system is over the scale of the operator, its residual over the rms height; ``stiff`` is
+        what the diagonal of K is less, ``w`` the weights of squares.
         """
         work, load_prescribed = self.work, self.work.load is not None
         scaled, scale = work.scaled, work.qp.height_scale
@@ -267,8 +289,9 @@ class _Iteration:
     def _step(self, set_: _Points, level: float) -> RealArray:
         """Pressures (n,) in Pa after a step, within their bounds and of the prescribed load.
 
-        Points that a first pass takes to a bound stay there, and the others are solved for once more, with the deflection by the first change from the model:
-        2.1 pairs of 9.4 fewer than with one pass, at 512² (a third pass: 2.2; a second in the first step alone: 1.0).
+        Points that a first pass takes to a bound stay there, and the others are solved for once
+        more, with the deflection by the first change from the model: 2.1 pairs of 9.4 fewer than
+        with one pass, at 512² (a third pass: 2.2; a second in the first step alone: 1.0).
         """
         work, constraint, load = self.work, self.work.qp.constraint, 0.0
         if isinstance(constraint, FixedMean):
@@ -286,7 +309,8 @@ class _Iteration:
         return new
 
     def _within(self, set_: _Points, d: RealArray, load: float) -> RealArray:
-        """Pressures (n,) in Pa of the set after the change ``d``, within their bounds, and where the load is prescribed of the sum ``load`` (Pa)."""
+        """Pressures (n,) in Pa of the set after the change ``d``, within their bounds, and where
+        the load is prescribed of the sum ``load`` (Pa)."""
         free, highest = ~set_.yields, self.highest[set_.index]
         new = set_.pressure + self.work.unit * d
         inside = np.clip(new, np.where(free, 0.0, self.lowest[set_.index]), highest)

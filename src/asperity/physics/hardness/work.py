@@ -11,7 +11,8 @@ from .plastic_load import PlasticLoad, mean_cap, plastic_load
 
 
 class PlasticLoadWork(Work):
-    """First load at which more than a share of the real area is at the hardness: what is done for it."""
+    """First load at which more than a share of the real area is at the hardness: what is done for
+    it."""
 
     def check(self, ask: Any, problem: ContactProblem) -> None:
         """Refuse a law without a limit of the pressure."""

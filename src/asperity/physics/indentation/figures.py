@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 
 LEAST = 1e-4
-"""Share of the first pass below which curves end: there rounding and the tolerance of the balance are seen."""
+"""Share of the first pass below which curves end: there rounding and the tolerance of the balance
+are seen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,11 +29,13 @@ class PassPicture:
     Attributes
     ----------
     depth, along, across
-        (n,) depths in m below the middle of the track and residual stresses along and across it in Pa.
+        (n,) depths in m below the middle of the track and residual stresses along and across it in
+        Pa.
     interfaces
         Depths of the interfaces in m.
     growth, onward, work
-        (passes,) growth of the accumulated plastic strain and change of the plastic strain in each pass, and its plastic work over that of the first.
+        (passes,) growth of the accumulated plastic strain and change of the plastic strain in each
+        pass, and its plastic work over that of the first.
     forward, groove
         (passes,) motion of the surface in each pass and depth of the groove after it in m.
     """
@@ -49,7 +52,8 @@ class PassPicture:
 
 
 def plot_residual_depth(shown: PassPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` the residual stresses along and across the track against depth; tension is positive."""
+    """Draw on ``ax`` the residual stresses along and across the track against depth; tension is
+    positive."""
     metres, pascals = scale(shown.depth, "m"), scale(np.append(shown.along, shown.across), "Pa")
     breaks = np.searchsorted(shown.depth, shown.interfaces)  # stresses jump from layer to layer
     depth = np.insert(shown.depth, breaks, shown.interfaces)
@@ -69,7 +73,8 @@ def plot_residual_depth(shown: PassPicture, ax: Axes) -> Axes:
 
 
 def plot_pass_flow(shown: PassPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` what each pass adds, over the growth of the plastic strain and the plastic work of the first."""
+    """Draw on ``ax`` what each pass adds, over the growth of the plastic strain and the plastic
+    work of the first."""
     number = np.arange(1, shown.growth.size + 1)
     first = float(shown.growth.max())
     columns = (
@@ -86,7 +91,8 @@ def plot_pass_flow(shown: PassPicture, ax: Axes) -> Axes:
 
 
 def plot_pass_motion(shown: PassPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` the depth of the groove after each pass, and how far the surface has moved along the track."""
+    """Draw on ``ax`` the depth of the groove after each pass, and how far the surface has moved
+    along the track."""
     number = np.arange(shown.groove.size + 1)
     groove, moved = np.append(0.0, shown.groove), np.append(0.0, np.cumsum(shown.forward))
     metres = scale(np.append(groove, moved), "m")
@@ -107,14 +113,17 @@ RESIDUAL_DEPTH = Plot(
 PASS_FLOW = Plot(
     "passes_flow",
     "What each pass adds",
-    "Growth of the accumulated plastic strain and change of the plastic strain below the middle of the track, and plastic work, over those of the first pass. What falls below 1e-4 is not drawn. "
-    "Where all fall the body shakes down; where growth stays and the change falls, cycles are closed; where both stay, strain adds up.",
+    "Growth of the accumulated plastic strain and change of the plastic strain below the middle of the track, "
+    "and plastic work, over those of the first pass. What falls below 1e-4 is not drawn. Where all fall the "
+    "body shakes down; where growth stays and the change falls, cycles are closed; where both stay, strain "
+    "adds up.",
     plot_pass_flow,
 )
 PASS_MOTION = Plot(
     "passes_motion",
     "Groove and motion of the surface",
-    "Depth of the groove in the middle of the track after each pass, and how far its surface has moved along the track.",
+    "Depth of the groove in the middle of the track after each pass, and how far its surface has moved along "
+    "the track.",
     plot_pass_motion,
 )
 

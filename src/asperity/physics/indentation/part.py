@@ -1,4 +1,5 @@
-"""Indentation: one indenter pressed into the body and taken off, by finite elements; hardness, zones, residual stress, Oliver and Pharr's numbers."""
+"""Indentation: one indenter pressed into the body and taken off, by finite elements; hardness,
+zones, residual stress, Oliver and Pharr's numbers."""
 
 from __future__ import annotations
 
@@ -26,11 +27,14 @@ PREFIX = "indentation"
 
 
 class IndentationSettings(Settings):
-    """An indenter that goes into the body by ``depth`` and comes off again, beside the contact of the surfaces.
+    """An indenter that goes into the body by ``depth`` and comes off again, beside the contact of
+    the surfaces.
 
-    ``radius`` is that of a sphere, taken as a paraboloid, by default the mean radius of the summits of the surface; ``half_angle`` that of a cone,
-    by default the one of Berkovich's area, 70.3 degrees. It is rigid, or with ``elastic_indenter`` of the material of the other body, which stays elastic.
-    Layers and base flow at their yield stress with their hardening. The body is axisymmetric, and strains are small.
+    ``radius`` is that of a sphere, taken as a paraboloid, by default the mean radius of the summits
+    of the surface; ``half_angle`` that of a cone, by default the one of Berkovich's area, 70.3
+    degrees. It is rigid, or with ``elastic_indenter`` of the material of the other body, which
+    stays elastic. Layers and base flow at their yield stress with their hardening. The body is
+    axisymmetric, and strains are small.
     """
 
     depth: Length | None = setting(None, option="--indent", help="Depth of an indentation by finite elements: 100nm")

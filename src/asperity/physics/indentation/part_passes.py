@@ -1,4 +1,5 @@
-"""Repeated passes: a cylinder or sphere that rolls or slides over the body, or is pressed in place again and again, by finite elements; whether flow ceases."""
+"""Repeated passes: a cylinder or sphere that rolls or slides over the body, or is pressed in place
+again and again, by finite elements; whether flow ceases."""
 
 from __future__ import annotations
 
@@ -28,11 +29,14 @@ PREFIX = "passes"
 
 
 class PassesSettings(Settings):
-    """Passes of a rigid cylinder (in plane strain) or sphere over the body, beside the contact of the surfaces.
+    """Passes of a rigid cylinder (in plane strain) or sphere over the body, beside the contact of
+    the surfaces.
 
-    The load is one of ``force`` (sphere), ``line_load`` (cylinder) or ``peak_pressure``, that of Hertz's elastic contact with the base. With pressure
-    "hertz" this pressure itself moves over the body, otherwise the contact is solved with the flow. All that touches slides with the ``friction``, by
-    default the coefficient of [friction]. Layers and base flow at their yield stress with their hardening, and strains are small.
+    The load is one of ``force`` (sphere), ``line_load`` (cylinder) or ``peak_pressure``, that of
+    Hertz's elastic contact with the base. With pressure "hertz" this pressure itself moves over the
+    body, otherwise the contact is solved with the flow. All that touches slides with the
+    ``friction``, by default the coefficient of [friction]. Layers and base flow at their yield
+    stress with their hardening, and strains are small.
     """
 
     count: Annotated[int, Whole(1, 200)] | None = setting(
@@ -78,13 +82,15 @@ class PassesSettings(Settings):
         own = {"sphere": "force", "cylinder": "line_load"}[self.indenter]
         if len(loads) != 1 or loads[0] not in (own, "peak_pressure"):
             raise InputError(
-                f" must give either {own} or peak_pressure for a {self.indenter}, but gives {' and '.join(loads) or 'neither'}."
+                f" must give either {own} or peak_pressure for a {self.indenter}, but gives "
+                f"{' and '.join(loads) or 'neither'}."
             )
         if self.motion == "in place" and (self.track is not None or self.friction):
             raise InputError(" must give neither track nor friction where motion is in place, but does.")
         if self.indenter == "sphere" and (self.elements or 0) > MOST_UNDER_A_SPHERE:
             raise InputError(
-                f".elements must be at most {MOST_UNDER_A_SPHERE} under a sphere, but is {self.elements}: the number of bricks grows with its cube."
+                f".elements must be at most {MOST_UNDER_A_SPHERE} under a sphere, but is {self.elements}: the "
+                "number of bricks grows with its cube."
             )
         return self
 

@@ -1,4 +1,5 @@
-"""One indenter on a body that flows, by axisymmetric finite elements: curve of load, cuts, imprint and tensions of layers."""
+"""One indenter on a body that flows, by axisymmetric finite elements: curve of load, cuts, imprint
+and tensions of layers."""
 
 from __future__ import annotations
 
@@ -45,7 +46,8 @@ LEFT = 4.0
 
 @dataclass(frozen=True)
 class Indenter:
-    """Rigid body of revolution: a paraboloid of ``radius`` in m, or a cone of ``half_angle`` in rad.
+    """Rigid body of revolution: a paraboloid of ``radius`` in m, or a cone of ``half_angle`` in
+    rad.
 
     Attributes
     ----------
@@ -67,7 +69,8 @@ class Indenter:
         return Cone(1.0 / math.tan(self.half_angle)) if self.is_cone else Paraboloid(self.radius)
 
     def reach(self, depth: float) -> float:
-        """Radius (m) where it is ``depth`` above its tip: contacts are smaller, unless the material piles up."""
+        """Radius (m) where it is ``depth`` above its tip: contacts are smaller, unless the material
+        piles up."""
         return depth * math.tan(self.half_angle) if self.is_cone else math.sqrt(2.0 * self.radius * depth)
 
     def area(self, depth: float) -> float:
@@ -82,7 +85,8 @@ class Indenter:
 
 @dataclass(frozen=True)
 class Course:
-    """What the indenter does: ``depth`` in m of the largest approach, numbers of steps in and out, elements across the contact radius; what it is made ``of``, and its ``friction``."""
+    """What the indenter does: ``depth`` in m of the largest approach, numbers of steps in and out,
+    elements across the contact radius; what it is made ``of``, and its ``friction``."""
 
     depth: float
     loading: int = 20
@@ -103,8 +107,8 @@ class Indented:
     peak
         Number of the step with the largest approach.
     tensions
-        Largest radial stress at the surface and at the bottoms of layers, largest shear and peel of interfaces in Pa, under the peak load and
-        after it.
+        Largest radial stress at the surface and at the bottoms of layers, largest shear and peel of
+        interfaces in Pa, under the peak load and after it.
     strains
         (steps, columns, rows) accumulated plastic strain on the cut, for frames.
     touching
@@ -182,7 +186,8 @@ class _Cut:
     def found(
         self, steps: list[IndentationStep], fields: list[SolidFields], peak: int, elastic: RealArray, nodes: RealArray
     ) -> Indented:
-        """Everything, from the ``steps`` and their fields; ``peak`` steps lead to the largest load."""
+        """Everything, from the ``steps`` and their fields; ``peak`` steps lead to the largest
+        load."""
         known = np.full(len(steps) + 1, math.nan)
         known[: peak + 1] = [0.0, *elastic]
         curve = {
@@ -210,7 +215,8 @@ class _Cut:
         return Indented(shown, peak, tensions, whole, int(steps[peak - 1].touching.sum()))
 
     def _tensions(self, field: SolidFields, prefix: str) -> dict[str, float]:
-        """Largest tension at the surface and at the bottom of layers, shear and peel beside interfaces, in Pa."""
+        """Largest tension at the surface and at the bottom of layers, shear and peel beside
+        interfaces, in Pa."""
         radial, shear, normal = (self.cells(field.stress[..., k]) for k in (0, 4, 2))
         inside = [depth for depth in self.interfaces if depth <= self.z[-1] * (1.0 + 1e-9)]
         rows = [int(np.argmin(np.abs(self.z - depth))) for depth in inside]
@@ -294,7 +300,8 @@ class IndentationWork(OfElements):
     """An indenter in the body, by finite elements: what is done for it."""
 
     def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
-        """Refuse a body that is rigid or whose yield stresses are not known, before the contact is solved."""
+        """Refuse a body that is rigid or whose yield stresses are not known, before the contact is
+        solved."""
         body = meshed_body(problem, ask.inside, "indentation")
         require_flow(body, unknown_is_elastic=ask.unknown_is_elastic)
         _indenter(ask, problem)
@@ -340,8 +347,9 @@ class IndentationWork(OfElements):
             read = float(values["indent_oliver_pharr_hardness"])
             beside = "" if math.isnan(read) else f" (Oliver and Pharr's method reads {show(read, 'Pa', 3)})"
             sentence = (
-                f"The indenter takes {force} at a depth of {depth}: a hardness of {hard}{beside}; the plastic strain reaches "
-                f"{percent(float(values['indent_plastic_strain']))}, and {show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
+                f"The indenter takes {force} at a depth of {depth}: a hardness of {hard}{beside}; the plastic "
+                f"strain reaches {percent(float(values['indent_plastic_strain']))}, and "
+                f"{show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
             )
         return Words(sentence, [("hardness by indentation", hard)], rows, tables, (REMARK,))
 
@@ -363,19 +371,22 @@ def _of_indenter(ask: IndentationSettings, problem: ContactProblem) -> Any:
     found = getattr(problem, other)
     if not materials_of(found):
         raise InputError(
-            f"{other} must be elastic for an elastic indenter, but is rigid. Give its material, or leave {{indentation.elastic_indenter}} out.",
+            f"{other} must be elastic for an elastic indenter, but is rigid. Give its material, or leave "
+            f"{{indentation.elastic_indenter}} out.",
             subject=other,
         )
     return found
 
 
 def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
-    """Shape that is asked for; a sphere as round as the summits are on average where its radius is not given.
+    """Shape that is asked for; a sphere as round as the summits are on average where its radius is
+    not given.
 
     Raises
     ------
     InputError
-        If the surface has no summits, or the strains are not small: the contact radius is beyond 0.4 of that of a ball.
+        If the surface has no summits, or the strains are not small: the contact radius is beyond
+        0.4 of that of a ball.
     """
     if ask.indenter == "cone":
         return Indenter(half_angle=float(ask.half_angle or BERKOVICH_ANGLE))
@@ -386,8 +397,8 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
     depth = float(ask.depth or 0.0)
     if found.reach(depth) > 0.4 * found.radius:
         raise InputError(
-            f"depth of indentation (m) must be at most {0.08 * found.radius:.3g}, 0.08 of the radius of the indenter, but is {depth:.3g}. "
-            "Beyond that strains are not small.",
+            f"depth of indentation (m) must be at most {0.08 * found.radius:.3g}, 0.08 of the radius of the "
+            f"indenter, but is {depth:.3g}. Beyond that strains are not small.",
             subject="depth of indentation (m)",
         )
     return found
@@ -396,7 +407,8 @@ def _indenter(ask: IndentationSettings, problem: ContactProblem) -> Indenter:
 # In words and tables.
 
 REMARK = (
-    "The indenter is of revolution and does not flow, the strains are small, and layers are bonded. Oliver and Pharr's hardness is what an instrument would "
-    "read from the unloading; the other divides the force by the true area. Tensions are means over an element at the place of the maximum."
+    "The indenter is of revolution and does not flow, the strains are small, and layers are bonded. Oliver "
+    "and Pharr's hardness is what an instrument would read from the unloading; the other divides the force by "
+    "the true area. Tensions are means over an element at the place of the maximum."
 )
 """What the model is."""

@@ -1,4 +1,5 @@
-"""Repeated passes asked for by a document: what is read off the runs, in numbers, figures and words."""
+"""Repeated passes asked for by a document: what is read off the runs, in numbers, figures and
+words."""
 
 from __future__ import annotations
 
@@ -75,7 +76,8 @@ def _numbers(run: Passed, body: Elastic | Layered, course: Course) -> dict[str, 
 
 
 def _limit(body: Elastic | Layered, course: Course) -> float:
-    """Elastic shakedown limit in Pa of Hertz's pressure on a homogeneous body at its initial yield stress; NaN on layers and in place."""
+    """Elastic shakedown limit in Pa of Hertz's pressure on a homogeneous body at its initial yield
+    stress; NaN on layers and in place."""
     if not isinstance(body, Elastic) or not course.length:
         return math.nan
     k = flow_stress(body.strength).value / math.sqrt(3.0)
@@ -106,7 +108,11 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
     made, strain = list(inferred_strengths(body)), float(values["pass_plastic_strain"])
     share = run.numbers["contact"] / course.radius
     if strain > LARGE_STRAIN or share > SMALL_SLOPE:
-        fact = f"The plastic strain reaches {percent(strain)}, and the contact {share:.2g} of the radius of the indenter. Small strains err by more than a few per cent from {percent(LARGE_STRAIN)} or {SMALL_SLOPE:g} on."
+        fact = (
+            f"The plastic strain reaches {percent(strain)}, and the contact {share:.2g} of the radius of "
+            f"the indenter. Small strains err by more than a few per cent from {percent(LARGE_STRAIN)} or "
+            f"{SMALL_SLOPE:g} on."
+        )
         numbers = {
             "plastic_strain": strain,
             "largest_strain": LARGE_STRAIN,
@@ -115,7 +121,10 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
         }
         made.append(Advice("warning", "small strain", fact, numbers=numbers, concerns=("pass_",)))
     if run.touching < FEW:
-        fact = f"Only {run.touching} points of the mesh touch along the track. Plastic strains err by ten per cent and more below {FEW}."
+        fact = (
+            f"Only {run.touching} points of the mesh touch along the track. Plastic strains err by ten per "
+            f"cent and more below {FEW}."
+        )
         numbers, remedy = (
             {"points": float(run.touching), "least": float(FEW)},
             "Take more elements ({passes.elements}).",
@@ -136,7 +145,10 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
     if not strain > 0.0:
         made.append(Advice("note", "passes", "Nothing flows under this load: the passes are elastic."))
     elif found in ("flow is not settled", "one pass"):
-        fact = f"The flow is not settled after {course.count} pass{'es' * (course.count > 1)}: whether it ceases, or goes on, takes more of them."
+        fact = (
+            f"The flow is not settled after {course.count} pass{'es' * (course.count > 1)}: whether it "
+            "ceases, or goes on, takes more of them."
+        )
         remedy, concerns = "Take more passes ({passes.count}).", ("pass_strain_growth", "pass_growth_ratio")
         made.append(Advice("note", "passes", fact, remedy, {"passes": float(course.count)}, concerns))
     elif "ceases" not in found and found != "elastic":
@@ -148,25 +160,31 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
 
 
 LARGE_SHARE = 0.15
-"""Contact over radius of the indenter beyond which small strains err by more than a few per cent."""
+"""Contact over radius of the indenter beyond which small strains err by more than a few per
+cent."""
 
 CEASED = 0.01
-"""Growth of the plastic strain in the last pass over that in the first below which flow has ceased."""
+"""Growth of the plastic strain in the last pass over that in the first below which flow has
+ceased."""
 
 
 STEADY = 0.85
-"""Growth in the last pass over that in the one before from which on flow goes on steadily; the same of the change of the plastic strain."""
+"""Growth in the last pass over that in the one before from which on flow goes on steadily; the same
+of the change of the plastic strain."""
 
 
 ONWARD = 0.1
-"""Change of the plastic strain by a pass over its growth from which on strain adds up from pass to pass; below it cycles are closed."""
+"""Change of the plastic strain by a pass over its growth from which on strain adds up from pass to
+pass; below it cycles are closed."""
 
 
 class PassesWork(OfElements):
-    """A cylinder or sphere that passes over the body again and again, by finite elements: what is done for it."""
+    """A cylinder or sphere that passes over the body again and again, by finite elements: what is
+    done for it."""
 
     def check(self, ask: Passing, problem: ContactProblem) -> None:
-        """Refuse a body that is rigid or whose yield stresses are not known, and loads under which strains are not small, before the contact is solved."""
+        """Refuse a body that is rigid or whose yield stresses are not known, and loads under which
+        strains are not small, before the contact is solved."""
         body = meshed_body(problem, ask.settings.inside, "passes")
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
         require_course(course_of(ask.settings, body, problem, ask.coefficient), body)
@@ -184,7 +202,8 @@ class PassesWork(OfElements):
         return KEYS
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Zones, residual stress, stress under load, groove; residual stress against depth; what each pass adds."""
+        """Zones, residual stress, stress under load, groove; residual stress against depth; what
+        each pass adds."""
         shown = picture_of(PREFIX, found.values, found.detail.facts)
         return (*figures_by(plots_of(shown, "passes"), shown), *pass_figures(found.values))
 
@@ -219,7 +238,10 @@ class PassesWork(OfElements):
             sentence = f"{start} {reached}."
             if ends != "one pass":
                 last, ratio = percent(float(values["pass_strain_growth"])), percent(float(values["pass_growth_ratio"]))
-                sentence = f"{start} {reached}; the last pass adds {last} in the middle of the track, {ratio} of the first: {ends}."
+                sentence = (
+                    f"{start} {reached}; the last pass adds {last} in the middle of the track, {ratio} of "
+                    f"the first: {ends}."
+                )
         return Words(sentence, [("repeated passes", ends)], rows, tables, (REMARK,))
 
 
@@ -229,14 +251,16 @@ KEYS = ("SimoTaylor1985", "Johnson1962", "Hearle1985")
 # In words and tables.
 
 REMARK = (
-    "The indenter is rigid, the strains are small, layers are bonded, and all that touches slides. A cylinder is in plane strain. Growth, residual stress and groove are "
-    "those in the middle of the track. Flow that goes on in closed cycles wears by fatigue, strain that adds up from pass to pass by ratchetting."
+    "The indenter is rigid, the strains are small, layers are bonded, and all that touches slides. A cylinder "
+    "is in plane strain. Growth, residual stress and groove are those in the middle of the track. Flow that "
+    "goes on in closed cycles wears by fatigue, strain that adds up from pass to pass by ratchetting."
 )
 """What the model is."""
 
 
 def verdict(values: Mapping[str, Any]) -> str:
-    """What becomes of the flow, from the growth of the plastic strain in the first and last passes."""
+    """What becomes of the flow, from the growth of the plastic strain in the first and last
+    passes."""
     growth = np.atleast_1d(values["passes_growth"])
     if not growth.max() > 0.0:
         return "elastic"

@@ -1,4 +1,5 @@
-"""Repeated passes of a cylinder or sphere over a body that flows, by finite elements: the course and the runs."""
+"""Repeated passes of a cylinder or sphere over a body that flows, by finite elements: the course
+and the runs."""
 
 from __future__ import annotations
 
@@ -36,13 +37,15 @@ if TYPE_CHECKING:
     from ...contact.problem import ContactProblem
 
 REACH = 2.0
-"""How far the cut reaches beyond the track, and half as far as it reaches into the body, in contact radii."""
+"""How far the cut reaches beyond the track, and half as far as it reaches into the body, in contact
+radii."""
 
 FRAMES = 60
 """Pictures of a history at most."""
 
 MOST_ELEMENTS = {True: 25_000, False: 60_000}
-"""Bricks under a sphere and rectangles under a cylinder: some gigabytes, and a minute for each step."""
+"""Bricks under a sphere and rectangles under a cylinder: some gigabytes, and a minute for each
+step."""
 
 LONGEST = 400.0
 """Length of a track in contact radii at most."""
@@ -105,7 +108,8 @@ class Course:
         return found
 
     def mesh(self, body: Elastic | Layered, laws: list[J2 | None], width: float, *, short: bool = False) -> Track:
-        """Track for contacts of at most this ``width`` (half of it, or the radius) in m; a ``short`` one for pressing in the middle alone."""
+        """Track for contacts of at most this ``width`` (half of it, or the radius) in m; a
+        ``short`` one for pressing in the middle alone."""
         ends = (0.0, 0.0) if short else self.ends()
         made = sphere_track if self.sphere else cylinder_track
         _require_size(self, body, width, ends)
@@ -123,7 +127,8 @@ class Course:
 
 
 def course_of(table: PassesSettings, body: Elastic | Layered, problem: ContactProblem, friction: float) -> Course:
-    """What ``table`` asks for, with the coefficient of ``friction``, and the radius of the summits of the ``problem`` where none is given.
+    """What ``table`` asks for, with the coefficient of ``friction``, and the radius of the summits
+    of the ``problem`` where none is given.
 
     Raises
     ------
@@ -162,7 +167,8 @@ def course_of(table: PassesSettings, body: Elastic | Layered, problem: ContactPr
 
 
 def require_course(course: Course, body: Elastic | Layered) -> Course:
-    """``course`` over ``body`` if strains are small, a contact of at most 0.4 of the radius, and track and mesh are not too large.
+    """``course`` over ``body`` if strains are small, a contact of at most 0.4 of the radius, and
+    track and mesh are not too large.
 
     Raises
     ------
@@ -172,12 +178,14 @@ def require_course(course: Course, body: Elastic | Layered) -> Course:
     share = course.half_width / course.radius
     if share > 0.4:
         raise InputError(
-            f"load of the passes must give a contact of at most 0.4 of the radius of the indenter by Hertz's theory, but gives {share:.2g}. Take a smaller load or a larger radius.",
+            "load of the passes must give a contact of at most 0.4 of the radius of the indenter by Hertz's "
+            f"theory, but gives {share:.2g}. Take a smaller load or a larger radius.",
             subject="load of the passes",
         )
     if course.length > LONGEST * course.half_width:
         raise InputError(
-            f"track of the passes must be at most {LONGEST:g} contact radii long, but is {course.length / course.half_width:.3g}. Take a shorter one ({{passes.track}}).",
+            f"track of the passes must be at most {LONGEST:g} contact radii long, but is "
+            f"{course.length / course.half_width:.3g}. Take a shorter one ({{passes.track}}).",
             subject="track of the passes",
         )
     _require_size(course, body, course.half_width, course.ends())
@@ -191,7 +199,9 @@ def _require_size(course: Course, body: Elastic | Layered, width: float, ends: t
     most = MOST_ELEMENTS[course.sphere]
     if count > most:
         raise InputError(
-            f"mesh of the passes must have at most {most} elements, but has {count}. Take fewer elements ({{passes.elements}}), a shorter track ({{passes.track}}) or no films far thinner than the contact.",
+            f"mesh of the passes must have at most {most} elements, but has {count}. Take fewer elements "
+            f"({{passes.elements}}), a shorter track ({{passes.track}}) or no films far thinner than the "
+            "contact.",
             subject="mesh of the passes",
         )
 
@@ -206,13 +216,15 @@ class Passed:
     Attributes
     ----------
     shown
-        Cut at the end with the residual stress, stress under the load in the middle of the last pass, groove.
+        Cut at the end with the residual stress, stress under the load in the middle of the last
+        pass, groove.
     each
         (passes,) columns of ``EACH`` by name.
     profile
         Depths (m) and residual stresses along and across the track (Pa) below its middle.
     tensions
-        Largest tension along the surface and at the bottoms of layers, largest shear and peel of interfaces in Pa, under load and after it.
+        Largest tension along the surface and at the bottoms of layers, largest shear and peel of
+        interfaces in Pa, under load and after it.
     strains, labels
         (frames, columns, rows) accumulated plastic strain on the cut, and what each frame shows.
     numbers
@@ -249,7 +261,8 @@ def passed(
     laws = meshed_laws(body, unknown_is_elastic=unknown_is_elastic)
     width = course.half_width
     if not course.given:
-        # the mesh is made for the half-width or radius of the contact when it is pressed in the middle for the first time
+        # the mesh is made for the half-width or radius of the contact when it is pressed in the
+        # middle for the first time
         width, force = 1.15 * course.half_width, (0.5 if course.sphere else 1.0) * course.load
         for _ in range(5):
             track = course.mesh(body, laws, width, short=True)
@@ -310,7 +323,8 @@ class _Cut:
         return found
 
     def tensions(self, track: Track, state: PassState, prefix: str) -> dict[str, float]:
-        """Largest tension along the surface and at the bottoms of layers, shear and peel of interfaces in Pa; after the passes those near the middle of the track."""
+        """Largest tension along the surface and at the bottoms of layers, shear and peel of
+        interfaces in Pa; after the passes those near the middle of the track."""
         stress = track.response(state).stress[..., 0]
         upper, lower = (
             self.cells(stress[:, points]) for points in (([0, 1], [2, 3]) if track.dimension == 2 else _FACES)
@@ -385,7 +399,8 @@ class _Record:
             self.rows[name].append(value)
 
     def _column(self, state: PassState) -> tuple[RealArray, RealArray]:
-        """Accumulated plastic strain (n,) and plastic strain (n, 6) below the middle of the track."""
+        """Accumulated plastic strain (n,) and plastic strain (n, 6) below the middle of the
+        track."""
         return self.track.column(state.plastic.accumulated)[1], self.track.column(state.plastic.plastic_strain)[1]
 
     def found(self, cut: _Cut) -> Passed:

@@ -14,7 +14,8 @@ from ...theories.wet.meniscus import wetting_factor
 from .film import LiquidFilm, Wetting
 
 FEWEST_MENISCUS_PIXELS = 5.0
-"""Radius of an island in pixels below which counting errs by more than about 2 %; 10 pixels give 1 %."""
+"""Radius of an island in pixels below which counting errs by more than about 2 %; 10 pixels give
+1 %."""
 
 CONTINUUM = 1e-9
 """Radius in m below which a meniscus of water is a few molecules across: 50 % relative humidity."""
@@ -24,7 +25,8 @@ MOLECULE = 0.28e-9
 
 
 def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> Iterator[Advice]:
-    """What should be known of menisci of ``film`` that stand as ``wetting`` says and ``pull`` (N), where a ``force`` (N) presses the bodies together."""
+    """What should be known of menisci of ``film`` that stand as ``wetting`` says and ``pull`` (N),
+    where a ``force`` (N) presses the bodies together."""
     if wetting.regime != "dry":
         # the mean over the area: many islands of a pixel or two hardly pull
         pixels = np.bincount(wetting.labels.ravel())[1:].astype(float)
@@ -33,8 +35,8 @@ def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> I
             yield Advice(
                 "warning",
                 "meniscus pixels",
-                f"Menisci are counted in pixels, but have a radius of {across:.2g} pixels (less than {FEWEST_MENISCUS_PIXELS:g}): the force "
-                "may be off by several per cent.",
+                f"Menisci are counted in pixels, but have a radius of {across:.2g} pixels (less than "
+                f"{FEWEST_MENISCUS_PIXELS:g}): the force may be off by several per cent.",
                 "Refine the grid ({resample}), or generate the surface with more points.",
                 {"pixels": across, "least": FEWEST_MENISCUS_PIXELS},
                 ("meniscus_force", "relative_meniscus_force", "external_force", "meniscus_area_fraction", "n_menisci"),
@@ -47,8 +49,8 @@ def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> I
         )
     if film.thickness < MOLECULE:
         remarks.append(
-            f"The film is {1e9 * film.thickness:.2g} nm thick, less than a molecule of water ({1e9 * MOLECULE:.2g} nm): it "
-            "covers the surface in part only."
+            f"The film is {1e9 * film.thickness:.2g} nm thick, less than a molecule of water "
+            f"({1e9 * MOLECULE:.2g} nm): it covers the surface in part only."
         )
     if remarks:
         numbers = {"radius": radius, "least_radius": CONTINUUM, "thickness": film.thickness, "molecule": MOLECULE}
@@ -61,8 +63,9 @@ def findings(film: LiquidFilm, wetting: Wetting, pull: float, force: float) -> I
         yield Advice(
             "note",
             "jump of the meniscus force",
-            f"The forces balance where the meniscus force jumps: {count} pixel{'' if count == 1 else 's'} that touch or come to the height of the menisci "
-            f"there hold{'s' if count == 1 else ''} liquid in part, which pulls with {show(held, 'N')} of {show(jump, 'N')}.",
+            f"The forces balance where the meniscus force jumps: {count} pixel{'' if count == 1 else 's'} that "
+            f"touch or come to the height of the menisci there hold{'s' if count == 1 else ''} liquid in part, "
+            f"which pulls with {show(held, 'N')} of {show(jump, 'N')}.",
             "Refine the grid ({resample}) for smaller jumps.",
             {"jump": jump, "force": force, "pixels": float(count)},
             ("meniscus_force", "external_force"),

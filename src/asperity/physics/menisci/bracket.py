@@ -1,9 +1,13 @@
-"""Between which forces the menisci balance theirs: their force counts pixels, and the balance may lie in a jump of it.
+"""Between which forces the menisci balance theirs: their force counts pixels, and the balance may
+lie in a jump of it.
 
-The larger the load L the more pixels are wet, F_m(L) rises by whole pixels, and L = W + F_m(L) holds exactly where it does. Where contact takes the place of
-liquid F_m falls instead, and L - W may lie between its values on both sides of the fall. A pixel that comes into contact there has neither gap nor pressure, and
-one at the height of the menisci is as good wet as dry: any share of it may be under liquid without a change of the contact, and one share balances the forces. An
-island that loses its last touch to the film is no such pixel: it dries as a whole, and there is no balance.
+The larger the load L the more pixels are wet, F_m(L) rises by whole pixels, and L = W + F_m(L)
+holds exactly where it does. Where contact takes the place of liquid F_m falls instead, and L - W
+may lie between its values on both sides of the fall. A pixel that comes into contact there has
+neither gap nor pressure, and one at the height of the menisci is as good wet as dry: any share of
+it may be under liquid without a change of the contact, and one share balances the forces. An island
+that loses its last touch to the film is no such pixel: it dries as a whole, and there is no
+balance.
 """
 
 from __future__ import annotations
@@ -26,18 +30,22 @@ _SLOW = 0.5
 """Width over that two rounds ago above which the bracket is halved."""
 
 _WIDER = 4.0
-"""Factor by which a bracket that has lost the balance, because something else moved it, is searched ever wider."""
+"""Factor by which a bracket that has lost the balance, because something else moved it, is searched
+ever wider."""
 
 _MARGINAL = 1e-3
-"""Distance from contact or from the height of the menisci, over that height, within which a pixel is there."""
+"""Distance from contact or from the height of the menisci, over that height, within which a pixel
+is there."""
 
 SMALL = 1e-3
-"""Force of the pixels that may not be wet in part, and change of the pressure in a jump, over the force of the contact, which do not count."""
+"""Force of the pixels that may not be wet in part, and change of the pressure in a jump, over the
+force of the contact, which do not count."""
 
 
 @dataclass(frozen=True, eq=False)
 class End:
-    """A force ``posed`` (N) with which the contact was solved, what the menisci pull there (N), where the liquid stands, and the contact.
+    """A force ``posed`` (N) with which the contact was solved, what the menisci pull there (N),
+    where the liquid stands, and the contact.
 
     ``gap`` (nx, ny) in m, ``pressure`` (nx, ny) in Pa.
     """
@@ -56,7 +64,8 @@ class End:
 
 @dataclass(frozen=True, eq=False)
 class Bracket:
-    """Ends with too little posed (``low``) and too much (``high``), and how wide (N) the bracket was in the rounds before.
+    """Ends with too little posed (``low``) and too much (``high``), and how wide (N) the bracket
+    was in the rounds before.
 
     ``stride`` is the largest step (N) while one end is not known.
     """
@@ -91,7 +100,8 @@ class Bracket:
     def further(self, end: End, external: float) -> float:
         """Force (N) to pose next after ``end``, at the ``external`` force (N).
 
-        What is pulled at one end, which from below passes no balance where F_m rises; the middle where that leads out of the bracket or too slowly on.
+        What is pulled at one end, which from below passes no balance where F_m rises; the middle
+        where that leads out of the bracket or too slowly on.
         """
         if self.low is None or self.high is None:
             return end.posed + min(max(end.step, -self.stride), self.stride)
@@ -106,7 +116,8 @@ class Bracket:
         return 0.5 * (low + high)
 
     def balanced(self, end: End) -> Wetting:
-        """Where the liquid stands with the force posed at ``end``: what differs at the end across is wet in part."""
+        """Where the liquid stands with the force posed at ``end``: what differs at the end across
+        is wet in part."""
         across = self.other(end)
         if across is None or across.pulls == end.pulls:
             return end.stands
@@ -115,10 +126,12 @@ class Bracket:
 
 
 def astray(here: End, there: End, height: float) -> int:
-    """Number of pixels wet at one end alone that may not be so in part, for menisci of this ``height`` (m).
+    """Number of pixels wet at one end alone that may not be so in part, for menisci of this
+    ``height`` (m).
 
-    A pixel may if it comes into contact or to the height of the menisci itself, rather than with its island. Where the pressure jumps too the
-    contact is not that in between, and the pixel has to be there at both ends. It is in between where fully yielded points sink at one load.
+    A pixel may if it comes into contact or to the height of the menisci itself, rather than with
+    its island. Where the pressure jumps too the contact is not that in between, and the pixel has
+    to be there at both ends. It is in between where fully yielded points sink at one load.
     """
     touches = here.pressure > 0.0, there.pressure > 0.0
     turns = (touches[0] != touches[1]) | ((here.gap <= height) != (there.gap <= height))

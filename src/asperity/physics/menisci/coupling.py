@@ -1,11 +1,14 @@
-"""Menisci of a liquid film as a coupling: they press the surfaces together, which makes more menisci, until both balance.
+"""Menisci of a liquid film as a coupling: they press the surfaces together, which makes more
+menisci, until both balance.
 
-The force counts pixels, so it jumps, and rounds take it as it is: from a virgin interface it rises to the smallest
-balance (Tian & Bhushan 1996; Peng 2001, sec. 3.2.4). Where contact takes the place of liquid it falls, and the balance is enclosed between two forces;
-if it lies in the fall itself, pixels are under liquid in part (``bracket``). The force is remembered from one step to the next: menisci that have
-formed hold the bodies until they find no balance any more, so that on unloading the force falls from above to the
-largest balance instead. Both ends do not depend on the number of steps. Without external load (``Unloaded``) the menisci
-alone hold the bodies; at a prescribed position the force is passive.
+The force counts pixels, so it jumps, and rounds take it as it is: from a virgin interface it rises
+to the smallest balance (Tian & Bhushan 1996; Peng 2001, sec. 3.2.4). Where contact takes the place
+of liquid it falls, and the balance is enclosed between two forces; if it lies in the fall itself,
+pixels are under liquid in part (``bracket``). The force is remembered from one step to the next:
+menisci that have formed hold the bodies until they find no balance any more, so that on unloading
+the force falls from above to the largest balance instead. Both ends do not depend on the number of
+steps. Without external load (``Unloaded``) the menisci alone hold the bodies; at a prescribed
+position the force is passive.
 """
 
 from __future__ import annotations
@@ -38,33 +41,38 @@ from .quantities import WET_SCALARS
 _SCALARS = {item.name: item for item in WET_SCALARS}
 
 COLLAPSED = 0.5
-"""Share of the nominal area up to which an interface that ends flooded was open, and so has collapsed."""
+"""Share of the nominal area up to which an interface that ends flooded was open, and so has
+collapsed."""
 
 TOLERANCE = 1e-4
-"""Force by which external force, menisci and contact may miss their balance, over that of the contact."""
+"""Force by which external force, menisci and contact may miss their balance, over that of the
+contact."""
 
 _MORE = 1.0 + 1e-9
 """Residual over tolerance of a bracket that has closed before it was looked at whether it may."""
 
 _LOOKED_AT = 5
-"""Rounds for which each end of a bracket is kept where pixels change sides that may not be wet in part. Displacement by shear, hardness and creep settle
-by a factor of five to ten a round, and the bracket is a ten thousandth of the force wide."""
+"""Rounds for which each end of a bracket is kept where pixels change sides that may not be wet in
+part. Displacement by shear, hardness and creep settle by a factor of five to ten a round, and the
+bracket is a ten thousandth of the force wide."""
 
 _NARROWEST = 1e-7
-"""Width of the bracket, over the force of the contact, at which what still changes sides elsewhere jumps; about the error of a normal solve."""
+"""Width of the bracket, over the force of the contact, at which what still changes sides elsewhere
+jumps; about the error of a normal solve."""
 
 _GROWTH = 2.0
-"""Largest ratio of the loads of two rounds, so that a balance is not stepped over where contact takes the place of liquid in between. Without a
-limit 800 random contacts take a tenth less rounds, and one more is refused, which has a balance on the way."""
+"""Largest ratio of the loads of two rounds, so that a balance is not stepped over where contact
+takes the place of liquid in between. Without a limit 800 random contacts take a tenth less rounds,
+and one more is refused, which has a balance on the way."""
 
 _CLOSE = 1e-2
-"""Distance over the force of the contact from the largest force that a hardness is known to bear to one that it does not, at which no balance is expected
-between them."""
+"""Distance over the force of the contact from the largest force that a hardness is known to bear to
+one that it does not, at which no balance is expected between them."""
 
 _ACCURACY = 1e-4
 _FULL = (
-    "Liquid and contact fill nearly all of the interface. Take a thinner film, a rougher surface, stiffer bodies or a liquid of less "
-    "surface tension; or prescribe the position, {approach} or {mean_gap}."
+    "Liquid and contact fill nearly all of the interface. Take a thinner film, a rougher surface, stiffer "
+    "bodies or a liquid of less surface tension; or prescribe the position, {approach} or {mean_gap}."
 )
 
 
@@ -77,15 +85,16 @@ class Menisci(Answer, Shown):
     film, wetting
         The liquid, and where it stands.
     external_force, meniscus_force
-        W and F_m in N; W is negative where the menisci hold the bodies against a tension (position prescribed).
+        W and F_m in N; W is negative where the menisci hold the bodies against a tension (position
+        prescribed).
     dry_friction
         True coefficient of friction μ_r, shear over normal force of the solid contact.
     viscous_force
         Shear of the liquid at the sliding speed, N.
     feedback
-        1 - F_m(W)/F_m(W + F_m): share of the meniscus force that is there because menisci press the surfaces together;
-        the mean growth dF_m/dL on the way. Zero where the position is prescribed, NaN where menisci of an earlier step
-        were there from the start.
+        1 - F_m(W)/F_m(W + F_m): share of the meniscus force that is there because menisci press the
+        surfaces together; the mean growth dF_m/dL on the way. Zero where the position is
+        prescribed, NaN where menisci of an earlier step were there from the start.
     """
 
     film: LiquidFilm = given()
@@ -176,7 +185,8 @@ class Menisci(Answer, Shown):
 
     @property
     def static_friction(self) -> float:
-        """Friction force over external force: μ_r (1 + F_m/W) without viscous force; NaN without external force."""
+        """Friction force over external force: μ_r (1 + F_m/W) without viscous force; NaN without
+        external force."""
         return self.friction_force / self.external_force if self.external_force > 0.0 else math.nan
 
     @property
@@ -187,12 +197,16 @@ class Menisci(Answer, Shown):
 
 @dataclass(frozen=True, eq=False)
 class _Note:
-    """Where the liquid stands and its force (N); the force of the first round, whether the interface was open in it and dry before.
+    """Where the liquid stands and its force (N); the force of the first round, whether the
+    interface was open in it and dry before.
 
-    ``direction`` is the sign of the first change of the force, ``before`` the force (N) posed in the round before the latest, ``borne`` that
-    of the latest, ``rounds`` counts replies, ``external`` is the external force (N). ``bracket`` is where the balance lies, found by solves to the full tolerance, ``closed`` whether
-    it has closed on a jump of ``jump`` (N), ``astray`` how many pixels change sides there that may not be wet in part, ``width`` that of the bracket then
-    over the force of the contact, and ``looked`` the rounds in which its ends have been looked at.
+    ``direction`` is the sign of the first change of the force, ``before`` the force (N) posed in
+    the round before the latest, ``borne`` that of the latest, ``rounds`` counts replies,
+    ``external`` is the external force (N). ``bracket`` is where the balance lies, found by solves
+    to the full tolerance, ``closed`` whether it has closed on a jump of ``jump`` (N), ``astray``
+    how many pixels change sides there that may not be wet in part, ``width`` that of the bracket
+    then over the force of the contact, and ``looked`` the rounds in which its ends have been looked
+    at.
     """
 
     found: Wetting | None = None
@@ -215,7 +229,8 @@ class _Note:
 
 @dataclass(frozen=True)
 class MeniscusCoupling(Coupling):
-    """Force of the menisci of ``film``, on a map that ``wraps``; the unknown is that force in N. ``friction`` for its forces."""
+    """Force of the menisci of ``film``, on a map that ``wraps``; the unknown is that force in N.
+    ``friction`` for its forces."""
 
     film: LiquidFilm
     wraps: tuple[bool, bool]
@@ -242,7 +257,8 @@ class MeniscusCoupling(Coupling):
         Raises
         ------
         NoSolutionError
-            If an interface with liquid on less than half of its area has collapsed until liquid or contact nearly fills it.
+            If an interface with liquid on less than half of its area has collapsed until liquid or
+            contact nearly fills it.
         """
         note, external = exchange.note, contact.posed.external_force
         found = wetting(contact.gap, contact.touching, self.film, wraps=self.wraps)
@@ -270,7 +286,8 @@ class MeniscusCoupling(Coupling):
         return replied
 
     def _enclosed(self, exchange: Exchange, contact: Contact, step: float) -> Exchange:
-        """Reply by solves to the full tolerance: the balance is enclosed, until the force that is posed is pulled or the balance lies in a jump."""
+        """Reply by solves to the full tolerance: the balance is enclosed, until the force that is
+        posed is pulled or the balance lies in a jump."""
         note, x = exchange.note, float(exchange.x)
         end = End(x, note.force, note.found, contact.gap, contact.pressure)
         bracket = note.bracket.with_end(end)
@@ -286,15 +303,17 @@ class MeniscusCoupling(Coupling):
             note = replace(note, looked=0) if bracket.width > self.tolerance * whole else note
             residual = min(residual, max(bracket.width / whole, _MORE * self.tolerance))
             return replace(exchange, target=np.asarray(target), residual=residual, stuck=False, note=note)
-        # the balance lies in the jump of the force from this end to the one across: pixels are wet in part
+        # the balance lies in the jump of the force from this end to the one across: pixels are wet
+        # in part
         exchange, grid = replace(exchange, stuck=False), contact.posed.operator.grid
         stands = bracket.balanced(end)
         force = self.film.suction * stands.share("filled") * grid.area
         count, pixel = astray(end, across, self.film.meniscus_height), self.film.suction * grid.pixel_area
         note = replace(note, found=stands, force=force, closed=True, jump=abs(end.pulls - across.pulls))
         if count * pixel > SMALL * whole:
-            # pixels change sides that may not be wet in part: both ends are kept for some rounds, so that what else moves comes to rest;
-            # then the bracket is closed further and its ends are looked at once more; what still jumps does
+            # pixels change sides that may not be wet in part: both ends are kept for some rounds,
+            # so that what else moves comes to rest; then the bracket is closed further and its ends
+            # are looked at once more; what still jumps does
             note = replace(note, found=end.stands, force=end.pulls, astray=count, width=bracket.width / whole)
             target, looked = end.posed, note.looked + 1
             if looked >= 2 * _LOOKED_AT and note.width > _NARROWEST:
@@ -308,7 +327,8 @@ class MeniscusCoupling(Coupling):
         return replace(exchange, target=exchange.x, residual=abs(force - end.posed) / whole, note=note)
 
     def rescued(self, exchange: Exchange, mean: float) -> Exchange | None:
-        """Half the way back to the last force that was borne; None where that is not far: then no balance is left in between."""
+        """Half the way back to the last force that was borne; None where that is not far: then no
+        balance is left in between."""
         note, x = exchange.note, float(exchange.x)
         if note.rounds == 0 or x - note.borne <= _CLOSE * (note.external + x):
             return None
@@ -337,8 +357,10 @@ class MeniscusCoupling(Coupling):
         note: _Note = exchange.note
         if note.astray:
             return (
-                f"The meniscus force jumps past its balance: by {note.jump:.3g} N from the contact force of {note.external + float(exchange.x):.6g} N to "
-                f"one that is the same within {note.width:.0e}, as {_pixels(note.astray)} away from the edge of the liquid fill or dry at once. This was found"
+                f"The meniscus force jumps past its balance: by {note.jump:.3g} N from the contact force of "
+                f"{note.external + float(exchange.x):.6g} N to one that is the same within {note.width:.0e}, "
+                f"as {_pixels(note.astray)} away from the edge of the liquid fill or dry at once. This was "
+                "found"
             )
         return f"The meniscus force still changes by {exchange.residual:.1e} of the contact force"
 
@@ -369,13 +391,15 @@ class MeniscusCoupling(Coupling):
         """Beginning of the message on a force that runs away under the ``external`` one (N)."""
         share = f", {times(note.force / external, 3)} times the external force" if external > 0.0 else ""
         return (
-            f"meniscus force runs away: under the external force of {external:.4g} N the menisci pull with {note.first:.4g} N, "
-            f"which closes the surfaces, and so on to {note.force:.4g} N{share}, after {note.rounds} solves."
+            f"meniscus force runs away: under the external force of {external:.4g} N the menisci pull with "
+            f"{note.first:.4g} N, which closes the surfaces, and so on to {note.force:.4g} N{share}, after "
+            f"{note.rounds} solves."
         )
 
 
 def _whole(external: float, posed: float, pulls: float) -> float:
-    """Force (N) relative to which that of the menisci is balanced: of the ``external`` force and the menisci ``posed``; without both what these would pull."""
+    """Force (N) relative to which that of the menisci is balanced: of the ``external`` force and
+    the menisci ``posed``; without both what these would pull."""
     whole = external + posed if external >= 0.0 else max(-external, posed)
     return whole or pulls or 1.0
 
@@ -385,9 +409,11 @@ def _pixels(count: int) -> str:
 
 
 def viscous_force(gap: RealArray, grid: Grid, found: Wetting, film: LiquidFilm, speed: float) -> float:
-    """Force in N on the menisci at the sliding ``speed`` in m/s, >= 0: μ A U <1/g>, at most strength times area.
+    """Force in N on the menisci at the sliding ``speed`` in m/s, >= 0: μ A U <1/g>, at most
+    strength times area.
 
-    A is the area of the menisci without contact and <1/g> the mean of the inverse ``gap`` (nx, ny) in m over it.
+    A is the area of the menisci without contact and <1/g> the mean of the inverse ``gap`` (nx, ny)
+    in m over it.
 
     Raises
     ------

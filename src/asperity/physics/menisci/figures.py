@@ -30,7 +30,8 @@ def meniscus_kinds(result: ContactResult) -> Kinds:
 
 
 def plot_menisci(result: ContactResult, ax: Axes) -> Axes:
-    """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low enough but dry.
+    """Draw on ``ax`` where the bodies touch, where menisci bridge the gap, and where it is low
+    enough but dry.
 
     Raises InputError if the contact has no film of liquid.
     """

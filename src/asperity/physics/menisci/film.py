@@ -1,4 +1,5 @@
-"""Where a liquid film stands between deformed surfaces, and the force of its menisci (Tian & Bhushan 1996; Peng 2001)."""
+"""Where a liquid film stands between deformed surfaces, and the force of its menisci (Tian &
+Bhushan 1996; Peng 2001)."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ from ...solids.library import Liquid
 from ...theories.wet.meniscus import adsorbed_water_film, kelvin_radius, laplace_pressure, wetting_factor
 
 FLOODED = 0.95
-"""Share of the nominal area under liquid or in contact from which an interface counts as flooded."""
+"""Share of the nominal area under liquid or in contact from which an interface counts as
+flooded."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +32,8 @@ class LiquidFilm:
     surface_tension
         γ in N/m, > 0.
     thickness
-        h_f in m, > 0: volume of liquid per nominal area. Where the gap is not larger, there is liquid.
+        h_f in m, > 0: volume of liquid per nominal area. Where the gap is not larger, there is
+        liquid.
     meniscus_height
         h_m in m, >= h_f: gap at the rim of a meniscus. The thickness by default.
     contact_angles
@@ -96,22 +99,24 @@ class LiquidFilm:
         thickness: float = math.nan,
         contact_angles: tuple[float, float] = (0.0, 0.0),
     ) -> Self:
-        """Film of ``liquid`` in equilibrium with its vapour of the relative ``humidity``, a fraction of one.
+        """Film of ``liquid`` in equilibrium with its vapour of the relative ``humidity``, a
+        fraction of one.
 
-        h_m = r_K (cos θ1 + cos θ2), at least the thickness. Without ``thickness`` in m that of water adsorbed on carbon
-        is taken (see ``adsorbed_water_film``).
+        h_m = r_K (cos θ1 + cos θ2), at least the thickness. Without ``thickness`` in m that of
+        water adsorbed on carbon is taken (see ``adsorbed_water_film``).
 
         Raises
         ------
         InputError
-            If the molar volume of the liquid is not known, or the thickness of a liquid other than water not given.
+            If the molar volume of the liquid is not known, or the thickness of a liquid other than
+            water not given.
         """
         volume = liquid.require_molar_volume()
         if math.isnan(thickness):
             if not liquid.adsorbs_as_water:
                 raise InputError(
-                    f"thickness of the film must be given for {liquid.name or 'this liquid'}: only that of water follows "
-                    "from the humidity."
+                    f"thickness of the film must be given for {liquid.name or 'this liquid'}: only that of "
+                    "water follows from the humidity."
                 )
             thickness = adsorbed_water_film(humidity)
         height = kelvin_radius(humidity, liquid.surface_tension, volume, liquid.temperature)
@@ -139,14 +144,16 @@ class Wetting:
     menisci
         ``kept`` without contact: where liquid bridges the gap.
     filled
-        Share of each pixel that the suction acts on: 1 in ``menisci`` and 0 elsewhere, but for the pixels at the jump in which forces balance (see ``between``).
+        Share of each pixel that the suction acts on: 1 in ``menisci`` and 0 elsewhere, but for the
+        pixels at the jump in which forces balance (see ``between``).
     labels
         Number of the island of each pixel of ``kept``, zero elsewhere.
     n_islands, n_menisci
         Number of islands of ``cut``, and of those kept.
     regime
-        ``dry``: no meniscus; ``toe-dipping``: menisci around single summits; ``pillbox``: one of them reaches across the
-        map; ``flooded``: liquid or contact on more than 95 % of the area (Matthewson & Mamin 1988, in terms of islands).
+        ``dry``: no meniscus; ``toe-dipping``: menisci around single summits; ``pillbox``: one of
+        them reaches across the map; ``flooded``: liquid or contact on more than 95 % of the area
+        (Matthewson & Mamin 1988, in terms of islands).
     """
 
     wetted: BoolArray = measured("1", "whether the gap is in the film", "x", "y")
@@ -166,7 +173,8 @@ class Wetting:
 
     @property
     def partly(self) -> BoolArray:
-        """(nx, ny), True where a pixel is under liquid in part: at the jump of the meniscus force in which forces balance."""
+        """(nx, ny), True where a pixel is under liquid in part: at the jump of the meniscus force
+        in which forces balance."""
         return np.not_equal(self.filled, self.menisci)
 
     @property
@@ -175,7 +183,8 @@ class Wetting:
         return float(self.kept.mean()) >= FLOODED
 
     def filled_at(self, pixels: Sequence[int] | Labels, shares: Sequence[float] | RealArray) -> Wetting:
-        """The same with these ``shares``, 0 to 1, of the ``pixels`` under liquid, which are counted along the rows of the map."""
+        """The same with these ``shares``, 0 to 1, of the ``pixels`` under liquid, which are counted
+        along the rows of the map."""
         filled = np.array(self.filled)
         filled.flat[np.asarray(pixels, dtype=np.intp)] = shares
         dry = self.regime == "dry" and bool(filled.any())
@@ -188,8 +197,8 @@ def wetting(
 ) -> Wetting:
     """Find the menisci in a ``gap`` (nx, ny) in m with the pixels in ``contact``.
 
-    The film is not redistributed: there is liquid where the gap is not larger than its thickness, and a meniscus on
-    every island of gaps up to the meniscus height that holds such a pixel.
+    The film is not redistributed: there is liquid where the gap is not larger than its thickness,
+    and a meniscus on every island of gaps up to the meniscus height that holds such a pixel.
 
     Parameters
     ----------
@@ -200,7 +209,8 @@ def wetting(
     wraps
         Whether the map goes on across its border along x and along y.
     diagonal
-        Whether pixels that share a corner only belong to one island; no by default; the sources leave it open.
+        Whether pixels that share a corner only belong to one island; no by default; the sources
+        leave it open.
     """
     wetted = (gap <= film.thickness) | contact
     cut = (gap <= film.meniscus_height) | contact
@@ -220,9 +230,11 @@ def wetting(
 
 
 def between(here: Wetting, there: Wetting, share: float) -> Wetting:
-    """``here`` with this ``share``, 0 to 1, of the way to ``there``: pixels under liquid in one of them alone hold it in part.
+    """``here`` with this ``share``, 0 to 1, of the way to ``there``: pixels under liquid in one of
+    them alone hold it in part.
 
-    The forces of a contact may balance between the two, where pixels at the edge of contact or at the height of the menisci change sides.
+    The forces of a contact may balance between the two, where pixels at the edge of contact or at
+    the height of the menisci change sides.
     """
     pixels = np.flatnonzero(here.menisci != there.menisci)
     wet = here.menisci.flat[pixels]

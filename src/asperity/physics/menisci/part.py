@@ -26,10 +26,11 @@ if TYPE_CHECKING:
 class FilmSettings(Settings):
     """A liquid film.
 
-    The liquid is a named one or given by its ``surface_tension``, which else replaces that of the named one. Either the
-    ``humidity`` fixes the height of the menisci, and for water the thickness of the film, or ``thickness`` and
-    ``meniscus_height`` are given, the second being the first by default. One ``contact_angle`` is that on the surface
-    opposite the film. Friction is that of the table [friction].
+    The liquid is a named one or given by its ``surface_tension``, which else replaces that of the
+    named one. Either the ``humidity`` fixes the height of the menisci, and for water the thickness
+    of the film, or ``thickness`` and ``meniscus_height`` are given, the second being the first by
+    default. One ``contact_angle`` is that on the surface opposite the film. Friction is that of the
+    table [friction].
     """
 
     liquid: NonEmpty | None = setting(None, option="--liquid", help="Name: water, PFPE; `asperity liquids` lists all")
@@ -56,11 +57,13 @@ class FilmSettings(Settings):
     def _whole(self) -> FilmSettings:
         if len(self.contact_angle) not in (1, 2):
             raise InputError(
-                f'.contact_angle must be one or two angles, such as "10 deg" or ["60 deg", "60 deg"], but is {len(self.contact_angle)}.'
+                '.contact_angle must be one or two angles, such as "10 deg" or ["60 deg", "60 deg"], but is '
+                f"{len(self.contact_angle)}."
             )
         if self.liquid is None and self.surface_tension is None:
             raise InputError(
-                " must give a liquid, such as {film.liquid=water}, or its surface tension ({film.surface_tension}), but gives neither."
+                " must give a liquid, such as {film.liquid=water}, or its surface tension "
+                "({film.surface_tension}), but gives neither."
             )
         if self.liquid is None and self.humidity is not None:
             raise InputError(
@@ -68,7 +71,8 @@ class FilmSettings(Settings):
             )
         if self.humidity is None and self.thickness is None:
             raise InputError(
-                " must give the thickness of the film, such as {film.thickness=2 nm}, or a humidity ({film.humidity}), but gives neither."
+                " must give the thickness of the film, such as {film.thickness=2 nm}, or a humidity "
+                "({film.humidity}), but gives neither."
             )
         if self.humidity is not None and self.meniscus_height is not None:
             raise InputError(" must not give both a humidity and a meniscus_height: the second follows from the first.")
@@ -99,7 +103,8 @@ class Menisci(Part):
         return WET_SCALARS
 
     def asked(self, document: Any, folder: Path) -> Wetted:
-        """The film of the table [film], whose liquids file starts at ``folder``, with the friction of the table [friction].
+        """The film of the table [film], whose liquids file starts at ``folder``, with the friction
+        of the table [friction].
 
         Raises
         ------

@@ -1,4 +1,5 @@
-"""Closed theories of summits for a wet contact, to stand beside the menisci that are counted on its map."""
+"""Closed theories of summits for a wet contact, to stand beside the menisci that are counted on its
+map."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ from ...theories.wet.meniscus import MeniscusGrowth, wetting_factor
 from ...theories.wet.summits import KineticMeniscus, StatisticalMeniscus
 
 HAMAKER = 1e-19
-"""Hamaker constant in J of solid, liquid and vapour in remarks on the growth of menisci; of the usual order."""
+"""Hamaker constant in J of solid, liquid and vapour in remarks on the growth of menisci; of the
+usual order."""
 
 FEWEST = 20
 """Summits below which their skewness and kurtosis mean nothing."""
@@ -25,13 +27,15 @@ FEWEST = 20
 
 @dataclass(frozen=True)
 class WetTheory:
-    """Statistical meniscus model of the summits of a map, and its growth with time; forces in N, NaN where there is none.
+    """Statistical meniscus model of the summits of a map, and its growth with time; forces in N,
+    NaN where there is none.
 
     Attributes
     ----------
     statistical
-        Summits with the density, mean radius and distribution of heights (Pearson's, by skewness and kurtosis) of
-        those of the composite profile, in the film (Gao, Tian & Bhushan 1995; Kotwal & Bhushan 1996).
+        Summits with the density, mean radius and distribution of heights (Pearson's, by skewness
+        and kurtosis) of those of the composite profile, in the film (Gao, Tian & Bhushan 1995;
+        Kotwal & Bhushan 1996).
     summits
         Number of summits.
     meniscus_force
@@ -39,8 +43,9 @@ class WetTheory:
     feedback
         dF_m/dL in equilibrium.
     growth
-        Growth of a meniscus on a summit with the Hamaker constant ``HAMAKER`` (Bhushan, Kotwal & Chilamakuri 1998,
-        in character); None without a viscosity, or where the film is so thin that it holds its liquid back.
+        Growth of a meniscus on a summit with the Hamaker constant ``HAMAKER`` (Bhushan, Kotwal &
+        Chilamakuri 1998, in character); None without a viscosity, or where the film is so thin that
+        it holds its liquid back.
     first_force
         F_m just after contact is made, when menisci are as high as the film.
     """
@@ -62,8 +67,8 @@ class WetTheory:
 def wet_theory(result: ContactResult) -> WetTheory:
     """Statistical and kinetic menisci for the surfaces, film and external force of ``result``.
 
-    Both contact angles enter by their sum of cosines. The theory gives every summit in the film the force of a sphere
-    that touches it, so it is an estimate for menisci much higher than the film.
+    Both contact angles enter by their sum of cosines. The theory gives every summit in the film the
+    force of a sphere that touches it, so it is an estimate for menisci much higher than the film.
 
     Raises
     ------

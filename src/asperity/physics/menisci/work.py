@@ -1,4 +1,5 @@
-"""Menisci asked for by a document, and the theory of summits beside them, in numbers, figures and words."""
+"""Menisci asked for by a document, and the theory of summits beside them, in numbers, figures and
+words."""
 
 from __future__ import annotations
 
@@ -92,16 +93,17 @@ REGIMES = {
 
 
 REMARK = (
-    "The film lies as it was before contact and is not redistributed; the suction acts on the area of the menisci without "
-    "the solid contact, and presses the surfaces together as an additional load."
+    "The film lies as it was before contact and is not redistributed; the suction acts on the area of the "
+    "menisci without the solid contact, and presses the surfaces together as an additional load."
 )
 """What the model assumes."""
 
 
 THEORY_REMARK = (
-    "Statistical theory of the summits of this surface: independent Hertz contacts, their heights by skewness and kurtosis (Kotwal "
-    "and Bhushan), each summit in the film pulled by the full force of a touching sphere (Gao, Tian and Bhushan). The map above counts the "
-    "area at the meniscus height instead, leaves out the contact, and lets the summits push each other: an estimate beside it."
+    "Statistical theory of the summits of this surface: independent Hertz contacts, their heights by skewness "
+    "and kurtosis (Kotwal and Bhushan), each summit in the film pulled by the full force of a touching sphere "
+    "(Gao, Tian and Bhushan). The map above counts the area at the meniscus height instead, leaves out the "
+    "contact, and lets the summits push each other: an estimate beside it."
 )
 """What the theory of summits is, and why it differs."""
 

@@ -1,12 +1,15 @@
-"""Balance of adhesion and menisci together, by a search for the approach at which the forces add up.
+"""Balance of adhesion and menisci together, by a search for the approach at which the forces add
+up.
 
-Attraction and menisci change each other's contact, and menisci come and go pixel by pixel: rounds at a given force may come to rest where
-the forces do not add up. At a given approach both are found without feedback. The search follows the curve of external force against
-approach from where the surfaces are until the force wanted is between two approaches, and closes in on it, always from the contact nearer to
-the start.
+Attraction and menisci change each other's contact, and menisci come and go pixel by pixel: rounds
+at a given force may come to rest where the forces do not add up. At a given approach both are found
+without feedback. The search follows the curve of external force against approach from where the
+surfaces are until the force wanted is between two approaches, and closes in on it, always from the
+contact nearer to the start.
 
-Where pixels of liquid come or go the force jumps, and what is wanted may lie in the jump: then they are under liquid in part (``menisci.bracket``). Contact
-and attraction hardly change across it, so that the force of the liquid is what the balance leaves to it.
+Where pixels of liquid come or go the force jumps, and what is wanted may lie in the jump: then they
+are under liquid in part (``menisci.bracket``). Contact and attraction hardly change across it, so
+that the force of the liquid is what the balance leaves to it.
 """
 
 from __future__ import annotations
@@ -33,10 +36,12 @@ _EXACT = 1e-4
 """Error of the force over the reference at which it is balanced."""
 
 _OF_CONTACT = 1e-2
-"""Share of the force of the contact that the reference is at least: attraction and pressure may be far larger than what is left of them."""
+"""Share of the force of the contact that the reference is at least: attraction and pressure may be
+far larger than what is left of them."""
 
 _FIRST = 1e-2
-"""First step of the approach over the range of the attraction and the thickness of the film, whichever is less."""
+"""First step of the approach over the range of the attraction and the thickness of the film,
+whichever is less."""
 
 _GROWTH = 2.0
 _STEPS = 60
@@ -54,7 +59,8 @@ _UNKNOWN: Memory = {key: np.asarray(math.nan) for key in ("energy", "force", "ap
 
 @dataclass(frozen=True, eq=False)
 class _Held:
-    """Contact held at an ``approach`` (m): force (N) between the ``solids`` less that wanted from outside, and that of the ``liquid``."""
+    """Contact held at an ``approach`` (m): force (N) between the ``solids`` less that wanted from
+    outside, and that of the ``liquid``."""
 
     approach: float
     solids: float
@@ -68,7 +74,8 @@ class _Held:
 
     @property
     def converged(self) -> bool:
-        """Whether its couplings have settled; if not, its force tells nothing, and the search ends with it."""
+        """Whether its couplings have settled; if not, its force tells nothing, and the search ends
+        with it."""
         return self.settled.status.converged
 
 
@@ -81,9 +88,12 @@ def settle_forces(
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
 ) -> Settled:
-    """``settle`` for couplings that hold adhesion and menisci, where a force is balanced; the arguments are the same.
+    """``settle`` for couplings that hold adhesion and menisci, where a force is balanced; the
+    arguments are the same.
 
-    Rounds are tried first. Where their forces do not add up to 1e-4 of the external force, or of the menisci's or a hundredth of that of the contact if one is larger, the approach is searched for.
+    Rounds are tried first. Where their forces do not add up to 1e-4 of the external force, or of
+    the menisci's or a hundredth of that of the contact if one is larger, the approach is searched
+    for.
 
     Raises
     ------
@@ -119,7 +129,8 @@ class _Search:
         self.count = 0
 
     def found(self, first: Settled | None) -> Settled:
-        """The balance, or the jump that takes its place, from the rounds ``first`` or from before the step."""
+        """The balance, or the jump that takes its place, from the rounds ``first`` or from before
+        the step."""
         # from the approach that rounds came to, else that before the step, else first touch
         if first is not None:
             start = self._held(self.measured(first).approach, first)
@@ -189,7 +200,8 @@ class _Search:
         return _EXACT * self._reference(held)
 
     def _apart_still(self, near: _Held, far: _Held) -> bool:
-        """Whether the contact itself, or more than pixels at the edge of the liquid, changes between the two."""
+        """Whether the contact itself, or more than pixels at the edge of the liquid, changes
+        between the two."""
         if abs(far.solids - near.solids) > self.exact(near):
             return True
         ends = []
@@ -239,7 +251,8 @@ class _Search:
                 return near, further
             near, step = further, _GROWTH * step
         raise NoSolutionError(
-            f"force must be one that the adhesion and the menisci bear, but {self._wanted(near.approach):.6g} N is not: the surfaces part. "
+            f"force must be one that the adhesion and the menisci bear, but {self._wanted(near.approach):.6g} "
+            "N is not: the surfaces part. "
             "Prescribe the position, with {grips}, to follow them.",
             subject="force",
         )

@@ -78,7 +78,8 @@ class PlasticBody(Answer):
     flowed
         Plastic strain, back stress and accumulated strain at the points that have flowed.
     displacement
-        Displacement (nx, ny) in m of the surface by the plastic strain, positive into the body: the imprint that is left without load.
+        Displacement (nx, ny) in m of the surface by the plastic strain, positive into the body: the
+        imprint that is left without load.
     work
         Plastic work in J: stress times plastic strain, of all steps.
     step_work
@@ -92,7 +93,8 @@ class PlasticBody(Answer):
     reaches_end
         Whether points in the deepest cell flow, at a depth that was prescribed or at the base.
     iterations
-        Iterates of the plastic strain in this step, each an application of the operators of the volume.
+        Iterates of the plastic strain in this step, each an application of the operators of the
+        volume.
     """
 
     problem: ContactProblem = given(repr=False)
@@ -126,7 +128,8 @@ class PlasticBody(Answer):
         return {**self.flowed.memory, "lift": self.displacement, "first": first, **named}
 
     def imprint(self, part: str = "composite") -> RealArray | None:
-        """Displacement by the plastic strain, in the composite surface and in that of the body which flows."""
+        """Displacement by the plastic strain, in the composite surface and in that of the body
+        which flows."""
         return self.displacement if part in ("composite", self.of) else None
 
     def stores(self, *, relaxing: bool) -> float:
@@ -134,7 +137,8 @@ class PlasticBody(Answer):
         return self.residual_energy
 
     def contradicted(self) -> tuple[str, ...]:
-        """Scalars of a limit of the pressure, which are zero without a hardness beside the work of the flow in the volume."""
+        """Scalars of a limit of the pressure, which are zero without a hardness beside the work of
+        the flow in the volume."""
         return "plastic_work", "total_plastic_work", "plastic_area_fraction", "indented_area"
 
     def flows(self) -> float:
@@ -142,14 +146,15 @@ class PlasticBody(Answer):
         return self.step_work
 
     def findings(self, certificate: Certificate) -> Iterator[Advice]:
-        """Flow that is not settled, strains that are not small, and zones deeper than the cells or beyond the grid."""
+        """Flow that is not settled, strains that are not small, and zones deeper than the cells or
+        beyond the grid."""
         for check in certificate.couplings:
             if check.name == NAME and check.residual > check.tolerance:
                 yield Advice(
                     "warning",
                     "plastic flow",
-                    f"The plastic strain is not settled: the return mapping still changes it by {check.residual:.1e} of itself (at most "
-                    f"{check.tolerance:g} wanted).",
+                    "The plastic strain is not settled: the return mapping still changes it by "
+                    f"{check.residual:.1e} of itself (at most {check.tolerance:g} wanted).",
                     REMEDY,
                     {"change": check.residual, "largest": check.tolerance},
                     ("flow_", "total_plastic_work"),
@@ -160,9 +165,10 @@ class PlasticBody(Answer):
             yield Advice(
                 "warning",
                 "small strain",
-                f"The plastic strain reaches {percent(zone.largest_strain)}, {show(zone.place[2], 'm')} deep in {where}; above "
-                f"{percent(SMALL_STRAIN)} small strains are no longer a good description.",
-                "Lower the load ({load}) or smooth sharp summits ({smooth}), or take imprint and pressures as qualitative there.",
+                f"The plastic strain reaches {percent(zone.largest_strain)}, {show(zone.place[2], 'm')} deep "
+                f"in {where}; above {percent(SMALL_STRAIN)} small strains are no longer a good description.",
+                "Lower the load ({load}) or smooth sharp summits ({smooth}), or take imprint and pressures as "
+                "qualitative there.",
                 {"plastic_strain": zone.largest_strain, "largest": SMALL_STRAIN},
                 ("flow_", "max_pressure"),
             )
@@ -175,8 +181,8 @@ class PlasticBody(Answer):
             yield Advice(
                 "warning",
                 "depth of the cells",
-                f"Points in the deepest cell flow, at {show(end, 'm', 3)}, and what lies below is held elastic: plastic "
-                "strain and imprint are too small.",
+                f"Points in the deepest cell flow, at {show(end, 'm', 3)}, and what lies below is held "
+                "elastic: plastic strain and imprint are too small.",
                 "Give a larger depth ({plastic_depth}), or none.",
                 {"depth": end},
                 ("flow_",),
@@ -185,9 +191,10 @@ class PlasticBody(Answer):
             yield Advice(
                 "warning",
                 "edge of the grid",
-                "Points under the edge of the grid flow, and what lies beside the grid is held elastic: loads are too large, and plastic strain "
-                "and imprint too small.",
-                "Give a grid with a wider margin around the contact: on one of five contact radii loads are within 0.2 %.",
+                "Points under the edge of the grid flow, and what lies beside the grid is held elastic: loads "
+                "are too large, and plastic strain and imprint too small.",
+                "Give a grid with a wider margin around the contact: on one of five contact radii loads are "
+                "within 0.2 %.",
                 concerns=("flow_", "force", "mean_pressure", "max_pressure"),
             )
 
@@ -198,7 +205,8 @@ class PlasticBody(Answer):
 
     @property
     def reaches_edge(self) -> bool:
-        """Whether points under the edge of a free grid have flowed: what lies beside the grid is held elastic."""
+        """Whether points under the edge of a free grid have flowed: what lies beside the grid is
+        held elastic."""
         if not isinstance(self.problem.boundary, Free) or not self.flowed.points.size:
             return False
         nx, ny = self.problem.grid.shape
@@ -247,14 +255,16 @@ class PlasticBody(Answer):
     def stress(
         self, pressure: RealArray | None = None, shear: RealArray | None = None, *, threads: int | None = None
     ) -> RealArray:
-        """Mean stress (cells, 6, nx, ny) in Pa in the depth cells by the plastic strain and by these tractions.
+        """Mean stress (cells, 6, nx, ny) in Pa in the depth cells by the plastic strain and by
+        these tractions.
 
         Without tractions this is the residual stress.
 
         Parameters
         ----------
         pressure, shear
-            (nx, ny) and (2, nx, ny) in Pa on the plastic body, such as the ``pressure`` of the result; None for none.
+            (nx, ny) and (2, nx, ny) in Pa on the plastic body, such as the ``pressure`` of the
+            result; None for none.
         threads
             Number of threads.
         """
@@ -279,5 +289,6 @@ class PlasticBody(Answer):
     def surface_tension(
         self, pressure: RealArray | None = None, shear: RealArray | None = None, *, threads: int | None = None
     ) -> float:
-        """Largest principal stress in Pa along the surface, as of ``layers``; negative where all of it is compressed."""
+        """Largest principal stress in Pa along the surface, as of ``layers``; negative where all of
+        it is compressed."""
         return tension_along(YieldingStress(self.residual(threads), pressure, shear).at(0.0, below=True))

@@ -1,9 +1,12 @@
-"""Plastic flow in the volume as a coupling: its eigenstrain lifts the surface, and the pressure makes it grow.
+"""Plastic flow in the volume as a coupling: its eigenstrain lifts the surface, and the pressure
+makes it grow.
 
-Plastic strain and pressure are found together: each iterate of the plastic strain has its own elastic contact on the surface that it displaces,
-which costs a few transforms of the surface beside those of the volume, and the return mapping under that pressure gives the next. The map of one
-strain to the next brings two strains never farther apart, since the contact minimises an energy; with the pressure of the round before instead it
-would not settle where the contact gives way more by flow than elastically. The contact of the driver then confirms what was found.
+Plastic strain and pressure are found together: each iterate of the plastic strain has its own
+elastic contact on the surface that it displaces, which costs a few transforms of the surface beside
+those of the volume, and the return mapping under that pressure gives the next. The map of one
+strain to the next brings two strains never farther apart, since the contact minimises an energy;
+with the pressure of the round before instead it would not settle where the contact gives way more
+by flow than elastically. The contact of the driver then confirms what was found.
 """
 
 from __future__ import annotations
@@ -37,14 +40,17 @@ FIRST_CELL = 0.5
 """Thickness of the depth cells at the surface over the smaller spacing of the grid."""
 
 _PROBED = 0.8
-"""Share of the yield stress that the elastic stress in the coarse cells of the first look must reach."""
+"""Share of the yield stress that the elastic stress in the coarse cells of the first look must
+reach."""
 
 _MARGIN = 1.4
-"""Depth of the cells over that of the deepest place that yields; also by how much they go deeper when that place reaches the end."""
+"""Depth of the cells over that of the deepest place that yields; also by how much they go deeper
+when that place reaches the end."""
 
 _FARTHEST = 2.0
-"""Depth of the cells over the length of the grid, or over that of the deepest interface if more, from which on they go no deeper: a mean pressure that
-makes the body yield in itself would do so at any depth."""
+"""Depth of the cells over the length of the grid, or over that of the deepest interface if more,
+from which on they go no deeper: a mean pressure that makes the body yield in itself would do so at
+any depth."""
 
 _GROWTH = 1.15
 """Thickness of an added cell over that of the one above."""
@@ -59,9 +65,10 @@ _WORSE = 2.0
 """Residual over the smallest so far from which extrapolation begins anew."""
 
 _SWINGS = 2
-"""Iterates in a row after which extrapolation began anew from which on the share of a step of the return mapping that is taken is halved: of a map that
-brings two strains never farther apart, iterates that go the whole step may swing between two strains for ever, those that go a part of it come to
-rest (Krasnoselskii 1955). Halving it at once takes up to half as many iterates again."""
+"""Iterates in a row after which extrapolation began anew from which on the share of a step of the
+return mapping that is taken is halved: of a map that brings two strains never farther apart,
+iterates that go the whole step may swing between two strains for ever, those that go a part of it
+come to rest (Krasnoselskii 1955). Halving it at once takes up to half as many iterates again."""
 
 _LEAST_SHARE = 0.1
 """The least such share."""
@@ -88,7 +95,8 @@ class Volume:
 
 @dataclass(eq=False)
 class _Course:
-    """What is known of a step on the way: what the contact was posed with last is ``settled``; ``posed`` where the share holds the position."""
+    """What is known of a step on the way: what the contact was posed with last is ``settled``;
+    ``posed`` where the share holds the position."""
 
     begin: Flowed
     memory: Memory
@@ -134,7 +142,8 @@ class PlasticFlowCoupling(Coupling):
 
     @property
     def positions(self) -> bool:
-        """Whether its share holds the bodies at the position prescribed: of contacts that repeat, whose mean gap and approach follow from the offset alone."""
+        """Whether its share holds the bodies at the position prescribed: of contacts that repeat,
+        whose mean gap and approach follow from the offset alone."""
         return not isinstance(self.problem.boundary, Free)
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
@@ -215,7 +224,8 @@ class PlasticFlowCoupling(Coupling):
         return course.flow
 
     def _edges(self, pressure: RealArray) -> RealArray:
-        """Edges of the depth cells for the first ``pressure`` that yields; none where nothing does."""
+        """Edges of the depth cells for the first ``pressure`` that yields; none where nothing
+        does."""
         grid, body = self.problem.grid, self.body
         first = min(grid.spacing) if grid.shape[1] > 1 else grid.spacing[0]
         if self.law.depth is not None:
@@ -263,7 +273,8 @@ class PlasticFlowCoupling(Coupling):
         return None if shear is None else self.sign * shear
 
     def _mapped(self, course: _Course, pressure: RealArray) -> tuple[RealArray, float]:
-        """Step of the plastic strain by the return mapping under ``pressure``; goes deeper where the deepest cell begins to flow."""
+        """Step of the plastic strain by the return mapping under ``pressure``; goes deeper where
+        the deepest cell begins to flow."""
         while True:
             flow = self._flow(course)
             course.iterations += 1
@@ -288,7 +299,8 @@ class PlasticFlowCoupling(Coupling):
         return step, residual
 
     def _pressed(self, contact: Contact, added: RealArray, start: RealArray) -> RealArray:
-        """Pressure (nx, ny) in Pa of the contact whose surface is displaced by ``added`` (m) more."""
+        """Pressure (nx, ny) in Pa of the contact whose surface is displaced by ``added`` (m)
+        more."""
         qp = replace(contact.qp, profile=contact.qp.profile - added)
         if self.positions and isinstance(contact.posed.control, MeanGap) and isinstance(qp.constraint, FixedOffset):
             qp = replace(qp, constraint=FixedOffset(qp.constraint.offset - float(added.mean())))
@@ -312,7 +324,8 @@ class PlasticFlowCoupling(Coupling):
         flowed = course.begin if course.settled is None else course.settled
         earlier = float(course.memory.get("work", 0.0))
         mean = contact.force / self.problem.grid.area
-        # (regions, 4): mean pressure of the step in which each region flowed first, x, y and depth of its largest strain after it
+        # (regions, 4): mean pressure of the step in which each region flowed first, x, y and depth
+        # of its largest strain after it
         earliest = course.memory.get("first")
         first = np.full((len(self.laws), 4), np.nan) if earliest is None else earliest.copy()
         for number, (points, values) in enumerate(_by_region(self.problem, flowed)):

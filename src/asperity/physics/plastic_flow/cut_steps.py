@@ -1,4 +1,5 @@
-"""A step of load in which plastic flow does not settle, cut into parts, each from the state that the one before left."""
+"""A step of load in which plastic flow does not settle, cut into parts, each from the state that
+the one before left."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ def in_parts(
     failed: ContactResult,
     solved: Callable[[Control, InterfaceState | None], ContactResult],
 ) -> ContactResult:
-    """Result under ``control`` by twice as many parts until all of them are ``solved``, and says so; ``failed``, of one step, if none are."""
+    """Result under ``control`` by twice as many parts until all of them are ``solved``, and says
+    so; ``failed``, of one step, if none are."""
     # in equal steps from the load or position of the state
     problem, profile = failed.problem, failed.problem.profile()
     mean, approach, gap = 0.0, 0.0, float(profile.max() - profile.mean())
@@ -47,7 +49,10 @@ def in_parts(
             # with the plastic work and the iterates of all parts
             flow = result.require_plastic_flow()
             whole = replace(flow, step_work=flow.work - float(known.get("work", 0.0)), iterations=spent)
-            message = f"{result.status.message} Plastic flow did not settle in one step: the load was reached in {len(parts)} equal parts."
+            message = (
+                f"{result.status.message} Plastic flow did not settle in one step: the load was reached in "
+                f"{len(parts)} equal parts."
+            )
             status = replace(result.status, message=message)
             return replace(result, status=status, couplings={**result.couplings, NAME: whole})
     return failed

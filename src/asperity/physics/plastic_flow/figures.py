@@ -1,4 +1,5 @@
-"""Figures of plastic flow beneath a contact: zones by layer, residual stress, load against approach, imprint, hardness against depth, frames of a history."""
+"""Figures of plastic flow beneath a contact: zones by layer, residual stress, load against
+approach, imprint, hardness against depth, frames of a history."""
 
 from __future__ import annotations
 
@@ -49,7 +50,8 @@ class Cut:
     Attributes
     ----------
     across, depth
-        (n + 1,) and (m + 1,) edges of the cells in m; across is a radius or a coordinate, depth positive into the body.
+        (n + 1,) and (m + 1,) edges of the cells in m; across is a radius or a coordinate, depth
+        positive into the body.
     strain
         (n, m) accumulated plastic strain.
     interfaces
@@ -59,7 +61,8 @@ class Cut:
     axis
         What ``across`` is called.
     residual
-        (n, m) residual stress along ``across`` in Pa, after the load is taken off; None where not known.
+        (n, m) residual stress along ``across`` in Pa, after the load is taken off; None where not
+        known.
     stress
         (n, m) von Mises stress under the load in Pa; None where not known.
     label
@@ -78,7 +81,8 @@ class Cut:
 
     @property
     def reach(self) -> tuple[float, float, float]:
-        """Left, right and depth (m) of what is drawn: twice the plastic zone, all if nothing flowed."""
+        """Left, right and depth (m) of what is drawn: twice the plastic zone, all if nothing
+        flowed."""
         columns = np.flatnonzero((self.strain > LEAST).any(axis=1))
         rows = np.flatnonzero((self.strain > LEAST).any(axis=0))
         if not columns.size:
@@ -124,7 +128,8 @@ class PlasticPicture:
 
 
 def plot_zones(shown: PlasticPicture | Cut, ax: Axes, *, largest: float | None = None) -> Axes:
-    """Draw the accumulated plastic strain below the surface on ``ax``, with interfaces and names of the layers; what did not flow is grey.
+    """Draw the accumulated plastic strain below the surface on ``ax``, with interfaces and names of
+    the layers; what did not flow is grey.
 
     ``largest`` is the strain at the end of the colours, by default that of the cut.
     """
@@ -202,7 +207,8 @@ def _drawn(cut: Cut, values: RealArray, ax: Axes, *, label: str, colours: str, e
 
 
 def plot_load_approach(shown: PlasticPicture, ax: Axes) -> Axes:
-    """Draw force against approach on ``ax``: loading and unloading, the elastic contact beside it, and the fitted unloading."""
+    """Draw force against approach on ``ax``: loading and unloading, the elastic contact beside it,
+    and the fitted unloading."""
     metres, newtons = scale(shown.approach, "m"), scale(shown.force, "N")
     peak = int(np.argmax(shown.force))
     ax.plot(
@@ -234,7 +240,8 @@ def plot_load_approach(shown: PlasticPicture, ax: Axes) -> Axes:
 
 
 def plot_imprint(shown: PlasticPicture, ax: Axes) -> Axes:
-    """Draw the surface that stays after the load is taken off on ``ax``: the dent, and what is piled up beside it."""
+    """Draw the surface that stays after the load is taken off on ``ax``: the dent, and what is
+    piled up beside it."""
     metres, tall = scale(shown.place, "m"), scale(shown.imprint, "m")
     ax.plot(metres(shown.place), tall(shown.imprint), color=BLUE)
     ax.axhline(0.0, color=BLACK, linewidth=0.5)
@@ -248,7 +255,8 @@ def plot_imprint(shown: PlasticPicture, ax: Axes) -> Axes:
 
 
 def plot_hardness_depth(shown: PlasticPicture, ax: Axes) -> Axes:
-    """Draw the mean contact pressure against the approach on ``ax``, and the hardness that Oliver and Pharr's method reads from the curve."""
+    """Draw the mean contact pressure against the approach on ``ax``, and the hardness that Oliver
+    and Pharr's method reads from the curve."""
     peak = int(np.argmax(shown.force))
     metres, pascals = scale(shown.approach, "m"), scale(shown.mean_pressure[: peak + 1], "Pa")
     ax.plot(
@@ -286,7 +294,8 @@ ZONES = Plot(
 RESIDUAL = Plot(
     "residual_stress",
     "Residual stress",
-    "Stress along the cut that stays when the load is taken off: blue compression, red tension, balanced over the body.",
+    "Stress along the cut that stays when the load is taken off: blue compression, red tension, balanced over "
+    "the body.",
     plot_residual,
 )
 LOADED = Plot(
@@ -298,7 +307,8 @@ LOADED = Plot(
 CURVE = Plot(
     "load_approach",
     "Load against approach",
-    "Force against approach of the history, the elastic contact beside its loading. The area between loading and unloading is the work that plastic flow took.",
+    "Force against approach of the history, the elastic contact beside its loading. The area between loading "
+    "and unloading is the work that plastic flow took.",
     plot_load_approach,
 )
 IMPRINT = Plot(
@@ -310,14 +320,16 @@ IMPRINT = Plot(
 HARDNESS = Plot(
     "hardness_depth",
     "Hardness against depth",
-    "Force over the true contact area while the indenter goes in, and the hardness that an instrument would read from the unloading.",
+    "Force over the true contact area while the indenter goes in, and the hardness that an instrument would "
+    "read from the unloading.",
     plot_hardness_depth,
 )
 
 
 @dataclass(frozen=True, eq=False)
 class ImprintMap:
-    """Displacement (nx, ny) in m of the surface of a ``problem`` by plastic strain, positive into the body."""
+    """Displacement (nx, ny) in m of the surface of a ``problem`` by plastic strain, positive into
+    the body."""
 
     problem: ContactProblem
     displacement: RealArray
@@ -342,7 +354,8 @@ IMPRINT_MAP = map_of(
 
 
 def plots_of(shown: PlasticPicture, prefix: str = "") -> tuple[Plot, ...]:
-    """Figures that ``shown`` has values for, in the order of a report; names of files begin with the ``prefix``."""
+    """Figures that ``shown`` has values for, in the order of a report; names of files begin with
+    the ``prefix``."""
     made = [ZONES]
     made += [RESIDUAL] if shown.cut.residual is not None else []
     made += [LOADED] if shown.cut.stress is not None else []
@@ -359,7 +372,8 @@ FRAME_SIZE = (5.6, 3.4)
 
 
 def plastic_frames(cuts: Sequence[Cut], *, dpi: int = 100) -> tuple[bytes, ...]:
-    """PNG of the plastic zone in each of ``cuts``, one for each step of a history; all of one size, place and range of colours.
+    """PNG of the plastic zone in each of ``cuts``, one for each step of a history; all of one size,
+    place and range of colours.
 
     Raises
     ------
@@ -399,7 +413,8 @@ def plastic_frames(cuts: Sequence[Cut], *, dpi: int = 100) -> tuple[bytes, ...]:
 
 
 def save_cuts(cuts: Sequence[Cut], path: str | Path, *, overwrite: bool = False) -> Path:
-    """Write the plastic zone in ``cuts``, one for each step of a history, as an animated picture (.gif, .png or .webp) of 5 steps a second.
+    """Write the plastic zone in ``cuts``, one for each step of a history, as an animated picture
+    (.gif, .png or .webp) of 5 steps a second.
 
     Raises
     ------

@@ -15,18 +15,21 @@ from ...solids.plasticity import J2
 
 @dataclass(frozen=True)
 class PlasticFlow:
-    """Plastic flow in the volume of the deformable body: plastic strain as an eigenstrain of the layered half-space.
+    """Plastic flow in the volume of the deformable body: plastic strain as an eigenstrain of the
+    layered half-space.
 
-    Small strains; the body keeps its flat surface for the elastic response, the plastic displacement of the surface adds to its heights.
+    Small strains; the body keeps its flat surface for the elastic response, the plastic
+    displacement of the surface adds to its heights.
 
     Parameters
     ----------
     plasticity
-        ``J2`` law of a homogeneous body; of a layered one a sequence of them for each layer from the surface down and then the base, None (or
-        its ``Elastic``, as ``plastic_parts`` has it) for what stays elastic. The elastic constants must be those of the body.
+        ``J2`` law of a homogeneous body; of a layered one a sequence of them for each layer from
+        the surface down and then the base, None (or its ``Elastic``, as ``plastic_parts`` has it)
+        for what stays elastic. The elastic constants must be those of the body.
     cells
-        Depth cells down to where the elastic von Mises stress of the first load that yields is below the yield stress, at least 4. More are
-        added below where larger loads need them.
+        Depth cells down to where the elastic von Mises stress of the first load that yields is
+        below the yield stress, at least 4. More are added below where larger loads need them.
     depth
         Depth in m that the cells end at; None to choose it by the stress.
     tolerance
@@ -60,7 +63,8 @@ class PlasticFlow:
                 )
         if not any(isinstance(law, J2) for law in laws):
             raise InputError(
-                "plasticity of a PlasticFlow must hold at least one J2 law, but holds none. Leave plastic_flow out of an elastic problem."
+                "plasticity of a PlasticFlow must hold at least one J2 law, but holds none. Leave "
+                "plastic_flow out of an elastic problem."
             )
         if not isinstance(self.plasticity, J2):
             kept = tuple(law if isinstance(law, J2) else None for law in laws)
@@ -87,8 +91,8 @@ class PlasticFlow:
             given = (*given, None)
         if len(given) != len(materials):
             raise InputError(
-                f"plasticity of a PlasticFlow must hold one law for each of the {len(layers)} layers and one for the base, but holds {len(given)}. "
-                "Write None for what stays elastic."
+                f"plasticity of a PlasticFlow must hold one law for each of the {len(layers)} layers and one "
+                f"for the base, but holds {len(given)}. Write None for what stays elastic."
             )
         found: list[J2 | None] = []
         for number, (law, material) in enumerate(zip(given, materials, strict=True)):
@@ -100,8 +104,9 @@ class PlasticFlow:
                 ours, own = law.elastic, material
                 if (ours.youngs_modulus, ours.poisson_ratio) != (own.youngs_modulus, own.poisson_ratio):
                     raise InputError(
-                        f"elastic constants of a J2 law must be E = {own.youngs_modulus:g} Pa, nu = {own.poisson_ratio:g} of the body, "
-                        f"but are E = {ours.youngs_modulus:g} Pa, nu = {ours.poisson_ratio:g}."
+                        f"elastic constants of a J2 law must be E = {own.youngs_modulus:g} Pa, nu = "
+                        f"{own.poisson_ratio:g} of the body, but are E = {ours.youngs_modulus:g} Pa, nu = "
+                        f"{ours.poisson_ratio:g}."
                     )
             thickness = layers[number].thickness if number < len(layers) else 1.0
             if thickness > 0.0:
@@ -112,7 +117,8 @@ class PlasticFlow:
 
 
 def plastic_body(body: Body, counter_body: Body) -> tuple[Elastic | Layered, float]:
-    """The body that flows and the sign of the shear traction on it: ``body``, or where that is rigid the ``counter_body``."""
+    """The body that flows and the sign of the shear traction on it: ``body``, or where that is
+    rigid the ``counter_body``."""
     if not isinstance(body, Rigid):
         return body, 1.0
     assert not isinstance(counter_body, Rigid)

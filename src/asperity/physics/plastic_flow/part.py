@@ -1,4 +1,5 @@
-"""Plastic flow in the volume: layers and base that flow under the rough contact, zones, residual stress, imprint and what may crack layers."""
+"""Plastic flow in the volume: layers and base that flow under the rough contact, zones, residual
+stress, imprint and what may crack layers."""
 
 from __future__ import annotations
 
@@ -18,9 +19,11 @@ Tolerance = Annotated[float, Number(above=0.0, below=1.0)]
 
 
 class PlasticFlowSettings(Settings):
-    """Layers and base flow at their yield stress with their hardening, in the volume below the contact.
+    """Layers and base flow at their yield stress with their hardening, in the volume below the
+    contact.
 
-    A single load is reached in ``steps``, and with ``unload`` taken off in as many. Depth cells are chosen by the stress, unless ``depth`` says where they end.
+    A single load is reached in ``steps``, and with ``unload`` taken off in as many. Depth cells are
+    chosen by the stress, unless ``depth`` says where they end.
     """
 
     active: bool = setting(True, option="--plastic", help="Plastic flow in the volume of the deformable body")

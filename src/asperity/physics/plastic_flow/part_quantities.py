@@ -47,7 +47,8 @@ def quantities_of(prefix: str) -> tuple[Quantity, ...]:
 
 @dataclass(frozen=True, eq=False)
 class Detail:
-    """What words and figures of finite elements need beside the values: ``facts`` as in JSON, and the run itself, which files do not keep."""
+    """What words and figures of finite elements need beside the values: ``facts`` as in JSON, and
+    the run itself, which files do not keep."""
 
     facts: Mapping[str, Any] = field(default_factory=dict)
     run: Any = None
@@ -81,7 +82,8 @@ def zones_table(facts: Mapping[str, Any]) -> Table:
 
 
 def tension_table(values: Mapping[str, Any], prefix: str) -> Table:
-    """Tension at surface and bottom of layers, shear and peel of interfaces, under load and after it."""
+    """Tension at surface and bottom of layers, shear and peel of interfaces, under load and after
+    it."""
     places = {
         "surface_tension": "tension along the surface",
         "layer_tension": "tension at the bottom of a layer",

@@ -74,7 +74,8 @@ class Flowing(Physics):
         for material in (*materials_of(problem.body), *materials_of(problem.counter_body)):
             if isinstance(material, Viscoelastic):
                 raise InputError(
-                    f"materials of a contact with plastic flow must be elastic, but one is {material!r}. Take its relaxed or its instantaneous solid."
+                    f"materials of a contact with plastic flow must be elastic, but one is {material!r}. Take "
+                    "its relaxed or its instantaneous solid."
                 )
 
     def couplings(self, problem: ContactProblem, operator: Operator, how: Preparing) -> Iterator[Coupling]:
@@ -83,8 +84,8 @@ class Flowing(Physics):
 
         if how.sticks:
             raise InputError(
-                "friction of a contact with plastic flow must slide everywhere, but a step prescribes a shift or a tangential force. "
-                "Leave that out: under Coulomb(mu) all points slide."
+                "friction of a contact with plastic flow must slide everywhere, but a step prescribes a shift "
+                "or a tangential force. Leave that out: under Coulomb(mu) all points slide."
             )
         yield PlasticFlowCoupling.prepared(problem, how.tolerances.get("plastic_flow"), how.threads)
 
@@ -101,5 +102,6 @@ class Flowing(Physics):
 
     @classmethod
     def types(cls) -> tuple[type, ...]:
-        """The flow, and the law of a part of it; files know hardening by the strength of materials."""
+        """The flow, and the law of a part of it; files know hardening by the strength of
+        materials."""
         return J2, PlasticFlow

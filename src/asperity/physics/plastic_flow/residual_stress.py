@@ -1,4 +1,5 @@
-"""Stress by plastic strain and tractions at any depth: residual stress, and what layers and interfaces bear."""
+"""Stress by plastic strain and tractions at any depth: residual stress, and what layers and
+interfaces bear."""
 
 from __future__ import annotations
 
@@ -58,7 +59,8 @@ class _Flows(Protocol):
 class ResidualStress:
     """Stress of a plastic ``body`` by its plastic strain alone, at single depths.
 
-    Exact for the plastic strain of the cells, which is constant in depth within each of them, to 1e-4 of its change within a cell.
+    Exact for the plastic strain of the cells, which is constant in depth within each of them, to
+    1e-4 of its change within a cell.
     """
 
     def __init__(self, body: _Flows, threads: int | None = None) -> None:
@@ -67,7 +69,8 @@ class ResidualStress:
 
     @cached_property
     def _edges(self) -> RealArray:
-        """Edges (m) of the depth cells; of one as thick as the first layer or a pixel where nothing has flowed."""
+        """Edges (m) of the depth cells; of one as thick as the first layer or a pixel where nothing
+        has flowed."""
         problem, edges = self._body.problem, self._body.flowed.edges
         if edges.size:
             return edges
@@ -93,7 +96,8 @@ class ResidualStress:
     def at(self, depth: float, *, above: bool, below: bool) -> RealArray:
         """(6, nx, ny) in Pa at ``depth`` (m), components xx, yy, zz, xy, xz, yz.
 
-        Just ``above`` it, just ``below`` it, or the mean of both, which differ at interfaces and between cells; of the surface below it.
+        Just ``above`` it, just ``below`` it, or the mean of both, which differ at interfaces and
+        between cells; of the surface below it.
         """
         found = self.loaded(depth, above=above, below=below)
         if depth == 0.0:
@@ -109,18 +113,21 @@ class ResidualStress:
         return np.flatnonzero([laws[region] is not None for region in self._cells.regions])
 
     def yielding_depths(self) -> RealArray:
-        """Depths (n,) in m of the middle of the cells whose material may flow, on the mean over each of which yield is required."""
+        """Depths (n,) in m of the middle of the cells whose material may flow, on the mean over
+        each of which yield is required."""
         return self._cells.middle[self._yielding]
 
     def cell_at(self, depth: float, *, below: bool) -> int | None:
-        """Number of the cell that holds ``depth`` (m), on its lower or upper side, where its material may flow; None elsewhere."""
+        """Number of the cell that holds ``depth`` (m), on its lower or upper side, where its
+        material may flow; None elsewhere."""
         near = _SAME * depth
         at = depth + near if below else depth - near
         number = int(np.searchsorted(self._edges, at, side="right" if below else "left")) - 1
         return number if number in self._yielding else None
 
     def means(self, pressure: RealArray | None = None, shear: RealArray | None = None) -> RealArray:
-        """Mean stress (cells, 6, nx, ny) in Pa in the depth cells, with that by these tractions on the body."""
+        """Mean stress (cells, 6, nx, ny) in Pa in the depth cells, with that by these tractions on
+        the body."""
         return self._body.stress(pressure, shear, threads=self._threads)
 
     def loaded(
@@ -132,7 +139,8 @@ class ResidualStress:
         above: bool,
         below: bool,
     ) -> RealArray:
-        """As ``at``, with the stress by the tractions ``pressure`` (nx, ny) and ``shear`` (2, nx, ny) in Pa on the body."""
+        """As ``at``, with the stress by the tractions ``pressure`` (nx, ny) and ``shear`` (2, nx,
+        ny) in Pa on the body."""
         cut = slice_at(self._cells, depth, above=above, below=below)
         operator = operator_of(self._body.problem, cut.edges, self._threads)
         fields = operator.spectra()
@@ -150,8 +158,9 @@ class ResidualStress:
 class YieldingStress:
     """Stress under given tractions as the flow rule has it.
 
-    Yield is required of the mean over a depth cell, so that this is the stress at all depths within a cell whose material may flow; at a single depth the
-    stress by a plastic strain that is constant in the cell may pass the yield stress. Elsewhere it is that at the depth itself.
+    Yield is required of the mean over a depth cell, so that this is the stress at all depths within
+    a cell whose material may flow; at a single depth the stress by a plastic strain that is
+    constant in the cell may pass the yield stress. Elsewhere it is that at the depth itself.
 
     Parameters
     ----------
@@ -189,8 +198,9 @@ class LayerStress:
     top, bottom
         Depths in m of its faces.
     top_tension, bottom_tension
-        Largest principal stress in Pa along the upper and the lower face, within the layer: bending and stretch; negative where all of the
-        face is compressed. Of a layer that may flow the mean over the depth cell at the face, see ``YieldingStress``.
+        Largest principal stress in Pa along the upper and the lower face, within the layer: bending
+        and stretch; negative where all of the face is compressed. Of a layer that may flow the mean
+        over the depth cell at the face, see ``YieldingStress``.
     normal
         Stress σ_zz (nx, ny) in Pa across the interface below, positive in tension.
     shear
@@ -207,7 +217,8 @@ class LayerStress:
 
     @property
     def peel(self) -> float:
-        """Largest tension in Pa across the interface below; zero where it is pressed together everywhere."""
+        """Largest tension in Pa across the interface below; zero where it is pressed together
+        everywhere."""
         return max(float(self.normal.max()), 0.0)
 
     @property

@@ -1,4 +1,5 @@
-"""Plastic flow in the volume of a solved contact: numbers, cut through the largest strain, tensions, curve of the history."""
+"""Plastic flow in the volume of a solved contact: numbers, cut through the largest strain,
+tensions, curve of the history."""
 
 from __future__ import annotations
 
@@ -33,7 +34,8 @@ from .work_values import PlasticValues, inferred_strengths, interfaces_of, layer
 
 
 def _row(flow: PlasticBody) -> int:
-    """Row of the grid through the largest plastic strain; where nothing flows the one through the middle."""
+    """Row of the grid through the largest plastic strain; where nothing flows the one through the
+    middle."""
     grid = flow.problem.grid
     zone = max(flow.zones, key=lambda item: item.largest_strain)
     place = zone.place[1]
@@ -41,7 +43,8 @@ def _row(flow: PlasticBody) -> int:
 
 
 def _shown(flow: PlasticBody, solved: Solved) -> tuple[PlasticValues, dict[str, float]]:
-    """Cut along x through the largest plastic strain with residual stress and stress under load, and the largest tensions."""
+    """Cut along x through the largest plastic strain with residual stress and stress under load,
+    and the largest tensions."""
     grid, row = flow.problem.grid, _row(flow)
     across = np.arange(grid.shape[0] + 1) * grid.spacing[0]
     place = 0.5 * (across[1:] + across[:-1])
@@ -87,7 +90,8 @@ def _tractions(result: ContactResult) -> tuple[RealArray, RealArray | None]:
 def _tensions(
     flow: PlasticBody, tractions: tuple[RealArray | None, RealArray | None], prefix: str, solved: Solved
 ) -> dict[str, float]:
-    """Largest tension along the surface and at the bottoms of layers, shear and peel of interfaces under these tractions, in Pa."""
+    """Largest tension along the surface and at the bottoms of layers, shear and peel of interfaces
+    under these tractions, in Pa."""
     layers = flow.layers(*tractions, threads=solved.threads)
     surface = layers[0].top_tension if layers else flow.surface_tension(*tractions, threads=solved.threads)
     found = {"surface_tension": surface}
@@ -101,7 +105,8 @@ def _tensions(
 
 
 def _curve(solved: Solved) -> dict[str, RealArray]:
-    """Columns of the history from rest, with the elastic contact beside it where pictures are drawn."""
+    """Columns of the history from rest, with the elastic contact beside it where pictures are
+    drawn."""
     path: HistoryResult | None = solved.path
     if path is None or len(path.steps) < 2:
         return {}
@@ -135,7 +140,8 @@ class PlasticFlowWork(WithFacts):
         require_flow(body, unknown_is_elastic=ask.settings.unknown_is_elastic)
 
     def altered(self, ask: Flows, problem: ContactProblem) -> ContactProblem:
-        """``problem`` with the laws of its bodies, by which the flow joins the solve: one entry for each layer and the base.
+        """``problem`` with the laws of its bodies, by which the flow joins the solve: one entry for
+        each layer and the base.
 
         Raises
         ------
@@ -224,7 +230,8 @@ class PlasticFlowWork(WithFacts):
         return (*PlasticBody.citation_keys, "SimoTaylor1985")
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
-        """Map of the imprint; on the cut through the largest strain zones, residual stress, stress under load; curve."""
+        """Map of the imprint; on the cut through the largest strain zones, residual stress, stress
+        under load; curve."""
         shown = picture_of(PREFIX, found.values, found.detail)
         surface = ImprintMap(solved.problem, np.asarray(found.values[IMPRINT.name]))
         return (*figures_by(plots_of(shown, "flow"), shown), *figures_by((IMPRINT_MAP,), surface))
@@ -236,7 +243,10 @@ class PlasticFlowWork(WithFacts):
         depth, dent = (show(float(values[name]), "m", 3) for name in ("flow_depth", "flow_imprint_depth"))
         work = show(float(values["flow_plastic_work"]), "J", 3)
         flowed = float(values["flow_largest_strain"]) > 0.0
-        sentence = f"The body flows down to {depth} with plastic strains of up to {strain}; an imprint of {dent} stays, and plastic flow took {work}."
+        sentence = (
+            f"The body flows down to {depth} with plastic strains of up to {strain}; an imprint of {dent} "
+            f"stays, and plastic flow took {work}."
+        )
         if not flowed:
             sentence = "Nothing flows beneath the contact: it is elastic."
         zones = ("Plastic zones", zones_table(found.detail))
@@ -255,7 +265,9 @@ class PlasticFlowWork(WithFacts):
 # In words and tables.
 
 REMARK = (
-    "Plastic strain is found in the volume with small strains, on the flat surface of the undeformed body. The residual stress is that of the plastic strain without load; flow in reverse during the "
-    "unloading is in it only where the unloading was computed. Stresses of the table [stress] hold the plastic strain. Tensions are means over depth cells."
+    "Plastic strain is found in the volume with small strains, on the flat surface of the undeformed body. "
+    "The residual stress is that of the plastic strain without load; flow in reverse during the unloading is "
+    "in it only where the unloading was computed. Stresses of the table [stress] hold the plastic strain. "
+    "Tensions are means over depth cells."
 )
 """What the model is."""

@@ -1,4 +1,5 @@
-"""What the parts on plastic flow share: a cut through the body and a curve of load as values of quantities, and figures from them."""
+"""What the parts on plastic flow share: a cut through the body and a curve of load as values of
+quantities, and figures from them."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
     from ...contact.problem import ContactProblem
 
 LEAST_HARDENING = 1e-4
-"""Hardening modulus over Young's modulus that perfectly plastic materials get in finite elements; it raises forces by some 0.1 % at plastic strains of a per cent."""
+"""Hardening modulus over Young's modulus that perfectly plastic materials get in finite elements;
+it raises forces by some 0.1 % at plastic strains of a per cent."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +65,8 @@ class PlasticValues:
 
 
 def picture_of(prefix: str, values: Mapping[str, Any], facts: Mapping[str, Any]) -> PlasticPicture:
-    """Figures' input from the ``values`` of the quantities and the ``facts`` of a file: names of the ``layers``, the ``axis``."""
+    """Figures' input from the ``values`` of the quantities and the ``facts`` of a file: names of
+    the ``layers``, the ``axis``."""
 
     def known(name: str) -> RealArray:
         return np.atleast_1d(np.asarray(values.get(f"{prefix}_{name}", np.zeros(0)), dtype=float))
@@ -125,7 +128,10 @@ def zone_table(shown: PlasticValues, body: Body) -> Table:
             continue
         column, row = np.unravel_index(int(np.argmax(strain)), strain.shape)
         flowed = np.flatnonzero((strain > 0.0).any(axis=0))
-        span = f"{show(float(shown.depth[rows[flowed[0]]]), 'm', 3)} to {show(float(shown.depth[rows[flowed[-1]] + 1]), 'm', 3)}"
+        span = (
+            f"{show(float(shown.depth[rows[flowed[0]]]), 'm', 3)} to "
+            f"{show(float(shown.depth[rows[flowed[-1]] + 1]), 'm', 3)}"
+        )
         columns = np.flatnonzero((strain > 0.0).any(axis=1))
         wide = float(shown.across[columns[-1] + 1] - shown.across[columns[0]])
         cells.append(
@@ -198,7 +204,8 @@ def meshed_body(problem: ContactProblem, inside: str, table: str) -> Elastic | L
 
 
 def meshed_laws(body: Body, *, unknown_is_elastic: bool) -> list[J2 | None]:
-    """Law of each layer of ``body`` and of its base for finite elements; perfect plasticity with the least hardening, which Newton's method needs near collapse.
+    """Law of each layer of ``body`` and of its base for finite elements; perfect plasticity with
+    the least hardening, which Newton's method needs near collapse.
 
     Raises
     ------
@@ -216,7 +223,8 @@ def meshed_laws(body: Body, *, unknown_is_elastic: bool) -> list[J2 | None]:
 
 
 def summit_radius(problem: ContactProblem, fix: str) -> float:
-    """Mean radius in m of the summits of the surface of ``problem``, for an indenter whose radius is not given.
+    """Mean radius in m of the summits of the surface of ``problem``, for an indenter whose radius
+    is not given.
 
     Raises
     ------

@@ -1,4 +1,5 @@
-"""Creep-force curves: the forces of rolling over a range of creepages, with the theories of smooth wheels beside them."""
+"""Creep-force curves: the forces of rolling over a range of creepages, with the theories of smooth
+wheels beside them."""
 
 from __future__ import annotations
 
@@ -51,7 +52,8 @@ THEORIES = {"fastsim": "FASTSIM (Kalker 1982)", "linear": "linear theory (Kalker
 _SOURCES = {"fastsim": "Kalker1982", "linear": "Kalker1967", "carter": "Carter1926"}
 
 _ELLIPSE = 0.05
-"""Deviation of the area in contact from that of the ellipse of the pressure's moments up to which the contact counts as one."""
+"""Deviation of the area in contact from that of the ellipse of the pressure's moments up to which
+the contact counts as one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,13 +65,15 @@ class CreepCurve:
     longitudinal, lateral, spin
         Creepages, and spin in rad/m.
     longitudinal_force, lateral_force, torque
-        Forces on the body along and across the rolling direction (N) and torque about the centre (N·m); means over the distance for rough wheels.
+        Forces on the body along and across the rolling direction (N) and torque about the centre
+        (N·m); means over the distance for rough wheels.
     slip_area_fraction
         Share of the contact that slips.
     dissipated
         Heat per distance rolled, J/m.
     deviation
-        Standard deviation of the longitudinal force of rough wheels over the distance, N; zero for smooth ones.
+        Standard deviation of the longitudinal force of rough wheels over the distance, N; zero for
+        smooth ones.
     first
         The contact of the first point; of a rough wheel after its last move.
     rough
@@ -103,7 +107,8 @@ class CreepCurve:
         return () if self.rough else theories_of(self.first, plain=not (self.lateral.any() or self.spin.any()))
 
     def theory(self, name: str) -> CreepForces:
-        """Forces of the theory ``name`` at these creepages, along and across the rolling direction; InputError for one that does not know the contact."""
+        """Forces of the theory ``name`` at these creepages, along and across the rolling direction;
+        InputError for one that does not know the contact."""
         require.one_of(name, self.theories, "theory of a creep-force curve")
         return theory_forces(name, self.first, (self.longitudinal, self.lateral, self.spin))
 
@@ -113,7 +118,8 @@ class CreepCurve:
         return tuple(sorted({*self.first.citation_keys, *(_SOURCES[name] for name in self.theories)}))
 
     def to_xarray(self) -> xarray.Dataset:
-        """Creepages and forces over the number of the point, with units and long names, and the forces of the theories."""
+        """Creepages and forces over the number of the point, with units and long names, and the
+        forces of the theories."""
         import xarray
 
         values = {item.name: ("point", getattr(self, item.name), item.attributes) for item in (*CREEPAGES, *FORCES)}
@@ -147,7 +153,8 @@ def creep_curve(
     longitudinal, lateral, spin
         Creepages, and spin in rad/m: numbers, and arrays (n,) of one length.
     roughness, distance
-        Roughness of the wheel, and the distance (m) rolled at each point, as for ``roll_rough``, whose means are the curve.
+        Roughness of the wheel, and the distance (m) rolled at each point, as for ``roll_rough``,
+        whose means are the curve.
     direction, tolerance
         As for ``roll``.
     progress
@@ -192,7 +199,8 @@ def creep_curve(
 
 
 def mean_forces(found: RollingContact, rough: RoughRolling | None) -> tuple[float, ...]:
-    """``FORCES`` of the contact ``found``: its own, or means over the distance of the ``rough`` wheel of which it is the last."""
+    """``FORCES`` of the contact ``found``: its own, or means over the distance of the ``rough``
+    wheel of which it is the last."""
     if rough is None:
         forces = (found.longitudinal_force, found.lateral_force, found.torque)
         return (*forces, found.slip_area_fraction, found.dissipated, 0.0)
@@ -208,7 +216,8 @@ def mean_forces(found: RollingContact, rough: RoughRolling | None) -> tuple[floa
 
 
 def semi_axes(found: RollingContact) -> tuple[float, float]:
-    """Half-axes (m) of the contact along and across the rolling direction, from the moments of the pressure as of Hertz's; NaN across a line."""
+    """Half-axes (m) of the contact along and across the rolling direction, from the moments of the
+    pressure as of Hertz's; NaN across a line."""
     pressure, grid, axis = found.normal.pressure, found.normal.problem.grid, DIRECTIONS[found.direction].axis
     share = 5.0 if min(grid.shape) > 1 else 4.0
     axes = []
@@ -221,8 +230,8 @@ def semi_axes(found: RollingContact) -> tuple[float, float]:
 
 
 def theories_of(found: RollingContact, *, plain: bool) -> tuple[str, ...]:
-    """Names of the theories that know the contact ``found``: equal, homogeneous bodies under one coefficient of friction on an ellipse, or on a line under
-    ``plain`` longitudinal creepage."""
+    """Names of the theories that know the contact ``found``: equal, homogeneous bodies under one
+    coefficient of friction on an ellipse, or on a line under ``plain`` longitudinal creepage."""
     problem, law = found.normal.problem, found.law
     pair = [body for body in (problem.body, problem.counter_body) if isinstance(body, Elastic)]
     equal = len({(body.youngs_modulus, body.poisson_ratio) for body in pair}) == 1 and len(pair) == 2
@@ -238,7 +247,8 @@ def theories_of(found: RollingContact, *, plain: bool) -> tuple[str, ...]:
 
 
 def theory_forces(name: str, found: RollingContact, at: tuple[RealArray, RealArray, RealArray]) -> CreepForces:
-    """Forces of the theory ``name`` for the contact ``found`` at longitudinal and lateral creepages and spin (rad/m)."""
+    """Forces of the theory ``name`` for the contact ``found`` at longitudinal and lateral creepages
+    and spin (rad/m)."""
     problem, law, (a, b) = found.normal.problem, found.law, semi_axes(found)
     assert isinstance(problem.body, Elastic)
     assert isinstance(law, Coulomb)

@@ -1,4 +1,5 @@
-"""Figures of rolling: where a contact sticks and slips, traction along the rolling direction, creep-force curves, forces over the distance."""
+"""Figures of rolling: where a contact sticks and slips, traction along the rolling direction,
+creep-force curves, forces over the distance."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 class RollingPicture:
     """What figures of rolling are drawn from: values of a result or of its file, SI.
 
-    ``traction`` and ``slip`` are (2, nx, ny), ``bound`` (nx, ny); ``curve`` and ``path`` columns by name, empty if there are none.
+    ``traction`` and ``slip`` are (2, nx, ny), ``bound`` (nx, ny); ``curve`` and ``path`` columns by
+    name, empty if there are none.
     """
 
     problem: ContactProblem
@@ -44,7 +46,8 @@ class RollingPicture:
 
 
 def plot_rolling_map(shown: RollingPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` where the rolling contact is open, sticks and slips, with an arrow along which it rolls."""
+    """Draw on ``ax`` where the rolling contact is open, sticks and slips, with an arrow along which
+    it rolls."""
     grid, axis = shown.problem.grid, DIRECTIONS[shown.direction]
     plot_classes(shown.kinds, grid, ax, CLASSES)
     if min(grid.shape) > 1:
@@ -63,7 +66,8 @@ def plot_rolling_map(shown: RollingPicture, ax: Axes) -> Axes:
 
 
 def plot_rolling_section(shown: RollingPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` the shear traction along the rolling direction, on the row with the largest bound, between the bounds of the friction."""
+    """Draw on ``ax`` the shear traction along the rolling direction, on the row with the largest
+    bound, between the bounds of the friction."""
     grid, axis = shown.problem.grid, DIRECTIONS[shown.direction]
     finite = np.where(np.isfinite(shown.bound), shown.bound, 0.0)
     measure = finite if finite.any() else np.hypot(*shown.traction)
@@ -101,7 +105,8 @@ _STYLES = {
 
 
 def plot_creep_curve(shown: RollingPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` the creep-force curve: size of the tangential force against the share of the creepages asked for, theories beside it."""
+    """Draw on ``ax`` the creep-force curve: size of the tangential force against the share of the
+    creepages asked for, theories beside it."""
     curve = shown.curve
     forces = {
         name: np.hypot(
@@ -134,7 +139,8 @@ def plot_creep_curve(shown: RollingPicture, ax: Axes) -> Axes:
 
 
 def plot_rough_path(shown: RollingPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` the forces of a rough wheel on the body along x and y over the distance rolled."""
+    """Draw on ``ax`` the forces of a rough wheel on the body along x and y over the distance
+    rolled."""
     path = shown.path
     length, in_n = scale(path["distance"], "m"), scale(np.append(path["force_x"], path["force_y"]), "N")
     for name, colour in (("force_x", BLUE), ("force_y", VERMILLION)):
@@ -154,14 +160,16 @@ ROLLING_PLOTS = (
     Plot(
         "rolling_map",
         "Stick and slip as it rolls",
-        "Where the contact is open, sticks and slips as it rolls along the arrow; shares of the nominal area. Material enters at the head of the arrow.",
+        "Where the contact is open, sticks and slips as it rolls along the arrow; shares of the nominal area. "
+        "Material enters at the head of the arrow.",
         plot_rolling_map,
         "map",
     ),
     Plot(
         "rolling_section",
         "Traction as it rolls",
-        "Shear traction on the body along the rolling direction, on the row with the largest bound, between the bounds that the friction sets.",
+        "Shear traction on the body along the rolling direction, on the row with the largest bound, between "
+        "the bounds that the friction sets.",
         plot_rolling_section,
     ),
 )
@@ -170,7 +178,8 @@ ROLLING_PLOTS = (
 CURVE_PLOT = Plot(
     "creep_curve",
     "Creep-force curve",
-    "Tangential force against the share of the creepages that were asked for. Theories of smooth wheels of equal bodies are drawn beside it where they hold.",
+    "Tangential force against the share of the creepages that were asked for. Theories of smooth wheels of "
+    "equal bodies are drawn beside it where they hold.",
     plot_creep_curve,
 )
 PATH_PLOT = Plot(

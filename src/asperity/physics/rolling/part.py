@@ -27,8 +27,9 @@ Way = Annotated[str, Choice({name: name for name in ("x", "-x", "y", "-y")})]
 class RollingSettings(Settings):
     """Steady rolling with the friction of the table [friction]: creepages, spin, and the direction.
 
-    The surface is the wheel, which stands in the frame of the contact. A ``roughness_file`` is a map of the same pixel that moves through it with the
-    material, over a ``distance``. With ``points`` the curve of forces is found up to the creepages.
+    The surface is the wheel, which stands in the frame of the contact. A ``roughness_file`` is a
+    map of the same pixel that moves through it with the material, over a ``distance``. With
+    ``points`` the curve of forces is found up to the creepages.
     """
 
     longitudinal: CreepageShare = setting(
@@ -59,7 +60,8 @@ class RollingSettings(Settings):
             )
         if self.distance is not None and self.roughness_file is None:
             raise InputError(
-                ".distance must be given together with the roughness ({rolling.roughness_file}), but is given alone: a smooth wheel rolls steadily."
+                ".distance must be given together with the roughness ({rolling.roughness_file}), but is given "
+                "alone: a smooth wheel rolls steadily."
             )
         return self
 
@@ -139,13 +141,14 @@ class Rolling(Part):
         friction = document.friction
         if friction.law == "coulomb" and not friction.coefficient:
             raise InputError(
-                "friction must be given together with rolling, but its coefficient is 0. Give {friction.coefficient=0.3} or "
-                "{friction.law=full stick}.",
+                "friction must be given together with rolling, but its coefficient is 0. Give "
+                "{friction.coefficient=0.3} or {friction.law=full stick}.",
                 subject="friction",
             )
         if document.shear is not None:
             raise InputError(
-                "rolling must be given without shear, but both are given: shift, force or twist ({shear.shift}, {shear.force}, {shear.twist}) are those of a contact that does not roll."
+                "rolling must be given without shear, but both are given: shift, force or twist "
+                "({shear.shift}, {shear.force}, {shear.twist}) are those of a contact that does not roll."
             )
         rough = None if table.roughness_file is None else folder / table.roughness_file
         return Rolls(table, friction_law(friction, sheared=True), rough)

@@ -1,9 +1,10 @@
 """Steady rolling with friction: creepage, spin, and the forces that they cause (Kalker 1990).
 
-The contact rolls over the bodies, which slide slowly against each other. In the frame of the contact everything is steady, and
-the material moves through it from the leading edge backwards: a move by one pixel is an implicit step of stick and slip from what was
-displaced one pixel ahead. The direct method solves for the traction that such a move leaves as it is; the transient one moves until the tractions
-rest, first by several pixels, and checks it.
+The contact rolls over the bodies, which slide slowly against each other. In the frame of the
+contact everything is steady, and the material moves through it from the leading edge backwards: a
+move by one pixel is an implicit step of stick and slip from what was displaced one pixel ahead. The
+direct method solves for the traction that such a move leaves as it is; the transient one moves
+until the tractions rest, first by several pixels, and checks it.
 """
 
 from __future__ import annotations
@@ -42,8 +43,8 @@ METHODS = ("direct", "transient")
 DIRECTIONS = {"x": Direction(0, 1), "-x": Direction(0, -1), "y": Direction(1, 1), "-y": Direction(1, -1)}
 
 _STRIDES = (8, 4, 2, 1)
-"""Pixels by which the material moves in a step, one after the other; the last makes the result. A contact of n pixels comes to rest in
-about n/8 + 3 · 4 steps instead of n."""
+"""Pixels by which the material moves in a step, one after the other; the last makes the result. A
+contact of n pixels comes to rest in about n/8 + 3 · 4 steps instead of n."""
 
 _FEWEST = 8
 """Strides along the contact at least: coarser ones are no start for the finer."""
@@ -57,15 +58,18 @@ NORMAL_TOLERANCE = 1e-10
 
 @dataclass(frozen=True)
 class Creepage:
-    """Relative motion of rolling bodies, small against one: slip velocity of the counter body over the body, over the rolling speed.
+    """Relative motion of rolling bodies, small against one: slip velocity of the counter body over
+    the body, over the rolling speed.
 
-    At the distance s along the rolling direction and t across it (to the left of it, from x towards y) from the centre of the grid it is (x - spin t, y +
-    spin s) along and across, without elastic displacements.
+    At the distance s along the rolling direction and t across it (to the left of it, from x
+    towards y) from the centre of the grid it is (x - spin t, y + spin s) along and across, without
+    elastic displacements.
 
     Parameters
     ----------
     x, y
-        Creepage along the rolling direction, which is x unless ``roll`` is told otherwise, and across it.
+        Creepage along the rolling direction, which is x unless ``roll`` is told otherwise, and
+        across it.
     spin
         Relative rotation about the normal over the rolling speed, rad/m.
 
@@ -85,7 +89,8 @@ class Creepage:
         require.finite(self.spin, "spin (rad/m)")
 
     def along_axes(self, direction: Direction) -> tuple[float, float]:
-        """Components along the axes x and y of the grid, where the contact rolls in this ``direction``."""
+        """Components along the axes x and y of the grid, where the contact rolls in this
+        ``direction``."""
         if direction.axis == 0:
             return direction.sign * self.x, direction.sign * self.y
         return -direction.sign * self.y, direction.sign * self.x
@@ -93,28 +98,35 @@ class Creepage:
 
 @dataclass(frozen=True, eq=False)
 class RollingContact:
-    """Steady rolling contact. Fields are (nx, ny) arrays or (2, nx, ny) arrays of x and y components, all values SI.
+    """Steady rolling contact. Fields are (nx, ny) arrays or (2, nx, ny) arrays of x and y
+    components, all values SI.
 
     Attributes
     ----------
     normal
-        The contact under load; its displacement and approach hold what the shear of unlike bodies lifts.
+        The contact under load; its displacement and approach hold what the shear of unlike bodies
+        lifts.
     creepage
         What was prescribed.
     traction
         Shear traction on the body, Pa.
     slip
-        Slip velocity of the counter body over the body, over the rolling speed; zero where it sticks.
+        Slip velocity of the counter body over the body, over the rolling speed; zero where it
+        sticks.
     force_x, force_y, torque
-        Force along x and y (N) and torque about the centre of the grid (N·m) on the body. Kalker's forces on the other body have the opposite sign.
+        Force along x and y (N) and torque about the centre of the grid (N·m) on the body. Kalker's
+        forces on the other body have the opposite sign.
     friction_limit
         Largest tangential force that the contact bears, N.
     power_density
-        Energy turned into heat per distance rolled, (nx, ny) in J/m³; its integral is below ``dissipated`` by an error of first order in the pixel.
+        Energy turned into heat per distance rolled, (nx, ny) in J/m³; its integral is below
+        ``dissipated`` by an error of first order in the pixel.
     dissipated
-        Heat per distance rolled, J/m: the power of the forces along creepage and spin, since the elastic energy does not change.
+        Heat per distance rolled, J/m: the power of the forces along creepage and spin, since the
+        elastic energy does not change.
     steadiness
-        Error of the friction law between traction and slip, or of the transient method the relative change of the traction by the last move of one pixel.
+        Error of the friction law between traction and slip, or of the transient method the relative
+        change of the traction by the last move of one pixel.
     steps
         Steps taken: Newton steps of the direct method, moves of the transient one.
     status
@@ -144,7 +156,8 @@ class RollingContact:
     direction: Rolling = measured("", "direction of rolling", default="x")
 
     def require_sound(self) -> None:
-        """Refuse what is no rolling contact on the grid of the contact beside, with a ValueError."""
+        """Refuse what is no rolling contact on the grid of the contact beside, with a
+        ValueError."""
         shape = self.normal.problem.grid.shape
         fields = (*self.traction, *self.slip, self.power_density)
         if len(self.traction) != 2 or any(item.shape != shape or item.dtype.kind != "f" for item in fields):
@@ -199,15 +212,18 @@ def roll(
     rounds: int = 20,
     start: RollingContact | None = None,
 ) -> RollingContact:
-    """Steady rolling of the bodies of ``problem`` under ``control``, with its friction and a ``creepage``.
+    """Steady rolling of the bodies of ``problem`` under ``control``, with its friction and a
+    ``creepage``.
 
-    The surface is that of the contact, which stands while the material moves: smooth wheels, rollers and balls, on bodies of any layers. See
-    ``roll_rough`` for roughness that moves with the material.
+    The surface is that of the contact, which stands while the material moves: smooth wheels,
+    rollers and balls, on bodies of any layers. See ``roll_rough`` for roughness that moves with the
+    material.
 
     Parameters
     ----------
     problem
-        A contact with a friction law, without film, adhesion and hardness. Where it repeats along the rolling direction, its surfaces must part somewhere in each row.
+        A contact with a friction law, without film, adhesion and hardness. Where it repeats along
+        the rolling direction, its surfaces must part somewhere in each row.
     control
         ``Force``, ``MeanPressure``, ``Approach`` or ``MeanGap``.
     creepage
@@ -215,11 +231,13 @@ def roll(
     direction
         ``"x"``, ``"-x"``, ``"y"`` or ``"-y"``: where the contact rolls to.
     method
-        ``"direct"``, or ``"transient"``: moves of the material until the tractions rest, at ten times the work or more.
+        ``"direct"``, or ``"transient"``: moves of the material until the tractions rest, at ten
+        times the work or more.
     tolerance
-        Of the transient method the largest relative change of the traction from move to move, which leaves it off the steady state by some
-        hundred times that; of the direct one a hundred times the largest error of the friction law. Of unlike bodies also the largest relative change of the displacement by
-        shear from round to round.
+        Of the transient method the largest relative change of the traction from move to move, which
+        leaves it off the steady state by some hundred times that; of the direct one a hundred times
+        the largest error of the friction law. Of unlike bodies also the largest relative change of
+        the displacement by shear from round to round.
     rounds
         Rounds between normal contact and shear at most, for unlike bodies.
     start
@@ -228,7 +246,8 @@ def roll(
     Raises
     ------
     InputError
-        If the problem has no friction, a film, adhesion, a hardness or a layer that slips, or touches all along a row.
+        If the problem has no friction, a film, adhesion, a hardness or a layer that slips, or
+        touches all along a row.
     NoSolutionError
         If shear parts unlike bodies at a prescribed approach.
     ConvergenceError
@@ -241,14 +260,18 @@ def roll(
     bodies = RollingBodies.of(problem, creepage, direction)
     if start is not None and start.traction.shape[1:] != problem.grid.shape:
         raise InputError(
-            f"start of rolling must have the shape {problem.grid.shape} of the grid, but has {start.traction.shape[1:]}."
+            f"start of rolling must have the shape {problem.grid.shape} of the grid, but has "
+            f"{start.traction.shape[1:]}."
         )
     found = _balanced(bodies, friction, control, (method, tolerance, rounds), start)
     shear, qp, grid = found.found, found.qp, found.qp.operator.grid
     moves = "moves" if method == "transient" else "Newton steps"
     status = Status(Outcome.CONVERGED, f"Steady to {shear.steadiness:.1e} after {found.steps} {moves}.")
     if not found.settled:
-        message = f"Rolling did not come to rest: traction is off by {shear.steadiness:.1e}, displacement by shear by {found.change:.1e}."
+        message = (
+            f"Rolling did not come to rest: traction is off by {shear.steadiness:.1e}, displacement by "
+            f"shear by {found.change:.1e}."
+        )
         status = Status(Outcome.STAGNATED, message, "Use a finer grid or a larger tolerance.")
     moved = slip_of(qp, shear.traction, shear.slip, found.normal.pressure, qp.displacement(shear.traction))
     slip = moved / grid.spacing[qp.direction.axis]
@@ -278,7 +301,8 @@ def roll(
 
 @dataclass(frozen=True, eq=False)
 class _Balance:
-    """Contact and shear after the last round: what was posed and found, Newton steps or moves in all, last change of the displacement by shear."""
+    """Contact and shear after the last round: what was posed and found, Newton steps or moves in
+    all, last change of the displacement by shear."""
 
     normal: ContactResult
     qp: RollingQP
@@ -295,7 +319,8 @@ def _balanced(
     asked: tuple[Method, float, int],
     start: RollingContact | None,
 ) -> _Balance:
-    """Normal contact and shear in turns, as long as the displacement by shear changes; ``asked`` are method, tolerance and rounds."""
+    """Normal contact and shear in turns, as long as the displacement by shear changes; ``asked``
+    are method, tolerance and rounds."""
     method, tolerance, rounds = asked
     coupled, profile = bodies.shear.coupled, bodies.profile
     lift: RealArray = np.zeros_like(profile)
@@ -323,7 +348,8 @@ def _balanced(
 
 
 def require_rolling(problem: ContactProblem, creepage: Creepage, direction: Rolling) -> FrictionLaw:
-    """Friction law of a ``problem`` that can roll in this ``direction``; InputError for one that cannot."""
+    """Friction law of a ``problem`` that can roll in this ``direction``; InputError for one that
+    cannot."""
     require.one_of(direction, DIRECTIONS, "direction of rolling")
     if problem.friction is None:
         raise InputError("friction of a rolling contact must be given, but is None. Write friction=Coulomb(0.3).")
@@ -333,20 +359,23 @@ def require_rolling(problem: ContactProblem, creepage: Creepage, direction: Roll
             raise InputError(f"{name} of a rolling contact must be None, but is {physics.given!r}: {physics.moving}.")
     if not isinstance(problem.law, HardWall):
         raise InputError(
-            f"law of a rolling contact must be HardWall(), but is {problem.law!r}: what is dented does not stay in the contact."
+            f"law of a rolling contact must be HardWall(), but is {problem.law!r}: what is dented does not "
+            "stay in the contact."
         )
     if problem.grid.shape[DIRECTIONS[direction].axis] < 2:
         raise InputError(f"direction of rolling must lead across the line contact, but is {direction}. Choose x or -x.")
     if creepage.spin and any(problem.boundary.wraps):
         raise InputError(
-            f"spin must be zero for the boundary {problem.boundary.name}, where the contact repeats, but is {creepage.spin:g}. Choose Free()."
+            f"spin must be zero for the boundary {problem.boundary.name}, where the contact repeats, but is "
+            f"{creepage.spin:g}. Choose Free()."
         )
     return problem.friction
 
 
 @dataclass(frozen=True, eq=False)
 class RollingBodies:
-    """Bodies of a ``problem`` that rolls in a direction under a creepage: prepared operators, the ``rigid`` slip (2, nx, ny) in m of a move by one pixel, and the ``profile`` (nx, ny) in m."""
+    """Bodies of a ``problem`` that rolls in a direction under a creepage: prepared operators, the
+    ``rigid`` slip (2, nx, ny) in m of a move by one pixel, and the ``profile`` (nx, ny) in m."""
 
     problem: ContactProblem
     operator: Operator
@@ -375,9 +404,11 @@ class RollingBodies:
     def pressed(
         self, heights: RealArray, lift: RealArray, control: Control, before: InterfaceState | None
     ) -> ContactResult:
-        """The contact of a surface of these ``heights`` (nx, ny) in m that shear displaces by ``lift`` (nx, ny) in m, started from the state ``before``.
+        """The contact of a surface of these ``heights`` (nx, ny) in m that shear displaces by
+        ``lift`` (nx, ny) in m, started from the state ``before``.
 
-        Approach and displacement are those of the surface without shear: gap = offset + displacement - heights; an approach is counted from first touch without shear.
+        Approach and displacement are those of the surface without shear: gap = offset +
+        displacement - heights; an approach is counted from first touch without shear.
 
         NoSolutionError if shear parts the surfaces at a prescribed approach.
         """
@@ -387,8 +418,9 @@ class RollingBodies:
             left = control.value + lowered
             if left <= 0.0:
                 raise NoSolutionError(
-                    f"approach of a rolling contact must be more than {-lowered:.3g} m, by which shear lowers the surface, but is {control.value:.3g} m: "
-                    "the surfaces part. Prescribe a Force, a larger approach, or less friction.",
+                    f"approach of a rolling contact must be more than {-lowered:.3g} m, by which shear lowers "
+                    f"the surface, but is {control.value:.3g} m: the surfaces part. Prescribe a Force, a "
+                    "larger approach, or less friction.",
                     subject="approach",
                 )
             counted = Approach(left)
@@ -414,15 +446,16 @@ class RollingBodies:
         """Steady rolling with the ``bound`` under ``pressure``, both (nx, ny) in Pa."""
         if self.problem.boundary.wraps[self.direction.axis] and (bound > 0.0).all(axis=self.direction.axis).any():
             raise InputError(
-                "surfaces of a rolling contact that repeats must part somewhere in each row along the rolling direction, but touch all along one. "
-                "Reduce the load or choose a longer period."
+                "surfaces of a rolling contact that repeats must part somewhere in each row along the rolling "
+                "direction, but touch all along one. Reduce the load or choose a longer period."
             )
         return RollingQP(self.shear, bound, self.rigid, self.shear.drawn(pressure), self.direction)
 
 
 @dataclass(frozen=True, eq=False)
 class _Found:
-    """Steady traction (Pa) and slip during a move by one pixel (m), both (2, nx, ny), and how steady."""
+    """Steady traction (Pa) and slip during a move by one pixel (m), both (2, nx, ny), and how
+    steady."""
 
     traction: RealArray
     slip: RealArray
@@ -455,7 +488,8 @@ def _transient(qp: RollingQP, start: RealArray | None, tolerance: float) -> _Fou
 
 
 def slip_of(qp: RollingQP, traction: RealArray, slip: RealArray, pressure: RealArray, before: RealArray) -> RealArray:
-    """``slip`` (2, nx, ny) in m of a move by one pixel, also of the points that touch under ``pressure`` (Pa) and bear no shear.
+    """``slip`` (2, nx, ny) in m of a move by one pixel, also of the points that touch under
+    ``pressure`` (Pa) and bear no shear.
 
     ``before`` (2, nx, ny) in m is the displacement along the surface before the move.
     """

@@ -1,8 +1,10 @@
-"""Rolling of rough wheels: roughness that moves through the contact with the material, step by step, and forces that fluctuate.
+"""Rolling of rough wheels: roughness that moves through the contact with the material, step by
+step, and forces that fluctuate.
 
-In the frame of the contact the shape of the wheel stands, and its roughness moves by a pixel at a time from the leading edge backwards.
-Every move is a normal contact of its own and an implicit step of stick and slip from the displacement one pixel ahead (Kalker 1990), as in steady rolling,
-but on a pressure that changes.
+In the frame of the contact the shape of the wheel stands, and its roughness moves by a pixel at a
+time from the leading edge backwards. Every move is a normal contact of its own and an implicit step
+of stick and slip from the displacement one pixel ahead (Kalker 1990), as in steady rolling, but on
+a pressure that changes.
 """
 
 from __future__ import annotations
@@ -31,7 +33,8 @@ if TYPE_CHECKING:
     import xarray
 
 RUNNING_IN = 3.0
-"""Contact lengths rolled before means are taken; the force of a smooth roller is within 0.5 % of the steady one after two."""
+"""Contact lengths rolled before means are taken; the force of a smooth roller is within 0.5 % of
+the steady one after two."""
 
 PATH = (
     Quantity("distance", "m", "distance rolled"),
@@ -54,8 +57,10 @@ class RoughRolling:
 
     Attributes
     ----------
-    distance, force_x, force_y, torque, normal_force, friction_limit, approach, contact_area, slip_area_fraction, dissipated
-        After each move; forces are those on the body. The heat is that of traction and slip at the points.
+    distance, force_x, force_y, torque, normal_force, friction_limit, approach, contact_area,
+    slip_area_fraction, dissipated
+        After each move; forces are those on the body. The heat is that of traction and slip at the
+        points.
     running_in
         Distance in m after which means are taken.
     last
@@ -88,18 +93,21 @@ class RoughRolling:
         return axis.sign * along / self.normal_force
 
     def mean(self, name: str) -> float:
-        """Mean of the array ``name`` after the running-in; InputError if nothing was rolled after it."""
+        """Mean of the array ``name`` after the running-in; InputError if nothing was rolled after
+        it."""
         return float(self._after(name).mean())
 
     def deviation(self, name: str) -> float:
-        """Standard deviation of the array ``name`` over the distance after the running-in; InputError as of ``mean``."""
+        """Standard deviation of the array ``name`` over the distance after the running-in;
+        InputError as of ``mean``."""
         return float(self._after(name).std())
 
     def _after(self, name: str) -> RealArray:
         require.one_of(name, [*(item.name for item in PATH), "traction_coefficient"], "name of a mean")
         if not self.settled.any():
             raise InputError(
-                f"distance of rough rolling must be more than the running-in of {self.running_in:.3g} m for a mean, but is {float(self.distance[-1]):.3g} m."
+                f"distance of rough rolling must be more than the running-in of {self.running_in:.3g} m for a "
+                f"mean, but is {float(self.distance[-1]):.3g} m."
             )
         values: RealArray = np.asarray(getattr(self, name))[self.settled]
         return values
@@ -136,21 +144,25 @@ def roll_rough(
     start: RoughRolling | None = None,
     progress: Progress | None = None,
 ) -> RoughRolling:
-    """Rolling of the wheel of ``problem`` with a ``roughness`` that moves through the contact, by moves of one pixel.
+    """Rolling of the wheel of ``problem`` with a ``roughness`` that moves through the contact, by
+    moves of one pixel.
 
     Parameters
     ----------
     problem
-        The smooth wheel, with a friction law, as for ``roll``; a long rough roller is ``Periodic`` with open ends along the rolling direction.
+        The smooth wheel, with a friction law, as for ``roll``; a long rough roller is ``Periodic``
+        with open ends along the rolling direction.
     control
         ``Force``, ``MeanPressure``, ``Approach`` or ``MeanGap``, held all the way.
     creepage
         Creepages and spin.
     roughness
-        Added to the shape of the wheel, heights towards the counter body: a surface of the same pixel, and of as many points across the rolling direction. It comes again
-        after its length; take a periodic one, or ``periodised``, unless the distance is shorter.
+        Added to the shape of the wheel, heights towards the counter body: a surface of the same
+        pixel, and of as many points across the rolling direction. It comes again after its length;
+        take a periodic one, or ``periodised``, unless the distance is shorter.
     distance
-        Distance rolled in m; by default the length of the roughness after the running-in of three contact lengths.
+        Distance rolled in m; by default the length of the roughness after the running-in of three
+        contact lengths.
     direction, tolerance, rounds
         As for ``roll``; the error of every move is a hundredth of the tolerance.
     start
@@ -174,11 +186,13 @@ def roll_rough(
         raise InputError("roughness must have no missing points, but has some. Fill them first: filled(surface).")
     if not np.allclose(roughness.grid.spacing, grid.spacing, rtol=1e-6, atol=0.0):
         raise InputError(
-            f"roughness must have the pixel {grid.spacing} m of the contact, but has {roughness.grid.spacing} m. Resample it first: resampled(surface, ...)."
+            f"roughness must have the pixel {grid.spacing} m of the contact, but has {roughness.grid.spacing} "
+            "m. Resample it first: resampled(surface, ...)."
         )
     if heights.shape[1 - axis] != grid.shape[1 - axis]:
         raise InputError(
-            f"roughness must have {grid.shape[1 - axis]} points across the rolling direction as the contact, but has {heights.shape[1 - axis]}."
+            f"roughness must have {grid.shape[1 - axis]} points across the rolling direction as the contact, "
+            f"but has {heights.shape[1 - axis]}."
         )
     bodies = RollingBodies.of(problem, creepage, direction)
     along = np.asarray(bodies.direction.oriented(heights))
@@ -189,7 +203,8 @@ def roll_rough(
 
 
 class _Moves:
-    """The contact after so many moves: pressure, traction, displacement by shear and pressure, and normal displacement by shear."""
+    """The contact after so many moves: pressure, traction, displacement by shear and pressure, and
+    normal displacement by shear."""
 
     normal: ContactResult
     traction: RealArray
@@ -206,7 +221,8 @@ class _Moves:
         rough: RealArray,
         asked: tuple[float, int],
     ) -> None:
-        """``rough``: heights (length, across) of the roughness, the first index along the rolling direction."""
+        """``rough``: heights (length, across) of the roughness, the first index along the rolling
+        direction."""
         self.bodies, self.friction, self.control, self.rough, self.asked = bodies, friction, control, rough, asked
         self.pixel = float(bodies.problem.grid.spacing[bodies.direction.axis])
 
@@ -262,12 +278,14 @@ class _Moves:
         return RoughRolling(**values, running_in=running_in, last=last)
 
     def _begun(self, first: int, start: RoughRolling | None) -> float:
-        """Pressure and displacement before the first move, without shear or those of ``start``; the running-in (m)."""
+        """Pressure and displacement before the first move, without shear or those of ``start``; the
+        running-in (m)."""
         shape = self.bodies.profile.shape
         if start is not None:
             if start.last.traction.shape[1:] != shape:
                 raise InputError(
-                    f"start of rough rolling must have the shape {shape} of the grid, but has {start.last.traction.shape[1:]}."
+                    f"start of rough rolling must have the shape {shape} of the grid, but has "
+                    f"{start.last.traction.shape[1:]}."
                 )
             self.normal, self.traction = start.last.normal, start.last.traction
         else:
@@ -310,8 +328,8 @@ class _Moves:
                 break
         if not found.status.converged or (bodies.shear.coupled and change > tolerance):
             raise ConvergenceError(
-                f"Move {number} of rough rolling is not solved: error {found.deviation.error:.1e}, displacement by shear changes by {change:.1e}. "
-                "Use a larger tolerance or more rounds.",
+                f"Move {number} of rough rolling is not solved: error {found.deviation.error:.1e}, "
+                f"displacement by shear changes by {change:.1e}. Use a larger tolerance or more rounds.",
                 normal,
             )
         self.normal, self.traction, self.lift, self.bound = normal, traction, lift, qp.bound

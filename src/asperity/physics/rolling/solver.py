@@ -1,15 +1,18 @@
-"""Steady rolling with given bounds, directly: Newton's method on stick and slip in material that moves through the contact.
+"""Steady rolling with given bounds, directly: Newton's method on stick and slip in material that
+moves through the contact.
 
 While the material moves by one pixel against the rolling direction, points slip by
 
     s = b - A q,   A = C - T C,   b = w Δ + (T - 1) u_p,
 
-with T the value one pixel ahead, C the tangential compliance, w the rigid slip over the rolling speed, Δ the pixel, and u_p the
-displacement by pressure (Kalker 1990). Between s and q the friction law holds as in a step in time. A is not symmetric and there is no
-energy; its symmetric part is positive definite, so that there is one solution.
+with T the value one pixel ahead, C the tangential compliance, w the rigid slip over the rolling
+speed, Δ the pixel, and u_p the displacement by pressure (Kalker 1990). Between s and q the friction
+law holds as in a step in time. A is not symmetric and there is no energy; its symmetric part is
+positive definite, so that there is one solution.
 
-Linear systems are solved by GMRES. Where points stick, sums of the residual from the leading end of the stretch backwards undo the
-difference 1 - T but for a constant in each row, and nested cells undo C; slipping points take their own diagonal.
+Linear systems are solved by GMRES. Where points stick, sums of the residual from the leading end of
+the stretch backwards undo the difference 1 - T but for a constant in each row, and nested cells
+undo C; slipping points take their own diagonal.
 """
 
 from __future__ import annotations
@@ -33,7 +36,8 @@ _REDUCTION = 0.01
 """Reduction of the residual in a linear system while points change between stick and slip."""
 
 _SETTLED = 0.02
-"""Share of points that change between stick and slip below which the sets count as nearly settled."""
+"""Share of points that change between stick and slip below which the sets count as nearly
+settled."""
 
 _MARGIN = 0.1
 """Share of the reduction to the tolerance aimed at on settled sets."""
@@ -42,13 +46,15 @@ _FINEST = 1e-8
 """Reduction at most in one system."""
 
 _MOST_PRODUCTS = 150
-"""Products with the compliance in one system at most; twenty to forty reduce the residual to 1e-6."""
+"""Products with the compliance in one system at most; twenty to forty reduce the residual to
+1e-6."""
 
 _FALL = 0.9
 """Error over the lowest so far that counts as progress."""
 
 _PATIENCE = 6
-"""Newton steps without progress after which the material is moved by a pixel instead, which always leads towards the solution."""
+"""Newton steps without progress after which the material is moved by a pixel instead, which always
+leads towards the solution."""
 
 _LOOSEST = 0.01
 """Error at which a coarse grid is left."""
@@ -62,7 +68,8 @@ class Direction:
     sign: int = 1
 
     def ahead(self, field: RealArray, pixels: int = 1, *, wraps: bool) -> RealArray:
-        """Values of ``field`` (2, nx, ny) so many ``pixels`` ahead; beyond the end of a grid that does not wrap its last ones."""
+        """Values of ``field`` (2, nx, ny) so many ``pixels`` ahead; beyond the end of a grid that
+        does not wrap its last ones."""
         axis = self.axis + 1
         moved = np.roll(field, -self.sign * pixels, axis=axis)
         if not wraps:
@@ -109,11 +116,13 @@ class RollingQP:
         return self.direction.ahead(field, pixels, wraps=wraps)
 
     def displacement(self, traction: RealArray) -> RealArray:
-        """Displacement (2, nx, ny) in m of the body over the counter body under ``traction`` (2, nx, ny) in Pa and the pressure."""
+        """Displacement (2, nx, ny) in m of the body over the counter body under ``traction`` (2,
+        nx, ny) in Pa and the pressure."""
         return self.operator.displacement(traction) + self.drawn
 
     def moved(self, before: RealArray, pixels: int = 1) -> TangentialQP:
-        """The step in which the material with the displacement ``before`` (2, nx, ny) moves by so many ``pixels``."""
+        """The step in which the material with the displacement ``before`` (2, nx, ny) moves by so
+        many ``pixels``."""
         target = pixels * self.rigid + self.ahead(before, pixels) - self.drawn
         return TangentialQP(self.operator, self.bound, target)
 
@@ -149,7 +158,8 @@ class SteadyNewton(Iterative):
     citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "Kalker1990")
 
     def solve(self, qp: RollingQP, start: RealArray | None = None) -> TangentialSolution:
-        """Traction, and slip during a move by one pixel, from the traction ``start`` (2, nx, ny) in Pa; by default from coarser grids."""
+        """Traction, and slip during a move by one pixel, from the traction ``start`` (2, nx, ny) in
+        Pa; by default from coarser grids."""
         step = qp.moved(qp.drawn)
         points, pairs = Points.of(step), 0.0
         if not len(points.index):
@@ -187,7 +197,8 @@ class _Iteration:
         return self.points.gathered(u - self.qp.ahead(u))
 
     def solved(self) -> tuple[Deviation, tuple[RealArray, RealArray, RealArray], int]:
-        """Steps until the error is reached: deviation, traction, slip and no shift, and the number of steps."""
+        """Steps until the error is reached: deviation, traction, slip and no shift, and the number
+        of steps."""
         settings, before = self.settings, np.zeros(len(self.points.index), dtype=bool)
         lowest, idle = np.inf, 0
         for count in range(settings.max_iterations + 1):
@@ -213,7 +224,8 @@ class _Iteration:
         return found, (self.q, s, np.zeros(2)), count
 
     def _step(self, sets: Sets, s: RealArray, reduction: float) -> None:
-        """One step of Newton's method: slipping tractions turn on their circles, sticking ones stay within their bounds."""
+        """One step of Newton's method: slipping tractions turn on their circles, sticking ones stay
+        within their bounds."""
         from scipy.sparse.linalg import LinearOperator, gmres
 
         unit, slip, tangent = self.work.pixel, sets.slip, sets.tangent
@@ -242,8 +254,8 @@ class _Iteration:
     def _preconditioner(self, sets: Sets, curvature: RealArray) -> Callable[[RealArray], RealArray]:
         """Approximate inverse of the system at ``sets``.
 
-        Residuals of sticking points are summed over themselves and those ahead, as far as their stretch of a row goes; where
-        the grid wraps rows are taken twice.
+        Residuals of sticking points are summed over themselves and those ahead, as far as their
+        stretch of a row goes; where the grid wraps rows are taken twice.
         """
         sticks, tangent, share = ~sets.slip, sets.tangent, 1.0 / (1.0 + curvature)
         index, ones = self.points.index[sticks], np.ones(int(np.count_nonzero(sticks)))

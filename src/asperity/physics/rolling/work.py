@@ -1,4 +1,5 @@
-"""Rolling asked for by a document: steady contact, creep-force curve and rough wheels in numbers, figures and words."""
+"""Rolling asked for by a document: steady contact, creep-force curve and rough wheels in numbers,
+figures and words."""
 
 from __future__ import annotations
 
@@ -36,7 +37,8 @@ FEW = 16
 
 
 class RollingWork(WithFacts):
-    """The steady contact of bodies that roll with creepage, or a rough wheel: what is done for it."""
+    """The steady contact of bodies that roll with creepage, or a rough wheel: what is done for
+    it."""
 
     def check(self, ask: Rolls, problem: ContactProblem) -> None:
         """Refuse what cannot roll."""
@@ -82,7 +84,10 @@ class RollingWork(WithFacts):
         keys = contact.citation_keys if curve is None else curve.citation_keys
         made = []
         if contact.slip_area_fraction == 1.0:
-            fact = "All points slip: the creepages are beyond those of partial slip, and the tangential force is all that friction bears."
+            fact = (
+                "All points slip: the creepages are beyond those of partial slip, and the tangential "
+                "force is all that friction bears."
+            )
             made.append(Advice("note", "gross sliding", fact))
         if max(abs(ask.creepage.x), abs(ask.creepage.y)) > LARGE:
             fact = f"A creepage of more than {percent(LARGE)} is not small, as the theory of rolling assumes."
@@ -91,7 +96,10 @@ class RollingWork(WithFacts):
         touched = np.flatnonzero(DIRECTIONS[contact.direction].oriented(contact.normal.pressure).any(axis=1))
         length = int(touched[-1] - touched[0]) + 1 if touched.size else 0
         if 0 < length < FEW:
-            fact = f"The contact is {length} pixels long. Errors of the forces fall with the pixel, and are several per cent below {FEW}."
+            fact = (
+                f"The contact is {length} pixels long. Errors of the forces fall with the pixel, and are "
+                f"several per cent below {FEW}."
+            )
             numbers, concerns = (
                 {"pixels": float(length), "least": float(FEW)},
                 ("rolling_", "traction_coefficient", "creep_"),
@@ -140,12 +148,16 @@ class RollingWork(WithFacts):
             limit = "" if math.isnan(share) else f", {percent(share)} of what friction bears"
             heat = show(float(values["rolling_heat"]), "J/m", 3)
             area = "all of the contact sticks" if slips == 0.0 else f"{percent(slips)} of the contact area slips"
-            sentence = f"The rolling contact transmits {show(math.hypot(along, across), 'N', 3)} along the surface{limit}; {area}, and rolling turns {heat} into heat."
+            sentence = (
+                f"The rolling contact transmits {show(math.hypot(along, across), 'N', 3)} along the "
+                f"surface{limit}; {area}, and rolling turns {heat} into heat."
+            )
         return Words(sentence, headline, rows, tables, (REMARK,))
 
 
 def _rolled(problem: ContactProblem, control: Control, ask: Rolls, progress: Any) -> RoughRolling:
-    """Rolling with the map of the file that is asked for: filled, levelled, cut to the width of the contact and made periodic."""
+    """Rolling with the map of the file that is asked for: filled, levelled, cut to the width of the
+    contact and made periodic."""
     assert ask.roughness is not None
     table, roughness = ask.settings, levelled(filled(read(ask.roughness)))
     across = "x" if table.direction in ("y", "-y") else "y"
@@ -208,8 +220,9 @@ def picture_of(found: Found, solved: Solved) -> RollingPicture:
 # In words and tables.
 
 REMARK = (
-    "The contact rolls steadily along the direction; the counter body slides over the body by the creepages times the rolling speed, and drags it along. Forces are those on the body; on the "
-    "other one they are the opposite. Shear tractions that lift unlike surfaces are balanced with the pressure."
+    "The contact rolls steadily along the direction; the counter body slides over the body by the creepages "
+    "times the rolling speed, and drags it along. Forces are those on the body; on the other one they are the "
+    "opposite. Shear tractions that lift unlike surfaces are balanced with the pressure."
 )
 """What the model is."""
 

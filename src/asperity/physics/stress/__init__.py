@@ -1,1 +1,2 @@
-"""Layer 2: displacement and stress inside homogeneous and layered bodies under given surface tractions."""
+"""Layer 2: displacement and stress inside homogeneous and layered bodies under given surface
+tractions."""

@@ -32,10 +32,11 @@ from .kernels.transfer import Transfers
 from .regions import Plane, Selection, regions, slips, stack
 from .tractions import ShearTraction, Tractions
 
-# The uniform part of a periodic load: uniaxial strain in every region, with shear that reaches through.
+# The uniform part of a periodic load: uniaxial strain in every region, with shear that reaches
+# through.
 #
-# No mean lateral strain; the mean displacement counts from the rigid base, or without one from that of the surface, since
-# a half-space under uniform load sinks without bound.
+# No mean lateral strain; the mean displacement counts from the rigid base, or without one from that
+# of the surface, since a half-space under uniform load sinks without bound.
 
 
 _BALANCED = 1e-9  # mean over largest shear traction: rounding, in single precision that of a sum
@@ -44,10 +45,12 @@ _BALANCED = 1e-9  # mean over largest shear traction: rounding, in single precis
 def require_held(tractions: Tractions, body: object) -> None:
     """Refuse a mean shear traction on layers that nothing holds.
 
-    At every other wavelength the layers above a frictionless interface carry shear as a sheet does. In a periodic cell
-    the mean would push them away; without periodicity the unloaded parts of the layers hold them.
+    At every other wavelength the layers above a frictionless interface carry shear as a sheet does.
+    In a periodic cell the mean would push them away; without periodicity the unloaded parts of the
+    layers hold them.
 
-    InputError if the boundary is periodic and there is a mean shear traction above a frictionless interface.
+    InputError if the boundary is periodic and there is a mean shear traction above a frictionless
+    interface.
     """
     x, y, _ = tractions.means
     mean = math.hypot(x, y)
@@ -55,16 +58,18 @@ def require_held(tractions: Tractions, body: object) -> None:
         largest = max(float(abs(tractions.shear_x).max()), float(abs(tractions.shear_y).max()))
         if mean > _BALANCED * largest:
             raise InputError(
-                "mean shear traction must be zero on a periodic body with a frictionless interface, where nothing holds the "
-                "layers above it, but is not. Use bonded interfaces, the free boundary ({free}), whose unloaded parts "
-                "hold the layers, a shear traction without its mean, or no friction."
+                "mean shear traction must be zero on a periodic body with a frictionless interface, where "
+                "nothing holds the layers above it, but is not. Use bonded interfaces, the free boundary "
+                "({free}), whose unloaded parts hold the layers, a shear traction without its mean, or no "
+                "friction."
             )
 
 
 # Fields on planes under a periodic load: multiplication in Fourier space, plane by plane.
 #
-# The transforms of the tractions are made once; a plane costs its spectra and one inverse transform for each component.
-# A few lines of all spectra are made at a time and transformed along x while they are in the cache, then all along y.
+# The transforms of the tractions are made once; a plane costs its spectra and one inverse transform
+# for each component. A few lines of all spectra are made at a time and transformed along x while
+# they are in the cache, then all along y.
 
 
 _NEGLIGIBLE = (
@@ -80,7 +85,8 @@ _Maker: TypeAlias = Callable[[tuple[int, int], ComplexArray], None]
 """Writes lines (first, last + 1) of spectra into an array (fields, lines or more, nx or more)."""
 
 Rows: TypeAlias = Iterator[tuple[int, RealArray]]
-"""First row, and components xx, yy, zz, xy, xz, yz of some rows, (6, rows, ny) in one piece, which the next ones overwrite."""
+"""First row, and components xx, yy, zz, xy, xz, yz of some rows, (6, rows, ny) in one piece, which
+the next ones overwrite."""
 
 Reader: TypeAlias = Callable[[Rows], None]
 """What is done with the rows of a plane; each thread calls it with those of its share."""
@@ -100,7 +106,8 @@ class PeriodicPlanes:
     tractions, body
         Load and the body that carries it.
     dtype
-        ``"float64"`` or ``"float32"``: precision of spectra and fields; amplitudes are always computed in double.
+        ``"float64"`` or ``"float32"``: precision of spectra and fields; amplitudes are always
+        computed in double.
     threads
         See ``core.spectral.thread_count``.
     """
@@ -138,13 +145,15 @@ class PeriodicPlanes:
         return StressTensor(*fields)
 
     def read(self, plane: Plane, reader: Reader) -> None:
-        """Give the stress (Pa) on ``plane`` to ``reader`` a few rows at a time, which stay in the cache."""
+        """Give the stress (Pa) on ``plane`` to ``reader`` a few rows at a time, which stay in the
+        cache."""
         make, means = self._stress_maker(plane)
         between = self._along_x(make, plane, means, _needed(plane))
         self._share(lambda span: reader(self._rows(span, between, plane)), self.tractions.grid.shape[0])
 
     def at(self, plane: Plane, places: Sequence[Selection]) -> list[RealArray]:
-        """Stress (Pa) on ``plane`` at each of some ``places``, (6, …): waves are summed, and transformed along lines only."""
+        """Stress (Pa) on ``plane`` at each of some ``places``, (6, …): waves are summed, and
+        transformed along lines only."""
         make, means = self._stress_maker(plane)
         shape = self.tractions.grid.shape
         indices = [place.index for place in places]
@@ -169,7 +178,8 @@ class PeriodicPlanes:
         return found
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
-        """Displacement (m) of ``plane``; its mean is the mean load times the compliance down to the datum."""
+        """Displacement (m) of ``plane``; its mean is the mean load times the compliance down to the
+        datum."""
         parts = regions(self._given)
         from_base = isinstance(stack(self._given).base, RigidBase)
         direct = shear = 0.0
@@ -191,14 +201,16 @@ class PeriodicPlanes:
         return Displacement(*self._fields(make, plane, means, given, (slice(0, 3),)))
 
     def _stress_maker(self, plane: Plane) -> tuple[_Maker, tuple[float, ...]]:
-        """What makes the spectra of the stress on ``plane``, and its means: σ_xx = σ_yy = -ν/(1-ν) p under a mean pressure p."""
+        """What makes the spectra of the stress on ``plane``, and its means: σ_xx = σ_yy = -ν/(1-ν)
+        p under a mean pressure p."""
         functions, nu = _PRESSURE + _SHEAR if self._sheared else _PRESSURE, plane.region.material.poisson_ratio
         x, y, pressure = self._means
         lateral = -nu / (1.0 - nu) * pressure
         return self._maker("stress_spectra", plane, functions, nu), (lateral, lateral, -pressure, 0.0, -x, -y)
 
     def _maker(self, kernel: str, plane: Plane, functions: tuple[str, ...], *constants: float) -> _Maker:
-        """What writes some lines of the spectra of a plane into an array (any, any, nx and a few)."""
+        """What writes some lines of the spectra of a plane into an array (any, any, nx and a
+        few)."""
         found = self._transfers.to(plane)
         coefficients = self._panels.fitted(np.stack([getattr(found, name) for name in functions]))
         table, waves = (self._panels.breaks, coefficients, _limit(plane)), self._waves
@@ -206,7 +218,8 @@ class PeriodicPlanes:
         return lambda lines, into: run(lines, waves, table, *constants, self._loads, into)
 
     def _impose(self, fields: Sequence[RealArray] | RealArray, where: tuple[Any, ...]) -> None:
-        """Write the tractions at ``where`` on the surface into zz, xz and yz: exact, whatever the rounding of the transforms."""
+        """Write the tractions at ``where`` on the surface into zz, xz and yz: exact, whatever the
+        rounding of the transforms."""
         shear, pressure = self.tractions.shear, self.tractions.pressure
         loads = (shear.x, shear.y) if isinstance(shear, ShearTraction) else (pressure, pressure)
         factors = (1.0, 1.0) if isinstance(shear, ShearTraction) else shear.ratios
@@ -221,7 +234,8 @@ class PeriodicPlanes:
         out: list[RealArray] | None,
         needed: tuple[slice, ...],
     ) -> list[RealArray]:
-        """Fields of the spectra that ``make`` writes, whose mean modes are set to ``means``; only the ``needed`` are filled."""
+        """Fields of the spectra that ``make`` writes, whose mean modes are set to ``means``; only
+        the ``needed`` are filled."""
         shape = self.tractions.grid.shape
         fields = out or [np.empty(shape, self.dtype) for _ in means]
         between = self._along_x(make, plane, means, needed)
@@ -250,7 +264,8 @@ class PeriodicPlanes:
     def _lines(
         self, span: tuple[int, int], make: _Maker, means: tuple[float, ...], made: ComplexArray
     ) -> Iterator[tuple[int, int]]:
-        """Write the lines ``span`` of the spectra into ``made``, as many as are made at a time; gives which those are."""
+        """Write the lines ``span`` of the spectra into ``made``, as many as are made at a time;
+        gives which those are."""
         for start in range(*span, _LINES):
             here = start, min(span[1], start + _LINES)
             make(here, made)
@@ -295,7 +310,8 @@ class PeriodicPlanes:
 
     @cached_property
     def _waves(self) -> tuple[RealArray, RealArray, RealArray, RealArray]:
-        """Components of the wavevectors along y and x, not negative; each also with the highest of an even grid set to zero."""
+        """Components of the wavevectors along y and x, not negative; each also with the highest of
+        an even grid set to zero."""
         grid, half = self.tractions.grid, self.tractions.grid.shape[0] // 2 + 1
         (xi, eta), (xi_odd, eta_odd) = (
             (np.abs(qx[:half, 0]), np.abs(qy[0])) for qx, qy in (grid.wavevector(), grid.wavevector(odd=True))
@@ -314,7 +330,8 @@ def _needed(plane: Plane) -> tuple[slice, ...]:
 
 
 class _WaveSums:
-    """Sums over waves, taken in line by line, that give the stress along some lines y = ``columns``·dy and x = ``rows``·dx."""
+    """Sums over waves, taken in line by line, that give the stress along some lines y =
+    ``columns``·dy and x = ``rows``·dx."""
 
     def __init__(self, columns: list[int], rows: list[int], shape: tuple[int, int], dtype: Any) -> None:
         nx, ny = shape
@@ -344,16 +361,19 @@ class _WaveSums:
         return real_lines(self._rows, ny)
 
 
-# Fields on planes under a load with nothing outside the grid: exact discrete convolution (DC-FFT; Liu & Wang 2002).
+# Fields on planes under a load with nothing outside the grid: exact discrete convolution (DC-FFT;
+# Liu & Wang 2002).
 #
 # Of pixels in space, or of strips in plane strain.
 
 
 class FreePlanes:
-    """Stress and displacement of ``body`` under ``tractions`` that end at the grid, one plane at a time.
+    """Stress and displacement of ``body`` under ``tractions`` that end at the grid, one plane at a
+    time.
 
-    Parameters as for ``PeriodicPlanes``. Constant traction on each pixel, fields at the middle of each; the convolution is
-    exact, the coefficients are within 1e-8 of the largest of them (rounding only for a homogeneous body).
+    Parameters as for ``PeriodicPlanes``. Constant traction on each pixel, fields at the middle of
+    each; the convolution is exact, the coefficients are within 1e-8 of the largest of them
+    (rounding only for a homogeneous body).
     """
 
     def __init__(
@@ -417,9 +437,9 @@ class FreePlanes:
         """
         if self.tractions.sheared and self._body.slips:
             raise InputError(
-                "displacement under shear traction must not be asked of a body with a Frictionless() interface on the boundary "
-                f"{self.tractions.boundary}: its layers are held at infinity only and slip without end. Stresses are defined; use "
-                "displacement=False."
+                "displacement under shear traction must not be asked of a body with a Frictionless() "
+                f"interface on the boundary {self.tractions.boundary}: its layers are held at infinity only "
+                "and slip without end. Stresses are defined; use displacement=False."
             )
         coefficients = self._coefficients(plane)
         by_load = {load: vars(coefficients.displacement(load)) for load in self._loads}

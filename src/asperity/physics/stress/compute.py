@@ -1,4 +1,5 @@
-"""Stresses of a contact result: plane by plane in Fourier space, kept as one field or handed out as a stream."""
+"""Stresses of a contact result: plane by plane in Fourier space, kept as one field or handed out as
+a stream."""
 
 from __future__ import annotations
 
@@ -35,8 +36,8 @@ _ROWS = 64
 class Loaded(Protocol):
     """What stresses need of a contact result: its pressure (nx, ny) in Pa, and the problem.
 
-    The problem has ``grid``, ``body``, ``counter_body`` and a ``boundary`` with a ``name``. One with a ``friction``
-    (``Coulomb``) brings its own shear traction on ``body``.
+    The problem has ``grid``, ``body``, ``counter_body`` and a ``boundary`` with a ``name``. One
+    with a ``friction`` (``Coulomb``) brings its own shear traction on ``body``.
     """
 
     @property
@@ -75,17 +76,20 @@ class Residual(Protocol):
         """(6, nx, ny) in Pa at ``depth`` (m), on the asked sides of it, or their mean."""
 
     def cell_at(self, depth: float, *, below: bool) -> int | None:
-        """Number of the cell in depth on whose mean stress yield is required, at the lower or upper side of ``depth`` (m); None where there is none."""
+        """Number of the cell in depth on whose mean stress yield is required, at the lower or upper
+        side of ``depth`` (m); None where there is none."""
 
     def yielding_depths(self) -> RealArray:
         """Depths (m) of the middle of these cells."""
 
     def means(self, pressure: RealArray, shear: RealArray | None) -> RealArray:
-        """Mean stress (cells, 6, nx, ny) in Pa in all cells in depth, with that by the tractions."""
+        """Mean stress (cells, 6, nx, ny) in Pa in all cells in depth, with that by the
+        tractions."""
 
 
 class WithResidual:
-    """Stress by tractions on ``planes`` and the ``residual`` stress, in numbers of the type ``dtype``."""
+    """Stress by tractions on ``planes`` and the ``residual`` stress, in numbers of the type
+    ``dtype``."""
 
     def __init__(self, planes: Planes, residual: Residual, dtype: str) -> None:
         self._planes, self._residual, self._dtype = planes, residual, dtype
@@ -127,7 +131,8 @@ class WithResidual:
 
 
 class OverCells(WithResidual):
-    """The same, but at depths within cells on whose mean stress yield is required that mean, under the ``tractions``."""
+    """The same, but at depths within cells on whose mean stress yield is required that mean, under
+    the ``tractions``."""
 
     def __init__(self, planes: Planes, residual: Residual, dtype: str, tractions: Tractions) -> None:
         super().__init__(planes, residual, dtype)
@@ -175,13 +180,15 @@ class OverCells(WithResidual):
 
 def _displaced() -> InputError:
     return InputError(
-        "displacement inside a body must be left out where it has flowed, since that by the plastic strain is known at the surface alone, "
-        "but is asked for. result.plastic_flow.displacement is that of the surface."
+        "displacement inside a body must be left out where it has flowed, since that by the plastic strain is "
+        "known at the surface alone, but is asked for. result.plastic_flow.displacement is that of the "
+        "surface."
     )
 
 
 def residual_of(result: Any, of: Of, threads: int | None) -> Residual | None:
-    """Residual stress that ``result`` knows of one of its bodies: that of plastic flow in the volume; None without."""
+    """Residual stress that ``result`` knows of one of its bodies: that of plastic flow in the
+    volume; None without."""
     flow = getattr(result, "plastic_flow", None)
     if flow is None or flow.of != of or not flow.flowed.points.size:
         return None
@@ -202,16 +209,17 @@ def _planes_of(
     if isinstance(result, LoadedBody):
         if friction is not None or of != "body":
             raise InputError(
-                "friction and counter body of prescribed tractions must be left out, since LoadedBody(body, tractions) "
-                f"holds both, but are {friction!r} and {of!r}. Write Tractions(grid, pressure, Sliding(0.3)) for friction."
+                "friction and counter body of prescribed tractions must be left out, since LoadedBody(body, "
+                f"tractions) holds both, but are {friction!r} and {of!r}. Write Tractions(grid, pressure, "
+                "Sliding(0.3)) for friction."
             )
         return result.tractions, result.body
     tractions, body = tractions_on(result, friction, direction, of), getattr(result.problem, of)
     if displacement:  # those that depend on the past are refused
         if any(isinstance(material, Viscoelastic) for material in materials_of(body)):
             raise InputError(
-                "displacement inside a body must be left out where it is viscoelastic, since it depends on the past, but is asked for. "
-                "The displacement of the surface is in the result."
+                "displacement inside a body must be left out where it is viscoelastic, since it depends on "
+                "the past, but is asked for. The displacement of the surface is in the result."
             )
         if residual_of(result, of, None) is not None:
             raise _displaced()
@@ -219,23 +227,27 @@ def _planes_of(
 
 
 def tractions_on(result: Loaded, friction: float | Shear | None, direction: Direction, of: Of) -> Tractions:
-    """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in the other direction.
+    """Tractions of ``result`` on one of its bodies; shear as for ``stress``, on the counter body in
+    the other direction.
 
-    Without ``friction`` the shear is that which the contact brings itself: found with stick and slip, or that of gross sliding.
+    Without ``friction`` the shear is that which the contact brings itself: found with stick and
+    slip, or that of gross sliding.
 
     InputError if there are none, or the stresses by them depend on the past.
     """
     if not hasattr(result, "problem") or not hasattr(result, "pressure"):
         raise InputError(
-            "result whose stresses are asked must be that of solve(problem, …) or LoadedBody(body, tractions), but is of "
-            f"type {type(result).__name__}."
+            "result whose stresses are asked must be that of solve(problem, …) or LoadedBody(body, "
+            f"tractions), but is of type {type(result).__name__}."
         )
-    # Stresses must not depend on what has relaxed: layers that relax differently, a Poisson's ratio that does. At the first instant all are elastic.
+    # Stresses must not depend on what has relaxed: layers that relax differently, a Poisson's ratio
+    # that does. At the first instant all are elastic.
     materials, creep = materials_of(getattr(result.problem, of)), getattr(result, "creep", None)
     if creep is not None and creep.column("time")[-1] > 0.0 and materials and not alike(materials):
         raise InputError(
-            "moduli of a viscoelastic body in which stresses are asked must relax in proportion to one another, with a constant Poisson's "
-            "ratio, but do not: its stresses would depend on the past. Ask for those of an Elastic body with the moduli of that time."
+            "moduli of a viscoelastic body in which stresses are asked must relax in proportion to one "
+            "another, with a constant Poisson's ratio, but do not: its stresses would depend on the past. Ask "
+            "for those of an Elastic body with the moduli of that time."
         )
     found, own = getattr(result, "stick_slip", None), getattr(result.problem, "friction", None)
     shear: Shear
@@ -278,31 +290,35 @@ def stress(
     dtype: str = "float64",
     threads: int | None = None,
 ) -> StressField:
-    """Stress inside a body of a contact, or under prescribed tractions, on planes parallel to its surface.
+    """Stress inside a body of a contact, or under prescribed tractions, on planes parallel to its
+    surface.
 
-    InputError if the body is rigid, a depth negative or below a rigid base, a position outside the grid, or layers
-    that can slip on a frictionless interface carry shear that nothing holds: a mean shear on the periodic boundary,
-    and for the displacement any on the free one.
+    InputError if the body is rigid, a depth negative or below a rigid base, a position outside the
+    grid, or layers that can slip on a frictionless interface carry shear that nothing holds: a mean
+    shear on the periodic boundary, and for the displacement any on the free one.
 
     Parameters
     ----------
     result
-        Result of ``solve`` (or anything with its pressure and problem), or ``LoadedBody(body, tractions)``, which takes
-        neither ``friction`` nor ``of``.
+        Result of ``solve`` (or anything with its pressure and problem), or
+        ``LoadedBody(body, tractions)``, which takes neither ``friction`` nor ``of``.
     depths
-        Depths of the planes in m, >= 0; the depth of an interface gives the stress on both of its sides.
+        Depths of the planes in m, >= 0; the depth of an interface gives the stress on both of its
+        sides.
     on
-        Points of the planes: ``Everywhere()``, a vertical ``Section(y="max")``, or a ``DepthProfile(x, y)``. Whatever
-        is not asked for is not kept.
+        Points of the planes: ``Everywhere()``, a vertical ``Section(y="max")``, or a
+        ``DepthProfile(x, y)``. Whatever is not asked for is not kept.
     friction
-        Friction coefficient μ of a sliding contact, whose shear traction is μ times the pressure; or a
-        ``ShearTraction(qx, qy)`` of fields. By default that of the problem of the result, if it has one. The pressure is
-        taken as it is; ``solve`` couples the two where the problem has a friction.
+        Friction coefficient μ of a sliding contact, whose shear traction is μ times the pressure;
+        or a ``ShearTraction(qx, qy)`` of fields. By default that of the problem of the result, if
+        it has one. The pressure is taken as it is; ``solve`` couples the two where the problem has
+        a friction.
     direction
-        Direction of the shear traction on ``body`` where ``friction`` is a number: angle in rad from +x, or a vector.
+        Direction of the shear traction on ``body`` where ``friction`` is a number: angle in rad
+        from +x, or a vector.
     of
-        ``"body"``, or ``"counter_body"``, whose z axis points into it, away from the body, and on which the shear
-        traction acts the other way.
+        ``"body"``, or ``"counter_body"``, whose z axis points into it, away from the body, and on
+        which the shear traction acts the other way.
     displacement
         Whether to compute the displacements, too.
     dtype
@@ -312,14 +328,17 @@ def stress(
 
     Notes
     -----
-    Periodic boundary: exact for the trigonometric interpolation of the tractions, no mean lateral strain, displacements
-    relative to the mean of the surface (or to a rigid base). Free boundary: exact for constant tractions on pixels, to
-    rounding in a homogeneous and to 1e-8 of the largest coefficient in a layered body; displacements zero at infinity
-    (free line: at the datum of the contact).
-    Plastic flow in the volume (``result.plastic_flow``): the residual stress of the plastic strain is added, which is constant in depth within each
-    depth cell; yield is required of the mean over a cell, which ``result.plastic_flow.stress`` gives. Displacements are then refused.
-    Stresses at the surface resolve what the grid resolves: at the edge of a contact they change within a pixel, and under friction the largest
-    there are low by tens of percent. ``largest_tension``, ``largest_von_mises`` and their like take the edges between the pixels in, with an error.
+    Periodic boundary: exact for the trigonometric interpolation of the tractions, no mean lateral
+    strain, displacements relative to the mean of the surface (or to a rigid base). Free boundary:
+    exact for constant tractions on pixels, to rounding in a homogeneous and to 1e-8 of the largest
+    coefficient in a layered body; displacements zero at infinity (free line: at the datum of the
+    contact). Plastic flow in the volume (``result.plastic_flow``): the residual stress of the
+    plastic strain is added, which is constant in depth within each depth cell; yield is required of
+    the mean over a cell, which ``result.plastic_flow.stress`` gives. Displacements are then
+    refused. Stresses at the surface resolve what the grid resolves: at the edge of a contact they
+    change within a pixel, and under friction the largest there are low by tens of percent.
+    ``largest_tension``, ``largest_von_mises`` and their like take the edges between the pixels in,
+    with an error.
     """
     loads, body = _planes_of(result, friction, direction, of, displacement=displacement)
     residual = residual_of(result, of, threads)
@@ -339,9 +358,11 @@ def stress_planes(
     dtype: str = "float64",
     threads: int | None = None,
 ) -> Iterator[StressField]:
-    """The planes of ``stress`` one by one, each a field of one plane: a volume need not fit in memory.
+    """The planes of ``stress`` one by one, each a field of one plane: a volume need not fit in
+    memory.
 
-    Arguments and errors as for ``stress``; give the planes to ``save_stress`` or ``export_stress_vtk`` to write a volume.
+    Arguments and errors as for ``stress``; give the planes to ``save_stress`` or
+    ``export_stress_vtk`` to write a volume.
     """
     loads, body = _planes_of(result, friction, direction, of, displacement=displacement)
     residual = residual_of(result, of, threads)
@@ -357,16 +378,19 @@ def _with_edges(field: StressField, edges: AtEdges | None) -> StressField:
 
 
 def at_edges(result: Any, loads: Tractions, of: Of, residual: Residual | None, threads: int | None) -> AtEdges | None:
-    """What finds the largest stresses at the surface of the body ``of`` a contact under ``loads``; None of prescribed tractions and with a ``residual`` stress."""
+    """What finds the largest stresses at the surface of the body ``of`` a contact under ``loads``;
+    None of prescribed tractions and with a ``residual`` stress."""
     if residual is not None or not hasattr(type(result), "edges"):
         return None
     return AtEdges(result, loads, getattr(result.problem, of), partial(StressPlanes, threads=threads))
 
 
 class StressPlanes:
-    """Stress under any ``tractions`` on a body, and perhaps a ``residual`` one, ready to be computed; arguments and errors as for ``stress``.
+    """Stress under any ``tractions`` on a body, and perhaps a ``residual`` one, ready to be
+    computed; arguments and errors as for ``stress``.
 
-    ``over_cells``: at depths within the cells of a body that flows the mean over the cell, of which yield is required.
+    ``over_cells``: at depths within the cells of a body that flows the mean over the cell, of which
+    yield is required.
     """
 
     def __init__(
@@ -412,7 +436,8 @@ class StressPlanes:
             yield self._field((plane,), tensor.map(lambda c: c[None]), moved, place)
 
     def read(self, plane: Plane, reader: Reader) -> None:
-        """Give the stress (Pa) on ``plane`` to ``reader`` a few rows at a time; each thread calls it with those of its share."""
+        """Give the stress (Pa) on ``plane`` to ``reader`` a few rows at a time; each thread calls
+        it with those of its share."""
         self._source.read(plane, reader)
 
     def along(self, lines: Sequence[Where], plane: Plane) -> list[StressField]:
@@ -450,7 +475,8 @@ class StressPlanes:
 
 
 def papers(body: object, boundary: str, *, sheared: bool) -> tuple[str, ...]:
-    """Keys of the papers that stresses in ``body`` rest on, under pressure and perhaps shear, for a ``boundary`` by name."""
+    """Keys of the papers that stresses in ``body`` rest on, under pressure and perhaps shear, for a
+    ``boundary`` by name."""
     keys = {"Johnson1985"}
     if stack(body).layers:
         keys |= {"Burmister1945", "Tan2006"}

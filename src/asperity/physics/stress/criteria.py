@@ -18,7 +18,8 @@ _BLOCK = 1 << 14  # points whose temporaries stay in the cache
 
 
 def sqrt_J2(s: StressTensor) -> RealArray:
-    """√J2 in Pa, to be compared with the yield stress in pure shear k; Peng (2001, eq. 3.33) calls it von Mises stress."""
+    """√J2 in Pa, to be compared with the yield stress in pure shear k; Peng (2001, eq. 3.33) calls
+    it von Mises stress."""
     return np.sqrt(second_invariant(s))
 
 
@@ -35,16 +36,19 @@ def hydrostatic(s: StressTensor) -> RealArray:
 def principal_tensile(s: StressTensor) -> RealArray:
     """Larger principal stress within planes parallel to the surface in Pa (Peng 2001, eq. 3.34).
 
-    It is the largest principal stress on a free surface in tension, and a lower bound of it inside the body.
+    It is the largest principal stress on a free surface in tension, and a lower bound of it inside
+    the body.
     """
     return 0.5 * (s.xx + s.yy) + np.hypot(0.5 * (s.xx - s.yy), s.xy)
 
 
 def principal_stresses(s: StressTensor) -> RealArray:
-    """Principal stresses σ1 >= σ2 >= σ3 in Pa, shape (3, ...); error a few roundings of the largest.
+    """Principal stresses σ1 >= σ2 >= σ3 in Pa, shape (3, ...); error a few roundings of the
+    largest.
 
-    The eigenvalue apart from the others by the trigonometric formula, the others from the 2 x 2 problem across its
-    direction (Eberly 2014): unlike the formula alone this loses no digits where two of them are equal.
+    The eigenvalue apart from the others by the trigonometric formula, the others from the 2 x 2
+    problem across its direction (Eberly 2014): unlike the formula alone this loses no digits where
+    two of them are equal.
     """
     return _in_blocks(_values, s, (3,))
 
@@ -61,15 +65,18 @@ def max_shear(s: StressTensor) -> RealArray:
 
 
 def principal_directions(s: StressTensor) -> RealArray:
-    """Unit vectors of the principal stresses, shape (3, 3, ...): [number of the principal stress, axis x y z].
+    """Unit vectors of the principal stresses, shape (3, 3, ...): [number of the principal stress,
+    axis x y z].
 
-    Signs are arbitrary, and where principal stresses are equal so is the direction across the others.
+    Signs are arbitrary, and where principal stresses are equal so is the direction across the
+    others.
     """
     return _in_blocks(_directions, s, (3, 3))
 
 
 def max_shear_normal(s: StressTensor) -> RealArray:
-    """Unit normal (3, ...) of a plane of largest shear stress: (n1 + n3)/√2, n1 and n3 the first and last direction.
+    """Unit normal (3, ...) of a plane of largest shear stress: (n1 + n3)/√2, n1 and n3 the first
+    and last direction.
 
     The other such plane has the normal (n1 - n3)/√2.
     """
@@ -78,7 +85,8 @@ def max_shear_normal(s: StressTensor) -> RealArray:
 
 
 def _in_blocks(function: Callable[[StressTensor], RealArray], s: StressTensor, shape: tuple[int, ...]) -> RealArray:
-    """``function`` on blocks of points that stay in the cache: five times faster on large fields than all at once."""
+    """``function`` on blocks of points that stay in the cache: five times faster on large fields
+    than all at once."""
     points = s.map(np.ravel)
     out = np.empty((*shape, points.xx.size), points.xx.dtype)
     for first in range(0, points.xx.size, _BLOCK):
@@ -106,7 +114,8 @@ def _directions(s: StressTensor) -> RealArray:
 
 
 class _Deviator:
-    """Deviator over √(J2/3): the eigenvalue ``apart`` from the others, its direction ``n``, the 2 x 2 form across it.
+    """Deviator over √(J2/3): the eigenvalue ``apart`` from the others, its direction ``n``, the 2 x
+    2 form across it.
 
     ``first``: whether that eigenvalue is the largest, else the smallest.
     """
@@ -122,7 +131,8 @@ class _Deviator:
         self.first = half_determinant >= 0.0
         largest = 2.0 * np.cos(np.arccos(np.minimum(np.abs(half_determinant), 1.0)) / 3.0)
         self.apart = np.where(self.first, largest, -largest)
-        # the unit vector that the singular matrix [[a d e], [d b f], [e f c]] less that value, of rank 2, maps to zero
+        # the unit vector that the singular matrix [[a d e], [d b f], [e f c]] less that value, of
+        # rank 2, maps to zero
         rows = (
             np.stack([a - self.apart, d, e]),
             np.stack([d, b - self.apart, f]),
@@ -169,8 +179,9 @@ class Limit:
 class Criterion(Protocol):
     """A criterion of failure.
 
-    One whose equivalent stress rises with a quantity of ``stress.extremes`` may name that in ``measure`` ("von_mises",
-    "tension", or "shear" for twice the largest): only where that may be largest it is then evaluated.
+    One whose equivalent stress rises with a quantity of ``stress.extremes`` may name that in
+    ``measure`` ("von_mises", "tension", or "shear" for twice the largest): only where that may be
+    largest it is then evaluated.
     """
 
     @property
@@ -201,7 +212,8 @@ class _OfYieldStress:
 
 @dataclass(frozen=True)
 class VonMises(_OfYieldStress):
-    """√(3 J2) against the tensile yield stress; where that is unknown against hardness/2.8 (Tabor 1951)."""
+    """√(3 J2) against the tensile yield stress; where that is unknown against hardness/2.8 (Tabor
+    1951)."""
 
     name: ClassVar[str] = "von Mises"
     measure: ClassVar[str] = "von_mises"
@@ -214,7 +226,8 @@ class VonMises(_OfYieldStress):
 
 @dataclass(frozen=True)
 class Tresca(_OfYieldStress):
-    """σ1 - σ3 against the tensile yield stress; where that is unknown against hardness/2.8 (Tabor 1951)."""
+    """σ1 - σ3 against the tensile yield stress; where that is unknown against hardness/2.8 (Tabor
+    1951)."""
 
     name: ClassVar[str] = "Tresca"
     measure: ClassVar[str] = "shear"

@@ -1,4 +1,5 @@
-"""Largest stresses of regions and interfaces, and where a body yields, found while planes are read a few rows at a time."""
+"""Largest stresses of regions and interfaces, and where a body yields, found while planes are read
+a few rows at a time."""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ from .yielding import Gathered, YieldReport, equivalent_at
 
 @dataclass(frozen=True, eq=False)
 class RegionMaxima:
-    """Largest stresses of one region on the planes that were computed: von Mises, tension (σ1), and shear (σ1 - σ3)/2."""
+    """Largest stresses of one region on the planes that were computed: von Mises, tension (σ1), and
+    shear (σ1 - σ3)/2."""
 
     region: Region
     von_mises: Peak
@@ -58,7 +60,8 @@ _OF_REGIONS, _OF_ALL, _OF_INTERFACES = (
 )
 
 _Key: TypeAlias = tuple[str, int]
-"""A quantity, and the number of the region of which the largest is sought, -1 for the whole body."""
+"""A quantity, and the number of the region of which the largest is sought, -1 for the whole
+body."""
 
 _ALL = -1
 
@@ -68,7 +71,8 @@ def _key(quantity: str, region: Region) -> _Key:
 
 
 class _Candidate(NamedTuple):
-    """A ``value`` that may be the largest, what it may be wrong by, and the ``stress`` (6,) and place that it belongs to."""
+    """A ``value`` that may be the largest, what it may be wrong by, and the ``stress`` (6,) and
+    place that it belongs to."""
 
     value: float
     margin: float
@@ -100,9 +104,11 @@ class _Top:
 
 
 class Extremes:
-    """Extremes of the planes on ``grid`` that have been read, and what is beyond the limit of ``criterion``.
+    """Extremes of the planes on ``grid`` that have been read, and what is beyond the limit of
+    ``criterion``.
 
-    ``surface``, set when the plane at the surface has been read, are its largest stresses with the edges of the contact; None where these are not known.
+    ``surface``, set when the plane at the surface has been read, are its largest stresses with the
+    edges of the contact; None where these are not known.
     """
 
     def __init__(self, grid: Grid, criterion: Criterion) -> None:
@@ -120,7 +126,8 @@ class Extremes:
         read: Callable[[Plane, Reader], None],
         tractions: Callable[[Plane, Reader], None] | None = None,
     ) -> None:
-        """Take in a whole ``plane`` that ``read`` reads; what passes an interface is read by ``tractions`` if given."""
+        """Take in a whole ``plane`` that ``read`` reads; what passes an interface is read by
+        ``tractions`` if given."""
         region = plane.region
         gathered = self._yielding.setdefault(region, Gathered(self.criterion.limit(region.material)))
         if plane.side == "above":
@@ -133,7 +140,8 @@ class Extremes:
         gathered.note(plane.depth, beyond * self._grid.pixel_area)
 
     def _read(self, plane: Plane, read: Callable[[Plane, Reader], None], limit: float, without: tuple[str, ...]) -> int:
-        """Candidates on ``plane`` for all quantities but those ``without``; the number of points beyond the ``limit``."""
+        """Candidates on ``plane`` for all quantities but those ``without``; the number of points
+        beyond the ``limit``."""
         known = {key: top.value for key, top in self._tops.items()}
         known |= {_key(quantity, plane.region): math.inf for quantity in without}
         parts: list[_Reading] = []
@@ -165,14 +173,16 @@ class Extremes:
         return found | {"von_mises": highest}
 
     def whole(self) -> dict[str, Peak]:
-        """The largest σ_t in planes parallel to the surface, |σxz| and |σyz| of the whole body, by the name of the stress; σ_t with the edges of the contact."""
+        """The largest σ_t in planes parallel to the surface, |σxz| and |σyz| of the whole body, by
+        the name of the stress; σ_t with the edges of the contact."""
         found = {name: self._peak(quantity, _ALL) for name, quantity in _DRAWN.items()}
         if self.surface is not None:
             found["principal_tensile"] = self.surface.joined("in_plane", found["principal_tensile"])
         return found
 
     def regions(self) -> tuple[RegionMaxima, ...]:
-        """The largest stresses of each region, those at the surface with the edges of the contact."""
+        """The largest stresses of each region, those at the surface with the edges of the
+        contact."""
         found = []
         for region in self._yielding:
             peaks = {name: self._peak(name, region.index) for name in _OF_REGIONS}
@@ -207,7 +217,8 @@ _OWN = "equivalent"  # quantity of a criterion that is none of the known ones
 
 
 class _Reading:
-    """One thread's reading of a ``plane``: candidates larger than what is ``known``, and the number of points ``beyond`` a limit."""
+    """One thread's reading of a ``plane``: candidates larger than what is ``known``, and the number
+    of points ``beyond`` a limit."""
 
     def __init__(self, plane: Plane, criterion: Criterion, limit: float, known: dict[_Key, float]) -> None:
         self.tops: dict[_Key, _Top] = {}
@@ -239,7 +250,8 @@ class _Reading:
                 self._judge(first, rows)
 
     def _judge(self, first: int, rows: RealArray) -> None:
-        """Count what is beyond the limit, and seek the largest equivalent stress where that is none of the quantities."""
+        """Count what is beyond the limit, and seek the largest equivalent stress where that is none
+        of the quantities."""
         values = self._criterion.equivalent(StressTensor(*rows))
         self.beyond += int(np.count_nonzero(values > self._limit))
         if self._measure == _OWN and values.max() > self._least[-1]:

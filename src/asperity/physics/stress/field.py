@@ -1,4 +1,5 @@
-"""Stresses that were computed: components by plane, derived stresses, maxima with their places, interfaces."""
+"""Stresses that were computed: components by plane, derived stresses, maxima with their places,
+interfaces."""
 
 from __future__ import annotations
 
@@ -41,7 +42,8 @@ DERIVED = (
 
 @dataclass(frozen=True, eq=False)
 class OfTensor:
-    """What the ``edges`` of a contact give beside the ``tensor`` that was computed under the same loads, or planes of it; nothing beside another, such as a sum."""
+    """What the ``edges`` of a contact give beside the ``tensor`` that was computed under the same
+    loads, or planes of it; nothing beside another, such as a sum."""
 
     edges: Callable[[], SurfaceMaxima | None]
     tensor: StressTensor
@@ -59,7 +61,8 @@ class OfTensor:
 class InterfaceStress:
     """Tractions an interface must carry, arrays over its points.
 
-    ``shear`` is the magnitude of the shear traction in Pa, ``peel`` the normal one, positive in tension.
+    ``shear`` is the magnitude of the shear traction in Pa, ``peel`` the normal one, positive in
+    tension.
     """
 
     above: Region
@@ -71,14 +74,16 @@ class InterfaceStress:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StressField(Stored):
-    """Stress inside a body on planes parallel to its surface; arrays (n, …) over planes and their points, in Pa.
+    """Stress inside a body on planes parallel to its surface; arrays (n, …) over planes and their
+    points, in Pa.
 
     Attributes
     ----------
     planes
         The n planes in order of depth; the depth of an interface appears twice, above and below it.
     tensor
-        Components xx, yy, zz, xy, xz, yz, tension positive. x and y are those of the contact, z points into the body.
+        Components xx, yy, zz, xy, xz, yz, tension positive. x and y are those of the contact, z
+        points into the body.
     displacement
         Components x, y, z in m, or None where not asked for.
     x, y
@@ -92,8 +97,9 @@ class StressField(Stored):
     single_row
         Whether the grid has one point along y, as in plane strain.
     at_edges
-        Finds the largest stresses at the surface with the edges of the contact, of the tensor that was computed and of no other; None where there is
-        no contact. Fields from files know them where they hold the whole plane at the surface.
+        Finds the largest stresses at the surface with the edges of the contact, of the tensor that
+        was computed and of no other; None where there is no contact. Fields from files know them
+        where they hold the whole plane at the surface.
     """
 
     planes: tuple[Plane, ...]
@@ -126,7 +132,8 @@ class StressField(Stored):
 
     @property
     def surface_maxima(self) -> SurfaceMaxima | None:
-        """Largest stresses at the surface, with the edges of the contact that lie between the points; None where these are not known.
+        """Largest stresses at the surface, with the edges of the contact that lie between the
+        points; None where these are not known.
 
         They are found when first asked for. The field must hold the whole plane at the surface.
         """
@@ -134,8 +141,8 @@ class StressField(Stored):
         return self.at_edges(self.tensor) if whole and self.at_edges is not None else None
 
     def largest(self, name: str, plane: int | None = None) -> Peak:
-        """Largest ``tension`` (σ1), ``von_mises``, ``shear`` ((σ1 - σ3)/2) or ``in_plane`` principal stress with its place, of all planes or one; at the surface
-        with its error."""
+        """Largest ``tension`` (σ1), ``von_mises``, ``shear`` ((σ1 - σ3)/2) or ``in_plane``
+        principal stress with its place, of all planes or one; at the surface with its error."""
         require.one_of(name, MAXIMA, "largest stress")
         first, part = (0, self.tensor) if plane is None else (plane, self.tensor.map(lambda c: c[plane : plane + 1]))
         numbers, values = largest(name, part)
@@ -148,7 +155,8 @@ class StressField(Stored):
 
     @property
     def largest_tension(self) -> Peak:
-        """Largest principal stress, with the edges of the contact where the field holds its surface: value, ``error``, place."""
+        """Largest principal stress, with the edges of the contact where the field holds its
+        surface: value, ``error``, place."""
         return self.largest("tension")
 
     @property
@@ -163,7 +171,8 @@ class StressField(Stored):
 
     @property
     def largest_principal_tensile(self) -> Peak:
-        """The same of the larger principal stress within planes parallel to the surface, σ_t of Peng (2001, eq. 3.34)."""
+        """The same of the larger principal stress within planes parallel to the surface, σ_t of
+        Peng (2001, eq. 3.34)."""
         return self.largest("in_plane")
 
     @property
@@ -274,7 +283,8 @@ class StressField(Stored):
         return tuple(found)
 
     def within(self, region: int | str) -> StressField:
-        """The planes of one region, by its number, its name, or another name of its material in the library.
+        """The planes of one region, by its number, its name, or another name of its material in the
+        library.
 
         InputError if no plane lies in such a region.
         """
@@ -303,11 +313,13 @@ class StressField(Stored):
 
     @property
     def cell(self) -> float:
-        """What one point of a plane stands for: m² on whole planes, m on a section, 1 on a depth profile."""
+        """What one point of a plane stands for: m² on whole planes, m on a section, 1 on a depth
+        profile."""
         return math.prod(step for step, axis in zip(self.spacing, "xy", strict=True) if axis in self.dims)
 
     def peak(self, values: RealArray, plane: int | None = None) -> Peak:
-        """Largest of ``values``, an array (n, …) such as ``field.von_mises``, and its place; on one ``plane`` or on all.
+        """Largest of ``values``, an array (n, …) such as ``field.von_mises``, and its place; on one
+        ``plane`` or on all.
 
         InputError if ``values`` has another shape than the components of the field.
         """

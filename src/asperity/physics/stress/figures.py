@@ -68,7 +68,8 @@ LETTER = 0.08
 """Width of a letter of a label in inches, about."""
 
 LABEL_ROOM = 0.09
-"""Height of the name of a region over that of the axes: the least thickness in which it stands, and the least distance."""
+"""Height of the name of a region over that of the axes: the least thickness in which it stands, and
+the least distance."""
 
 COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK)
 """Colours of the curves of a depth profile, in order."""
@@ -85,13 +86,17 @@ QUANTITIES = {quantity.name: quantity for quantity in DERIVED}
 
 
 def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2", *, log: bool = False) -> Axes:
-    """Draw contours of one ``quantity`` of a vertical section on ``ax``, depth downwards, interfaces as lines.
+    """Draw contours of one ``quantity`` of a vertical section on ``ax``, depth downwards,
+    interfaces as lines.
 
-    With ``log`` the steps are equal factors over two decades below the maximum; of signed stresses the same on both sides of zero, white between.
+    With ``log`` the steps are equal factors over two decades below the maximum; of signed stresses
+    the same on both sides of zero, white between.
 
-    Regions are drawn apart, so a stress that jumps at an interface jumps in the picture. The cross marks the largest
-    magnitude, of principal stresses the largest tension. Signed stresses are white about zero. Depth is to the scale of the section unless that were less than a sixth of its length.
-    Raises InputError if the field is no section, has a region with one plane only, or the quantity is unknown.
+    Regions are drawn apart, so a stress that jumps at an interface jumps in the picture. The cross
+    marks the largest magnitude, of principal stresses the largest tension. Signed stresses are
+    white about zero. Depth is to the scale of the section unless that were less than a sixth of its
+    length. Raises InputError if the field is no section, has a region with one plane only, or the
+    quantity is unknown.
     """
     from matplotlib.colors import BoundaryNorm
 
@@ -150,7 +155,8 @@ def plot_stress_section(field: StressField, ax: Axes, quantity: str = "sqrt_J2",
 def plot_stress_profile(
     field: StressField, ax: Axes, quantities: tuple[str, ...] = ("sqrt_J2", "normal_xx", "shear_xz")
 ) -> Axes:
-    """Draw ``quantities`` of a depth profile against depth on ``ax``, depth downwards, with a break at each interface.
+    """Draw ``quantities`` of a depth profile against depth on ``ax``, depth downwards, with a break
+    at each interface.
 
     Raises InputError if the field is no depth profile or a quantity is unknown.
     """
@@ -178,7 +184,8 @@ def plot_stress_profile(
 
 
 def plot_stress_map(field: StressField, ax: Axes, quantity: str = "von_mises", *, plane: int = 0) -> Axes:
-    """Draw one ``quantity`` on one ``plane`` (its position in the field) as a map on ``ax``, x to the right and y up.
+    """Draw one ``quantity`` on one ``plane`` (its position in the field) as a map on ``ax``, x to
+    the right and y up.
 
     Raises InputError if the planes of the field are not whole, or quantity or plane is unknown.
     """
@@ -235,10 +242,12 @@ def _two_digits(value: float, _: object) -> str:
 
 
 def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
-    """Steps of the contours: from zero or by equal factors for magnitudes; for signed stresses symmetric about zero.
+    """Steps of the contours: from zero or by equal factors for magnitudes; for signed stresses
+    symmetric about zero.
 
-    Where tension matters alone they end at the largest, so that a compression many times as large does not hide it. Zero
-    itself is no step of signed stresses: far from the contact its line would follow rounding errors.
+    Where tension matters alone they end at the largest, so that a compression many times as large
+    does not hide it. Zero itself is no step of signed stresses: far from the contact its line would
+    follow rounding errors.
     """
     from matplotlib.ticker import MaxNLocator
 
@@ -258,7 +267,8 @@ def _levels(values: RealArray, kind: Quantity, *, log: bool) -> RealArray:
 
 
 def _draw_interfaces(field: StressField, ax: Axes, depth_unit: Any) -> float:
-    """Lines at the interfaces and the names of the regions: in their regions, or beside those that are too thin.
+    """Lines at the interfaces and the names of the regions: in their regions, or beside those that
+    are too thin.
 
     Neighbours of one name are one region. Returns the room in inches that the names beside take.
     """
@@ -293,11 +303,13 @@ CLOSE_UP = 3.0
 """Length over depth of a close-up; sections more than twice as long get one."""
 
 PROFILE = ("von_mises", "max_principal", "normal_zz", "shear_xz", "shear_yz")
-"""Stresses on a depth profile; shear that is everywhere less than a thousandth of the largest stress is left out."""
+"""Stresses on a depth profile; shear that is everywhere less than a thousandth of the largest
+stress is left out."""
 
 
 def line_figures(survey: StressSurvey, boundary: Boundary) -> Iterator[Figure]:
-    """Figures of the sections and depth profiles of ``survey``, of a contact with this ``boundary``."""
+    """Figures of the sections and depth profiles of ``survey``, of a contact with this
+    ``boundary``."""
     for number, section in enumerate(survey.sections, start=1):
         yield from _section(section, number, wraps=boundary.wraps["xy".index(section.field.dims[1])])
     for number, field in enumerate(survey.profiles, start=1):
@@ -313,7 +325,8 @@ PEAK = 0.5
 
 
 def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
-    """Figure of the von Mises stress on a whole ``plane``, the ``number``-th, and of its maximum enlarged beside."""
+    """Figure of the von Mises stress on a whole ``plane``, the ``number``-th, and of its maximum
+    enlarged beside."""
     section = plane.planes[0]
     depth = "the surface" if section.side == "surface" else f"a depth of {show(section.depth, 'm')}"
     side = f", just {section.side} the interface" if section.side in ("above", "below") else ""
@@ -375,7 +388,8 @@ def _drawn(draw: Callable[[Axes], Axes]) -> Drawing:
 def close_up(field: StressField, quantity: str, *, wraps: bool = False) -> StressField | None:
     """The part of a long section about its maximum; None where the section is short.
 
-    Where the field ``wraps`` along the section, the maximum is in the middle and x or y run on across the border.
+    Where the field ``wraps`` along the section, the maximum is in the middle and x or y run on
+    across the border.
     """
     axis, values = field.dims[1], getattr(field, quantity)
     line, length = getattr(field, axis), CLOSE_UP * float(field.depth[-1])
@@ -395,7 +409,8 @@ def close_up(field: StressField, quantity: str, *, wraps: bool = False) -> Stres
 
 
 def figure_of(field: StressField, kind: str) -> tuple[Callable[..., Axes], tuple[float, float]]:
-    """What draws the stress ``kind`` of ``field`` on axes, von Mises' if it is empty, and the size in inches."""
+    """What draws the stress ``kind`` of ``field`` on axes, von Mises' if it is empty, and the size
+    in inches."""
     if field.dims == ("plane",):
         return lambda ax, **options: plot_stress_profile(field, ax, *([(kind,)] if kind else []), **options), CURVE_SIZE
     wanted = require.one_of(kind or "von_mises", QUANTITIES, "stress to draw")

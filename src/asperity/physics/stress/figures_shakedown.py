@@ -1,4 +1,5 @@
-"""Figures of shakedown: the limit against friction, and its map against friction and the thickness of a coating."""
+"""Figures of shakedown: the limit against friction, and its map against friction and the thickness
+of a coating."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ if TYPE_CHECKING:
 def plot_shakedown_curve(
     curve: ShakedownCurve, ax: Axes, *, per: float = 1.0, label: str = "factor on the stresses"
 ) -> Axes:
-    """Draw on ``ax`` the limit against friction, the uncertain loads shaded; ``per``: what the factor is multiplied by, named by ``label``."""
+    """Draw on ``ax`` the limit against friction, the uncertain loads shaded; ``per``: what the
+    factor is multiplied by, named by ``label``."""
     ax.plot(curve.friction, per * curve.limit, "o-", color=BLUE, ms=3, label="certainly shakes down below")
     if np.any(curve.bound > curve.limit * (1.0 + 1e-9)):
         ax.plot(curve.friction, per * curve.bound, "s--", color=VERMILLION, ms=3, label="certainly does not above")
@@ -33,7 +35,8 @@ def plot_shakedown_map(
     label: str = "factor on the stresses",
     across: str = "coating thickness (m)",
 ) -> Axes:
-    """Draw on ``ax`` the limit as contours, with dots where a layer below the outermost sets it; ``per`` and ``label`` as for the curve."""
+    """Draw on ``ax`` the limit as contours, with dots where a layer below the outermost sets it;
+    ``per`` and ``label`` as for the curve."""
     factor = per * found.limit
     low, high = float(np.min(factor)), float(np.max(factor))
     levels = np.linspace(low, high, 13) if high > low else np.array([low * 0.99, low * 1.01])

@@ -38,11 +38,14 @@ Fields: TypeAlias = StressField | Iterable[StressField]
 
 
 def save_stress(fields: Fields, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write a stress field, or its planes as they come from ``stress_planes``, to the NetCDF-4 file ``path``.
+    """Write a stress field, or its planes as they come from ``stress_planes``, to the NetCDF-4 file
+    ``path``.
 
-    Its group ``field`` has the dimensions plane, x, y (those that the field has); variables xx … yz in Pa and, if there are any,
-    displacements in m; depth, side and region of each plane. Only one plane of a stream is in memory at a time. Where the field holds the surface of a contact,
-    the largest stresses on the edges of that stand in a group of their own, for which they are computed. ``load`` reads the file.
+    Its group ``field`` has the dimensions plane, x, y (those that the field has); variables xx … yz
+    in Pa and, if there are any, displacements in m; depth, side and region of each plane. Only one
+    plane of a stream is in memory at a time. Where the field holds the surface of a contact, the
+    largest stresses on the edges of that stand in a group of their own, for which they are
+    computed. ``load`` reads the file.
 
     Raises
     ------
@@ -164,7 +167,8 @@ def peeked(fields: Fields) -> tuple[StressField, Iterator[StressField]]:
 
 
 def components(field: StressField) -> dict[str, RealArray]:
-    """Components of the only plane of ``field`` by name: xx … yz, and displacement_x … where there are any."""
+    """Components of the only plane of ``field`` by name: xx … yz, and displacement_x … where there
+    are any."""
     found = {name: getattr(field.tensor, name)[0] for name in STRESSES}
     if field.displacement is not None:
         found |= {f"displacement_{axis}": getattr(field.displacement, axis)[0] for axis in AXES}
@@ -177,10 +181,11 @@ def _single(field: StressField) -> Iterator[StressField]:
 
 
 def export_stress_vtk(fields: Fields, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write a stress field, or its planes as they come from ``stress_planes``, to ``path`` (.vtr), lengths in m.
+    """Write a stress field, or its planes as they come from ``stress_planes``, to ``path`` (.vtr),
+    lengths in m.
 
-    Point data: the components, von Mises stress, and the number of the region; z is the depth, and the two planes of an
-    interface share theirs. Only one plane is in memory at a time.
+    Point data: the components, von Mises stress, and the number of the region; z is the depth, and
+    the two planes of an interface share theirs. Only one plane is in memory at a time.
 
     Raises
     ------
@@ -218,7 +223,8 @@ def _write(
     parts: dict[str, IO[bytes]],
     kinds: dict[str, np.dtype[Any]],
 ) -> None:
-    """Header with the place of every array, then the arrays themselves, raw, each after its length."""
+    """Header with the place of every array, then the arrays themselves, raw, each after its
+    length."""
     lines = {"x": np.atleast_1d(first.x), "y": np.atleast_1d(first.y), "z": np.array(depths)}
     extent = '"' + " ".join(f"0 {line.size - 1}" for line in lines.values()) + '"'
     offset = 0

@@ -1,4 +1,5 @@
-"""Where a stress is largest: compiled bounds of it at all points, the stress itself where they reach the largest one."""
+"""Where a stress is largest: compiled bounds of it at all points, the stress itself where they
+reach the largest one."""
 
 from __future__ import annotations
 
@@ -28,9 +29,11 @@ _FIRST = 64
 def largest(
     name: str, s: StressTensor, share: float = 0.0, slack: RealArray | None = None
 ) -> tuple[NDArray[np.intp], RealArray]:
-    """Points of ``s`` by number (n,) where the stress ``name`` may be the largest, or with a margin may reach it, and its values (n,) there in Pa.
+    """Points of ``s`` by number (n,) where the stress ``name`` may be the largest, or with a margin
+    may reach it, and its values (n,) there in Pa.
 
-    The margin at a point is ``share`` of the stress and ``slack`` (Pa, an array of as many points). Numbers rise.
+    The margin at a point is ``share`` of the stress and ``slack`` (Pa, an array of as many points).
+    Numbers rise.
     """
     flat = s.map(np.ravel)
     bounds = _bounds(name, flat)
@@ -50,5 +53,5 @@ def _bounds(name: str, flat: StressTensor) -> RealArray:
     """What the stress ``name`` is at most, (n,)."""
     kernels: Any = import_module(".kernels.extremes", __package__)
     found = np.empty(flat.xx.size)
-    kernels.bounds(kernels.QUANTITIES.index(name), *vars(flat).values(), found)
+    kernels.bounds(kernels.QUANTITIES.index(name), tuple(vars(flat).values()), found)
     return found

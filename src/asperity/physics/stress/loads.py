@@ -28,15 +28,16 @@ class PrescribedLoad(Protocol):
     """A load that can be distributed over the pixels of a grid."""
 
     def on(self, grid: Grid, *, wraps: bool) -> RealArray:
-        """Shear along x and along y and pressure in Pa, (3, nx, ny); what leaves the grid comes back if it ``wraps``."""
+        """Shear along x and along y and pressure in Pa, (3, nx, ny); what leaves the grid comes
+        back if it ``wraps``."""
 
 
 @dataclass(frozen=True)
 class PointLoad:
     """A force at a point of the surface.
 
-    The four nearest pixels share it so that force and moments are exact. At a depth of z below pixels of Δ the stresses
-    differ from those of a point by about (Δ/z)² relatively.
+    The four nearest pixels share it so that force and moments are exact. At a depth of z below
+    pixels of Δ the stresses differ from those of a point by about (Δ/z)² relatively.
 
     InputError if a number is not finite.
 
@@ -81,7 +82,8 @@ class LineLoad:
     Parameters
     ----------
     start, end
-        Ends (x, y) in m. On a grid of one point along y the line runs along y and only its x counts.
+        Ends (x, y) in m. On a grid of one point along y the line runs along y and only its x
+        counts.
     normal
         Force per length in N/m into the body.
     tangential
@@ -125,15 +127,17 @@ class LineLoad:
 class PatchLoad:
     """Uniform pressure and shear traction on a rectangle along the axes.
 
-    Pixels at its edges carry the part that covers them, so that force and moments are exact; a rectangle whose edges lie
-    between pixels (half a pixel beside a node) is itself exact on a free boundary.
+    Pixels at its edges carry the part that covers them, so that force and moments are exact; a
+    rectangle whose edges lie between pixels (half a pixel beside a node) is itself exact on a free
+    boundary.
 
     InputError if a number is not finite or a range empty.
 
     Parameters
     ----------
     x, y
-        Ranges (from, to) in m. On a grid of one point along y the patch is a strip and ``y`` does not count.
+        Ranges (from, to) in m. On a grid of one point along y the patch is a strip and ``y`` does
+        not count.
     pressure
         In Pa, positive in compression.
     shear
@@ -184,7 +188,8 @@ def _neighbours(positions: RealArray, grid: Grid, axis: int, *, wraps: bool) -> 
 
 
 def _shared(grid: Grid, places: RealArray, amounts: RealArray, *, wraps: bool) -> RealArray:
-    """Sum (nx, ny) of ``amounts`` (n,) at ``places`` (n, 2) in m, each shared by its four nearest pixels."""
+    """Sum (nx, ny) of ``amounts`` (n,) at ``places`` (n, 2) in m, each shared by its four nearest
+    pixels."""
     i, share_x = _neighbours(places[:, 0], grid, 0, wraps=wraps)
     j, share_y = _neighbours(places[:, 1], grid, 1, wraps=wraps)
     total = np.zeros(grid.shape)
@@ -204,7 +209,8 @@ def _covered(ends: Vector, grid: Grid, axis: int, *, wraps: bool) -> RealArray:
         raise InputError(f"{what} must be no longer than the grid, {last - first:g}, but is {high - low:g}.")
     if not wraps and not (low >= first - 1e-9 * step and high <= last + 1e-9 * step):
         raise InputError(
-            f"{what} must lie on the grid, from {first:g} to {last:g}, on a boundary that does not repeat, but is {ends}."
+            f"{what} must lie on the grid, from {first:g} to {last:g}, on a boundary that does not repeat, but "
+            f"is {ends}."
         )
     turns = np.arange(math.floor((first - high) / (last - first)), 2 + math.ceil((last - low) / (last - first)))
     shifts = turns * (last - first) if wraps else np.zeros(1)

@@ -1,4 +1,5 @@
-"""Stresses inside a body: the largest of each layer and interface, sections, profiles and planes; onset of yield."""
+"""Stresses inside a body: the largest of each layer and interface, sections, profiles and planes;
+onset of yield."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ PlaceOfMaximum: TypeAlias = Annotated[float | str, Number("length", least=0.0, w
 
 
 class Placed(Settings):
-    """Positions ``x`` and ``y``, each a length or a word; both together may be text such as ``"y=max"``.
+    """Positions ``x`` and ``y``, each a length or a word; both together may be text such as
+    ``"y=max"``.
 
     ``"max"`` is the position of the largest stress, ``"pressure"`` that of the highest pressure.
     """
@@ -54,7 +56,8 @@ class Placed(Settings):
 class SectionTable(Placed):
     """Vertical plane through the body: exactly one of ``x`` and ``y``.
 
-    With ``"max"`` each kind of stress is shown on the plane through its own maximum (as by Peng 2001, figs. 3.15 - 3.22).
+    With ``"max"`` each kind of stress is shown on the plane through its own maximum (as by Peng
+    2001, figs. 3.15 - 3.22).
     """
 
     @model_validator(mode="after")
@@ -66,7 +69,8 @@ class SectionTable(Placed):
 
 
 class ProfileTable(Placed):
-    """Line into the body; a position that is left out is that of the largest equivalent stress, ``"max"``."""
+    """Line into the body; a position that is left out is that of the largest equivalent stress,
+    ``"max"``."""
 
 
 StepOfPath: TypeAlias = Annotated[float | str, Number(least=1.0, words=("peak", "last"))]
@@ -75,11 +79,13 @@ Body = Annotated[str, Choice({"body": "body", "counter_body": "counter_body", "c
 
 
 class StressSettings(Settings):
-    """Stresses that are computed after the contact; those on the section y = max if nothing else is asked for.
+    """Stresses that are computed after the contact; those on the section y = max if nothing else is
+    asked for.
 
-    The shear traction is that of the table [friction], unless ``shear`` is false. ``depths`` are planes, ``sections`` vertical
-    planes and ``profiles`` lines down to the depth ``deepest``. Of a load path they are those at one ``step``. The strengths are compared with the largest tension, and with
-    shear and peel of the interfaces.
+    The shear traction is that of the table [friction], unless ``shear`` is false. ``depths`` are
+    planes, ``sections`` vertical planes and ``profiles`` lines down to the depth ``deepest``. Of a
+    load path they are those at one ``step``. The strengths are compared with the largest tension,
+    and with shear and peel of the interfaces.
     """
 
     shear: bool = setting(True, option="--shear", help="Whether the friction loads the body, too")
@@ -186,7 +192,8 @@ class Yielding(Part):
 
 
 def stress_request(table: StressSettings, friction: FrictionSettings | None = None) -> StressRequest:
-    """Stresses that ``table`` requests, under ``friction``; the section through the maximum where it requests none."""
+    """Stresses that ``table`` requests, under ``friction``; the section through the maximum where
+    it requests none."""
     from .criteria import Tresca, VonMises
     from .survey import Strengths, StressRequest, WantedProfile, WantedSection
 

@@ -1,4 +1,5 @@
-"""Largest stresses and what follows from them in words: with their errors, or as bounds where they are not to be trusted."""
+"""Largest stresses and what follows from them in words: with their errors, or as bounds where they
+are not to be trusted."""
 
 from __future__ import annotations
 
@@ -12,10 +13,12 @@ from .regions import Region
 
 @dataclass(frozen=True)
 class Peak:
-    """Extreme ``value`` of a field and where it is, lengths in m; ``region`` and ``side`` as for ``Plane``.
+    """Extreme ``value`` of a field and where it is, lengths in m; ``region`` and ``side`` as for
+    ``Plane``.
 
-    ``error`` bounds that of the value by the size of the pixels, where it is known: at the surface of a contact (``sharp``). Else it is NaN.
-    ``doubt`` is empty, or says why the value, that of the field, is but a lower bound.
+    ``error`` bounds that of the value by the size of the pixels, where it is known: at the surface
+    of a contact (``sharp``). Else it is NaN. ``doubt`` is empty, or says why the value, that of the
+    field, is but a lower bound.
     """
 
     value: float = measured("Pa", "extreme value")
@@ -30,8 +33,8 @@ class Peak:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceMaxima:
-    """Largest stresses at the surface of a contact, edges between its pixels included (``sharp``): σ1, von Mises, shear (σ1 - σ3)/2, and the larger
-    principal stress in the plane."""
+    """Largest stresses at the surface of a contact, edges between its pixels included (``sharp``):
+    σ1, von Mises, shear (σ1 - σ3)/2, and the larger principal stress in the plane."""
 
     tension: Peak
     von_mises: Peak
@@ -39,7 +42,8 @@ class SurfaceMaxima:
     in_plane: Peak
 
     def joined(self, name: str, peak: Peak) -> Peak:
-        """The larger of that ``name`` here and ``peak``, the largest at the points of planes, which at the surface it replaces."""
+        """The larger of that ``name`` here and ``peak``, the largest at the points of planes, which
+        at the surface it replaces."""
         own: Peak = getattr(self, name)
         return own if peak.side == "surface" or own.value > peak.value else peak
 
@@ -49,7 +53,8 @@ MAXIMA = ("tension", "von_mises", "shear", "in_plane")
 
 
 def peak_text(peak: Peak, factor: float = 1.0) -> str:
-    """Value of a ``peak`` times ``factor`` with its error where that is known; as a lower bound where it is not to be trusted."""
+    """Value of a ``peak`` times ``factor`` with its error where that is known; as a lower bound
+    where it is not to be trusted."""
     value = show(factor * peak.value, "Pa")
     if peak.doubt:
         return f"> {value}"

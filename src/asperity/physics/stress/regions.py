@@ -1,4 +1,5 @@
-"""Where stresses are: homogeneous regions of a body, planes in them with both sides of interfaces, and points of a plane."""
+"""Where stresses are: homogeneous regions of a body, planes in them with both sides of interfaces,
+and points of a plane."""
 
 from __future__ import annotations
 
@@ -17,14 +18,16 @@ from ...solids.elastic import Elastic, Rigid
 from ...solids.layers import Frictionless, Layered
 
 Side: TypeAlias = Literal["surface", "inside", "above", "below"]
-"""Position of a plane in its region: on the loaded surface, inside, just above or just below an interface."""
+"""Position of a plane in its region: on the loaded surface, inside, just above or just below an
+interface."""
 
 _SAME = 1e-9  # relative difference of depths that are one and the same
 
 
 @dataclass(frozen=True)
 class Region:
-    """Homogeneous part of a body: its ``material`` between the depths ``top`` and ``bottom`` (m, infinite for a half-space).
+    """Homogeneous part of a body: its ``material`` between the depths ``top`` and ``bottom`` (m,
+    infinite for a half-space).
 
     ``name`` is that of the material if it has one, else "layer 1", … or "substrate".
     """
@@ -65,7 +68,8 @@ def stack(body: object) -> Layered:
 
 
 def regions(body: object) -> tuple[Region, ...]:
-    """Regions of ``body`` from the surface down; a rigid base is none. InputError if the body is rigid or no body."""
+    """Regions of ``body`` from the surface down; a rigid base is none. InputError if the body is
+    rigid or no body."""
     layers = stack(body)
     found: list[Region] = []
     top = 0.0
@@ -81,13 +85,15 @@ def regions(body: object) -> tuple[Region, ...]:
 
 
 def slips(layers: Layered, plane: Plane) -> bool:
-    """Whether ``plane`` is a side of an interface of ``layers`` (see ``stack``) that carries no shear traction."""
+    """Whether ``plane`` is a side of an interface of ``layers`` (see ``stack``) that carries no
+    shear traction."""
     upper = {"above": plane.region.index, "below": plane.region.index - 1}.get(plane.side)
     return upper is not None and isinstance(layers.layers[upper].interface, Frictionless)
 
 
 def planes(body: object, depths: Iterable[float]) -> tuple[Plane, ...]:
-    """Planes at ``depths`` (m, >= 0) in increasing order; a depth of an interface gives two, above and below it.
+    """Planes at ``depths`` (m, >= 0) in increasing order; a depth of an interface gives two, above
+    and below it.
 
     InputError if a depth is negative, no number, or below a rigid base.
     """
@@ -124,8 +130,9 @@ _GRADING = 1.5  # power of the spacing below the lowest interface, where stresse
 def depths_through(body: object, deepest: float, *, per_region: int = 12) -> RealArray:
     """Increasing depths in m from the surface of ``body`` to ``deepest`` (m), for ``stress``.
 
-    Every layer has ``per_region`` equal intervals, so that both its faces are among the depths; the substrate has as many
-    intervals down to ``deepest``, short ones first. Layers below ``deepest`` are left out.
+    Every layer has ``per_region`` equal intervals, so that both its faces are among the depths; the
+    substrate has as many intervals down to ``deepest``, short ones first. Layers below ``deepest``
+    are left out.
 
     InputError if the body is rigid, ``deepest`` is not positive or there is less than one interval.
     """
@@ -141,7 +148,8 @@ def depths_through(body: object, deepest: float, *, per_region: int = 12) -> Rea
     return np.array(found)
 
 
-# Points of every plane: all, a line along x or y (a vertical section of the body), or one (a depth profile).
+# Points of every plane: all, a line along x or y (a vertical section of the body), or one (a depth
+# profile).
 
 Position: TypeAlias = float | Literal["pressure", "max"]
 """Coordinate in m, or "pressure" for that of the largest pressure; "max" is another word for it."""
@@ -163,7 +171,8 @@ class Section:
     Parameters
     ----------
     x, y
-        Exactly one of the two: position in m, or ``"pressure"`` (``"max"``) for the plane through the largest pressure.
+        Exactly one of the two: position in m, or ``"pressure"`` (``"max"``) for the plane through
+        the largest pressure.
     """
 
     x: Position | None = None
@@ -177,7 +186,8 @@ class Section:
 
 @dataclass(frozen=True)
 class DepthProfile:
-    """Line into the body at the grid point nearest to (x, y), by default under the largest pressure.
+    """Line into the body at the grid point nearest to (x, y), by default under the largest
+    pressure.
 
     InputError if a position is neither a number nor a word for a place.
 
@@ -201,7 +211,8 @@ Where: TypeAlias = Everywhere | Section | DepthProfile
 
 @dataclass(frozen=True, eq=False)
 class Selection:
-    """Points of a grid: ``index`` picks them from an array (nx, ny); their coordinates ``x`` and ``y`` in m.
+    """Points of a grid: ``index`` picks them from an array (nx, ny); their coordinates ``x`` and
+    ``y`` in m.
 
     ``dims`` names the axes that are left, in order.
     """

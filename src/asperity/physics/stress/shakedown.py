@@ -1,4 +1,5 @@
-"""Elastic shakedown of contacts that pass again and again: the load up to which plastic flow ceases, against friction and coating."""
+"""Elastic shakedown of contacts that pass again and again: the load up to which plastic flow
+ceases, against friction and coating."""
 
 from __future__ import annotations
 
@@ -30,7 +31,8 @@ class ShakedownCurve:
     limit
         Factor on all stresses up to which the body certainly shakes down to elastic response.
     bound
-        Factor from which on it certainly does not; equal to the limit in plane strain, where the limit is exact.
+        Factor from which on it certainly does not; equal to the limit in plane strain, where the
+        limit is exact.
     depth
         Depth in m of the plane that sets the limit.
     region
@@ -46,11 +48,13 @@ class ShakedownCurve:
 
 
 def shakedown(result: Loaded, depths: Iterable[float], friction: ArrayLike = 0.0) -> ShakedownCurve:
-    """Elastic shakedown of the body of a contact under repeated passes along x, layer by layer, by von Mises' criterion.
+    """Elastic shakedown of the body of a contact under repeated passes along x, layer by layer, by
+    von Mises' criterion.
 
-    ``result``: of ``solve``, in plane strain (one row) or with a whole point contact; ``depths``: of the planes in m, >= 0;
-    ``friction``: coefficients (m,), >= 0. The shear strength k of each layer is that of its material over √3. The pressure is taken
-    to be that of the elastic contact; the factor is one on stresses, not on loads, which change the contact area.
+    ``result``: of ``solve``, in plane strain (one row) or with a whole point contact; ``depths``:
+    of the planes in m, >= 0; ``friction``: coefficients (m,), >= 0. The shear strength k of each
+    layer is that of its material over √3. The pressure is taken to be that of the elastic contact;
+    the factor is one on stresses, not on loads, which change the contact area.
 
     Raises
     ------
@@ -87,7 +91,8 @@ def shakedown(result: Loaded, depths: Iterable[float], friction: ArrayLike = 0.0
 
 @dataclass(frozen=True, eq=False)
 class ShakedownMap:
-    """Shakedown against friction (m,) and a second quantity (n,), the thickness of a coating for example.
+    """Shakedown against friction (m,) and a second quantity (n,), the thickness of a coating for
+    example.
 
     ``limit``, ``bound``, ``depth`` and ``region`` are (n, m), as in ``ShakedownCurve``.
     """
@@ -102,7 +107,8 @@ class ShakedownMap:
 
 
 def shakedown_map(across: ArrayLike, curves: Iterable[ShakedownCurve]) -> ShakedownMap:
-    """The map of ``curves`` for the same friction coefficients, one for each of the values ``across`` (n,).
+    """The map of ``curves`` for the same friction coefficients, one for each of the values
+    ``across`` (n,).
 
     Raises
     ------
@@ -113,7 +119,8 @@ def shakedown_map(across: ArrayLike, curves: Iterable[ShakedownCurve]) -> Shaked
     alike = rows and all(np.array_equal(row.friction, rows[0].friction) for row in rows)
     if values.shape != (len(rows),) or not alike:
         raise InputError(
-            f"curves of a shakedown map must be one for each of the {values.size} values across, for the same friction coefficients, but are {len(rows)}."
+            f"curves of a shakedown map must be one for each of the {values.size} values across, for the same "
+            f"friction coefficients, but are {len(rows)}."
         )
     names = ("limit", "bound", "depth", "region")
     return ShakedownMap(values, rows[0].friction, *(np.array([getattr(row, name) for row in rows]) for name in names))

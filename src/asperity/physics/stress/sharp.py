@@ -1,11 +1,16 @@
-"""Largest stresses at the surface of a contact, which lie on its edges between the pixels, with their errors.
+"""Largest stresses at the surface of a contact, which lie on its edges between the pixels, with
+their errors.
 
-Under shear traction μ p the stress along a surface is finite at the edge of a contact and falls from there by 2 μ k √δ at a distance δ outside: values at pixels are
-low by the root of the pixel, 27 % of σ1 of a sphere of 8 pixels. What is singular in it is the slope of the undeformed surface, which is known, since i k p/|k| =
-½E* ∂u in Fourier space and ∂u = ∂h in contact. So the error of the slope that the pixels give is taken out of the stress inside, and the stress on the edge is found from
-the pixels on both sides: what remains is smooth but for parts that are in proportion to the pressure or to the slope. Slopes at the edge are interpolated, never extrapolated.
+Under shear traction μ p the stress along a surface is finite at the edge of a contact and falls
+from there by 2 μ k √δ at a distance δ outside: values at pixels are low by the root of the pixel,
+27 % of σ1 of a sphere of 8 pixels. What is singular in it is the slope of the undeformed surface,
+which is known, since i k p/|k| = ½E* ∂u in Fourier space and ∂u = ∂h in contact. So the error of
+the slope that the pixels give is taken out of the stress inside, and the stress on the edge is
+found from the pixels on both sides: what remains is smooth but for parts that are in proportion to
+the pressure or to the slope. Slopes at the edge are interpolated, never extrapolated.
 
-The bars are those with which 402 contacts of 3 to 40 pixels, spheres and rough surfaces, held the truth from 8 pixels in the shortest wave or radius on.
+The bars are those with which 402 contacts of 3 to 40 pixels, spheres and rough surfaces, held the
+truth from 8 pixels in the shortest wave or radius on.
 """
 
 from __future__ import annotations
@@ -31,39 +36,46 @@ from .regions import Plane
 from .tractions import ShearTraction, Sliding, Tractions
 
 LEAST_COSINE = 0.6
-"""Least cosine of the normal of an edge with the axis of a pair: more oblique pairs do not tell where it is."""
+"""Least cosine of the normal of an edge with the axis of a pair: more oblique pairs do not tell
+where it is."""
 
 FACTOR, SPREAD, SECOND = 1.3, 0.1, 0.03
-"""Of the bar: on all of it, pixels added to the spread of the place, share of the error of the slope that was taken out."""
+"""Of the bar: on all of it, pixels added to the spread of the place, share of the error of the
+slope that was taken out."""
 
 SINGLE = 0.3
 """The same share where the contact has no second pixel inwards."""
 
 NORMAL, ROUNDING = 0.04, 0.01
-"""Error of the stress by the pressure over the pressure at the last pixel: of its part across the edge, times 1 - 2ν, and of the rest."""
+"""Error of the stress by the pressure over the pressure at the last pixel: of its part across the
+edge, times 1 - 2ν, and of the rest."""
 
 INSIDE, SHARE = 0.1, 0.015
 """Of the bar inside: share of the error of the slope, and of the stress."""
 
 SHEARED = 0.03
-"""Added to the bar, over the stress, where the shear traction changes the pressure: the edge has another exponent then."""
+"""Added to the bar, over the stress, where the shear traction changes the pressure: the edge has
+another exponent then."""
 
 FEWEST_PIXELS = 28
 """Pixels in a spot, a radius of 3, below which errors reach 30 to 50 %."""
 
 ROUGHEST, UNRESOLVED = 0.008, 0.2
-"""Rms difference of slopes by sixth and fourth order over that of the slopes at the edges: more of it than with about 6 pixels in the shortest wave; and
-that of surfaces whose slope, and so the tension, has no limit as the grid is refined."""
+"""Rms difference of slopes by sixth and fourth order over that of the slopes at the edges: more of
+it than with about 6 pixels in the shortest wave; and that of surfaces whose slope, and so the
+tension, has no limit as the grid is refined."""
 
 _SIXTH = (45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0)
 _FOURTH = (8.0 / 12.0, -1.0 / 12.0)
 
 
 class AtEdges:
-    """Largest stresses at the surface of a ``body`` of a contact ``result`` under ``loads``, its tractions on that body; found at the first call.
+    """Largest stresses at the surface of a ``body`` of a contact ``result`` under ``loads``, its
+    tractions on that body; found at the first call.
 
-    ``planes`` makes the planes of stress of a body under tractions, as ``compute.StressPlanes``; ``known`` are the components xx, yy, xy (nx, ny) in Pa
-    of its surface under ``loads``, if somebody has computed them.
+    ``planes`` makes the planes of stress of a body under tractions, as ``compute.StressPlanes``;
+    ``known`` are the components xx, yy, xy (nx, ny) in Pa of its surface under ``loads``, if
+    somebody has computed them.
     """
 
     def __init__(
@@ -77,7 +89,8 @@ class AtEdges:
         self.result, self.loads, self.body, self.planes, self.known = result, loads, body, planes, known
 
     def beside(self, field: StressField) -> AtEdges:
-        """The same, which takes the stresses at the surface from a ``field`` under the same loads if that holds them in double precision."""
+        """The same, which takes the stresses at the surface from a ``field`` under the same loads
+        if that holds them in double precision."""
         numbers = [number for number, plane in enumerate(field.planes) if plane.side == "surface"]
         s = field.tensor
         if not numbers or field.dims != ("plane", "x", "y") or s.xx.dtype != np.float64:
@@ -109,7 +122,8 @@ class _Fields(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class _Surface:
-    """The surface of a body under a contact: ``fields`` at the pixels, errors ``wrong`` (2, nx, ny) of the slopes that they contain, ``ratio`` of shear traction to pressure."""
+    """The surface of a body under a contact: ``fields`` at the pixels, errors ``wrong`` (2, nx, ny)
+    of the slopes that they contain, ``ratio`` of shear traction to pressure."""
 
     result: Any
     loads: Tractions
@@ -207,7 +221,8 @@ class _Surface:
 
 
 class _Edge(NamedTuple):
-    """Stress (3, n) on the edge at pairs of pixels, its ``bars`` (n,), and what to refuse it for."""
+    """Stress (3, n) on the edge at pairs of pixels, its ``bars`` (n,), and what to refuse it
+    for."""
 
     edges: Any
     chosen: NDArray[np.intp]
@@ -286,7 +301,8 @@ def _product(a: RealArray, b: RealArray) -> RealArray:
 def _by_slope(
     slope: RealArray, ratio: tuple[RealArray, RealArray], normal: RealArray, nu: float, modulus: float
 ) -> RealArray:
-    """Stress by shear traction of ``ratio`` to the pressure that is singular with a ``slope`` (2, …) of the surface, at an edge of this ``normal``."""
+    """Stress by shear traction of ``ratio`` to the pressure that is singular with a ``slope`` (2,
+    …) of the surface, at an edge of this ``normal``."""
     along = slope[0] * ratio[0] + slope[1] * ratio[1]
     unit = np.stack([np.ones_like(along), np.ones_like(along), np.zeros_like(along)])
     return np.asarray(modulus * (_product(slope, np.stack(ratio)) + nu * along * (unit - _product(normal, normal))))
@@ -299,7 +315,8 @@ def _by_slopes(wrong: RealArray, ratio: tuple[RealArray, RealArray], nu: float, 
 
 
 def _slopes(heights: RealArray, at: Any, grid: Grid, wraps: tuple[bool, bool], factors: tuple[float, ...]) -> RealArray:
-    """Slopes (2, n) of ``heights`` at pixels by number, by central differences; beyond a border that does not wrap heights stay as they are there."""
+    """Slopes (2, n) of ``heights`` at pixels by number, by central differences; beyond a border
+    that does not wrap heights stay as they are there."""
     flat, places = heights.ravel(), np.divmod(at, grid.shape[1])
     found = []
     for axis in (0, 1):
@@ -316,7 +333,8 @@ def _slopes(heights: RealArray, at: Any, grid: Grid, wraps: tuple[bool, bool], f
 
 
 def _slope_errors(result: Any) -> RealArray:
-    """Slope of the undeformed surface less that of the displacement as pixels give it, (2, nx, ny); right in contact, where the gap is zero."""
+    """Slope of the undeformed surface less that of the displacement as pixels give it, (2, nx, ny);
+    right in contact, where the gap is zero."""
     problem = result.problem
     grid: Grid = problem.grid
     if problem.boundary.name == "periodic":
@@ -330,7 +348,8 @@ def _slope_errors(result: Any) -> RealArray:
     loads = padded.forward(pressed, np.empty(padded.spectrum_shape, np.complex128))
 
     def convolved(coefficients: RealArray, *, odd_x: bool = False, odd_y: bool = False) -> RealArray:
-        """Sum over pixels (nx, ny) of the pressure times ``coefficients`` at their offsets (0…nx-1, 0…ny-1)."""
+        """Sum over pixels (nx, ny) of the pressure times ``coefficients`` at their offsets (0…nx-1,
+        0…ny-1)."""
         spectrum = whole.forward(wrapped(coefficients, (nx, ny), odd_x=odd_x, odd_y=odd_y))
         return padded.backward(spectrum * loads, np.empty(padded.shape))
 
@@ -346,7 +365,8 @@ def _slope_errors(result: Any) -> RealArray:
 
 
 def _patch_slopes(grid: Grid, *, line: bool) -> tuple[RealArray, RealArray]:
-    """Slopes along x and y, times E*, at offsets from a pixel under unit pressure (Love 1929); of a strip along y if ``line``."""
+    """Slopes along x and y, times E*, at offsets from a pixel under unit pressure (Love 1929); of a
+    strip along y if ``line``."""
     x, y = grid.coordinates()
     dx, dy = grid.spacing
     if line:

@@ -1,4 +1,5 @@
-"""The stresses that are asked for of a contact: sections, profiles and maxima, from planes that need not fit in memory together."""
+"""The stresses that are asked for of a contact: sections, profiles and maxima, from planes that
+need not fit in memory together."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ from .tractions import LoadedBody, Sliding, Tractions
 from .yielding import YieldReport
 
 Place: TypeAlias = float | Literal["max", "pressure"]
-"""Position in m as in figures (in the middle of a pixel), of the largest stress, or of the highest pressure."""
+"""Position in m as in figures (in the middle of a pixel), of the largest stress, or of the highest
+pressure."""
 
 
 class Contact(Loaded, Protocol):
@@ -61,7 +63,8 @@ class WantedProfile:
 
 @dataclass(frozen=True)
 class Strengths:
-    """Strengths in Pa with which the largest tension, shear and peel are compared; NaN where not given."""
+    """Strengths in Pa with which the largest tension, shear and peel are compared; NaN where not
+    given."""
 
     tensile: float = math.nan
     interface_shear: float = math.nan
@@ -75,7 +78,8 @@ class StressRequest:
     Attributes
     ----------
     friction, direction, coupled
-        Friction coefficient, angle in rad of the shear traction on the body, and whether it may change the pressure.
+        Friction coefficient, angle in rad of the shear traction on the body, and whether it may
+        change the pressure.
     of
         ``"body"`` or ``"counter_body"``.
     depths
@@ -89,7 +93,8 @@ class StressRequest:
     dtype
         Type of the numbers.
     sheared
-        Whether the shear traction of a contact with stick and slip, which takes the place of ``friction``, loads the body.
+        Whether the shear traction of a contact with stick and slip, which takes the place of
+        ``friction``, loads the body.
     step
         Step of a load path: that of the largest load, the last one, or a number from 1.
     """
@@ -110,21 +115,23 @@ class StressRequest:
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
-        """Keys of the papers on what is done with the stresses: principal ones, those in sections, coupling, criterion."""
+        """Keys of the papers on what is done with the stresses: principal ones, those in sections,
+        coupling, criterion."""
         drawn = ("Peng2001",) if self.sections else ()
         return ("Eberly2014", *drawn, *(("Dundurs1969",) if self.coupled else ()), *self.criterion.citation_keys)
 
     def check(self, problem: Any) -> None:
         """Refuse what ``problem`` has no stress for, before it is solved.
 
-        InputError if the body does not deform, a depth lies below its rigid base, a position outside the grid, or
-        nothing would hold sheared layers (see ``require_held``).
+        InputError if the body does not deform, a depth lies below its rigid base, a position
+        outside the grid, or nothing would hold sheared layers (see ``require_held``).
         """
         body, grid = getattr(problem, self.of), problem.grid
         if isinstance(body, Rigid):
             asked = self.of.replace("_", " ")
             raise InputError(
-                f"body in which stresses are asked must deform, but the {asked} is rigid; ask for them in the other body."
+                f"body in which stresses are asked must deform, but the {asked} is rigid; ask for them in the "
+                "other body."
             )
         planes(body, self.depths or (0.0,))
         boundary: Any = problem.boundary.name
@@ -133,8 +140,8 @@ class StressRequest:
             _require_within(section.place, section.axis, "section", grid)
             if grid.shape["yx".index(section.axis)] == 1:
                 raise InputError(
-                    f"stress section must hold more than one point, but that at {section.axis} = const is one point wide "
-                    f"on this surface of {grid.shape[0]} x {grid.shape[1]} points."
+                    f"stress section must hold more than one point, but that at {section.axis} = const is one "
+                    f"point wide on this surface of {grid.shape[0]} x {grid.shape[1]} points."
                 )
         for line in self.profiles:
             _require_within(line.x, "x", "profile", grid)
@@ -165,30 +172,36 @@ def _require_within(place: Place, axis: str, kind: str, grid: Grid) -> None:
         )
 
 
-# Depths of the planes of a survey: dense against the contact spots, both faces of every layer, and what is asked for.
+# Depths of the planes of a survey: dense against the contact spots, both faces of every layer, and
+# what is asked for.
 
 
 RATIO = 1.25
-"""Depths below a contact grow by this factor: the largest √J2 under a sphere is at most 0.7 % low on them."""
+"""Depths below a contact grow by this factor: the largest √J2 under a sphere is at most 0.7 % low
+on them."""
 
 SHALLOWEST, DEEPEST = 0.1, 3.0
-"""First depth over the mean radius of contact spots, and last over the largest; √J2 of a sphere is largest at 0.48."""
+"""First depth over the mean radius of contact spots, and last over the largest; √J2 of a sphere is
+largest at 0.48."""
 
 PIXELS = 0.5
-"""First depth in pixels at least: shallower the trigonometric interpolation of pressures ripples as it does on the surface."""
+"""First depth in pixels at least: shallower the trigonometric interpolation of pressures ripples as
+it does on the surface."""
 
 INTERVALS = 64
 """Number of intervals of planes in all layers together, at most 4 and at least 1 in each."""
 
 SAME, CLOSE = 1e-9, 0.1
-"""Relative differences of depths that are one and the same, and so close that no plane is needed between."""
+"""Relative differences of depths that are one and the same, and so close that no plane is needed
+between."""
 
 FAR_LAYERS = 6.0
 """Layers that end within this many radii of the largest spot are sampled to their end."""
 
 
 def survey_depths(request: StressRequest, result: Contact) -> RealArray:
-    """Increasing depths (m) of all planes: those asked for, and for sections and profiles those that show the contact.
+    """Increasing depths (m) of all planes: those asked for, and for sections and profiles those
+    that show the contact.
 
     To the latter belong all interfaces, however deep.
     """
@@ -201,9 +214,11 @@ def survey_depths(request: StressRequest, result: Contact) -> RealArray:
 
 
 def line_depths(request: StressRequest, result: Contact) -> RealArray:
-    """Increasing depths (m) of sections and profiles: dense against the contact spots, and both faces of each layer."""
+    """Increasing depths (m) of sections and profiles: dense against the contact spots, and both
+    faces of each layer."""
     body, grid, areas = getattr(result.problem, request.of), result.problem.grid, result.spot_areas
-    # mean and largest radius of circles as large as the contact spots; on a grid of one row half the widths of strips
+    # mean and largest radius of circles as large as the contact spots; on a grid of one row half
+    # the widths of strips
     small = large = 0.5 * min(grid.pixels)
     if areas.size:
         strips = 1 in grid.shape
@@ -229,18 +244,21 @@ def line_depths(request: StressRequest, result: Contact) -> RealArray:
 
 
 def _distinct(depths: RealArray, tolerance: float) -> RealArray:
-    """Sorted ``depths`` without those that differ from the one before by a relative ``tolerance`` at most."""
+    """Sorted ``depths`` without those that differ from the one before by a relative ``tolerance``
+    at most."""
     ordered = np.unique(depths)
     return ordered[np.diff(ordered, prepend=-1.0) > tolerance * np.abs(ordered)]
 
 
-# Vertical sections and depth profiles through the maxima of a survey, cut out of whole planes as they pass.
+# Vertical sections and depth profiles through the maxima of a survey, cut out of whole planes as
+# they pass.
 
 
 def wanted_lines(request: StressRequest, result: Contact, peaks: dict[str, Peak]) -> dict[Where, tuple[str, ...]]:
     """Sections and profiles at positions of nodes, each with what it is to show.
 
-    A section through the maximum is one for each stress, on the plane through its own largest magnitude.
+    A section through the maximum is one for each stress, on the plane through its own largest
+    magnitude.
     """
     grid = result.problem.grid
     found: dict[Where, tuple[str, ...]] = {}
@@ -257,7 +275,8 @@ def wanted_lines(request: StressRequest, result: Contact, peaks: dict[str, Peak]
 
 
 def _on_node(place: Place, wanted: Place, grid: Grid, axis: str) -> Position:
-    """Position of a node: the user's is that of figures, where a node owns the pixel that begins there."""
+    """Position of a node: the user's is that of figures, where a node owns the pixel that begins
+    there."""
     if place == "pressure":
         return "max"  # as the library calls the place of the highest pressure
     assert isinstance(place, float)
@@ -265,7 +284,8 @@ def _on_node(place: Place, wanted: Place, grid: Grid, axis: str) -> Position:
 
 
 def joined(parts: list[StressField]) -> StressField:
-    """One field of ``parts`` of one plane each, the region that begins at the last depth left out."""
+    """One field of ``parts`` of one plane each, the region that begins at the last depth left
+    out."""
     parts = parts[:-1] if parts[-1].planes[0].side == "below" else parts
     tensors = (np.concatenate([getattr(f.tensor, name) for f in parts]) for name in STRESSES)
     return replace(parts[0], planes=tuple(f.planes[0] for f in parts), tensor=StressTensor(*tensors))
@@ -283,9 +303,11 @@ class SurveyedSection:
 class StressSurvey:
     """What was asked for, and found.
 
-    ``depths`` are those of all planes, on which the maxima and the onset of yield rest. Sections and profiles end where
-    the contact is no longer felt, or as asked; the interfaces below that are planes, too. ``whole`` holds the largest principal stress in planes parallel to the
-    surface and the largest |σxz| and |σyz| of the whole body, by the name of the stress. ``where`` names the step of a load path in words.
+    ``depths`` are those of all planes, on which the maxima and the onset of yield rest. Sections
+    and profiles end where the contact is no longer felt, or as asked; the interfaces below that are
+    planes, too. ``whole`` holds the largest principal stress in planes parallel to the surface and
+    the largest |σxz| and |σyz| of the whole body, by the name of the stress. ``where`` names the
+    step of a load path in words.
     """
 
     request: StressRequest
@@ -310,7 +332,8 @@ class StressSurvey:
         return self.planes(self.request.depths) if self.request.depths else iter(())
 
     def table(self) -> Iterator[tuple[Any, ...]]:
-        """Maxima, interface tractions and load factors, one row each; x and y in the middle of a pixel, as in figures."""
+        """Maxima, interface tractions and load factors, one row each; x and y in the middle of a
+        pixel, as in figures."""
         yield (
             "part",
             "name",
@@ -366,12 +389,14 @@ def survey(
 ) -> StressSurvey:
     """Compute the stresses of ``request`` in the contact ``result``.
 
-    Planes are read a few rows at a time and not kept, but for sections and profiles through the maxima found so far; those
-    that were found later are then computed by themselves on the planes that had passed.
+    Planes are read a few rows at a time and not kept, but for sections and profiles through the
+    maxima found so far; those that were found later are then computed by themselves on the planes
+    that had passed.
 
-    ``request``, ``result``: what is wanted, and of what contact; ``lines``: whether to keep sections and profiles, or
-    only the maxima on the same planes; ``threads``: number of threads; ``progress``: called after each plane with the number
-    of planes done, and as error the share of all that is left.
+    ``request``, ``result``: what is wanted, and of what contact; ``lines``: whether to keep
+    sections and profiles, or only the maxima on the same planes; ``threads``: number of threads;
+    ``progress``: called after each plane with the number of planes done, and as error the share of
+    all that is left.
 
     Raises
     ------
@@ -424,7 +449,8 @@ def survey(
 
 
 class _Passed:
-    """Sections and profiles that were cut out of planes as they were read, and those that were not."""
+    """Sections and profiles that were cut out of planes as they were read, and those that were
+    not."""
 
     def __init__(self, job: StressPlanes) -> None:
         self._job = job
@@ -467,7 +493,8 @@ class _Passed:
 def _job(
     request: StressRequest, result: Contact, depths: Iterable[float], threads: int | None, *, over_cells: bool = True
 ) -> StressPlanes:
-    """Planes of the stress that is requested; of a body that flows means over the cells of which yield is required, if ``over_cells``."""
+    """Planes of the stress that is requested; of a body that flows means over the cells of which
+    yield is required, if ``over_cells``."""
     values = [float(depth) for depth in depths]
     options: Any = {"dtype": request.dtype, "threads": threads}
     if isinstance(result, LoadedBody):

@@ -18,7 +18,8 @@ from .loads import PrescribedLoad
 
 @dataclass(frozen=True)
 class Sliding:
-    """Shear traction of a sliding contact: friction ``coefficient`` times pressure, along ``direction``.
+    """Shear traction of a sliding contact: friction ``coefficient`` times pressure, along
+    ``direction``.
 
     InputError if the coefficient is negative or a value is not finite.
 
@@ -27,7 +28,8 @@ class Sliding:
     coefficient
         μ >= 0.
     direction
-        Angle in rad from +x towards +y of the traction on the body, which is that in which the other body moves.
+        Angle in rad from +x towards +y of the traction on the body, which is that in which the
+        other body moves.
     """
 
     coefficient: float
@@ -39,7 +41,8 @@ class Sliding:
 
     @property
     def ratios(self) -> tuple[float, float]:
-        """Shear traction along x and along y over the pressure; exact for multiples of a right angle."""
+        """Shear traction along x and along y over the pressure; exact for multiples of a right
+        angle."""
         c, s = math.cos(self.direction), math.sin(self.direction)
         c, s = (0.0 if abs(v) < 1e-15 else v for v in (c, s))
         return self.coefficient * c, self.coefficient * s
@@ -87,12 +90,13 @@ class Tractions:
     shear
         ``Sliding(...)`` or ``ShearTraction(...)``; none by default.
     boundary
-        ``"periodic"``: the load repeats, and is the trigonometric interpolation of its values. ``"free"``: nothing
-        loads the surface outside the grid, and each pixel carries a constant traction. ``"free line"``: the same along
-        x, and along y, where the grid has one point, everything goes on unchanged (plane strain).
+        ``"periodic"``: the load repeats, and is the trigonometric interpolation of its values.
+        ``"free"``: nothing loads the surface outside the grid, and each pixel carries a constant
+        traction. ``"free line"``: the same along x, and along y, where the grid has one point,
+        everything goes on unchanged (plane strain).
     datum
-        Only for a free line: distance in m from a line load at which the displacement of the surface is called zero; None
-        takes the length of the grid.
+        Only for a free line: distance in m from a line load at which the displacement of the
+        surface is called zero; None takes the length of the grid.
     """
 
     grid: Grid
@@ -116,9 +120,11 @@ class Tractions:
     def of(
         cls, grid: Grid, *loads: PrescribedLoad, boundary: Boundary = "periodic", datum: float | None = None
     ) -> Self:
-        """Sum of ``loads``, each a ``PointLoad``, ``LineLoad`` or ``PatchLoad``, on the pixels of ``grid``.
+        """Sum of ``loads``, each a ``PointLoad``, ``LineLoad`` or ``PatchLoad``, on the pixels of
+        ``grid``.
 
-        InputError if a load is of another type, or reaches beyond the grid of a boundary that does not repeat.
+        InputError if a load is of another type, or reaches beyond the grid of a boundary that does
+        not repeat.
         """
         total = np.zeros((3, *grid.shape))
         for load in loads:
@@ -155,14 +161,16 @@ class Tractions:
 
 
 class Edges(NamedTuple):
-    """What lies outside the grid of a loaded body: its name, and along which axes (x, y) the load repeats."""
+    """What lies outside the grid of a loaded body: its name, and along which axes (x, y) the load
+    repeats."""
 
     name: Boundary
     wraps: tuple[bool, bool]
 
 
 class Loading(NamedTuple):
-    """What stresses need to know of a loaded body beside its pressure: the same as of a contact problem."""
+    """What stresses need to know of a loaded body beside its pressure: the same as of a contact
+    problem."""
 
     grid: Grid
     body: object
@@ -172,14 +180,16 @@ class Loading(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class LoadedBody:
-    """A body whose surface carries prescribed tractions, without any contact: what ``stress`` takes in place of a result.
+    """A body whose surface carries prescribed tractions, without any contact: what ``stress`` takes
+    in place of a result.
 
     Parameters
     ----------
     body
         ``Elastic`` or ``Layered``.
     tractions
-        ``Tractions(grid, pressure, shear, boundary)`` of arrays, or ``Tractions.of(grid, PointLoad(...), ...)``.
+        ``Tractions(grid, pressure, shear, boundary)`` of arrays, or
+        ``Tractions.of(grid, PointLoad(...), ...)``.
 
     Examples
     --------
@@ -188,7 +198,8 @@ class LoadedBody:
     >>> import asperity as asp
     >>> grid = asp.Grid((32, 32), (1e-6, 1e-6))
     >>> patch = asp.stresses.PatchLoad(x=(11.5e-6, 19.5e-6), y=(11.5e-6, 19.5e-6), pressure=1e6)
-    >>> loaded = asp.stresses.LoadedBody(asp.Elastic(200e9, 0.3), asp.stresses.Tractions.of(grid, patch, boundary="free"))
+    >>> tractions = asp.stresses.Tractions.of(grid, patch, boundary="free")
+    >>> loaded = asp.stresses.LoadedBody(asp.Elastic(200e9, 0.3), tractions)
     >>> field = asp.stress(loaded, depths=[1e-6, 2e-6, 4e-6])
     >>> print(f"{field.von_mises.max():.3g}")
     6.45e+05
@@ -214,7 +225,8 @@ class LoadedBody:
 
     @property
     def spot_areas(self) -> RealArray:
-        """Areas in m² of the connected loaded pixels, those with a thousandth of the largest traction or more."""
+        """Areas in m² of the connected loaded pixels, those with a thousandth of the largest
+        traction or more."""
         from scipy.ndimage import label
 
         size = np.sqrt(self.pressure**2 + self.tractions.shear_x**2 + self.tractions.shear_y**2)

@@ -1,4 +1,5 @@
-"""Stresses asked for by a document: the largest of each layer and interface and the onset of yield in numbers, figures and words."""
+"""Stresses asked for by a document: the largest of each layer and interface and the onset of yield
+in numbers, figures and words."""
 
 from __future__ import annotations
 
@@ -34,8 +35,8 @@ class StressWork(Work):
         if isinstance(getattr(problem, ask.of), Rigid):
             asked, other = ("counter body", "body") if ask.of == "counter_body" else ("body", "counter_body")
             raise InputError(
-                f"body in which stresses are asked must deform, but the {asked} is rigid; ask for them in the other body "
-                f"({{stress.inside={other}}})."
+                f"body in which stresses are asked must deform, but the {asked} is rigid; ask for them in the "
+                f"other body ({{stress.inside={other}}})."
             )
         ask.check(problem)
 
@@ -145,19 +146,24 @@ class YieldingWork(Work):
         return Found({"yield_load_factor": factor}, survey)
 
     def words(self, found: Found, solved: Solved) -> Words:
-        """Which part of the body yields first, and when; of a body whose plastic flow is solved, what has flowed."""
+        """Which part of the body yields first, and when; of a body whose plastic flow is solved,
+        what has flowed."""
         return yield_words(found.detail)
 
 
 def yield_words(survey: StressSurvey) -> Words:
-    """Which part of the body yields first, and when; of a body whose plastic flow is solved, what has flowed."""
+    """Which part of the body yields first, and when; of a body whose plastic flow is solved, what
+    has flowed."""
     if not has_flowed(survey):
         table, yields = yield_table(survey), survey.yielding.yields
         sentence = yield_sentence(survey)
         return Words(sentence, tables=(("", table),) if table.cells else (), alarming=yields, holds=sentence)
     zones = [zone for zone in survey.result.plastic_flow.zones if zone.volume > 0.0]  # type: ignore[attr-defined]
     parts = " and ".join(
-        f"{zone.name} ({show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)} deep, strain up to {percent(zone.largest_strain)})"
+        (
+            f"{zone.name} ({show(zone.top, 'm', 3)} to {show(zone.bottom, 'm', 3)} deep, strain up to "
+            f"{percent(zone.largest_strain)})"
+        )
         for zone in zones
     )
     known = [zone.first_yield for zone in zones if math.isfinite(zone.first_yield)]
@@ -210,7 +216,8 @@ def maxima_table(survey: StressSurvey) -> Table:
 
 
 def interface_table(survey: StressSurvey) -> Table:
-    """Largest shear and peel of each interface, with their places; those within a graded coating are left out."""
+    """Largest shear and peel of each interface, with their places; those within a graded coating
+    are left out."""
     cells: list[tuple[str, ...]] = []
     for item in survey.interfaces:
         if item.above == item.below:
@@ -261,7 +268,8 @@ def strength_table(survey: StressSurvey) -> Table:
 
 
 def has_flowed(survey: StressSurvey) -> bool:
-    """Whether plastic flow of the body in the volume was solved, and some of it has flowed: its stresses are no elastic ones."""
+    """Whether plastic flow of the body in the volume was solved, and some of it has flowed: its
+    stresses are no elastic ones."""
     flow = getattr(survey.result, "plastic_flow", None)
     return flow is not None and flow.of == survey.request.of and bool(flow.flowed.points.size)
 
@@ -270,19 +278,23 @@ def yield_sentence(survey: StressSurvey) -> str:
     """Which part of the body yields first, and when."""
     report, first = survey.yielding, survey.yielding.first
     if first is None:
-        return "No strength of any part of the body is known, so yield cannot be assessed; give a hardness or yield stress."
+        return (
+            "No strength of any part of the body is known, so yield cannot be assessed; give a hardness "
+            "or yield stress."
+        )
     unknown = list(dict.fromkeys(part.region.name for part in report.regions if math.isnan(part.load_factor)))
     beside = f" The strength of {' and '.join(unknown)} is not known." if unknown else ""
     where = _where(first.peak)
     at = f"At {survey.where}: " if survey.where else ""
     if report.yields:
         return (
-            f"{at}{'t' if at else 'T'}he body yields: {where}, the {report.criterion.name} stress is {times(1.0 / report.load_factor, 3)} times the "
-            f"yield stress (load factor {report.load_factor:.3g}).{beside}"
+            f"{at}{'t' if at else 'T'}he body yields: {where}, the {report.criterion.name} stress is "
+            f"{times(1.0 / report.load_factor, 3)} times the yield stress (load factor "
+            f"{report.load_factor:.3g}).{beside}"
         )
     return (
-        f"{at}{'n' if at else 'N'}o part of known strength yields. First would be {where}, at {times(report.load_factor, 3)} times these stresses "
-        f"({report.criterion.name}).{beside}"
+        f"{at}{'n' if at else 'N'}o part of known strength yields. First would be {where}, at "
+        f"{times(report.load_factor, 3)} times these stresses ({report.criterion.name}).{beside}"
     )
 
 
@@ -291,9 +303,12 @@ def remarks(survey: StressSurvey) -> list[str]:
     found = [
         "The load factor multiplies the prescribed tractions."
         if isinstance(survey.result, LoadedBody)
-        else "The load factor multiplies the stresses of this contact. A rough contact grows with its load, so that its "
-        "stresses rise more slowly than the load.",
-        "Largest values are those on the planes that were computed; at the surface those of a contact are taken at its edges, between the pixels, with their error.",
+        else "The load factor multiplies the stresses of this contact. A rough contact grows with its "
+        "load, so that its stresses rise more slowly than the load.",
+        (
+            "Largest values are those on the planes that were computed; at the surface those of a contact are "
+            "taken at its edges, between the pixels, with their error."
+        ),
     ]
     peaks = [peak for part in survey.maxima for peak in (part.von_mises, part.tension, part.shear)]
     doubts = dict.fromkeys(peak.doubt for peak in peaks if peak.doubt)
@@ -301,8 +316,9 @@ def remarks(survey: StressSurvey) -> list[str]:
     if has_flowed(survey):
         first_cell = float(survey.result.plastic_flow.flowed.edges[1])  # type: ignore[attr-defined]
         found[0] = (
-            "The stresses are those by the tractions and by the plastic strain. In layers that may flow they are means over the depth cells, which keep to the "
-            f"yield stress after hardening; the first cell is {show(first_cell, 'm', 3)} thick, and what changes within it at the surface is not resolved."
+            "The stresses are those by the tractions and by the plastic strain. In layers that may flow they "
+            "are means over the depth cells, which keep to the yield stress after hardening; the first cell "
+            f"is {show(first_cell, 'm', 3)} thick, and what changes within it at the surface is not resolved."
         )
     if survey.result.plastic.any():
         found.append(
@@ -322,7 +338,8 @@ def region_text(regions: Sequence[Region]) -> str:
 
 
 def _together(parts: Iterable[Any]) -> list[tuple[list[Region], list[Any]]]:
-    """Regions and what is known of them; neighbours of one name, as of a graded coating, together."""
+    """Regions and what is known of them; neighbours of one name, as of a graded coating,
+    together."""
     runs = groupby(parts, key=lambda part: part.region.name)
     lists = [list(run) for _, run in runs]
     return [([part.region for part in run], run) for run in lists]

@@ -1,4 +1,5 @@
-"""Onset of yield: where a body fails first, at how many times the stress, and how much of it is beyond its strength."""
+"""Onset of yield: where a body fails first, at how many times the stress, and how much of it is
+beyond its strength."""
 
 from __future__ import annotations
 
@@ -31,11 +32,11 @@ class RegionYield:
     peak
         Largest equivalent stress in Pa, and where.
     load_factor
-        Strength over that stress: the factor on all stresses at which the region begins to yield. NaN where the
-        strength is unknown.
+        Strength over that stress: the factor on all stresses at which the region begins to yield.
+        NaN where the strength is unknown.
     yielded_volume
-        Volume in m³ (area in m² of a section, length in m of a profile) where the equivalent stress exceeds the strength:
-        pixels counted on each plane, trapezoidal rule between the planes.
+        Volume in m³ (area in m² of a section, length in m of a profile) where the equivalent stress
+        exceeds the strength: pixels counted on each plane, trapezoidal rule between the planes.
     """
 
     region: Region
@@ -46,7 +47,8 @@ class RegionYield:
 
     @property
     def load_factor_error(self) -> float:
-        """Error of the load factor by that of the peak; NaN where that is not known. With ``peak.doubt`` the load factor is an upper bound."""
+        """Error of the load factor by that of the peak; NaN where that is not known. With
+        ``peak.doubt`` the load factor is an upper bound."""
         return self.load_factor * self.peak.error / self.peak.value if self.peak.value > 0.0 else math.nan
 
     @property
@@ -70,9 +72,9 @@ def factor_text(part: RegionYield) -> str:
 class YieldReport(Shown):
     """Onset of yield in a stress field, region by region.
 
-    The load factor scales the stresses of one contact. A load changes the contact itself unless its area is full or it
-    is a bonded one, so for a rough contact or a sphere the factor is no factor on the load; ``load_at_yield`` finds that
-    by solving again.
+    The load factor scales the stresses of one contact. A load changes the contact itself unless its
+    area is full or it is a bonded one, so for a rough contact or a sphere the factor is no factor
+    on the load; ``load_at_yield`` finds that by solving again.
     """
 
     criterion: Criterion
@@ -93,7 +95,8 @@ class YieldReport(Shown):
 
     @property
     def load_factor(self) -> float:
-        """Factor on all stresses at which the body begins to yield; NaN where no strength is known."""
+        """Factor on all stresses at which the body begins to yield; NaN where no strength is
+        known."""
         return math.nan if self.first is None else self.first.load_factor
 
     @property
@@ -108,7 +111,8 @@ class YieldReport(Shown):
 
 
 def equivalent_at(surface: SurfaceMaxima, criterion: Criterion, peak: Peak) -> Peak:
-    """The larger equivalent stress of ``criterion`` at the surface and of ``peak``, the largest at points, which there it replaces."""
+    """The larger equivalent stress of ``criterion`` at the surface and of ``peak``, the largest at
+    points, which there it replaces."""
     measure = getattr(criterion, "measure", "")
     if not hasattr(surface, measure):
         return peak
@@ -120,8 +124,9 @@ def equivalent_at(surface: SurfaceMaxima, criterion: Criterion, peak: Peak) -> P
 def first_yield(fields: StressField | Iterable[StressField], criterion: Criterion = VonMises()) -> YieldReport:
     """Where and at what multiple of the stresses a body begins to yield.
 
-    ``fields``: a stress field, or the planes of one from ``stress_planes``, of which only one is held at a time;
-    ``criterion``: ``VonMises()``, ``Tresca()``, ``MaxPrincipal(strength)`` or anything alike.
+    ``fields``: a stress field, or the planes of one from ``stress_planes``, of which only one is
+    held at a time; ``criterion``: ``VonMises()``, ``Tresca()``, ``MaxPrincipal(strength)`` or
+    anything alike.
 
     InputError if there are no fields.
     """
@@ -166,7 +171,8 @@ class Gathered:
 
 @dataclass(frozen=True, eq=False)
 class LoadAtYield:
-    """Load at which a body begins to yield, in the unit that the caller's function takes; the report there.
+    """Load at which a body begins to yield, in the unit that the caller's function takes; the
+    report there.
 
     ``evaluations`` is the number of contacts solved on the way.
     """
@@ -186,17 +192,19 @@ def load_at_yield(
 ) -> LoadAtYield:
     """Load at which a body begins to yield, found by computing the stress at other loads.
 
-    ``field_at``: stress field at a given load, for example ``lambda force: asp.stress(asp.solve(problem,
-    asp.Force(force)), depths)``; ``load``: first guess, > 0; ``criterion``: as for ``first_yield``; ``tolerance``:
-    relative error of the load factor (that is, of the stress) at which to stop; ``max_evaluations``: largest number of
-    loads tried.
+    ``field_at``: stress field at a given load, for example ``lambda force:
+    asp.stress(asp.solve(problem, asp.Force(force)),
+    depths)``; ``load``: first guess, > 0; ``criterion``: as for ``first_yield``; ``tolerance``:
+    relative error of the load factor (that is, of the stress) at which to stop;
+    ``max_evaluations``: largest number of loads tried.
 
     NoSolutionError if no strength is known, or the load factor does not come near one.
 
     Notes
     -----
-    Secants in the logarithms of load and factor, from the exponent 1/3 of a Hertz contact. The depths must hold the
-    place of first yield at every load, and be fine enough for the accuracy asked for.
+    Secants in the logarithms of load and factor, from the exponent 1/3 of a Hertz contact. The
+    depths must hold the place of first yield at every load, and be fine enough for the accuracy
+    asked for.
     """
     require.positive(tolerance, "tolerance of a load at yield")
     at, slope = math.log(require.positive(load, "first guess of the load at yield")), -1.0 / 3.0
@@ -212,7 +220,8 @@ def load_at_yield(
         if abs(miss) <= tolerance:
             return LoadAtYield(math.exp(at), report, evaluation)
         if previous is not None and previous[0] != at:
-            # the stress grows with the load, by some power between 1/20 and 2, else the two loads are too near to tell
+            # the stress grows with the load, by some power between 1/20 and 2, else the two loads
+            # are too near to tell
             slope = min(-0.05, max(-2.0, (miss - previous[1]) / (at - previous[0])))
         previous = at, miss
         at -= max(-5.0, min(5.0, miss / slope))
@@ -223,12 +232,14 @@ def load_at_yield(
     )
 
 
-# Indicators of fracture: tension at the surface, shear and peel of interfaces, each against a given strength.
+# Indicators of fracture: tension at the surface, shear and peel of interfaces, each against a given
+# strength.
 
 
 @dataclass(frozen=True)
 class Indicator:
-    """A largest stress with its place and error, and the ``ratio`` to the strength given for it (NaN where none was).
+    """A largest stress with its place and error, and the ``ratio`` to the strength given for it
+    (NaN where none was).
 
     Where ``peak.doubt`` says that the stress is but a lower bound, so is the ratio.
     """
@@ -245,11 +256,12 @@ def fracture_indicators(
     interface_shear: float = math.nan,
     interface_peel: float = math.nan,
 ) -> tuple[Indicator, ...]:
-    """Largest tension on the surface, largest tension in each region, and shear and peel of each interface of ``field``.
+    """Largest tension on the surface, largest tension in each region, and shear and peel of each
+    interface of ``field``.
 
-    Tension is the largest principal stress. Strengths ``tensile``, ``interface_shear`` and ``interface_peel`` in Pa give
-    the ratios; a ratio of one or more means failure. Only planes of the field count: it needs depth 0 for the surface
-    and the depths of the interfaces.
+    Tension is the largest principal stress. Strengths ``tensile``, ``interface_shear`` and
+    ``interface_peel`` in Pa give the ratios; a ratio of one or more means failure. Only planes of
+    the field count: it needs depth 0 for the surface and the depths of the interfaces.
     """
     found: list[Indicator] = []
 

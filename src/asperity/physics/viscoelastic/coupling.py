@@ -1,8 +1,9 @@
 """Viscoelastic memory as a coupling: what earlier pressures still displace, and what they will.
 
-Internal pressures xi_k, lambda_k d(xi_k)/dt = p - xi_k, one for each retardation time of the compliance, hold all that matters of the past:
-u = K_0 p + sum K_k xi_k. With a pressure that is linear over a step they are known at its end, so that the step is an elastic contact
-with the compliance K_0 + sum (1 - f_k) K_k and the rest of the displacement as a lift.
+Internal pressures xi_k, lambda_k d(xi_k)/dt = p - xi_k, one for each retardation time of the
+compliance, hold all that matters of the past: u = K_0 p + sum K_k xi_k. With a pressure that is
+linear over a step they are known at its end, so that the step is an elastic contact with the
+compliance K_0 + sum (1 - f_k) K_k and the rest of the displacement as a lift.
 """
 
 from __future__ import annotations
@@ -31,7 +32,8 @@ _SERIES = 0.02
 
 @dataclass(frozen=True, eq=False)
 class TimeWeights:
-    """Of one step of length dt: xi(end) = e xi(begin) + before p(begin) + after p(end), for each retardation time."""
+    """Of one step of length dt: xi(end) = e xi(begin) + before p(begin) + after p(end), for each
+    retardation time."""
 
     length: float
     times: RealArray
@@ -41,7 +43,8 @@ class TimeWeights:
 
     @classmethod
     def of(cls, times: RealArray, length: float) -> TimeWeights:
-        """Weights for ``times`` (terms,) in s, infinite for a fluid, whose term is the integral of the pressure, and ``length`` >= 0 in s."""
+        """Weights for ``times`` (terms,) in s, infinite for a fluid, whose term is the integral of
+        the pressure, and ``length`` >= 0 in s."""
         r = length / times
         e = np.exp(-r)
         small = np.maximum(r, 1e-300)
@@ -53,7 +56,8 @@ class TimeWeights:
 
     @property
     def of_curvature(self) -> RealArray:
-        """Error (s²) of each xi at the end of the step by the second derivative of the pressure: ½ ∫ x (dt - x) exp(-x/lambda) dx/lambda."""
+        """Error (s²) of each xi at the end of the step by the second derivative of the pressure: ½
+        ∫ x (dt - x) exp(-x/lambda) dx/lambda."""
         flows = np.isinf(self.times)
         lam = np.where(flows, 1.0, self.times)
         r = np.where(flows, 0.0, self.length / lam)
@@ -64,7 +68,8 @@ class TimeWeights:
 
     @property
     def of_mean(self) -> tuple[TimeWeights, RealArray]:
-        """Weights of the mean of each xi over the step: those of xi and of the pressure at its begin, and that of the pressure at its end."""
+        """Weights of the mean of each xi over the step: those of xi and of the pressure at its
+        begin, and that of the pressure at its end."""
         flows = np.isinf(self.times)
         r = np.where(flows, 1.0, self.length / np.where(flows, 1.0, self.times))
         short, small = r < _SERIES, np.maximum(r, 1e-300)
@@ -78,7 +83,8 @@ class TimeWeights:
         return replace(self, e=kept, before=before, after=after), after
 
     def dissipated(self, shares: RealArray, products: Products) -> float:
-        """sum (c_k/lambda_k) ∫ (p - xi)·K (p - xi) dt over the step, and c_f ∫ p·K p dt of a fluid, in the unit of the ``products``."""
+        """sum (c_k/lambda_k) ∫ (p - xi)·K (p - xi) dt over the step, and c_f ∫ p·K p dt of a fluid,
+        in the unit of the ``products``."""
         flows = np.isinf(self.times)
         lam = np.where(flows, 1.0, self.times)
         r = np.where(flows, 1.0, self.length / lam)
@@ -106,7 +112,8 @@ class TimeWeights:
 
 @dataclass(frozen=True, eq=False)
 class Products:
-    """Products x·K y over the area (J): of xi with itself, with the pressure before and after a step, and of these; each for all terms."""
+    """Products x·K y over the area (J): of xi with itself, with the pressure before and after a
+    step, and of these; each for all terms."""
 
     xi_xi: RealArray
     xi_0: RealArray
@@ -120,8 +127,9 @@ class Products:
 class ShearPast:
     """Memory of shear tractions.
 
-    ``xi`` are the internal tractions (terms, 2, nx, ny) in Pa or their half spectra, of a fluid in Pa s; ``squares`` (parts, terms) their energies
-    and those of the coupling with the internal pressures, J, of a fluid in J s².
+    ``xi`` are the internal tractions (terms, 2, nx, ny) in Pa or their half spectra, of a fluid in
+    Pa s; ``squares`` (parts, terms) their energies and those of the coupling with the internal
+    pressures, J, of a fluid in J s².
     """
 
     xi: RealArray | ComplexArray
@@ -130,7 +138,8 @@ class ShearPast:
     def advanced(
         self, before: RealArray | ComplexArray, traction: RealArray | ComplexArray, weights: TimeWeights
     ) -> ShearPast:
-        """The same after a step from ``before`` to ``traction``, as ``xi`` are, without its energies."""
+        """The same after a step from ``before`` to ``traction``, as ``xi`` are, without its
+        energies."""
         e, b, a = (values[:, None, None, None] for values in (weights.e, weights.before, weights.after))
         return ShearPast(e * self.xi + b * before + a * traction, self.squares)
 
@@ -216,8 +225,8 @@ class Remembering(Protocol):
         """Retardation times, s."""
 
     def summed(self, weights: TimeWeights) -> RealArray | None:
-        """Compliance (m/Pa) by which the pressure at the end of a step adds to that of the first instant, on the half spectrum of the
-        operator; None where all terms are multiples of one."""
+        """Compliance (m/Pa) by which the pressure at the end of a step adds to that of the first
+        instant, on the half spectrum of the operator; None where all terms are multiples of one."""
 
     def past(self, memory: Memory) -> Past:
         """The past in a ``memory``; a virgin one of an empty memory."""
@@ -233,10 +242,12 @@ class Remembering(Protocol):
         deflection: RealArray,
         place: tuple[float, float, float],
     ) -> tuple[Past, float]:
-        """The past after a step that ended with ``pressure`` (Pa) and its ``deflection`` (m), and the energy (J) then stored."""
+        """The past after a step that ended with ``pressure`` (Pa) and its ``deflection`` (m), and
+        the energy (J) then stored."""
 
     def curvature(self, pasts: tuple[Past, Past, Past], weights: TimeWeights) -> float:
-        """Error of the displacement at the end of the last of two steps by the curvature of the pressure, relative to it."""
+        """Error of the displacement at the end of the last of two steps by the curvature of the
+        pressure, relative to it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,7 +287,8 @@ class SharedPast:
         deflection: RealArray,
         place: tuple[float, float, float],
     ) -> tuple[Past, float]:
-        """The past after a step, and the energy stored: ½ p·K_0 p + sum ½ shares_k xi_k·K_0 xi_k."""
+        """The past after a step, and the energy stored: ½ p·K_0 p + sum ½ shares_k xi_k·K_0
+        xi_k."""
         area, shares = self.operator.grid.pixel_area, self.creep.shares
         response = deflection / (1.0 + float(shares @ weights.after))
 
@@ -307,12 +319,14 @@ class SharedPast:
 
 
 _SHOWS = 1e-6
-"""Share of the compliance at the first instant below which a retarded one is left out. Of seven to ten terms of a coating three remain at most
-wavenumbers: those of its material alone; what stays out is a hundredth of the error of the series."""
+"""Share of the compliance at the first instant below which a retarded one is left out. Of seven to
+ten terms of a coating three remain at most wavenumbers: those of its material alone; what stays out
+is a hundredth of the error of the series."""
 
 
 class Passes:
-    """Compiled passes over half spectra on some threads, and the sums of compliances for the last step of time.
+    """Compiled passes over half spectra on some threads, and the sums of compliances for the last
+    step of time.
 
     ``cuts`` (terms, rows): number of columns beyond which a compliance is zero.
     """
@@ -333,7 +347,8 @@ class Passes:
         self._blocks.share(getattr(self._kernels, kernel), len(spectrum), *arguments, serial=serial)
 
     def sums_of(self, kernels: RealArray, weights: TimeWeights) -> RealArray:
-        """(3, …): sums of ``kernels`` (terms, …) times before, after and the errors by curvature of ``weights``; those of the last ones are kept."""
+        """(3, …): sums of ``kernels`` (terms, …) times before, after and the errors by curvature of
+        ``weights``; those of the last ones are kept."""
         if self._last is not None and self._last[0] == weights.length:
             return self._last[1]
         sums: RealArray = np.empty((3, *kernels.shape[1:]))
@@ -345,7 +360,8 @@ class Passes:
 
 @dataclass(frozen=True, eq=False)
 class LayeredPast:
-    """One half spectrum for each retardation time; ``kernels`` (terms, …) and ``instantaneous`` are compliances (m/Pa) on it."""
+    """One half spectrum for each retardation time; ``kernels`` (terms, …) and ``instantaneous`` are
+    compliances (m/Pa) on it."""
 
     creep: LayeredCreep
     operator: Operator
@@ -355,7 +371,8 @@ class LayeredPast:
 
     @classmethod
     def prepared(cls, creep: LayeredCreep, operator: Operator) -> LayeredPast:
-        """Kernels of all terms on the grid of the ``operator`` at the first instant; those of pressure alone are cut where they do not show."""
+        """Kernels of all terms on the grid of the ``operator`` at the first instant; those of
+        pressure alone are cut where they do not show."""
         engine, grid = operator.engine, operator.grid
         threads = engine.threads_for(operator.padded) if isinstance(engine, CpuEngine) else 1
         boundary, transform = operator.boundary, RealTransform(operator.padded, threads)
@@ -390,11 +407,13 @@ class LayeredPast:
         """The past in a ``memory``; a virgin one of an empty memory."""
         if memory:
             past = Past.of(memory)
-            # That of another series of retardations, as of the same layers without shear, would be taken for what it is not.
+            # That of another series of retardations, as of the same layers without shear, would be
+            # taken for what it is not.
             if len(past.squares) != self.times.size:
                 raise InputError(
-                    f"state of viscoelastic layers must remember {self.times.size} retardation times, those of the bodies of this problem, but remembers {len(past.squares)}. "
-                    "Begin with a state of the same bodies, and of steps whose shear was solved for if it is solved for here."
+                    f"state of viscoelastic layers must remember {self.times.size} retardation times, those of "
+                    f"the bodies of this problem, but remembers {len(past.squares)}. Begin with a state of the "
+                    "same bodies, and of steps whose shear was solved for if it is solved for here."
                 )
             shear = past.shear and replace(past.shear, xi=_complex_view(memory["shear_xi"]))
             return replace(
@@ -467,7 +486,8 @@ class LayeredPast:
 
     @cached_property
     def counted(self) -> RealArray:
-        """Area (m²) by which the products of a half spectrum count, (columns,): twice where it stands for two waves (Parseval)."""
+        """Area (m²) by which the products of a half spectrum count, (columns,): twice where it
+        stands for two waves (Parseval)."""
         (nx, ny), columns = self.operator.padded, self.kernels.shape[2]
         found = np.full(columns, 2.0)
         found[0] = 1.0
@@ -498,11 +518,12 @@ def second_difference(
 
 
 def over_size(error: float, sizes: Sequence[float]) -> float:
-    """``error`` over the last of the ``sizes`` of what displaces at some moments, over the largest of them where that is zero.
+    """``error`` over the last of the ``sizes`` of what displaces at some moments, over the largest
+    of them where that is zero.
 
-    Where contact was lost in the last step nothing presses at its end. A step that pulled a contact apart which it should have relaxed is
-    as wrong as that contact was large; surfaces that part in truth do so within a step short enough for its error to be small beside what
-    pressed before it.
+    Where contact was lost in the last step nothing presses at its end. A step that pulled a contact
+    apart which it should have relaxed is as wrong as that contact was large; surfaces that part in
+    truth do so within a step short enough for its error to be small beside what pressed before it.
     """
     size = sizes[-1] or max(sizes)
     if size > 0.0:
@@ -517,7 +538,8 @@ def remembering(creep: AnyCreep, operator: Operator) -> Remembering:
 
 @dataclass(frozen=True, eq=False)
 class CreepCoupling(Coupling):
-    """The displacement that the past leaves, as a lift: passive, since the step's own creep is in the operator."""
+    """The displacement that the past leaves, as a lift: passive, since the step's own creep is in
+    the operator."""
 
     name: ClassVar[str] = "creep"
     feedback: ClassVar[bool] = False
@@ -533,5 +555,6 @@ class CreepCoupling(Coupling):
         return Share(lift=exchange.x) if exchange.x.any() else Share()
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
-        """Nothing: the past is brought up to date by the steps of time, which may take a step back."""
+        """Nothing: the past is brought up to date by the steps of time, which may take a step
+        back."""
         return {}, None

@@ -1,4 +1,5 @@
-"""Energies of viscoelastic contacts in time: the work of a step, and what of it nothing takes, which says how far its steps of time can be trusted."""
+"""Energies of viscoelastic contacts in time: the work of a step, and what of it nothing takes,
+which says how far its steps of time can be trusted."""
 
 from __future__ import annotations
 
@@ -36,7 +37,8 @@ class Account:
     missed
         Works less all that is stored or taken.
     explained
-        What of that the steps of time explain: bound by the curvature of the pressure and of the course of force and approach over them.
+        What of that the steps of time explain: bound by the curvature of the pressure and of the
+        course of force and approach over them.
     """
 
     stored: float
@@ -65,8 +67,9 @@ class Account:
 def force_work(records: RealArray) -> tuple[float, float]:
     """∫ F dδ (J) through the moments of ``records``, and its error.
 
-    Force and approach are monotone cubics in time between the moments (Fritsch & Carlson 1980), straight where there are two of them. A force over a
-    fixed approach does no work, and a fixed force just its own. The error is the difference from trapezia.
+    Force and approach are monotone cubics in time between the moments (Fritsch & Carlson 1980),
+    straight where there are two of them. A force over a fixed approach does no work, and a fixed
+    force just its own. The error is the difference from trapezia.
     """
     time, force, approach = records[:, 0], records[:, 2], records[:, 3]
     trapezia = float((0.5 * (force[1:] + force[:-1]) * np.diff(approach)).sum())
@@ -87,7 +90,8 @@ def stored_in(moment: Moment) -> float:
 
 
 def taken_by(before: Moment, moment: Moment) -> float:
-    """Heat, plastic work, work of the displacement by shear and of slip less the tangential work in the step of time from ``before`` (J)."""
+    """Heat, plastic work, work of the displacement by shear and of slip less the tangential work in
+    the step of time from ``before`` (J)."""
     slip = sum(answer.slipped() for answer in moment.answers)
     along, step = moment.shear_works
     plastic = moment.plastic_work - before.plastic_work
@@ -95,10 +99,12 @@ def taken_by(before: Moment, moment: Moment) -> float:
 
 
 def step_error(before: Moment, moment: Moment) -> float:
-    """Energy that the step of time from ``before`` misses beyond the error of the trapezium, over what is stored; zero where that is not known.
+    """Energy that the step of time from ``before`` misses beyond the error of the trapezium, over
+    what is stored; zero where that is not known.
 
-    A step that is many times as long as a retardation may end at the right displacement and yet miss how it came there, and with it the heat.
-    What adhesive surfaces lose as they jump is not missed.
+    A step that is many times as long as a retardation may end at the right displacement and yet
+    miss how it came there, and with it the heat. What adhesive surfaces lose as they jump is not
+    missed.
     """
     stored = stored_in(before), stored_in(moment)
     scale = max(map(abs, stored))
@@ -111,7 +117,8 @@ def step_error(before: Moment, moment: Moment) -> float:
 
 
 def _begun(before: Moment, moment: Moment) -> bool:
-    """Whether the energies of what attracts the surfaces in the ``moment``, if anything, are known ``before`` a step."""
+    """Whether the energies of what attracts the surfaces in the ``moment``, if anything, are known
+    ``before`` a step."""
     attracting = {
         name
         for name, (_, found) in moment.ends.items()
@@ -121,11 +128,13 @@ def _begun(before: Moment, moment: Moment) -> bool:
 
 
 def accounted(begin: Moment, moments: list[Moment], found: Creeping) -> tuple[Creeping, Account]:
-    """What was ``found`` of the step through ``moments`` after ``begin`` with its work and what is missed, and the account then.
+    """What was ``found`` of the step through ``moments`` after ``begin`` with its work and what is
+    missed, and the account then.
 
-    A step at once is elastic but for what the interface takes: its work is the sum of what is stored and taken, with no error of any rule. Nothing is
-    missed in a step in which adhesive surfaces jump, since nothing else says what a jump loses. The first step of adhesive surfaces begins at no
-    known approach.
+    A step at once is elastic but for what the interface takes: its work is the sum of what is
+    stored and taken, with no error of any rule. Nothing is missed in a step in which adhesive
+    surfaces jump, since nothing else says what a jump loses. The first step of adhesive surfaces
+    begins at no known approach.
     """
     before, stored = Account.of(begin.past), stored_in(moments[-1])
     if before is None or not _begun(begin, moments[0]):

@@ -1,4 +1,5 @@
-"""Figures of viscoelastic contacts: area, approach and energies against time, moduli of the solids, friction and area against speed."""
+"""Figures of viscoelastic contacts: area, approach and energies against time, moduli of the solids,
+friction and area against speed."""
 
 from __future__ import annotations
 
@@ -39,7 +40,8 @@ _POINTS = 200
 
 @dataclass(frozen=True, eq=False)
 class TimePicture:
-    """What figures against time are drawn from: columns of all moments, and at which moment each step of the load ends."""
+    """What figures against time are drawn from: columns of all moments, and at which moment each
+    step of the load ends."""
 
     moments: Mapping[str, RealArray]
     ends: RealArray
@@ -48,7 +50,8 @@ class TimePicture:
 
 @dataclass(frozen=True, eq=False)
 class SpeedPicture:
-    """What figures of sliding are drawn from: pressure (nx, ny), direction (rad), and columns against speed, empty if there are none."""
+    """What figures of sliding are drawn from: pressure (nx, ny), direction (rad), and columns
+    against speed, empty if there are none."""
 
     problem: ContactProblem
     pressure: RealArray
@@ -58,8 +61,9 @@ class SpeedPicture:
 
 @dataclass(frozen=True, eq=False)
 class StartPicture:
-    """What figures of the start of sliding are drawn from: pressure (nx, ny) after the distance, direction (rad), columns of all steps of
-    time, and friction and area of the steady state, NaN where there is none."""
+    """What figures of the start of sliding are drawn from: pressure (nx, ny) after the distance,
+    direction (rad), columns of all steps of time, and friction and area of the steady state, NaN
+    where there is none."""
 
     problem: ContactProblem
     pressure: RealArray
@@ -125,7 +129,8 @@ def _span(shown: TimePicture) -> RealArray:
 
 
 def plot_relaxation(shown: TimePicture, ax: Axes) -> Axes:
-    """Draw the relaxation modulus of every viscoelastic solid, and the inverse of its creep compliance, against time on ``ax``."""
+    """Draw the relaxation modulus of every viscoelastic solid, and the inverse of its creep
+    compliance, against time on ``ax``."""
     t = _span(shown)
     moduli = [solid.relaxation.at(t) for solid in shown.solids]
     in_pa = scale(np.concatenate(moduli), "Pa")
@@ -158,7 +163,8 @@ def sliding_pressure(shown: SpeedPicture | StartPicture) -> Field:
 
 
 def plot_sliding_pressure(shown: SpeedPicture | StartPicture, ax: Axes) -> Axes:
-    """Draw the pressure of the sliding contact on ``ax``, with an arrow along which the rough body moves."""
+    """Draw the pressure of the sliding contact on ``ax``, with an arrow along which the rough body
+    moves."""
     plot_map(sliding_pressure(shown), ax)
     if min(shown.problem.grid.shape) > 1:
         step = 0.16 * np.array([np.cos(shown.direction), np.sin(shown.direction)])
@@ -169,7 +175,8 @@ def plot_sliding_pressure(shown: SpeedPicture | StartPicture, ax: Axes) -> Axes:
 
 
 def _against_speed(shown: SpeedPicture, ax: Axes, names: tuple[str, str], label: str) -> Axes:
-    """The column of the first of ``names`` against speed, that of the second, by Persson's theory, beside it."""
+    """The column of the first of ``names`` against speed, that of the second, by Persson's theory,
+    beside it."""
     speed = shown.curve["speed"]
     ax.semilogx(speed, shown.curve[names[0]], color=BLUE, marker=".", label="this contact")
     beside = shown.curve.get(names[1], np.array(np.nan))
@@ -214,37 +221,97 @@ def plot_energy_at_start(shown: StartPicture, ax: Axes) -> Axes:
 
 
 TIME_PLOTS = (
-    Plot("area_in_time", "Contact area against time", "Real over nominal contact area at every step of time; thin lines: ends of the steps of the load.", plot_area_in_time),
-    Plot("approach_in_time", "Approach against time", "Approach from first touch at every step of time.", plot_approach_in_time),
+    Plot(
+        "area_in_time",
+        "Contact area against time",
+        "Real over nominal contact area at every step of time; thin lines: ends of the steps of the load.",
+        plot_area_in_time,
+    ),
+    Plot(
+        "approach_in_time",
+        "Approach against time",
+        "Approach from first touch at every step of time.",
+        plot_approach_in_time,
+    ),
     Plot("load_in_time", "Load against time", "Mean pressure at every step of time.", plot_load_in_time),
-    Plot("energy_in_time", "Energies against time", "Energy stored in the solids, and heat since the virgin state.", plot_energy_in_time),
-)  # fmt: skip
+    Plot(
+        "energy_in_time",
+        "Energies against time",
+        "Energy stored in the solids, and heat since the virgin state.",
+        plot_energy_in_time,
+    ),
+)
 """Figures of a contact in time."""
 
 SOLID_PLOTS = (
-    Plot("relaxation", "Relaxation of the solids", "Young's modulus of every viscoelastic solid after a step of strain, and the inverse of its compliance after a step of stress.", plot_relaxation),
-    Plot("complex_moduli", "Storage and loss moduli", "Storage and loss modulus of every viscoelastic solid against frequency.", plot_complex_moduli),
-)  # fmt: skip
+    Plot(
+        "relaxation",
+        "Relaxation of the solids",
+        "Young's modulus of every viscoelastic solid after a step of strain, and the inverse of its "
+        "compliance after a step of stress.",
+        plot_relaxation,
+    ),
+    Plot(
+        "complex_moduli",
+        "Storage and loss moduli",
+        "Storage and loss modulus of every viscoelastic solid against frequency.",
+        plot_complex_moduli,
+    ),
+)
 """Figures of the viscoelastic solids."""
 
 SLIDING_PLOT = Plot(
     "sliding_pressure",
     "Pressure while sliding",
-    "Pressure of the steadily sliding contact; the rough body moves along the arrow, and the pressure is larger in front of its bumps.",
+    "Pressure of the steadily sliding contact; the rough body moves along the arrow, and the pressure is "
+    "larger in front of its bumps.",
     plot_sliding_pressure,
     "map",
     shows=sliding_pressure,
 )
 SPEED_PLOTS = (
-    Plot("friction_by_speed", "Friction against speed", "Coefficient of hysteretic friction of steady sliding; Persson's theory beside it where it holds.", plot_friction_by_speed),
-    Plot("area_by_speed", "Contact area against speed", "Real over nominal contact area of steady sliding; Persson's theory beside it where it holds.", plot_area_by_speed),
-)  # fmt: skip
+    Plot(
+        "friction_by_speed",
+        "Friction against speed",
+        "Coefficient of hysteretic friction of steady sliding; Persson's theory beside it where it holds.",
+        plot_friction_by_speed,
+    ),
+    Plot(
+        "area_by_speed",
+        "Contact area against speed",
+        "Real over nominal contact area of steady sliding; Persson's theory beside it where it holds.",
+        plot_area_by_speed,
+    ),
+)
 """Figures against speed."""
 
 START_PLOTS = (
-    Plot("friction_at_start", "Friction at the start of sliding", "Coefficient of friction, by the slope of what moves, against the distance moved since the load came at once; dashed: steady sliding.", plot_friction_at_start),
-    Plot("area_at_start", "Contact area at the start of sliding", "Real over nominal contact area against the distance moved; dashed: steady sliding.", plot_area_at_start),
-    Plot("energy_at_start", "Energies at the start of sliding", "Energy stored in the solids, and heat since the virgin state, against time.", plot_energy_at_start),
-    Plot("pressure_after_start", "Pressure after the start of sliding", "Pressure after the distance; the rough body moves along the arrow.", plot_sliding_pressure, "map", shows=sliding_pressure),
-)  # fmt: skip
+    Plot(
+        "friction_at_start",
+        "Friction at the start of sliding",
+        "Coefficient of friction, by the slope of what moves, against the distance moved since the load "
+        "came at once; dashed: steady sliding.",
+        plot_friction_at_start,
+    ),
+    Plot(
+        "area_at_start",
+        "Contact area at the start of sliding",
+        "Real over nominal contact area against the distance moved; dashed: steady sliding.",
+        plot_area_at_start,
+    ),
+    Plot(
+        "energy_at_start",
+        "Energies at the start of sliding",
+        "Energy stored in the solids, and heat since the virgin state, against time.",
+        plot_energy_at_start,
+    ),
+    Plot(
+        "pressure_after_start",
+        "Pressure after the start of sliding",
+        "Pressure after the distance; the rough body moves along the arrow.",
+        plot_sliding_pressure,
+        "map",
+        shows=sliding_pressure,
+    ),
+)
 """Figures of the start of sliding."""

@@ -18,7 +18,8 @@ _LATER = ("shear_work", "missed", "explained", "largest_work")
 
 
 def older(at: Older) -> tuple[Creeping, Memory | None] | None:
-    """What happened in time in a contact or step, and the past where it is known; None of bodies that do not relax."""
+    """What happened in time in a contact or step, and the past where it is known; None of bodies
+    that do not relax."""
     values = at.values
     if "creep_retarded_displacement" not in values:
         return None

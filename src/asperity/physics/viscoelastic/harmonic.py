@@ -1,7 +1,9 @@
-"""Small harmonic oscillation of a loaded viscoelastic contact: complex stiffness and loss, by the complex modulus.
+"""Small harmonic oscillation of a loaded viscoelastic contact: complex stiffness and loss, by the
+complex modulus.
 
-Where the area of contact does not change, the elastic solution holds with complex moduli (correspondence). A small oscillation about a
-contact at rest leaves its area as it is, so that one linear problem on it, K(omega) p = 1, replaces a march through many cycles.
+Where the area of contact does not change, the elastic solution holds with complex moduli
+(correspondence). A small oscillation about a contact at rest leaves its area as it is, so that one
+linear problem on it, K(omega) p = 1, replaces a march through many cycles.
 """
 
 from __future__ import annotations
@@ -35,7 +37,8 @@ class HarmonicResponse:
     frequency
         Hz.
     stiffness
-        Complex amplitude of the mean pressure over that of the approach, Pa/m, for the time dependence exp(+i omega t).
+        Complex amplitude of the mean pressure over that of the approach, Pa/m, for the time
+        dependence exp(+i omega t).
     area
         Nominal area, m².
     """
@@ -50,7 +53,8 @@ class HarmonicResponse:
         return self.stiffness.imag / self.stiffness.real
 
     def heat(self, amplitude: float) -> float:
-        """Heat of one cycle in J of an approach that oscillates with ``amplitude`` (m): pi Im(k) amplitude² area."""
+        """Heat of one cycle in J of an approach that oscillates with ``amplitude`` (m): pi Im(k)
+        amplitude² area."""
         return (
             math.pi
             * self.stiffness.imag
@@ -60,12 +64,13 @@ class HarmonicResponse:
 
 
 def harmonic(result: ContactResult, frequency: float) -> HarmonicResponse:
-    """Complex stiffness of the contact ``result`` under a small oscillation of ``frequency`` (Hz, > 0) about it.
+    """Complex stiffness of the contact ``result`` under a small oscillation of ``frequency``
+    (Hz, > 0) about it.
 
     Of layers it is the mean pressure (Pa) that displaces all points that move by 1 m.
 
-    The area of contact stays as it is, plastic points carry what they carried. Bodies that creep by one factor need no further solve
-    than their instantaneous stiffness; layers one linear problem.
+    The area of contact stays as it is, plastic points carry what they carried. Bodies that creep by
+    one factor need no further solve than their instantaneous stiffness; layers one linear problem.
 
     Raises
     ------
@@ -79,7 +84,8 @@ def harmonic(result: ContactResult, frequency: float) -> HarmonicResponse:
     creep = contact_creep(problem.body, problem.counter_body)
     if creep is None or not result.contact.any():
         raise InputError(
-            "contact that oscillates must touch and have a viscoelastic body, but has not. Solve a ContactProblem with a Viscoelastic."
+            "contact that oscillates must touch and have a viscoelastic body, but has not. Solve a "
+            "ContactProblem with a Viscoelastic."
         )
     operator = prepare_operator(problem.compliance, problem.grid, problem.boundary)
     if isinstance(creep, SharedCreep):

@@ -60,7 +60,8 @@ class InTime:
                 self.shear = ShearMemory.prepared(problem, creep, threads)
         lifting: list[Coupling] = []
         for coupling in prepared.couplings:
-            # Shear lifts the surfaces now or later, as that of bodies which are equal at the first instant only.
+            # Shear lifts the surfaces now or later, as that of bodies which are equal at the first
+            # instant only.
             if isinstance(coupling, StickSlipCoupling):
                 assert self.shear is not None
                 coupling = coupling.lifting(coupled=any(each.coupled for each in self.shear.operators))
@@ -83,8 +84,8 @@ class InTime:
         moments, tries = marched(begin, step, prepared.time_steps, self)
         if not moments:
             raise ConvergenceError(
-                f"None of {tries} tries was within the tolerance {prepared.time_steps.tolerance:g} of the steps of time. "
-                "Allow more of them, or a larger tolerance."
+                f"None of {tries} tries was within the tolerance {prepared.time_steps.tolerance:g} of the "
+                "steps of time. Allow more of them, or a larger tolerance."
             )
         last, before = moments[-1], state if len(moments) < 2 else moments[-2].state
         settled, end = last.settled, begin.past.time + step.duration
@@ -122,7 +123,8 @@ class InTime:
     def _lift_work(
         self, before: Moment, later: RealArray, ends: Mapping[str, tuple[Memory, object]], length: float
     ) -> float:
-        """Work (J) of the displacement by the shear of gross sliding in the step of time from ``before``, exact for a pressure linear in time."""
+        """Work (J) of the displacement by the shear of gross sliding in the step of time from
+        ``before``, exact for a pressure linear in time."""
         coupling = next((each for each in self.prepared.couplings if isinstance(each, SlidingCoupling)), None)
         if coupling is None or not coupling.feedback or "sliding" not in ends:
             return 0.0
@@ -134,7 +136,8 @@ class InTime:
         pressure = _pressure_before(before)
         first, last = coupling.traction(pressure), coupling.traction(later)
         lift = kernel.displacement(pressure) + self.shear.lifted(before.past, first, at_once)
-        # mean over the step of the retarded displacement, to which that of the pressure at the time adds
+        # mean over the step of the retarded displacement, to which that of the pressure at the time
+        # adds
         weights, after = TimeWeights.of(self.remembering.times, length).of_mean
         none = replace(before.past, shear=None)
         by_last = replace(weights, e=np.zeros_like(after), before=after)
@@ -225,8 +228,9 @@ class InTime:
         ends: dict[str, tuple[Memory, object]],
         couplings: tuple[Coupling, ...],
     ) -> tuple[Past, float, tuple[float, float]]:
-        """``past`` after a step with the memory and heat of shear, the energy (J) that it stores, which is noted in ``ends``, and its works (J):
-        of tangential force and torque, and what of it an implicit step takes."""
+        """``past`` after a step with the memory and heat of shear, the energy (J) that it stores,
+        which is noted in ``ends``, and its works (J): of tangential force and torque, and what of
+        it an implicit step takes."""
         coupling = next((each for each in couplings if isinstance(each, StickSlipCoupling)), None)
         if self.shear is None or coupling is None:
             return past, 0.0, (0.0, 0.0)
@@ -245,7 +249,8 @@ class InTime:
         return replace(past, shear=shear, dissipated=past.dissipated + heat), more, works
 
     def _couplings(self, operator: Operator, moment: Moment, weights: TimeWeights) -> tuple[Coupling, ...]:
-        """Couplings of the problem with the ``operator`` of the step, and shear with what the past of the ``moment`` left."""
+        """Couplings of the problem with the ``operator`` of the step, and shear with what the past
+        of the ``moment`` left."""
         found: list[Coupling] = []
         past = moment.past
         for coupling in self.prepared.couplings:
@@ -269,7 +274,8 @@ class InTime:
         retarded: RealArray,
         couplings: tuple[Coupling, ...],
     ) -> Settled | None:
-        """The surfaces without contact, where they lie apart at the prescribed position; None elsewhere."""
+        """The surfaces without contact, where they lie apart at the prescribed position; None
+        elsewhere."""
         prepared, control = self.prepared, step.normal
         if (
             not isinstance(control, Approach | MeanGap)
@@ -295,9 +301,11 @@ class InTime:
         return Settled(contact, exchanges, (), 1, prepared.solver.tolerance, status)
 
     def error(self, first: Moment, second: Moment, third: Moment) -> float:
-        """Error that the last of two steps of time adds to the displacement, relative to it, or one of them to the energy where that is more.
+        """Error that the last of two steps of time adds to the displacement, relative to it, or one
+        of them to the energy where that is more.
 
-        Of the energy only of steps longer than a retardation: shorter ones follow it, and what jumps is not divided without end.
+        Of the energy only of steps longer than a retardation: shorter ones follow it, and what
+        jumps is not divided without end.
         """
         weights, pasts = (
             TimeWeights.of(self.remembering.times, third.past.time - second.past.time),
@@ -314,7 +322,8 @@ class InTime:
 
 
 def _pressure_before(moment: Moment) -> RealArray:
-    """Pressure (nx, ny) in Pa of the contact at a ``moment``, without what adhesion pulls; a first guess alone is none."""
+    """Pressure (nx, ny) in Pa of the contact at a ``moment``, without what adhesion pulls; a first
+    guess alone is none."""
     state = moment.state
     return moment.past.pressure if state is None or "creep" not in state.memory else state.pressure
 

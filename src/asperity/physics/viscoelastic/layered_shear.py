@@ -1,8 +1,10 @@
 """Memory of shear tractions on viscoelastic layers that relax differently, on half spectra.
 
-Displacements along the surface and up and down by tau = (q, p) are u = C_0 tau + sum C_k xi_k, lambda_k d(xi_k)/dt = tau - xi_k, where each C_k is
-a positive semi-definite matrix for each wave: one series of retardations for all directions (``solids.compliance.retardation_fit``). The
-internal pressures are those of the normal direction (``couplings.creep.LayeredPast``), the internal shear tractions stand here.
+Displacements along the surface and up and down by tau = (q, p) are u = C_0 tau + sum C_k xi_k,
+lambda_k d(xi_k)/dt = tau - xi_k, where each C_k is a positive semi-definite matrix for each wave:
+one series of retardations for all directions (``solids.compliance.retardation_fit``). The internal
+pressures are those of the normal direction (``couplings.creep.LayeredPast``), the internal shear
+tractions stand here.
 """
 
 from __future__ import annotations
@@ -24,7 +26,8 @@ from .coupling import LayeredPast, Past, Products, ShearPast, TimeWeights, over_
 
 @dataclass(frozen=True, eq=False)
 class LayeredShear:
-    """How shear is remembered: operators of the ``first`` instant and of the retarded ``terms``, and how pressure is ``kept``."""
+    """How shear is remembered: operators of the ``first`` instant and of the retarded ``terms``,
+    and how pressure is ``kept``."""
 
     first: TangentialOperator
     terms: tuple[TangentialOperator, ...] = field(repr=False)
@@ -60,7 +63,8 @@ class LayeredShear:
         return ShearPast(np.zeros((count, 2, *spectrum.shape), complex), np.zeros((1, count)))
 
     def held(self, past: Past, traction: RealArray, weights: TimeWeights) -> Held:
-        """What the ``past``, which ended with this ``traction`` (2, nx, ny) in Pa, displaces at the end of a step, and did before it."""
+        """What the ``past``, which ended with this ``traction`` (2, nx, ny) in Pa, displaces at the
+        end of a step, and did before it."""
         shear = past.shear or self.virgin(past.pressure.shape)
         q, start = self._spectra(traction), np.zeros_like(shear.xi[0])
         along, up = np.zeros_like(start), np.zeros_like(start[0])
@@ -73,7 +77,8 @@ class LayeredShear:
         return Held(self._fields(along), self.kept.field(up), begun)
 
     def lifted(self, past: Past, traction: RealArray, weights: TimeWeights) -> RealArray:
-        """Normal displacement (nx, ny) in m at the end of a step by the shear of a ``past`` that ended with this ``traction`` (2, nx, ny) in Pa."""
+        """Normal displacement (nx, ny) in m at the end of a step by the shear of a ``past`` that
+        ended with this ``traction`` (2, nx, ny) in Pa."""
         shear = past.shear or self.virgin(past.pressure.shape)
         q = self._spectra(traction)
         up = np.zeros_like(q[0])
@@ -82,15 +87,17 @@ class LayeredShear:
         return self.kept.field(up)
 
     def advanced(self, past: Past, before: RealArray, traction: RealArray, weights: TimeWeights) -> ShearPast:
-        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) in Pa, without its energies."""
+        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) in Pa, without
+        its energies."""
         shear = past.shear or self.virgin(past.pressure.shape)
         return shear.advanced(self._spectra(before), self._spectra(traction), weights)
 
     def after(
         self, past: Past, before: RealArray, traction: RealArray, pressure: RealArray, weights: TimeWeights
     ) -> tuple[ShearPast, float, float]:
-        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) and ``pressure`` (nx, ny) in Pa, and the energy stored and
-        the heat (J) of the step beyond those by pressure alone."""
+        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) and
+        ``pressure`` (nx, ny) in Pa, and the energy stored and the heat (J) of the step beyond those
+        by pressure alone."""
         shear = past.shear or self.virgin(past.pressure.shape)
         loads = (self._spectra(before), past.response), (self._spectra(traction), self.kept.spectrum(pressure))
         sums = np.empty((5, len(self.terms)))
@@ -108,7 +115,8 @@ class LayeredShear:
     def curvature(
         self, pasts: tuple[Past, Past, Past], tractions: tuple[RealArray, ...], weights: TimeWeights
     ) -> float:
-        """Error of the displacement at the end of the last of two steps by the curvature of the ``tractions`` then, over that by traction and pressure."""
+        """Error of the displacement at the end of the last of two steps by the curvature of the
+        ``tractions`` then, over that by traction and pressure."""
         curved = self._spectra(second_difference(pasts, tractions).real)
         none = np.zeros_like(curved[0])
         change = np.zeros_like(curved)
@@ -140,7 +148,8 @@ class LayeredShear:
 def _response(
     operator: TangentialOperator, q: ComplexArray, p: RealArray | ComplexArray
 ) -> tuple[ComplexArray, ComplexArray]:
-    """Spectra of the displacement along the surface (2, …) by shear ``q`` (2, …) and pressure ``p``, and up by ``q``."""
+    """Spectra of the displacement along the surface (2, …) by shear ``q`` (2, …) and pressure
+    ``p``, and up by ``q``."""
     xx, yy, xy = operator.entries
     zx, zy = operator.coupling.zx, operator.coupling.zy
     drawn = -1j * p
@@ -153,5 +162,6 @@ def _lift(operator: TangentialOperator, q: ComplexArray) -> ComplexArray:
 
 
 def _product(load: Sequence[ComplexArray], response: tuple[ComplexArray, ComplexArray]) -> float:
-    """Work of a ``load`` (q, p) on a counted ``response``, less that of its pressure on the displacement by pressure (J)."""
+    """Work of a ``load`` (q, p) on a counted ``response``, less that of its pressure on the
+    displacement by pressure (J)."""
     return float(np.vdot(load[0], response[0]).real + np.vdot(load[1], response[1]).real)

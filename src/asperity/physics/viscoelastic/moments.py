@@ -1,4 +1,5 @@
-"""Steps of time through a load on viscoelastic bodies: how long they are, and what happened at each."""
+"""Steps of time through a load on viscoelastic bodies: how long they are, and what happened at
+each."""
 
 from __future__ import annotations
 
@@ -30,8 +31,9 @@ _SHORTER = 0.7
 """Factor to the length of a step that was rejected at most."""
 
 LEAST_ENERGY_ERROR = 5e-3
-"""Energy in time that is missed over the largest work and does not count: the estimate of what steps explain is too small for a ramp of few steps from
-first touch. One such ramp in some 70 random histories, with menisci, missed 3.8e-3 where 1.0e-3 was explained."""
+"""Energy in time that is missed over the largest work and does not count: the estimate of what
+steps explain is too small for a ramp of few steps from first touch. One such ramp in some 70 random
+histories, with menisci, missed 3.8e-3 where 1.0e-3 was explained."""
 
 COLUMNS = (
     Quantity("time", "s", "time"),
@@ -61,17 +63,18 @@ class Creeping(Answer):
     stored_energy, dissipated
         Energy stored at the end; heat of this step; J.
     work
-        Work of the force between the solids over the approach in this step, J: through the steps of time as ``energy_in_time.force_work``, and of
-        a step at once what is stored and taken.
+        Work of the force between the solids over the approach in this step, J: through the steps of
+        time as ``energy_in_time.force_work``, and of a step at once what is stored and taken.
     tries
         Solves, those of rejected steps of time included.
     tangential_work, step_work
-        Of surfaces that stick and slip: work of tangential force and torque in this step, and what of it the length of implicit steps of
-        time takes, as of ``EnergyBalance``, J.
+        Of surfaces that stick and slip: work of tangential force and torque in this step, and what
+        of it the length of implicit steps of time takes, as of ``EnergyBalance``, J.
     shear_work
         Work of the displacement by the shear of gross sliding in this step, J.
     missed, explained, largest_work
-        Since the virgin state, J: works less all that is stored or taken; what of that the length of the steps of time explains; and the largest work.
+        Since the virgin state, J: works less all that is stored or taken; what of that the length
+        of the steps of time explains; and the largest work.
     """
 
     records: RealArray = measured("", "what was recorded", "moment", columns=COLUMNS)
@@ -119,21 +122,24 @@ class Creeping(Answer):
         return self.dissipated
 
     def findings(self, certificate: Certificate) -> Iterator[Advice]:
-        """Whether works and what is stored or taken differ by more than the steps of time explain."""
+        """Whether works and what is stored or taken differ by more than the steps of time
+        explain."""
         if self.energy_error <= max(self.explained_error, LEAST_ENERGY_ERROR):
             return
         yield Advice(
             "warning",
             "energy balance",
-            f"The energies of the viscoelastic contact miss by {percent(self.energy_error, 2)} of the largest work, where its steps of time explain "
-            f"{percent(self.explained_error, 2)}: heat and force may be wrong.",
+            f"The energies of the viscoelastic contact miss by {percent(self.energy_error, 2)} of the largest "
+            f"work, where its steps of time explain {percent(self.explained_error, 2)}: heat and force may be "
+            "wrong.",
             "Take a smaller tolerance ({time_tolerance}) or more steps of time ({time_steps}).",
             {"error": self.energy_error, "explained": self.explained_error},
             ("viscoelastic_", "force", "mean_pressure"),
         )
 
     def column(self, name: str) -> RealArray:
-        """Values of the column ``name`` of ``COLUMNS``, the first one before the step. InputError if there is none."""
+        """Values of the column ``name`` of ``COLUMNS``, the first one before the step. InputError
+        if there is none."""
         names = [item.name for item in COLUMNS]
         require.one_of(name, names, "column of a viscoelastic step")
         return np.asarray(self.records[:, names.index(name)])
@@ -145,15 +151,18 @@ class Creeping(Answer):
 
     @property
     def time_error(self) -> float:
-        """Sum of the errors of the displacement that the steps of time add, relative: an estimate of the error by their length."""
+        """Sum of the errors of the displacement that the steps of time add, relative: an estimate
+        of the error by their length."""
         return float(self.column("time_error").sum())
 
 
 @dataclass(frozen=True, eq=False)
 class Moment:
-    """Contact after one step of time: what settled, the past then, the state to go on from, its record, its displacement by the past,
-    its stored energy (J), the length (s) of the step, zero where none is known, what the couplings remember and found, the work of
-    tangential force and torque in this step of time with the part that implicit steps take, and that of displacements by gross sliding (J)."""
+    """Contact after one step of time: what settled, the past then, the state to go on from, its
+    record, its displacement by the past, its stored energy (J), the length (s) of the step, zero
+    where none is known, what the couplings remember and found, the work of tangential force and
+    torque in this step of time with the part that implicit steps take, and that of displacements by
+    gross sliding (J)."""
 
     settled: Settled | None
     past: Past
@@ -178,7 +187,8 @@ class Moment:
 
 
 def control_at(end: Control, share: float, place: tuple[float, float, float], area: float) -> Control:
-    """Control after a ``share`` of a ramp to ``end`` from a ``place`` (mean pressure in Pa, approach and mean gap in m) on an ``area`` (m²)."""
+    """Control after a ``share`` of a ramp to ``end`` from a ``place`` (mean pressure in Pa,
+    approach and mean gap in m) on an ``area`` (m²)."""
     if share >= 1.0:
         return end
     mean, approach, gap = place
@@ -194,7 +204,8 @@ def control_at(end: Control, share: float, place: tuple[float, float, float], ar
     }
     if type(end) not in kinds:
         raise InputError(
-            f"load or position of a step with a duration must be one of {', '.join(k.__name__ for k in kinds)}, but is {end!r}."
+            "load or position of a step with a duration must be one of "
+            f"{', '.join(k.__name__ for k in kinds)}, but is {end!r}."
         )
     kind, start, sign = kinds[type(end)]
     value = start + share * (sign * end.value - start)
@@ -204,7 +215,8 @@ def control_at(end: Control, share: float, place: tuple[float, float, float], ar
 
 
 def step_at(end: Step, share: float, begin: Moment, area: float) -> Step:
-    """Step to the controls after a ``share`` of a ramp from ``begin`` to those of ``end``, on an ``area`` (m²)."""
+    """Step to the controls after a ``share`` of a ramp from ``begin`` to those of ``end``, on an
+    ``area`` (m²)."""
     normal, aim = control_at(end.normal, share, begin.past.place, area), end.tangential
     if aim is None or share >= 1.0:
         return Step(normal, aim)
@@ -231,7 +243,8 @@ class March(Protocol):
         """Contact under ``control`` a step of time of this ``length`` (s) after ``moment``."""
 
     def error(self, first: Moment, second: Moment, third: Moment) -> float:
-        """Error that the last of two steps of time adds to the displacement, relative to it, or one of them to the energy where that is more."""
+        """Error that the last of two steps of time adds to the displacement, relative to it, or one
+        of them to the energy where that is more."""
 
 
 _RESOLVED = 1e3
@@ -239,10 +252,11 @@ _RESOLVED = 1e3
 
 
 def marched(begin: Moment, end: Step, settings: TimeSteps, march: March) -> tuple[list[Moment], int]:
-    """Moments through a ramp to the controls of ``end`` in its duration, and the number of solves tried.
+    """Moments through a ramp to the controls of ``end`` in its duration, and the number of solves
+    tried.
 
-    The error of a step is that of the curvature of the pressure over it and the one before; the first two steps are one try.
-    The last two steps are equal, so that none is very short.
+    The error of a step is that of the curvature of the pressure over it and the one before; the
+    first two steps are one try. The last two steps are equal, so that none is very short.
     """
     duration = end.duration
     if duration == 0.0:
@@ -250,7 +264,8 @@ def marched(begin: Moment, end: Step, settings: TimeSteps, march: March) -> tupl
     least = _RESOLVED * float(np.spacing(begin.past.time))
     if duration < least:
         raise InputError(
-            f"duration of a step (s) must be at least {least:.3g} after {begin.past.time:.3g} s, since less is lost in rounding, but is {duration:.3g}."
+            f"duration of a step (s) must be at least {least:.3g} after {begin.past.time:.3g} s, since less is "
+            f"lost in rounding, but is {duration:.3g}."
         )
     moments, length, tries, equal = [begin], settings.first(duration), 0, settings.number is not None
     while tries < settings.most:

@@ -1,12 +1,14 @@
 """Displacement of a viscoelastic body under a pressure that moves steadily over a free grid.
 
-A load that moves with the speed v along x has stood a distance v s further back a time s ago. With the creep sum K_k (1 - exp(-t/lambda_k)) on
-top of K_0 the point at x in the frame of the load therefore is displaced by
+A load that moves with the speed v along x has stood a distance v s further back a time s ago. With
+the creep sum K_k (1 - exp(-t/lambda_k)) on top of K_0 the point at x in the frame of the load
+therefore is displaced by
 
     A(x, y) = K_0(x, y) + sum ∫ K_k(x + s, y) exp(-s/L_k) ds/L_k,    L_k = v lambda_k,
 
-in which the integral obeys L A_k' = A_k - K_k. It is taken from pixel to pixel, against the motion, with K_k interpolated between them. The loss
-is -p·A'p = sum p·(K_k - A_k)p/L_k: no derivative of a displacement is needed.
+in which the integral obeys L A_k' = A_k - K_k. It is taken from pixel to pixel, against the motion,
+with K_k interpolated between them. The loss is -p·A'p = sum p·(K_k - A_k)p/L_k: no derivative of a
+displacement is needed.
 """
 
 from __future__ import annotations
@@ -30,18 +32,22 @@ from ...solids.compliance.creep import AnyCreep, SharedCreep, contact_creep
 from ...solids.compliance.halfspace import Compliance
 
 _PARTS = 5
-"""Parts of a pixel at which the influence is computed, odd; between them it is a polynomial of this degree."""
+"""Parts of a pixel at which the influence is computed, odd; between them it is a polynomial of this
+degree."""
 
 _FARTHER = 2
-"""Length upstream up to which the influence is computed, over that of the grid; beyond it falls like that of a point, or of a line."""
+"""Length upstream up to which the influence is computed, over that of the grid; beyond it falls
+like that of a point, or of a line."""
 
 _LOSS = 0.2
-"""Share of the magnitude of a complex compliance that its real part counts as at least, in the symmetric operator."""
+"""Share of the magnitude of a complex compliance that its real part counts as at least, in the
+symmetric operator."""
 
 
 @dataclass(frozen=True, eq=False)
 class FreeMovingKernel:
-    """Convolutions with the influence of pressure that moves over a free grid, on the half spectrum of the padded grid.
+    """Convolutions with the influence of pressure that moves over a free grid, on the half spectrum
+    of the padded grid.
 
     Attributes
     ----------
@@ -65,7 +71,8 @@ class FreeMovingKernel:
 
     @classmethod
     def of(cls, problem: ContactProblem, operator: Operator, speed: float, direction: float) -> FreeMovingKernel:
-        """For the bodies of ``problem``, its ``operator`` at the first instant, a ``speed`` (m/s) and a ``direction`` (rad) along an axis.
+        """For the bodies of ``problem``, its ``operator`` at the first instant, a ``speed`` (m/s)
+        and a ``direction`` (rad) along an axis.
 
         InputError for another direction, and for bodies that flow.
         """
@@ -74,8 +81,8 @@ class FreeMovingKernel:
         assert creep is not None
         if not np.isfinite(creep.times).all():
             raise InputError(
-                f"bodies in steady sliding on a free grid must be solid, but one flows at {speed:g} m/s: it would sink without end. "
-                "Take a spectrum whose shares add up to less than one."
+                f"bodies in steady sliding on a free grid must be solid, but one flows at {speed:g} m/s: it "
+                "would sink without end. Take a spectrum whose shares add up to less than one."
             )
         grid = problem.grid if axis == 0 else problem.grid.exchanged
         moved, loss = _influences(creep, problem, grid, speed)
@@ -96,7 +103,8 @@ class FreeMovingKernel:
         return self._convolved(self.whole - self.storage, pressure)
 
     def slope(self, heights: RealArray) -> RealArray:
-        """Derivative of ``heights`` (nx, ny) along the direction of motion, by central differences."""
+        """Derivative of ``heights`` (nx, ny) along the direction of motion, by central
+        differences."""
         return np.asarray(self.sign * np.gradient(heights, self.grid.spacing[self.axis], axis=self.axis))
 
     def dissipation(self, pressure: RealArray) -> float:
@@ -109,7 +117,8 @@ class FreeMovingKernel:
         return bool(np.abs(self.whole - self.storage).max() > 1e-14 * self.storage.max())
 
     def symmetric(self, operator: Operator) -> Operator:
-        """Operator of ``storage``; ``operator`` is that at the first instant, whose compliance serves for preconditioners."""
+        """Operator of ``storage``; ``operator`` is that at the first instant, whose compliance
+        serves for preconditioners."""
         return _StorageOperator(operator, operator.compliance, self.storage)
 
     def _convolved(self, kernel: RealArray | ComplexArray, pressure: RealArray) -> RealArray:
@@ -121,7 +130,8 @@ class FreeMovingKernel:
 
 
 class _StorageOperator(SummedOperator):
-    """Symmetric part of the operator; on coarser grids, for first guesses, a multiple of that at the first instant."""
+    """Symmetric part of the operator; on coarser grids, for first guesses, a multiple of that at
+    the first instant."""
 
     @property
     def coarsened(self) -> Operator:
@@ -144,7 +154,8 @@ def axis_of(direction: float, problem: ContactProblem) -> tuple[int, float]:
 
 
 def _influences(creep: AnyCreep, problem: ContactProblem, grid: Grid, speed: float) -> tuple[RealArray, RealArray]:
-    """Sums of A_k, and of (K_k - A_k)/L_k, at offsets (-(nx-1) … nx-1, -(ny-1) … ny-1) for a motion along the first axis."""
+    """Sums of A_k, and of (K_k - A_k)/L_k, at offsets (-(nx-1) … nx-1, -(ny-1) … ny-1) for a motion
+    along the first axis."""
     (nx, ny), dx = grid.shape, grid.spacing[0]
     fine = Grid(((1 + _FARTHER) * _PARTS * nx, ny), (dx / _PARTS, grid.spacing[1]))
     total, loss = np.zeros((2 * nx - 1, ny)), np.zeros((2 * nx - 1, ny))
@@ -161,8 +172,9 @@ def _influences(creep: AnyCreep, problem: ContactProblem, grid: Grid, speed: flo
             continue
         length = speed * lam
         line = isinstance(problem.boundary, FreeLine)
-        # A = ∫ K(x + s) exp(-s/L) ds/L at every pixel, from that beyond the last one. Of a pixel by weights of the values at
-        # 0, 1/5 … 1 for the integral of their polynomial times r exp(-r t) from 0 to 1, for r pixels over L.
+        # A = ∫ K(x + s) exp(-s/L) ds/L at every pixel, from that beyond the last one. Of a pixel by
+        # weights of the values at 0, 1/5 … 1 for the integral of their polynomial times r exp(-r t)
+        # from 0 to 1, for r pixels over L.
         r = dx / length
         nodes = np.arange(_PARTS + 1) / _PARTS
         moments = np.empty(nodes.size)
@@ -195,7 +207,8 @@ def _influence(problem: ContactProblem, compliance: Compliance, grid: Grid) -> R
 
 
 def _between(fine: RealArray, nx: int) -> RealArray:
-    """Influence of a pixel at offsets -(nx-1) dx, … in parts of a pixel, from that of its parts at offsets 0, …"""
+    """Influence of a pixel at offsets -(nx-1) dx, … in parts of a pixel, from that of its parts at
+    offsets 0, …"""
     start, half = (nx - 1) * _PARTS, _PARTS // 2
     both = np.concatenate([fine[start + half : 0 : -1], fine])
     running = np.concatenate([np.zeros((1, fine.shape[1])), np.cumsum(both, axis=0)])
@@ -203,7 +216,8 @@ def _between(fine: RealArray, nx: int) -> RealArray:
 
 
 def _tail(K: RealArray, dx: float, nx: int, dy: float, length: float, *, line: bool) -> RealArray:
-    """∫ K(X + s) exp(-s/L) ds/L at the last pixel X of ``K``, beyond which it falls like 1/r, or in a line like -ln x."""
+    """∫ K(X + s) exp(-s/L) ds/L at the last pixel X of ``K``, beyond which it falls like 1/r, or in
+    a line like -ln x."""
     pixels = (len(K) - 1) // _PARTS
     X, last = (pixels - nx + 1) * dx, K[pixels * _PARTS]
     z, w = rule(200)
@@ -220,7 +234,8 @@ def _tail(K: RealArray, dx: float, nx: int, dy: float, length: float, *, line: b
 
 
 def _spectrum(transform: RealTransform, offsets: RealArray) -> ComplexArray:
-    """Half spectrum of the cyclic kernel with values at ``offsets`` (-(nx-1) … nx-1, -(ny-1) … ny-1)."""
+    """Half spectrum of the cyclic kernel with values at ``offsets`` (-(nx-1) … nx-1, -(ny-1) …
+    ny-1)."""
     nx, ny = (offsets.shape[0] + 1) // 2, (offsets.shape[1] + 1) // 2
     kernel = np.zeros(transform.shape)
     i, j = np.arange(1 - nx, nx), np.arange(1 - ny, ny)

@@ -1,4 +1,5 @@
-"""Viscoelasticity: temperature, loads in time, heat, and small oscillations of a contact of solids that relax."""
+"""Viscoelasticity: temperature, loads in time, heat, and small oscillations of a contact of solids
+that relax."""
 
 from __future__ import annotations
 
@@ -26,10 +27,12 @@ Frequency = Annotated[float, Number("Hz", above=0.0)]
 
 
 class ViscoelasticSettings(Settings):
-    """Loads in time on viscoelastic bodies: how long the way to each load takes (``ramp``) and how long it is held (``hold``).
+    """Loads in time on viscoelastic bodies: how long the way to each load takes (``ramp``) and how
+    long it is held (``hold``).
 
-    One time stands for all loads of a path; else there is one for each. Without them loads come at once, to solids as they are at the
-    first instant. All relaxation times are those at ``temperature``. A small oscillation about the last load has a ``frequency``.
+    One time stands for all loads of a path; else there is one for each. Without them loads come at
+    once, to solids as they are at the first instant. All relaxation times are those at
+    ``temperature``. A small oscillation about the last load has a ``frequency``.
     """
 
     ramp: tuple[Duration, ...] | None = setting(
@@ -61,12 +64,13 @@ class ViscoelasticSettings(Settings):
     def _whole(self) -> ViscoelasticSettings:
         if self.amplitude is not None and self.frequency is None:
             raise InputError(
-                ".amplitude must be given together with the frequency ({viscoelastic.frequency}) of an oscillation, but is given alone."
+                ".amplitude must be given together with the frequency ({viscoelastic.frequency}) of an "
+                "oscillation, but is given alone."
             )
         if self.repeat > 1 and not self.in_time:
             raise InputError(
-                ".repeat must be given together with {viscoelastic.ramp} or {viscoelastic.hold}, but is given without: loads that come at once leave "
-                "the same contact again."
+                ".repeat must be given together with {viscoelastic.ramp} or {viscoelastic.hold}, but is given "
+                "without: loads that come at once leave the same contact again."
             )
         return self
 
@@ -78,7 +82,8 @@ class ViscoelasticSettings(Settings):
 
 @dataclass(frozen=True)
 class InTime:
-    """The table, and which of the steps of a load path end at a turning point: every so many (``every``), the first too with ``first``.
+    """The table, and which of the steps of a load path end at a turning point: every so many
+    (``every``), the first too with ``first``.
 
     ``slides``: whether what matters is steady sliding, and not the first instant.
     """
@@ -89,7 +94,8 @@ class InTime:
     slides: bool = False
 
     def turning(self, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
-        """The steps of ``controls`` that end at a turning point of the load, and all that move the surfaces along each other."""
+        """The steps of ``controls`` that end at a turning point of the load, and all that move the
+        surfaces along each other."""
         from ...contact.controls import as_step
         from ...contact.tangential import Shift, TangentialForce
 

@@ -1,4 +1,5 @@
-"""Hysteresis: steady sliding of a rough body over a viscoelastic one, its friction, area and heat, and Persson's theory beside it."""
+"""Hysteresis: steady sliding of a rough body over a viscoelastic one, its friction, area and heat,
+and Persson's theory beside it."""
 
 from __future__ import annotations
 
@@ -24,9 +25,11 @@ USUAL_POINTS = 9
 
 
 class HysteresisSettings(Settings):
-    """Steady sliding of the rough body over the flat viscoelastic one at a ``speed``; with ``slowest`` and ``fastest`` a curve against speed.
+    """Steady sliding of the rough body over the flat viscoelastic one at a ``speed``; with
+    ``slowest`` and ``fastest`` a curve against speed.
 
-    With a ``distance`` also the start of the motion at this speed, in steps of time from the load at once.
+    With a ``distance`` also the start of the motion at this speed, in steps of time from the load
+    at once.
     """
 
     speed: SlidingSpeed | None = setting(
@@ -57,15 +60,18 @@ class HysteresisSettings(Settings):
             raise InputError(" must give both {hysteresis.slowest} and {hysteresis.fastest} or neither, but gives one.")
         if self.slowest is not None and self.fastest is not None and not float(self.slowest) < float(self.fastest):
             raise InputError(
-                f".fastest must be greater than the slowest speed {float(self.slowest):g} m/s, but is {float(self.fastest):g} m/s."
+                f".fastest must be greater than the slowest speed {float(self.slowest):g} m/s, but is "
+                f"{float(self.fastest):g} m/s."
             )
         if self.slowest is None and self.points != USUAL_POINTS:
             raise InputError(
-                ".points must be given together with {hysteresis.slowest} and {hysteresis.fastest}, but is given without."
+                ".points must be given together with {hysteresis.slowest} and {hysteresis.fastest}, but is "
+                "given without."
             )
         if self.distance is None and self.steps_per_pixel is not None:
             raise InputError(
-                ".steps_per_pixel must be given together with the distance ({hysteresis.distance}), but is given without."
+                ".steps_per_pixel must be given together with the distance ({hysteresis.distance}), but is "
+                "given without."
             )
         return self
 
@@ -88,7 +94,8 @@ SCALARS = (
         "persson_sliding_area_fraction", "1", "real contact area / nominal area while sliding by Persson's theory"
     ),
 )
-"""Numbers of a sliding contact; NaN where the theory does not hold, and of coefficients where the load pulls."""
+"""Numbers of a sliding contact; NaN where the theory does not hold, and of coefficients where the
+load pulls."""
 
 FIELD = Quantity("sliding_pressure", "Pa", "contact pressure while sliding", ("x", "y"))
 
@@ -120,7 +127,7 @@ class Hysteresis(Part):
         for name in ("shear", "rolling"):
             if getattr(document, name) is not None:
                 raise InputError(
-                    f"{name} must be left out where hysteresis ({{hysteresis.speed}}) is given, but both are: sliding over a viscoelastic body "
-                    "is solved without another motion of the surfaces."
+                    f"{name} must be left out where hysteresis ({{hysteresis.speed}}) is given, but both are: "
+                    "sliding over a viscoelastic body is solved without another motion of the surfaces."
                 )
         return table

@@ -1,4 +1,5 @@
-"""Start of sliding over a viscoelastic body, in steps of time: friction and area from the load at once to the steady state."""
+"""Start of sliding over a viscoelastic body, in steps of time: friction and area from the load at
+once to the steady state."""
 
 from __future__ import annotations
 

@@ -1,9 +1,11 @@
 """Memory of shear tractions in viscoelastic bodies that stick and slip.
 
-The displacements (along the surface, and up and down) by shear tractions q and pressures p are a sum over parts, each of which grows in time by
-one factor: u(t) = sum_i C_i [tau + sum_k s_ik xi_k], tau = (q, p), lambda_k d(xi_k)/dt = tau - xi_k as for pressure alone (``couplings.creep``).
-A part is a body, or layers, whose moduli all relax alike (of others see ``layered_shear``). The compliance of a half-space with an elastic bulk has two: in 1/G, that of an
-incompressible solid, and in z = 3/2(3K + G), in which 1 - nu = G (1/2G + z).
+The displacements (along the surface, and up and down) by shear tractions q and pressures p are a
+sum over parts, each of which grows in time by one factor: u(t) = sum_i C_i [tau + sum_k s_ik xi_k],
+tau = (q, p), lambda_k d(xi_k)/dt = tau - xi_k as for pressure alone (``couplings.creep``). A part
+is a body, or layers, whose moduli all relax alike (of others see ``layered_shear``). The compliance
+of a half-space with an elastic bulk has two: in 1/G, that of an incompressible solid, and in z =
+3/2(3K + G), in which 1 - nu = G (1/2G + z).
 """
 
 from __future__ import annotations
@@ -33,13 +35,15 @@ _EQUAL = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class ShearPart:
-    """``operator`` at the first instant of what grows by one factor, and the ``shares`` (terms,) by which it does."""
+    """``operator`` at the first instant of what grows by one factor, and the ``shares`` (terms,) by
+    which it does."""
 
     operator: TangentialOperator = field(repr=False)
     shares: RealArray
 
     def left(self, xi: RealArray | ComplexArray, latest: RealArray, weights: TimeWeights) -> RealArray:
-        """sum s_k (e_k xi_k + before_k times the ``latest``), in Pa: what displaces at the end of a step as much as the past does."""
+        """sum s_k (e_k xi_k + before_k times the ``latest``), in Pa: what displaces at the end of a
+        step as much as the past does."""
         past = np.tensordot(self.shares * weights.e, xi.real, axes=1)
         return float(self.shares @ weights.before) * latest + past
 
@@ -92,7 +96,8 @@ class ShearMemory:
         return ShearPast(np.zeros((count, 2, *shape)), np.zeros((len(self.parts), count)))
 
     def held(self, past: Past, traction: RealArray, weights: TimeWeights) -> Held:
-        """What the ``past``, which ended with this ``traction`` (2, nx, ny) in Pa, displaces at the end of a step, and did before it."""
+        """What the ``past``, which ended with this ``traction`` (2, nx, ny) in Pa, displaces at the
+        end of a step, and did before it."""
         at_once = TimeWeights.of(self.times, 0.0)
         left, lift = self._left(past, traction, weights)
         start, _ = self._left(past, traction, at_once)
@@ -101,7 +106,8 @@ class ShearMemory:
         return Held(left, lift, start)
 
     def lifted(self, past: Past, traction: RealArray, weights: TimeWeights) -> RealArray:
-        """Normal displacement (nx, ny) in m at the end of a step by the shear of a ``past`` that ended with this ``traction`` (2, nx, ny) in Pa."""
+        """Normal displacement (nx, ny) in m at the end of a step by the shear of a ``past`` that
+        ended with this ``traction`` (2, nx, ny) in Pa."""
         shear = past.shear or self.virgin(past.pressure.shape)
         lift = np.zeros(past.pressure.shape)
         for part in self.parts:
@@ -122,14 +128,16 @@ class ShearMemory:
         return along, lift
 
     def advanced(self, past: Past, before: RealArray, traction: RealArray, weights: TimeWeights) -> ShearPast:
-        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) in Pa, without its energies."""
+        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) in Pa, without
+        its energies."""
         return (past.shear or self.virgin(past.pressure.shape)).advanced(before, traction, weights)
 
     def after(
         self, past: Past, before: RealArray, traction: RealArray, pressure: RealArray, weights: TimeWeights
     ) -> tuple[ShearPast, float, float]:
-        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) and ``pressure`` (nx, ny) in Pa, and the energy stored and
-        the heat (J) of the step beyond those by pressure alone."""
+        """The past of shear after a step from ``before`` to ``traction`` (2, nx, ny) and
+        ``pressure`` (nx, ny) in Pa, and the energy stored and the heat (J) of the step beyond those
+        by pressure alone."""
         shear = past.shear or self.virgin(past.pressure.shape)
         solid, squares = np.isfinite(self.times), np.empty_like(shear.squares)
         area, loads = self.parts[0].operator.grid.pixel_area, ((before, past.pressure), (traction, pressure))
@@ -154,7 +162,8 @@ class ShearMemory:
     def curvature(
         self, pasts: tuple[Past, Past, Past], tractions: tuple[RealArray, ...], weights: TimeWeights
     ) -> float:
-        """Error of the displacement at the end of the last of two steps by the curvature of the ``tractions`` then, over that by traction and pressure."""
+        """Error of the displacement at the end of the last of two steps by the curvature of the
+        ``tractions`` then, over that by traction and pressure."""
         curved = second_difference(pasts, tractions)
         sizes = [
             float(np.hypot(np.linalg.norm(traction), np.linalg.norm(past.pressure)))
@@ -170,7 +179,8 @@ class ShearMemory:
 def _compliances(
     solid: Elastic, alone: Callable[[Elastic], TangentialOperator]
 ) -> list[tuple[TangentialOperator, Creep | None]]:
-    """Operators whose sum is that of a half-space of ``solid`` at the first instant, and how each of them creeps."""
+    """Operators whose sum is that of a half-space of ``solid`` at the first instant, and how each
+    of them creeps."""
     if not isinstance(solid, Viscoelastic) or not solid.spectrum:
         return [(alone(solid), None)]
     shear = solid.shear

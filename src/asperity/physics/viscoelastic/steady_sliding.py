@@ -1,14 +1,18 @@
-"""Steady sliding of rough surfaces over viscoelastic bodies: hysteretic friction, contact area and heat.
+"""Steady sliding of rough surfaces over viscoelastic bodies: hysteretic friction, contact area and
+heat.
 
-A surface that moves at a speed v along the direction of sliding, and with it its contact, is at rest in its own frame. A wave exp(i q·x) of
-pressure passes a point of the viscoelastic body with the frequency -q·v, so that u(q) = c(q, -q·v) p(q), with the complex compliance c. The
-operator K is real in space but not symmetric: pressure is larger in front. Its symmetric part is positive, so that there is one solution
-for each load, but there is no energy that it would minimise.
+A surface that moves at a speed v along the direction of sliding, and with it its contact, is at
+rest in its own frame. A wave exp(i q·x) of pressure passes a point of the viscoelastic body with
+the frequency -q·v, so that u(q) = c(q, -q·v) p(q), with the complex compliance c. The operator K is
+real in space but not symmetric: pressure is larger in front. Its symmetric part is positive, so
+that there is one solution for each load, but there is no energy that it would minimise.
 
-With the symmetric operator S of the compliance 1/Re(1/c), of the storage modulus, K p = S p + (K - S) p. Contacts with S, whose profile is
-lowered by (K - S) p of the last one, approach the solution: in the norm of S each of them has at most sin(phi) times the error of the one
-before, phi being the largest loss angle, for |c - S|/S = sin(phi). Adhesion adds its attraction to what moves, so that p is the net traction, and a contact with S is an adhesive one, on a branch
-of its own; the bound by sin(phi) is then that of its linear part alone.
+With the symmetric operator S of the compliance 1/Re(1/c), of the storage modulus, K p = S p + (K -
+S) p. Contacts with S, whose profile is lowered by (K - S) p of the last one, approach the solution:
+in the norm of S each of them has at most sin(phi) times the error of the one before, phi being the
+largest loss angle, for |c - S|/S = sin(phi). Adhesion adds its attraction to what moves, so that p
+is the net traction, and a contact with S is an adhesive one, on a branch of its own; the bound by
+sin(phi) is then that of its linear part alone.
 """
 
 from __future__ import annotations
@@ -53,7 +57,8 @@ TOLERANCE = 1e-7
 
 @dataclass(frozen=True, eq=False)
 class MovingKernel:
-    """Complex compliance (m/Pa) on the half spectrum of a grid over which pressure moves, and that of the storage modulus.
+    """Complex compliance (m/Pa) on the half spectrum of a grid over which pressure moves, and that
+    of the storage modulus.
 
     Attributes
     ----------
@@ -89,8 +94,9 @@ class MovingKernel:
         whole[mean] = 1.0
         if not np.isfinite(whole).all():
             raise InputError(
-                f"bodies in steady sliding at {math.hypot(*velocity):g} m/s must be solid, but one flows under waves that stand still in it: "
-                "those along the motion, and at rest all of them. Take a spectrum whose shares add up to less than one."
+                f"bodies in steady sliding at {math.hypot(*velocity):g} m/s must be solid, but one flows under "
+                "waves that stand still in it: those along the motion, and at rest all of them. Take a "
+                "spectrum whose shares add up to less than one."
             )
         storage = 1.0 / (1.0 / whole).real
         speed = math.hypot(*velocity)
@@ -102,7 +108,8 @@ class MovingKernel:
         return cls(whole, storage, along, RealTransform(grid.shape, threads))
 
     def lag(self, pressure: RealArray) -> RealArray:
-        """Displacement (nx, ny) in m by ``pressure`` (Pa), net of attraction, beyond that of the storage modulus."""
+        """Displacement (nx, ny) in m by ``pressure`` (Pa), net of attraction, beyond that of the
+        storage modulus."""
         spectrum = self._spectrum(pressure)
         spectrum *= self.whole - self.storage
         return self.transform.backward(spectrum, np.empty(pressure.shape))
@@ -114,7 +121,8 @@ class MovingKernel:
         return self.transform.backward(spectrum, np.empty(heights.shape))
 
     def dissipation(self, pressure: RealArray) -> float:
-        """Mean of -p ∂u/∂x along the motion (Pa): sum of q_v Im c |p(q)|² over all waves (Parseval)."""
+        """Mean of -p ∂u/∂x along the motion (Pa): sum of q_v Im c |p(q)|² over all waves
+        (Parseval)."""
         spectrum = self._spectrum(pressure)
         each = self.along * self.whole.imag * np.abs(spectrum) ** 2
         columns, ny = each.sum(axis=0), pressure.shape[1]
@@ -133,7 +141,8 @@ class MovingKernel:
 
 
 _NO_LAG = 1e-14
-"""Difference from the compliance of the storage modulus, over the largest, below which there is none."""
+"""Difference from the compliance of the storage modulus, over the largest, below which there is
+none."""
 
 _SOLVER = ActiveSet(tolerance=1e-12)
 """Method of the normal solves; the error of the lag goes with the root of its tolerance."""
@@ -144,15 +153,16 @@ _ROWS = 64
 
 @dataclass(frozen=True, eq=False)
 class LagCoupling(Coupling):
-    """Displacement by the net traction beyond that of the storage modulus, as a lift; it is the unknown."""
+    """Displacement by the net traction beyond that of the storage modulus, as a lift; it is the
+    unknown."""
 
     kernel: MovingKernel | FreeMovingKernel = field(repr=False)
     feedback: bool = True
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "lag"
     remedy: ClassVar[str] = (
-        "Allow more rounds, or loosen the tolerance of the lag. Where adhesive contacts jump, prescribe the position or start from a contact of another speed (after=); "
-        "slide_in_time follows the motion."
+        "Allow more rounds, or loosen the tolerance of the lag. Where adhesive contacts jump, prescribe the "
+        "position or start from a contact of another speed (after=); slide_in_time follows the motion."
     )
 
     def begin(self, posed: Posed, memory: Memory) -> Exchange:
@@ -187,7 +197,8 @@ class LagCoupling(Coupling):
 
 @dataclass(frozen=True)
 class _Symmetric:
-    """Compliance of the storage modulus, for preconditioners: of waves along the motion in a line, at 45° to it on a map."""
+    """Compliance of the storage modulus, for preconditioners: of waves along the motion in a line,
+    at 45° to it on a map."""
 
     problem: ContactProblem
     speed: float
@@ -213,16 +224,20 @@ class SteadySliding:
     Attributes
     ----------
     normal
-        Pressure, displacement, gap and areas, and what adhesion and menisci do; the friction here is not part of its problem.
+        Pressure, displacement, gap and areas, and what adhesion and menisci do; the friction here
+        is not part of its problem.
     speed, direction
-        Speed (m/s) and direction of the motion of the rough surface over the viscoelastic body, angle in rad from +x towards +y.
+        Speed (m/s) and direction of the motion of the rough surface over the viscoelastic body,
+        angle in rad from +x towards +y.
     friction_stress
         Force of hysteretic friction over nominal area, Pa: loss in every wave of the net traction.
     slope_friction_stress
-        The same from the slope of the surface, mean of -(p - σ) ∂h/∂x, σ being the attraction. Both agree where the contact is solved and the
-        grid resolves its edges; their difference is of first order in the pixel.
+        The same from the slope of the surface, mean of -(p - σ) ∂h/∂x, σ being the attraction. Both
+        agree where the contact is solved and the grid resolves its edges; their difference is of
+        first order in the pixel.
     energy_error
-        Bound on the energy (J) of the error of the pressure in the symmetric part of the operator, over p·Kp, at the attraction found.
+        Bound on the energy (J) of the error of the pressure in the symmetric part of the operator,
+        over p·Kp, at the attraction found.
     """
 
     normal: ContactResult
@@ -234,7 +249,8 @@ class SteadySliding:
 
     @property
     def friction(self) -> float:
-        """Coefficient of hysteretic friction, ``friction_stress`` over the mean pressure from outside; zero or, with adhesion, NaN where none presses."""
+        """Coefficient of hysteretic friction, ``friction_stress`` over the mean pressure from
+        outside; zero or, with adhesion, NaN where none presses."""
         return self._over_load(self.friction_stress)
 
     @property
@@ -259,16 +275,20 @@ class SteadySliding:
         return self.friction_stress * self.speed
 
     def persson(self, reduction: float = ORIGINAL) -> RubberFriction:
-        """Friction and area by Persson's theory (2001) of the same surface, half-space, speed and load.
+        """Friction and area by Persson's theory (2001) of the same surface, half-space, speed and
+        load.
 
-        The spectrum is the measured one, up to the shortest wave of the grid; ``reduction`` as of ``theories.rubber_friction``.
+        The spectrum is the measured one, up to the shortest wave of the grid; ``reduction`` as of
+        ``theories.rubber_friction``.
 
-        InputError if the problem is no periodic map, a body is layered, something pulls, or it stands still.
+        InputError if the problem is no periodic map, a body is layered, something pulls, or it
+        stands still.
         """
         problem = self.normal.problem
         if problem.attracts:
             raise InputError(
-                "adhesion and film beside Persson's theory must be None, for it is one of pressed surfaces, but one is given."
+                "adhesion and film beside Persson's theory must be None, for it is one of pressed surfaces, "
+                "but one is given."
             )
         if not isinstance(problem.boundary, Periodic) or min(problem.grid.shape) < 2:
             raise InputError(
@@ -315,20 +335,23 @@ def slide(
     rounds: Rounds = Rounds(),
     after: SteadySliding | None = None,
 ) -> SteadySliding:
-    """Steady sliding of the rough body of ``problem`` over its viscoelastic one under ``control``, without interfacial shear.
+    """Steady sliding of the rough body of ``problem`` over its viscoelastic one under ``control``,
+    without interfacial shear.
 
-    Friction is by hysteresis alone. What does not slide but rolls with its contact, as a smooth wheel, has the same pressure, and the
-    friction is its rolling resistance.
+    Friction is by hysteresis alone. What does not slide but rolls with its contact, as a smooth
+    wheel, has the same pressure, and the friction is its rolling resistance.
 
     Parameters
     ----------
     problem
-        Contact with a hard wall, without friction, on any boundary: on a free grid one body slides or rolls over the
-        half-space, all of which is at rest before it comes. Adhesion of finite range pulls along the motion too; menisci of a film
-        act by their normal force. The surfaces of viscoelastic bodies must be flat: roughness
-        that moves with them causes no hysteresis. A rigid rough body on rubber: ``ContactProblem(rough, Rigid(), counter_body=rubber)``.
+        Contact with a hard wall, without friction, on any boundary: on a free grid one body slides
+        or rolls over the half-space, all of which is at rest before it comes. Adhesion of finite
+        range pulls along the motion too; menisci of a film act by their normal force. The surfaces
+        of viscoelastic bodies must be flat: roughness that moves with them causes no hysteresis. A
+        rigid rough body on rubber: ``ContactProblem(rough, Rigid(), counter_body=rubber)``.
     control
-        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``; with adhesion also ``Pull`` and ``FixedGrips``.
+        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``; with adhesion also ``Pull`` and
+        ``FixedGrips``.
     speed
         Of the rough body over the viscoelastic one, m/s, >= 0; zero finds the relaxed contact.
     direction
@@ -338,13 +361,15 @@ def slide(
     rounds
         When to give up.
     after
-        Sliding of the same surfaces at another speed or load, whose contact this one starts from: with adhesion it stays on its branch.
+        Sliding of the same surfaces at another speed or load, whose contact this one starts from:
+        with adhesion it stays on its branch.
 
     Raises
     ------
     InputError
-        If the problem has another law or physics, ``after`` another grid, the direction is not along an axis of a free grid, nothing in it relaxes, a viscoelastic surface is rough, or a body flows under
-        waves that stand still in it.
+        If the problem has another law or physics, ``after`` another grid, the direction is not
+        along an axis of a free grid, nothing in it relaxes, a viscoelastic surface is rough, or a
+        body flows under waves that stand still in it.
     NoSolutionError
         If a position has no solution, or the surfaces part under a pull.
     ConvergenceError
@@ -397,17 +422,19 @@ def slide(
 
 
 def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
-    """Refuse with an InputError what is not steady in this ``direction`` (rad), or has no hysteresis."""
+    """Refuse with an InputError what is not steady in this ``direction`` (rad), or has no
+    hysteresis."""
     if not isinstance(problem.boundary, Periodic):
         axis_of(direction, problem)
     if not isinstance(problem.law, HardWall):
         raise InputError(
-            f"law of steady sliding must be HardWall(), but is {problem.law!r}: a hardness leaves a groove in the body at rest. "
-            "Follow it in steps of time, with slide_in_time."
+            f"law of steady sliding must be HardWall(), but is {problem.law!r}: a hardness leaves a groove in "
+            "the body at rest. Follow it in steps of time, with slide_in_time."
         )
     if problem.friction is not None or problem.plastic_flow is not None:
         raise InputError(
-            "friction and plastic_flow of steady sliding must be None: the friction found is that of hysteresis alone, and shear of the interface adds to it."
+            "friction and plastic_flow of steady sliding must be None: the friction found is that of "
+            "hysteresis alone, and shear of the interface adds to it."
         )
     for physics in problem.physics:
         physics.check_relaxing(problem)
@@ -418,11 +445,13 @@ def require_slidable(problem: ContactProblem, direction: float = 0.0) -> None:
     relaxing = [(surface, name) for body, surface, name in pairs if relaxes(body)]
     if not relaxing:
         raise InputError(
-            "body or counter_body of steady sliding must be viscoelastic, but neither is. Give one its relaxation, as {relaxation}."
+            "body or counter_body of steady sliding must be viscoelastic, but neither is. Give one its "
+            "relaxation, as {relaxation}."
         )
     for surface, name in relaxing:
         if isinstance(surface, Surface) and float(np.ptp(surface.heights)) > 0.0:
             raise InputError(
-                f"{name} of a viscoelastic body in steady sliding must be flat, since roughness that stays on it is at rest, but is rough. "
+                f"{name} of a viscoelastic body in steady sliding must be flat, since roughness that stays on "
+                "it is at rest, but is rough. "
                 "Make it the counter body of a rigid rough one ({soft_counter})."
             )

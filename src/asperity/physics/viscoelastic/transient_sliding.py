@@ -1,8 +1,9 @@
-"""Sliding and rolling over viscoelastic bodies in steps of time: from the first load to the steady state, and rough bodies that roll.
+"""Sliding and rolling over viscoelastic bodies in steps of time: from the first load to the steady
+state, and rough bodies that roll.
 
-The viscoelastic body and all it remembers stay where they are; the surface opposite moves over it, and with it its contact. A body that slides
-carries its roughness along. In rolling what is rough on either body passes through the contact with the material: it is at rest, and the
-shape alone moves.
+The viscoelastic body and all it remembers stay where they are; the surface opposite moves over it,
+and with it its contact. A body that slides carries its roughness along. In rolling what is rough on
+either body passes through the contact with the material: it is at rest, and the shape alone moves.
 """
 
 from __future__ import annotations
@@ -46,7 +47,8 @@ COLUMNS = (
 """What is recorded at the start and after every step of time."""
 
 STEPS_PER_PIXEL = 2
-"""Steps of time in which the surface moves by a pixel; 1 changes the friction of a sliding wave by a part in a hundred more."""
+"""Steps of time in which the surface moves by a pixel; 1 changes the friction of a sliding wave by
+a part in a hundred more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +87,8 @@ class TransientSliding:
 
     @property
     def friction(self) -> RealArray:
-        """Coefficient of friction by the slope of what moves, over the force from outside; zero where none presses."""
+        """Coefficient of friction by the slope of what moves, over the force from outside; zero
+        where none presses."""
         force = self._load
         return np.divide(self.column("friction_force"), force, out=np.zeros(force.shape), where=force > 0.0)
 
@@ -95,13 +98,14 @@ class TransientSliding:
         return round(float(self.distance[-1]) / self.step)
 
     def mean_friction(self, last: float) -> float:
-        """Friction over the ``last`` distance (m) moved, mean force against the motion over the mean force from outside; NaN where that pulls."""
+        """Friction over the ``last`` distance (m) moved, mean force against the motion over the
+        mean force from outside; NaN where that pulls."""
         part = self._part(last)
         return self._over(float(self.column("friction_force")[part].mean()), part)
 
     def mean_loss(self, last: float) -> float:
-        """The same from the heat of the solids over the ``last`` distance (m): in a steady state the two are equal, but for what jumps of
-        adhesive contacts and dents take."""
+        """The same from the heat of the solids over the ``last`` distance (m): in a steady state
+        the two are equal, but for what jumps of adhesive contacts and dents take."""
         part = self._part(last)
         heat, way = self.column("dissipated")[part], self.distance[part]
         return self._over(float((heat[-1] - heat[0]) / (way[-1] - way[0])), part)
@@ -141,22 +145,26 @@ def slide_in_time(
     rounds: Rounds = Rounds(),
     progress: Progress | None = None,
 ) -> TransientSliding:
-    """Motion of a surface over a viscoelastic body in steps of time, from a first load at once to the steady state.
+    """Motion of a surface over a viscoelastic body in steps of time, from a first load at once to
+    the steady state.
 
     Parameters
     ----------
     problem
-        Contact without friction, one body of which relaxes; the surface of the other one moves. Adhesion of finite range, whose attraction
-        pulls along the motion too, films, whose menisci act by their normal force, and a hardness, whose dents stay on the body that relaxes, stand
-        beside it as under any load. A rough surface that slides: ``ContactProblem(rough, Rigid(), counter_body=rubber)``. A rough body that rolls: its shape
+        Contact without friction, one body of which relaxes; the surface of the other one moves.
+        Adhesion of finite range, whose attraction pulls along the motion too, films, whose menisci
+        act by their normal force, and a hardness, whose dents stay on the body that relaxes, stand
+        beside it as under any load. A rough surface that slides:
+        ``ContactProblem(rough, Rigid(), counter_body=rubber)``. A rough body that rolls: its shape
         alone as this surface, and the roughness of both bodies as that of the viscoelastic one.
     control
-        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``, with adhesion also ``Pull`` and ``FixedGrips``, held throughout. At the start it is applied at once.
+        ``MeanPressure``, ``Force``, ``Approach`` or ``MeanGap``, with adhesion also ``Pull`` and
+        ``FixedGrips``, held throughout. At the start it is applied at once.
     speed
         Of the surface that moves, m/s, > 0.
     distance
-        To move, m, > 0, rounded to whole steps of time. On a free grid the contact must stay on it, and what comes in at its edge is
-        what was there.
+        To move, m, > 0, rounded to whole steps of time. On a free grid the contact must stay on it,
+        and what comes in at its edge is what was there.
     direction
         Of the motion, angle in rad from +x towards +y.
     steps_per_pixel
@@ -171,7 +179,8 @@ def slide_in_time(
     Raises
     ------
     InputError
-        If nothing, or everything, relaxes, a number is out of range, or the problem holds friction or plastic flow.
+        If nothing, or everything, relaxes, a number is out of range, or the problem holds friction
+        or plastic flow.
     ConvergenceError
         If a step is not solved.
     """
@@ -182,8 +191,8 @@ def slide_in_time(
     motion = _Motion(problem, control, v, angle, step, rounds)
     if after is not None and (after.step != step or (after.speed, after.direction) != (v, angle)):
         raise InputError(
-            f"earlier part of a motion must have the step {step:g} m, the speed {v:g} m/s and the direction {angle:g} rad, but has "
-            f"{after.step:g} m, {after.speed:g} m/s and {after.direction:g} rad."
+            f"earlier part of a motion must have the step {step:g} m, the speed {v:g} m/s and the direction "
+            f"{angle:g} rad, but has {after.step:g} m, {after.speed:g} m/s and {after.direction:g} rad."
         )
     return motion.over(number, after, progress or NoProgress())
 
@@ -203,7 +212,8 @@ class _Motion:
         self.problem, self.control, self.speed, self.direction, self.step = problem, control, speed, direction, step
         if problem.friction is not None:
             raise InputError(
-                "friction of sliding in time must be None: the friction found is that of hysteresis alone, and shear of the interface adds to it."
+                "friction of sliding in time must be None: the friction found is that of hysteresis alone, "
+                "and shear of the interface adds to it."
             )
         if problem.plastic_flow is not None:
             raise InputError(
@@ -214,8 +224,8 @@ class _Motion:
         relaxing = [relaxes(body) for body in (problem.body, problem.counter_body)]
         if sum(relaxing) != 1:
             raise InputError(
-                f"bodies of sliding in time must be one that is viscoelastic and one that is not, but {sum(relaxing)} of them relax. "
-                "Write ContactProblem(rough, Rigid(), counter_body=rubber)."
+                "bodies of sliding in time must be one that is viscoelastic and one that is not, but "
+                f"{sum(relaxing)} of them relax. Write ContactProblem(rough, Rigid(), counter_body=rubber)."
             )
         name = "counter_surface" if relaxing[0] else "surface"
         if not isinstance(getattr(problem, name), Surface):
@@ -298,7 +308,8 @@ class _Motion:
         return np.asarray(shift(self.heights, (x, 0.0 if self.heights.shape[1] == 1 else y), order=3, mode="nearest"))
 
     def _record(self, moment: Moment, count: int) -> RealArray:
-        """``COLUMNS`` at a ``moment``; slopes along the motion are central differences, of fourth order where the heights are periodic."""
+        """``COLUMNS`` at a ``moment``; slopes along the motion are central differences, of fourth
+        order where the heights are periodic."""
         heights, grid = self._moved(count), self.problem.grid
         slope = np.zeros(heights.shape)
         for axis, part in enumerate((math.cos(self.direction), math.sin(self.direction))):
@@ -318,7 +329,8 @@ class _Motion:
 
 
 def _phase(frequency: RealArray, shift: float, number: int) -> ComplexArray:
-    """Factors of waves of so many periods a pixel; the shortest one of an even grid stands for both directions."""
+    """Factors of waves of so many periods a pixel; the shortest one of an even grid stands for both
+    directions."""
     found = np.exp(-2j * np.pi * frequency * shift)
     lone = np.abs(frequency) == 0.5
     return np.asarray(np.where(lone & (number % 2 == 0), found.real, found))

@@ -1,4 +1,5 @@
-"""Viscoelasticity asked for by a document: loads in time, heat and small oscillations in numbers, figures and words."""
+"""Viscoelasticity asked for by a document: loads in time, heat and small oscillations in numbers,
+figures and words."""
 
 from __future__ import annotations
 
@@ -34,7 +35,8 @@ class ViscoelasticityWork(WithFacts):
         """Refuse times where nothing relaxes, and a temperature without a shift."""
         if not relaxing_solids(problem):
             raise InputError(
-                "body or counter_body must relax where viscoelastic ({viscoelastic.ramp}, {viscoelastic.hold}, {viscoelastic.temperature}, ...) is given, but neither does. Give one "
+                "body or counter_body must relax where viscoelastic ({viscoelastic.ramp}, {viscoelastic.hold}, "
+                "{viscoelastic.temperature}, ...) is given, but neither does. Give one "
                 'such as "E=3MPa+10MPa@10ms,nu=0.5".'
             )
 
@@ -67,7 +69,8 @@ class ViscoelasticityWork(WithFacts):
             given = [float(time) for time in getattr(table, name) or (0.0,)]
             if len(given) not in (1, count):
                 raise InputError(
-                    f"{{viscoelastic.{name}}} must give one time for all {count} loads or one for each, but gives {len(given)}."
+                    f"{{viscoelastic.{name}}} must give one time for all {count} loads or one for each, but "
+                    f"gives {len(given)}."
                 )
             times.append(given * count if len(given) == 1 else given)
         made: list[Step | Control] = []
@@ -114,7 +117,10 @@ class ViscoelasticityWork(WithFacts):
         made = []
         if float(values["viscoelastic_time"]) == 0.0 and not ask.slides:
             fact = "All loads come at once: the viscoelastic solids are as stiff as at the first instant."
-            remedy = "Give the times of the loads ({viscoelastic.ramp}, {viscoelastic.hold}) for what time does to the contact."
+            remedy = (
+                "Give the times of the loads ({viscoelastic.ramp}, {viscoelastic.hold}) for what time "
+                "does to the contact."
+            )
             made.append(Advice("note", "first instant", fact, remedy))
         if ask.settings.frequency is not None and math.isnan(float(values["storage_stiffness"])):
             fact = "The surfaces do not touch under the last load: there is no contact that would oscillate."
@@ -181,9 +187,10 @@ class ViscoelasticityWork(WithFacts):
             touched = int(np.flatnonzero(area > 0.0)[0]) if (area > 0.0).any() else 0
             heat = show(float(values["viscoelastic_heat"]), "J", 3)
             sentence = (
-                f"From {show(float(time[touched]), 's', 3)} to {show(float(time[-1]), 's', 3)} the contact area went from "
-                f"{percent(float(area[touched]))} to {percent(float(area[-1]))} of the nominal area and the approach from "
-                f"{show(float(approach[touched]), 'm', 3)} to {show(float(approach[-1]), 'm', 3)}; {heat} became heat."
+                f"From {show(float(time[touched]), 's', 3)} to {show(float(time[-1]), 's', 3)} the contact "
+                f"area went from {percent(float(area[touched]))} to {percent(float(area[-1]))} of the nominal "
+                f"area and the approach from {show(float(approach[touched]), 'm', 3)} to "
+                f"{show(float(approach[-1]), 'm', 3)}; {heat} became heat."
             )
         return Words(sentence, headline, rows, tables, (REMARK,))
 
@@ -198,7 +205,8 @@ def picture_of(found: Found, solved: Solved) -> TimePicture:
 # In words and tables.
 
 REMARK = (
-    "Displacements follow the pressures of all earlier times by the creep of the solids. Heat is what their dashpots take; together with the stored energy it is the work of "
-    "the load, but for the error of the steps of time. On a periodic surface creep of the mean displacement is not included."
+    "Displacements follow the pressures of all earlier times by the creep of the solids. Heat is what their "
+    "dashpots take; together with the stored energy it is the work of the load, but for the error of the "
+    "steps of time. On a periodic surface creep of the mean displacement is not included."
 )
 """What the numbers mean."""

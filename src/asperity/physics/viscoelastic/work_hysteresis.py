@@ -1,4 +1,5 @@
-"""Steady sliding asked for by a document: friction, area and heat, and Persson's theory beside it, in numbers, figures and words."""
+"""Steady sliding asked for by a document: friction, area and heat, and Persson's theory beside it,
+in numbers, figures and words."""
 
 from __future__ import annotations
 
@@ -29,7 +30,8 @@ APART = 0.2
 
 
 class HysteresisWork(WithFacts):
-    """Friction of a rough body that slides steadily over a viscoelastic one: what is done for it."""
+    """Friction of a rough body that slides steadily over a viscoelastic one: what is done for
+    it."""
 
     def check(self, ask: HysteresisSettings, problem: ContactProblem) -> None:
         """Refuse what cannot slide steadily."""
@@ -72,7 +74,10 @@ class HysteresisWork(WithFacts):
         made = []
         friction, slope = float(values["hysteresis_friction"]), float(values["hysteresis_slope_friction"])
         if abs(slope - friction) > APART * max(abs(friction), 1e-12) and friction > 1e-6:
-            fact = f"Friction by the loss in all waves is {friction:.3g} and by the slope of the surface {slope:.3g}: the grid does not resolve the edges of the contact."
+            fact = (
+                f"Friction by the loss in all waves is {friction:.3g} and by the slope of the surface "
+                f"{slope:.3g}: the grid does not resolve the edges of the contact."
+            )
             compared = {"by_loss": friction, "by_slope": slope, "largest_difference": APART}
             concerns = ("hysteresis_", "sliding_", "by_speed_")
             made.append(
@@ -81,7 +86,10 @@ class HysteresisWork(WithFacts):
                 )
             )
         if friction > STEEP:
-            fact = f"A coefficient of friction of {friction:.3g} by hysteresis alone says that slopes are too steep for a theory of small slopes."
+            fact = (
+                f"A coefficient of friction of {friction:.3g} by hysteresis alone says that slopes are too "
+                "steep for a theory of small slopes."
+            )
             compared = {"friction": friction, "largest": STEEP}
             made.append(Advice("warning", "steep slopes", fact, numbers=compared, concerns=("hysteresis_", "sliding_")))
         return Found(values, facts, tuple(made), keys)
@@ -116,7 +124,8 @@ class HysteresisWork(WithFacts):
             shown = ("coefficient of hysteretic friction", f"{friction:.3g}")
         sentence = (
             f"Sliding at {show(float(facts['speed']), 'm/s', 3)} gives {said} on "
-            f"{percent(float(values['sliding_area_fraction']))} of the nominal area, and {show(float(values['hysteresis_heat']), 'W/m^2', 3)} of heat."
+            f"{percent(float(values['sliding_area_fraction']))} of the nominal area, and "
+            f"{show(float(values['hysteresis_heat']), 'W/m^2', 3)} of heat."
         )
         tables: tuple[tuple[str, Table], ...] = ()
         if COLUMNS[0].name in values:
@@ -140,7 +149,8 @@ def bare(problem: ContactProblem) -> ContactProblem:
 
 
 def _persson(found: SteadySliding, reduction: float) -> tuple[float, float]:
-    """Friction and area by Persson's theory; NaN where it does not hold: with adhesion or menisci, on layers, on a line, on a free grid, on a smooth surface, at rest."""
+    """Friction and area by Persson's theory; NaN where it does not hold: with adhesion or menisci,
+    on layers, on a line, on a free grid, on a smooth surface, at rest."""
     try:
         theory = found.persson(reduction)
     except InputError:
@@ -161,7 +171,10 @@ def picture_of(found: Found, solved: Solved) -> SpeedPicture:
 
 # In words and tables.
 
-REMARK = "The rough body slides steadily without interfacial shear: the friction is by hysteresis alone, and that of a flash temperature is not included."
+REMARK = (
+    "The rough body slides steadily without interfacial shear: the friction is by hysteresis alone, and "
+    "that of a flash temperature is not included."
+)
 """What the model is."""
 
 
@@ -169,6 +182,6 @@ OF_PRESSED = "Persson's theory sums all waves of the mean spectrum of the map, t
 
 
 OF_PULLING = (
-    "What attracts the surfaces adds to the load that deforms the viscoelastic body, and the coefficient is over the load from outside. Persson's theory of friction knows no attraction "
-    "and is left out."
+    "What attracts the surfaces adds to the load that deforms the viscoelastic body, and the coefficient is "
+    "over the load from outside. Persson's theory of friction knows no attraction and is left out."
 )

@@ -1,4 +1,5 @@
-"""The start of sliding asked for by a document: friction and area along the way in numbers, figures and words."""
+"""The start of sliding asked for by a document: friction and area along the way in numbers, figures
+and words."""
 
 from __future__ import annotations
 
@@ -25,11 +26,13 @@ LAST = 0.25
 
 
 UNSTEADY = 0.1
-"""Relative difference of the friction by slope and by heat from which on the motion is not steady."""
+"""Relative difference of the friction by slope and by heat from which on the motion is not
+steady."""
 
 
 OTHER_BRANCH = 0.2
-"""Relative difference of the area of a motion that is steady from that of the steady state from which on they are two contacts."""
+"""Relative difference of the area of a motion that is steady from that of the steady state from
+which on they are two contacts."""
 
 
 LEAST, MOST = 4, 100_000
@@ -37,10 +40,12 @@ LEAST, MOST = 4, 100_000
 
 
 class SlidingStartWork(Work):
-    """What happens from the load at once over the first distance of sliding: what is done for it."""
+    """What happens from the load at once over the first distance of sliding: what is done for
+    it."""
 
     def check(self, ask: HysteresisSettings, problem: ContactProblem) -> None:
-        """Refuse fewer steps of time than friction is averaged over, and more than are reasonable."""
+        """Refuse fewer steps of time than friction is averaged over, and more than are
+        reasonable."""
         length, distance = step_length(problem.grid, ask.steps_per_pixel or STEPS_PER_PIXEL), float(ask.distance or 0.0)
         if not LEAST * length <= distance <= MOST * length:
             raise InputError(
@@ -84,7 +89,10 @@ class SlidingStartWork(Work):
         )
         unsteady = abs(slope - by_heat) > UNSTEADY * max(abs(slope), abs(by_heat))
         if unsteady:
-            fact = f"Over the last quarter of the distance friction is {slope:.3g} by the slope and {by_heat:.3g} by the heat: the motion is not steady."
+            fact = (
+                f"Over the last quarter of the distance friction is {slope:.3g} by the slope and "
+                f"{by_heat:.3g} by the heat: the motion is not steady."
+            )
             remedy = (
                 "Take a longer distance ({hysteresis.distance}), or a finer grid ({resample}) if that changes nothing."
             )
@@ -100,8 +108,10 @@ class SlidingStartWork(Work):
         known = float(facts["sliding_area_fraction"])
         if not (math.isnan(known) or unsteady or abs(last_area - known) <= OTHER_BRANCH * max(last_area, known)):
             fact = (
-                f"The motion has come to {percent(last_area)} of the nominal area with a friction of {slope:.3g}, the steady state found at once to {percent(known)} with "
-                f"{float(facts['hysteresis_friction']):.3g}: adhesive contacts may have several steady states, and the motion after the first load comes to the former."
+                f"The motion has come to {percent(last_area)} of the nominal area with a friction of "
+                f"{slope:.3g}, the steady state found at once to {percent(known)} with "
+                f"{float(facts['hysteresis_friction']):.3g}: adhesive contacts may have several steady states, "
+                "and the motion after the first load comes to the former."
             )
             compared = {"moved": last_area, "at_once": known, "largest_difference": OTHER_BRANCH}
             concerns = ("hysteresis_", "sliding_", "start_last_")
@@ -131,8 +141,9 @@ class SlidingStartWork(Work):
         if math.isnan(friction):  # no load from outside presses
             came = f"force of friction came to {show(float(values['way_friction_force'][-1]), 'N', 3)}"
         sentence = (
-            f"Over the first {way} of sliding at {show(float(facts['speed']), 'm/s', 3)} the contact area went from "
-            f"{percent(float(values['start_first_area_fraction']))} to {percent(float(values['start_last_area_fraction']))} of the nominal area and the {came}."
+            f"Over the first {way} of sliding at {show(float(facts['speed']), 'm/s', 3)} the contact area went "
+            f"from {percent(float(values['start_first_area_fraction']))} to "
+            f"{percent(float(values['start_last_area_fraction']))} of the nominal area and the {came}."
         )
         names = ("distance", "time", "friction", "area_fraction", "approach", "dissipated")
         columns = [np.atleast_1d(values[f"way_{name}"]) for name in names]
@@ -164,8 +175,8 @@ def picture_of(found: Found, solved: Solved) -> StartPicture:
 # In words and tables.
 
 REMARK = (
-    "The load comes at once and the rough body moves at its speed from the first instant on. Friction by the slope and by the heat are equal in the steady state; on the way they differ "
-    "by what is stored."
+    "The load comes at once and the rough body moves at its speed from the first instant on. Friction by the "
+    "slope and by the heat are equal in the steady state; on the way they differ by what is stored."
 )
 """What the model is."""
 

@@ -1,1 +1,2 @@
-"""Surface compliances: from normal pressure to normal displacement, in Fourier space and patch by patch."""
+"""Surface compliances: from normal pressure to normal displacement, in Fourier space and patch by
+patch."""

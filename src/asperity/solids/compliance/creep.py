@@ -1,8 +1,10 @@
-"""Normal compliance of viscoelastic bodies in time: c(q, t) = c_0(q) + sum c_k(q) (1 - exp(-t/lambda_k)) + c_f(q) t.
+"""Normal compliance of viscoelastic bodies in time: c(q, t) = c_0(q) + sum c_k(q) (1 -
+exp(-t/lambda_k)) + c_f(q) t.
 
-c_0 is the compliance at the first instant. Where all moduli relax alike, and of homogeneous bodies, all c_k are multiples of c_0
-(``SharedCreep``). Else the response of the layers to oscillating pressure is computed with complex moduli, and a series fitted to
-it at each wavenumber with one set of times for all (``LayeredCreep``).
+c_0 is the compliance at the first instant. Where all moduli relax alike, and of homogeneous bodies,
+all c_k are multiples of c_0 (``SharedCreep``). Else the response of the layers to oscillating
+pressure is computed with complex moduli, and a series fitted to it at each wavenumber with one set
+of times for all (``LayeredCreep``).
 """
 
 from __future__ import annotations
@@ -110,7 +112,8 @@ class LayeredCreep:
 
 @dataclass(frozen=True)
 class RetardedCompliance:
-    """Sum of the terms of a ``creep`` with these ``weights``, and ``share`` times the instantaneous compliance, as a compliance."""
+    """Sum of the terms of a ``creep`` with these ``weights``, and ``share`` times the instantaneous
+    compliance, as a compliance."""
 
     creep: LayeredCreep = field(repr=False)
     weights: tuple[float, ...]
@@ -162,7 +165,8 @@ class RetardedCompliance:
 
 
 def _between(nodes: RealArray, strength: RealArray, wavenumber: RealArray, *, rigid_base: bool) -> RealArray:
-    """q c, linear in ln q between the ``nodes`` with this ``strength``; on a rigid base c is constant at long waves."""
+    """q c, linear in ln q between the ``nodes`` with this ``strength``; on a rigid base c is
+    constant at long waves."""
     found = np.interp(np.log(wavenumber), np.log(nodes), strength)
     if rigid_base:
         found = np.where(wavenumber < nodes[0], strength[0] * wavenumber / nodes[0], found)
@@ -173,8 +177,9 @@ def _between(nodes: RealArray, strength: RealArray, wavenumber: RealArray, *, ri
 class ShearStrengths:
     """Terms of a creep for tractions of all directions.
 
-    ``planes``: q c_k(q) (terms, n) in 1/Pa at the nodes, of a fluid in 1/(Pa s), the coupling Lz with the sign of the body that carries the traction;
-    ``mean_modes``: c_k(0) along the surface (terms,) in m/Pa, zero where the datum is the mean displacement.
+    ``planes``: q c_k(q) (terms, n) in 1/Pa at the nodes, of a fluid in 1/(Pa s), the coupling Lz
+    with the sign of the body that carries the traction; ``mean_modes``: c_k(0) along the surface
+    (terms,) in m/Pa, zero where the datum is the mean displacement.
     """
 
     planes: PlaneCompliance
@@ -183,7 +188,8 @@ class ShearStrengths:
 
 @dataclass(frozen=True, eq=False)
 class RetardedSurface:
-    """The term of this ``number`` of a ``creep`` with shear, as a compliance for tractions of all directions."""
+    """The term of this ``number`` of a ``creep`` with shear, as a compliance for tractions of all
+    directions."""
 
     creep: LayeredCreep = field(repr=False)
     number: int
@@ -245,9 +251,11 @@ AnyCreep: TypeAlias = SharedCreep | LayeredCreep
 
 
 def contact_creep(body: Body, counter_body: Body, *, shear: bool = False) -> AnyCreep | None:
-    """Creep of the sum of the compliances of ``body`` and ``counter_body``; None where nothing in them relaxes.
+    """Creep of the sum of the compliances of ``body`` and ``counter_body``; None where nothing in
+    them relaxes.
 
-    With ``shear`` that of layers which relax differently is one series for tractions of all directions.
+    With ``shear`` that of layers which relax differently is one series for tractions of all
+    directions.
 
     InputError if both are rigid, or no series is near the compliance.
     """
@@ -270,7 +278,8 @@ def contact_creep(body: Body, counter_body: Body, *, shear: bool = False) -> Any
 
 @lru_cache(maxsize=16)
 def _layered_creep(body: Body, counter_body: Body, shear: bool) -> LayeredCreep:
-    """Series of layers that relax differently; kept, as every solve of a history that is continued needs it and a fit may take a second."""
+    """Series of layers that relax differently; kept, as every solve of a history that is continued
+    needs it and a fit may take a second."""
     pairs = deformable(body, counter_body)
     materials = tuple(material for solid, _ in pairs for material in materials_of(solid))
     stacks = tuple((_stacked(solid), sign) for solid, sign in pairs)
@@ -281,14 +290,15 @@ def _layered_creep(body: Body, counter_body: Body, shear: bool) -> LayeredCreep:
             return found
     if found.error > _WORST:
         raise InputError(
-            f"compliance of viscoelastic layers must be a series of retardations to {_WORST:.0%}, but is one to {found.error:.2g} only. "
-            "Use moduli and thicknesses that differ by smaller factors."
+            f"compliance of viscoelastic layers must be a series of retardations to {_WORST:.0%}, but is one "
+            f"to {found.error:.2g} only. Use moduli and thicknesses that differ by smaller factors."
         )
     return found
 
 
 def complex_compliance(body: Body, counter_body: Body, wavenumber: RealArray, omega: RealArray) -> ComplexArray:
-    """Sum of the complex compliances (m/Pa) of both bodies at ``wavenumber`` (rad/m) > 0 and angular frequency ``omega`` (rad/s).
+    """Sum of the complex compliances (m/Pa) of both bodies at ``wavenumber`` (rad/m) > 0 and
+    angular frequency ``omega`` (rad/s).
 
     The two broadcast against each other. InputError if both bodies are rigid.
     """
@@ -305,21 +315,25 @@ def _stacked(solid: Elastic | Layered) -> Layered:
 
 
 _PER_DECADE = (2, 3, 4, 6, 8)
-"""Retardation times, and frequencies, a decade, tried one after the other; those of the materials themselves stand among the times."""
+"""Retardation times, and frequencies, a decade, tried one after the other; those of the materials
+themselves stand among the times."""
 
 _APART, _NEAR = 0.6, 0.25
-"""Share of a step from a time of the materials within which no other is taken, where few a decade serve and where many are needed."""
+"""Share of a step from a time of the materials within which no other is taken, where few a decade
+serve and where many are needed."""
 
 ERROR = 3e-3
-"""Largest relative error of a complex compliance at which no more terms are taken. Coatings need 3 a decade for 1e-3; a stiff film on a
-soft solid, each wavelength of which has one sharp retardation time of its own, needs 8."""
+"""Largest relative error of a complex compliance at which no more terms are taken. Coatings need 3
+a decade for 1e-3; a stiff film on a soft solid, each wavelength of which has one sharp retardation
+time of its own, needs 8."""
 
 _WORST = 0.05
 """Relative error of the complex compliance above which a series is refused."""
 
 _NODES_PER_DECADE = 80
 _SHORTEST, _LONGEST = 0.1, 1e5
-"""Wavelength over the thinnest layer, and over the thickness of all, beyond which waves feel the top layer or the base alone."""
+"""Wavelength over the thinnest layer, and over the thickness of all, beyond which waves feel the
+top layer or the base alone."""
 
 _FLUID = 1e3
 """Factor to the longest time where something flows: under a film it may do so for very long."""
@@ -330,7 +344,8 @@ _SHOWS = 1e-3
 
 @dataclass(frozen=True)
 class _Fit:
-    """Series for the compliance of ``stacks``, each with the sign of the traction that it carries, of these ``materials``; with ``shear`` for all directions."""
+    """Series for the compliance of ``stacks``, each with the sign of the traction that it carries,
+    of these ``materials``; with ``shear`` for all directions."""
 
     signed: tuple[tuple[Layered, float], ...]
     materials: tuple[Elastic, ...]
@@ -377,9 +392,11 @@ class _Fit:
         return LayeredCreep(times[used], nodes, kept.zz, means[used], error, instantaneous, shear)
 
     def _times(self, nodes: RealArray, stiff: float) -> RealArray:
-        """Those of the materials, and equal steps of the logarithm as far as retardation shows at some wavenumber.
+        """Those of the materials, and equal steps of the logarithm as far as retardation shows at
+        some wavenumber.
 
-        ``stiff`` >= 1 is the largest modulus over the smallest that a material relaxes to. A step near a time of the materials is left out.
+        ``stiff`` >= 1 is the largest modulus over the smallest that a material relaxes to. A step
+        near a time of the materials is left out.
         """
         viscous = [m for m in self.materials if isinstance(m, Viscoelastic) and m.spectrum]
         own = [lam for m in viscous for _, lam in m.contact_creep.terms]
@@ -404,9 +421,11 @@ class _Fit:
         return summed_planes([(operational_plane(stack, nodes, s), sign) for stack, sign in self.signed])
 
     def _mean_modes(self, times: RealArray, *, shear: bool) -> tuple[RealArray, float]:
-        """c_k(0) of layers on a rigid base, of the compression h (1 - 2nu)/2G(1 - nu) of each or of its ``shear`` h/G.
+        """c_k(0) of layers on a rigid base, of the compression h (1 - 2nu)/2G(1 - nu) of each or of
+        its ``shear`` h/G.
 
-        Zero if one of the bodies is a half-space, and in shear where a layer slips: the datum is then the mean displacement.
+        Zero if one of the bodies is a half-space, and in shear where a layer slips: the datum is
+        then the mean displacement.
         """
         on_half_space = any(isinstance(stack.base, Elastic) for stack in self.stacks)
         if on_half_space or (shear and any(stack.slips for stack in self.stacks)):

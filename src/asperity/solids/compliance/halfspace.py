@@ -28,16 +28,20 @@ class Compliance(Protocol):
         """Keys of the papers the compliance rests on."""
 
     def spectral(self, wavenumber: ArrayLike) -> RealArray:
-        """Displacement per pressure c(q) in m/Pa at each ``wavenumber`` q > 0 (rad/m), of any shape; InputError at q = 0."""
+        """Displacement per pressure c(q) in m/Pa at each ``wavenumber`` q > 0 (rad/m), of any
+        shape; InputError at q = 0."""
 
     def mean_mode(self) -> float:
-        """Displacement per pressure in m/Pa of the mode q = 0; 0 where the datum is the mean displacement."""
+        """Displacement per pressure in m/Pa of the mode q = 0; 0 where the datum is the mean
+        displacement."""
 
     def influence(self, grid: Grid) -> RealArray:
-        """Displacement (m/Pa) at pixel offsets (i, j) = (0…nx-1, 0…ny-1) from a pixel under unit pressure."""
+        """Displacement (m/Pa) at pixel offsets (i, j) = (0…nx-1, 0…ny-1) from a pixel under unit
+        pressure."""
 
     def line_influence(self, grid: Grid, datum: float) -> RealArray:
-        """Displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip along y under unit pressure.
+        """Displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip along y under
+        unit pressure.
 
         Plane strain; a half-space gives it relative to the distance ``datum`` (m) from a line load.
         """
@@ -45,7 +49,8 @@ class Compliance(Protocol):
 
 @dataclass(frozen=True)
 class HalfSpace:
-    """Homogeneous half-space of plane-strain modulus E' (or, for two bodies, of contact modulus E*), in Pa.
+    """Homogeneous half-space of plane-strain modulus E' (or, for two bodies, of contact modulus
+    E*), in Pa.
 
     InputError if the modulus is not positive.
     """
@@ -62,7 +67,8 @@ class HalfSpace:
         return 2.0 / (self.modulus * wavenumbers(wavenumber))
 
     def mean_mode(self) -> float:
-        """0: the mean displacement of a half-space under mean pressure is unbounded and serves as datum."""
+        """0: the mean displacement of a half-space under mean pressure is unbounded and serves as
+        datum."""
         return 0.0
 
     def influence(self, grid: Grid) -> RealArray:
@@ -71,9 +77,11 @@ class HalfSpace:
         return patch_displacement(x, y, *grid.spacing) / self.modulus
 
     def line_influence(self, grid: Grid, datum: float) -> RealArray:
-        """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx, zero at distance ``datum``.
+        """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx, zero at
+        distance ``datum``.
 
-        Differences of the integral of -2/(pi E') ln(x/datum) (Johnson 1985, eq. 2.24), which is odd: the first strip reaches from -edge to edge.
+        Differences of the integral of -2/(pi E') ln(x/datum) (Johnson 1985, eq. 2.24), which is
+        odd: the first strip reaches from -edge to edge.
         """
         edge = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0]
         integral = 2.0 / np.pi * edge * (1.0 - np.log(edge / datum))
@@ -82,7 +90,8 @@ class HalfSpace:
 
 @dataclass(frozen=True)
 class SumOfCompliances:
-    """Compliance of bodies that carry the same pressure: their normal displacements add up (Peng 2001, eq. 3.32)."""
+    """Compliance of bodies that carry the same pressure: their normal displacements add up (Peng
+    2001, eq. 3.32)."""
 
     parts: tuple[Compliance, ...]
 
@@ -97,7 +106,8 @@ class SumOfCompliances:
         return sum(others, start=first)
 
     def mean_mode(self) -> float:
-        """Sum in m/Pa; 0 if the datum of one part is its mean displacement, which then is that of the sum."""
+        """Sum in m/Pa; 0 if the datum of one part is its mean displacement, which then is that of
+        the sum."""
         modes = [part.mean_mode() for part in self.parts]
         return sum(modes) if all(modes) else 0.0
 

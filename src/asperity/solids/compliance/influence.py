@@ -33,24 +33,26 @@ def wavenumbers(given: ArrayLike) -> RealArray:
     return q
 
 
-# Displacement of a half-space under uniform pressure on a rectangle (Love 1929; Johnson 1985, eq. 3.25).
+# Displacement of a half-space under uniform pressure on a rectangle (Love 1929; Johnson 1985, eq.
+# 3.25).
 
 
 _FAR = 300.0  # sides; beyond it corner differences lose more digits than the multipole expansion
 
 
 def patch_displacement(x: RealArray, y: RealArray, side_x: float, side_y: float) -> RealArray:
-    """Surface displacement at (x, y) of a half-space with E' = 1 under unit pressure on a rectangle at the origin.
+    """Surface displacement at (x, y) of a half-space with E' = 1 under unit pressure on a rectangle
+    at the origin.
 
-    ``x``, ``y``: coordinates of the field points in m, broadcast against each other; ``side_x``, ``side_y``: full
-    sides of the rectangle in m, > 0.
+    ``x``, ``y``: coordinates of the field points in m, broadcast against each other; ``side_x``,
+    ``side_y``: full sides of the rectangle in m, > 0.
 
     Returns
     -------
     RealArray
-        u E' / p in m, shape of ``x + y``. The corner sum is Love's closed form in the cancellation-free asinh form;
-        beyond 300 sides, where corner differences lose digits, the point load with second moments is used
-        (relative error below 1e-9 everywhere).
+        u E' / p in m, shape of ``x + y``. The corner sum is Love's closed form in the
+        cancellation-free asinh form; beyond 300 sides, where corner differences lose digits, the
+        point load with second moments is used (relative error below 1e-9 everywhere).
     """
     a, b = 0.5 * side_x, 0.5 * side_y
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
@@ -71,20 +73,23 @@ def _corner(x: RealArray, y: RealArray) -> RealArray:
     return x * np.arcsinh(y / ax) + y * np.arcsinh(x / ay)
 
 
-# Surface response to a point force from its spectrum, for laterally isotropic bodies of any structure.
+# Surface response to a point force from its spectrum, for laterally isotropic bodies of any
+# structure.
 #
-# A compliance C(alpha) that multiplies cos(m phi) (phi: direction of the wavevector) belongs to the point response
-# k(r) cos(m theta) with, up to the factor i^m,
+# A compliance C(alpha) that multiplies cos(m phi) (phi: direction of the wavevector) belongs to the
+# point response k(r) cos(m theta) with, up to the factor i^m,
 #
 # k(r) = 1/(2 pi) ∫ C(alpha) J_m(alpha r) alpha d alpha = E(r) / (2 pi r),
 #
-# where E, the local value of alpha C, runs smoothly from its limit at short wavelengths (near field, top layer) to that at
-# long ones (far field, base). Both limits are removed in closed form: C = high/alpha + (low - high) exp(-alpha d)/alpha
+# where E, the local value of alpha C, runs smoothly from its limit at short wavelengths (near
+# field, top layer) to that at long ones (far field, base). Both limits are removed in closed form:
+# C = high/alpha + (low - high) exp(-alpha d)/alpha
 # + remainder. A homogeneous half-space has E = alpha C = constant.
 
 
 COUNT = 8192
-"""Nodes of the grids of wavenumber and distance, 85 e-folds: the alias of a tail 1/r is exp(-42) = 4e-19."""
+"""Nodes of the grids of wavenumber and distance, 85 e-folds: the alias of a tail 1/r is exp(-42) =
+4e-19."""
 
 
 def wavenumber_grid(length: float) -> RealArray:
@@ -110,7 +115,8 @@ class PointKernel:
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of alpha C (1/Pa) at short (``high``) and long (``low``) wavelengths, and a ``depth`` d (m) between them."""
+    """Limits of alpha C (1/Pa) at short (``high``) and long (``low``) wavelengths, and a ``depth``
+    d (m) between them."""
 
     high: float
     low: float
@@ -118,9 +124,11 @@ class Limits:
 
 
 def point_kernel(values: RealArray, limits: Limits, order: int = 0) -> PointKernel:
-    """Kernel of the compliance with ``values`` of alpha C (1/Pa) on ``wavenumber_grid(limits.depth)``.
+    """Kernel of the compliance with ``values`` of alpha C (1/Pa) on
+    ``wavenumber_grid(limits.depth)``.
 
-    The error of E is about 1e-13 of the larger limit: rounding, and the interpolation of the tables.
+    The error of E is about 1e-13 of the larger limit: rounding, and the interpolation of the
+    tables.
     """
     d, jump = limits.depth, limits.low - limits.high
     alpha = wavenumber_grid(d)
@@ -136,16 +144,19 @@ def point_kernel(values: RealArray, limits: Limits, order: int = 0) -> PointKern
 
 # Displacement under uniform traction on rectangular pixels from the response to a point force.
 #
-# Three zones, by distance from the pixel in units of its longer side: the nearest pixels are integrated in polar
-# coordinates about the field point, which removes the singularity for any layer thickness; then 6 x 6 Gauss points; far away
-# five-point averages of the point response along each side.
+# Three zones, by distance from the pixel in units of its longer side: the nearest pixels are
+# integrated in polar coordinates about the field point, which removes the singularity for any layer
+# thickness; then 6 x 6 Gauss points; far away five-point averages of the point response along each
+# side.
 
 
 NEAR = 3.0
-"""Distance in pixel sides from which 6 x 6 Gauss points serve: their error there is below 1e-11 of the coefficient."""
+"""Distance in pixel sides from which 6 x 6 Gauss points serve: their error there is below 1e-11 of
+the coefficient."""
 
 FAR = 25.0
-"""Distance in pixel sides from which five-point averages serve: their error there is about 0.7/FAR^6 = 3e-9."""
+"""Distance in pixel sides from which five-point averages serve: their error there is about
+0.7/FAR^6 = 3e-9."""
 
 _GAUSS = 6
 _PANEL = 1.5  # length in asinh(tan theta) on which 16 Gauss points of a function analytic in a strip of 1 give 1e-15
@@ -155,7 +166,8 @@ _AVERAGE = np.array([-17.0, 308.0, 5178.0, 308.0, -17.0]) / 5760.0  # mean over 
 
 @dataclass(frozen=True)
 class Angular:
-    """Factor cos(m theta) or sin(m theta) as a function of (cos theta, sin theta), and whether it is even in x and y."""
+    """Factor cos(m theta) or sin(m theta) as a function of (cos theta, sin theta), and whether it
+    is even in x and y."""
 
     factor: Callable[[RealArray, RealArray], RealArray]
     even_x: bool
@@ -170,10 +182,11 @@ SIN_2 = Angular(lambda c, s: 2.0 * s * c, even_x=False, even_y=False)
 
 
 def patch_coefficients(kernel: PointKernel, grid: Grid, angular: Angular = ISOTROPIC) -> RealArray:
-    """Displacement (m/Pa) at pixel offsets (0…nx-1, 0…ny-1) from a pixel under unit traction, for one component.
+    """Displacement (m/Pa) at pixel offsets (0…nx-1, 0…ny-1) from a pixel under unit traction, for
+    one component.
 
-    The error is below 1e-8 of the coefficient, and where the response changes sign or dies out below 1e-8 of that of a
-    half-space of the top layer's material.
+    The error is below 1e-8 of the coefficient, and where the response changes sign or dies out
+    below 1e-8 of that of a half-space of the top layer's material.
     """
     (nx, ny), (dx, dy) = grid.shape, grid.spacing
     side = max(dx, dy)
@@ -199,7 +212,8 @@ def patch_coefficients(kernel: PointKernel, grid: Grid, angular: Angular = ISOTR
     below = _triangle(kernel, X, Y, angular.factor)
     above = _triangle(kernel, Y, X, lambda along, across: angular.factor(across, along))
     quarter = (below + above) / (2.0 * np.pi)  # between the origin and the far corners of the pixels
-    # the pixels at the origin reach half a side beyond it: mirror, with the sign of an integral from 0 to -X
+    # the pixels at the origin reach half a side beyond it: mirror, with the sign of an integral
+    # from 0 to -X
     over_x = np.vstack([(-quarter[:1] if angular.even_x else quarter[:1]), quarter])
     whole = np.hstack([(-over_x[:, :1] if angular.even_y else over_x[:, :1]), over_x])
     out[i, j] = np.diff(np.diff(whole, axis=0), axis=1)[i, j]
@@ -224,7 +238,8 @@ def _values(kernel: PointKernel, x: RealArray, y: RealArray, angular: Angular) -
 def _triangle(
     kernel: PointKernel, length: RealArray, width: RealArray, factor: Callable[[RealArray, RealArray], RealArray]
 ) -> RealArray:
-    """2 pi times the integral of the response over 0 < x < ``length`` below the diagonal to ``width``, the radial one in closed form.
+    """2 pi times the integral of the response over 0 < x < ``length`` below the diagonal to
+    ``width``, the radial one in closed form.
 
     r ends at X/cos theta; with tan theta = sinh v, X/cos theta = X cosh v and d theta = dv/cosh v.
     """
@@ -240,16 +255,19 @@ def _triangle(
 
 # Plane strain: surface displacement of strips along y, from the spectrum of the body.
 #
-# A line force gives u(x) with x du/dx = -L(x)/pi, L(x) = ∫ alpha C sin(alpha x) x d(alpha), which runs from alpha C at short
-# wavelengths to alpha C at long ones. On a half-space base u grows like -ln x for ever (Flamant 1892): the plane problem
-# fixes it up to a constant only, and the displacement at a stated distance, the datum, is called zero.
+# A line force gives u(x) with x du/dx = -L(x)/pi, L(x) = ∫ alpha C sin(alpha x) x d(alpha), which
+# runs from alpha C at short wavelengths to alpha C at long ones. On a half-space base u grows like
+# -ln x for ever (Flamant 1892): the plane problem fixes it up to a constant only, and the
+# displacement at a stated distance, the datum, is called zero.
 
 
 @dataclass(frozen=True, eq=False)
 class LineKernel:
-    """``descent``, the integral of L/x, and ``moment``, the integral of L, both from 0 (1/Pa, m/Pa), over x in m.
+    """``descent``, the integral of L/x, and ``moment``, the integral of L, both from 0 (1/Pa,
+    m/Pa), over x in m.
 
-    ``infinity`` is the distance (m) that serves as datum on a rigid base; infinite on a half-space, where none serves.
+    ``infinity`` is the distance (m) that serves as datum on a rigid base; infinite on a half-space,
+    where none serves.
     """
 
     descent: LogTable
@@ -258,12 +276,13 @@ class LineKernel:
 
 
 _DIED_OUT = 1e4
-"""Distance over thickness of the layers at which displacements on a rigid base are zero: they fall exponentially, over 30
-thicknesses where a film is a million times stiffer than what it lies on."""
+"""Distance over thickness of the layers at which displacements on a rigid base are zero: they fall
+exponentially, over 30 thicknesses where a film is a million times stiffer than what it lies on."""
 
 
 def line_kernel(values: RealArray, limits: Limits) -> LineKernel:
-    """Kernel of the compliance with ``values`` of alpha C (1/Pa) on ``wavenumber_grid(limits.depth)``.
+    """Kernel of the compliance with ``values`` of alpha C (1/Pa) on
+    ``wavenumber_grid(limits.depth)``.
 
     sin z = sqrt(pi z/2) J_1/2(z) makes L a Hankel transform.
     """
@@ -280,10 +299,12 @@ def line_kernel(values: RealArray, limits: Limits) -> LineKernel:
 
 
 def strip_coefficients(kernel: LineKernel, grid: Grid, datum: float) -> RealArray:
-    """Displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip of width dx under unit pressure.
+    """Displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip of width dx under
+    unit pressure.
 
-    It is relative to that at the distance ``datum`` (m) from a line load; on a rigid base relative to the base.
-    With the descent D and the moment M, the integral of u from 0 to X is [X (D(datum) - D(X)) + M(X)]/pi.
+    It is relative to that at the distance ``datum`` (m) from a line load; on a rigid base relative
+    to the base. With the descent D and the moment M, the integral of u from 0 to X is [X
+    (D(datum) - D(X)) + M(X)]/pi.
     """
     zero = kernel.descent(np.array([datum if kernel.infinity == np.inf else kernel.infinity]))
     edge = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0]
@@ -292,10 +313,11 @@ def strip_coefficients(kernel: LineKernel, grid: Grid, datum: float) -> RealArra
     return differences[:, None]
 
 
-# Plane strain: integrals of the response to a line load, for any even or odd amplitude of the wavenumber.
+# Plane strain: integrals of the response to a line load, for any even or odd amplitude of the
+# wavenumber.
 #
-# The amplitude is split into (b/α + a) exp(-αd) in closed form, which carries the slow decay, and a remainder by logarithmic
-# Hankel transform.
+# The amplitude is split into (b/α + a) exp(-αd) in closed form, which carries the slow decay, and a
+# remainder by logarithmic Hankel transform.
 
 
 _SMALL = 1e-5  # of the wavenumber 1/d, where the constant term of an amplitude can be read off
@@ -303,7 +325,8 @@ _SMALL = 1e-5  # of the wavenumber 1/d, where the constant term of an amplitude 
 
 @dataclass(frozen=True, eq=False)
 class LineIntegral:
-    """∫ of the line response K from 0 to x: (b/α + a) exp(-αd) in closed form, and a table of the remainder."""
+    """∫ of the line response K from 0 to x: (b/α + a) exp(-αd) in closed form, and a table of the
+    remainder."""
 
     b: float
     a: float
@@ -330,7 +353,8 @@ class LineIntegral:
 
 
 def line_integral(alpha: RealArray, amplitude: RealArray, d: float, *, cosine: bool) -> LineIntegral:
-    """Integral of 1/π ∫ F cos αx dα, or of the sine, for the ``amplitude`` F on ``wavenumber_grid(d)``.
+    """Integral of 1/π ∫ F cos αx dα, or of the sine, for the ``amplitude`` F on
+    ``wavenumber_grid(d)``.
 
     cos z = sqrt(πz/2) J_-1/2(z) and sin z with J_1/2 make it a Hankel transform.
     """

@@ -29,21 +29,24 @@ from .influence import (
     wavenumbers,
 )
 
-# Compliance of a stack of layers in the wavenumber domain by hybrid layer matrices (after Tan 2006, for waves).
+# Compliance of a stack of layers in the wavenumber domain by hybrid layer matrices (after Tan 2006,
+# for waves).
 #
-# Each wavevector splits the problem into an in-plane part with the real amplitudes (U, W), u_L = i U, u_z = W,
-# sigma_Lz = -i tau_L, sigma_zz = -tau_z, and an antiplane part u_T, sigma_Tz = -tau_T, where L points along the wavevector,
-# T across it and z into the body. Everything here is a function of arrays of wavenumbers alpha > 0 that broadcast.
+# Each wavevector splits the problem into an in-plane part with the real amplitudes (U, W), u_L = i
+# U, u_z = W, sigma_Lz = -i tau_L, sigma_zz = -tau_z, and an antiplane part u_T, sigma_Tz = -tau_T,
+# where L points along the wavevector, T across it and z into the body. Everything here is a
+# function of arrays of wavenumbers alpha > 0 that broadcast.
 #
 # A layer is described by "traction given on top, displacement given at the bottom",
 #
 # v_top = A tau_top + B v_bot,        tau_bot = B^T tau_top - D v_bot,
 #
-# which stays regular for thin and for thick layers, where transfer and stiffness matrices fail. Compliances of layers and of
-# what lies below combine by sums of positive quantities only, so their relative accuracy is that of the arithmetic.
-# Products of two compliances are formed times (G alpha)², so G alpha may lie anywhere in 1e-280 … 1e280. One case loses
-# digits: an exactly incompressible layer that can slip, whose squeezing and stretching are the same motion, is accurate to
-# 1e-16/(alpha h)² only.
+# which stays regular for thin and for thick layers, where transfer and stiffness matrices fail.
+# Compliances of layers and of what lies below combine by sums of positive quantities only, so their
+# relative accuracy is that of the arithmetic. Products of two compliances are formed times (G
+# alpha)², so G alpha may lie anywhere in 1e-280 … 1e280. One case loses digits: an exactly
+# incompressible layer that can slip, whose squeezing and stretching are the same motion, is
+# accurate to 1e-16/(alpha h)² only.
 
 
 Amplitude = RealArray | ComplexArray
@@ -57,7 +60,8 @@ _SERIES = 0.5  # alpha h below which sinh cosh - x is summed as a series
 
 @dataclass(frozen=True, eq=False)
 class PlaneVector:
-    """Amplitudes of a traction (tau_L, tau_z, tau_T) in Pa or of a displacement (U, W, u_T) in m."""
+    """Amplitudes of a traction (tau_L, tau_z, tau_T) in Pa or of a displacement (U, W, u_T) in
+    m."""
 
     L: Amplitude
     z: Amplitude
@@ -66,7 +70,8 @@ class PlaneVector:
 
 @dataclass(frozen=True, eq=False)
 class PlaneCompliance:
-    """Symmetric compliance in m/Pa of everything below a plane: v = C tau in the plane, u_T = C_T tau_T across it."""
+    """Symmetric compliance in m/Pa of everything below a plane: v = C tau in the plane, u_T = C_T
+    tau_T across it."""
 
     LL: RealArray
     zz: RealArray
@@ -111,11 +116,12 @@ class LayerMatrices:
 
 
 def layer_matrices(alpha: ArrayLike, thickness: ArrayLike, *, shear_modulus: Modulus, nu: Modulus) -> LayerMatrices:
-    """Hybrid matrices of an isotropic layer, evaluated times exp(-2 alpha h) so that nothing overflows or cancels.
+    """Hybrid matrices of an isotropic layer, evaluated times exp(-2 alpha h) so that nothing
+    overflows or cancels.
 
-    ``alpha``: wavenumbers in rad/m, > 0; ``thickness``: h in m, >= 0, infinite allowed; broadcast against ``alpha``;
-    ``shear_modulus``, ``nu``: G in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5; complex ones, numbers or arrays like ``alpha``, give the
-    matrices of a viscoelastic layer.
+    ``alpha``: wavenumbers in rad/m, > 0; ``thickness``: h in m, >= 0, infinite allowed; broadcast
+    against ``alpha``; ``shear_modulus``, ``nu``: G in Pa, > 0, and Poisson's ratio, -1 < nu <= 0.5;
+    complex ones, numbers or arrays like ``alpha``, give the matrices of a viscoelastic layer.
     """
     alpha = np.asarray(alpha, dtype=float)
     x = np.minimum(alpha * thickness, _VANISHED)
@@ -158,7 +164,8 @@ def layer_matrices(alpha: ArrayLike, thickness: ArrayLike, *, shear_modulus: Mod
 
 
 def half_space(alpha: ArrayLike, *, shear_modulus: Modulus, nu: Modulus) -> PlaneCompliance:
-    """Homogeneous half-space: C_LL = C_zz = (1 - nu)/(G alpha), C_Lz = (1 - 2nu)/(2G alpha), C_T = 1/(G alpha)."""
+    """Homogeneous half-space: C_LL = C_zz = (1 - nu)/(G alpha), C_Lz = (1 - 2nu)/(2G alpha), C_T =
+    1/(G alpha)."""
     T = 1.0 / (shear_modulus * np.asarray(alpha, dtype=float))
     normal = (1.0 - nu) * T
     return PlaneCompliance(LL=normal, zz=normal, Lz=(0.5 - nu) * T, T=T)
@@ -173,8 +180,9 @@ def rigid(alpha: ArrayLike) -> PlaneCompliance:
 def raised(below: PlaneCompliance, layer: LayerMatrices, interface: Interface = Bonded()) -> PlaneCompliance:
     """Compliance of the top of ``layer`` on what has the compliance ``below``: C = A + B X B^T.
 
-    X relates the displacement of the layer's lower face to the traction B^T tau; bonded, X = (C^-1 + D)^-1, with no
-    inverse of C needed; frictionless, X = (D + diag(0, 1/C_zz))^-1, which is infinite in a layer of zero thickness.
+    X relates the displacement of the layer's lower face to the traction B^T tau; bonded, X =
+    (C^-1 + D)^-1, with no inverse of C needed; frictionless, X = (D + diag(0, 1/C_zz))^-1, which is
+    infinite in a layer of zero thickness.
     """
     m, c = layer, below.scaled(layer.g_alpha)
     X_LL, X_zz, X_Lz, X_T = _lower_face_compliance(c, m, interface)
@@ -191,10 +199,12 @@ def raised(below: PlaneCompliance, layer: LayerMatrices, interface: Interface = 
 def lowered(
     traction: PlaneVector, below: PlaneCompliance, layer: LayerMatrices, interface: Interface = Bonded()
 ) -> PlaneVector:
-    """Traction under ``layer`` from the ``traction`` on its top, what lies below having the compliance ``below``.
+    """Traction under ``layer`` from the ``traction`` on its top, what lies below having the
+    compliance ``below``.
 
-    Bonded, tau_bot = (I + D C)^-1 B^T tau_top and tau_T,bot = B_T tau_T / (1 + D_T C_T); frictionless, tau_bot =
-    (0, W_bot / C_zz). The displacement of what lies below is ``below.displacement`` of the result.
+    Bonded, tau_bot = (I + D C)^-1 B^T tau_top and tau_T,bot = B_T tau_T / (1 + D_T C_T);
+    frictionless, tau_bot = (0, W_bot / C_zz). The displacement of what lies below is
+    ``below.displacement`` of the result.
     """
     m, c = layer, below.scaled(layer.g_alpha)
     t_L, t_z = m.B_LL * traction.L + m.B_zL * traction.z, m.B_Lz * traction.L + m.B_zz * traction.z
@@ -214,7 +224,8 @@ def lowered(
 def lower_face(
     traction: PlaneVector, below: PlaneCompliance, layer: LayerMatrices, interface: Interface = Bonded()
 ) -> PlaneVector:
-    """Displacement X B^T tau of the lower face of ``layer``; over a frictionless interface it slips on what is below."""
+    """Displacement X B^T tau of the lower face of ``layer``; over a frictionless interface it slips
+    on what is below."""
     m = layer
     X_LL, X_zz, X_Lz, X_T = _lower_face_compliance(below.scaled(m.g_alpha), m, interface)
     t_L, t_z = m.B_LL * traction.L + m.B_zL * traction.z, m.B_Lz * traction.L + m.B_zz * traction.z
@@ -225,32 +236,36 @@ def lower_face(
 
 
 def interface_compliances(stack: Layered, alpha: ArrayLike) -> tuple[PlaneCompliance, ...]:
-    """Compliance at the top of every layer of ``stack`` and of its base, index 0 the surface, N the top of the base.
+    """Compliance at the top of every layer of ``stack`` and of its base, index 0 the surface, N the
+    top of the base.
 
-    ``stack``: layers and base; layers of zero thickness pass on the compliance below them unchanged; ``alpha``:
-    Wavenumbers in rad/m, > 0.
+    ``stack``: layers and base; layers of zero thickness pass on the compliance below them
+    unchanged; ``alpha``: Wavenumbers in rad/m, > 0.
     """
     return _compliances(stack, alpha, lambda solid: (solid.shear_modulus, solid.poisson_ratio))
 
 
 def operational_plane(stack: Layered, alpha: ArrayLike, s: ArrayLike) -> PlaneCompliance:
-    """Compliance (m/Pa, complex) of the surface of a viscoelastic ``stack`` in operational form: its moduli replaced by those at complex ``s`` (1/s).
+    """Compliance (m/Pa, complex) of the surface of a viscoelastic ``stack`` in operational form:
+    its moduli replaced by those at complex ``s`` (1/s).
 
-    ``alpha``: wavenumbers in rad/m, > 0; ``s``: broadcast against them; at s = i omega the response to tractions that vary as
-    exp(i omega t). Elastic materials do not change with ``s``.
+    ``alpha``: wavenumbers in rad/m, > 0; ``s``: broadcast against them; at s = i omega the response
+    to tractions that vary as exp(i omega t). Elastic materials do not change with ``s``.
     """
     return _compliances(stack, alpha, lambda solid: operational_moduli(solid, s))[0]
 
 
 def operational_moduli(solid: Elastic, s: ArrayLike) -> tuple[Modulus, Modulus]:
-    """Shear modulus (Pa) and Poisson's ratio of ``solid`` in operational form at complex ``s`` (1/s)."""
+    """Shear modulus (Pa) and Poisson's ratio of ``solid`` in operational form at complex ``s``
+    (1/s)."""
     return solid.operational(s) if isinstance(solid, Viscoelastic) else (solid.shear_modulus, solid.poisson_ratio)
 
 
 def _compliances(
     stack: Layered, alpha: ArrayLike, moduli: Callable[[Elastic], tuple[Modulus, Modulus]]
 ) -> tuple[PlaneCompliance, ...]:
-    """Compliance at the top of every layer and of the base, with the ``moduli`` G and nu of each material."""
+    """Compliance at the top of every layer and of the base, with the ``moduli`` G and nu of each
+    material."""
     if isinstance(stack.base, Elastic):
         G, nu = moduli(stack.base)
         compliance = half_space(alpha, shear_modulus=G, nu=nu)
@@ -293,7 +308,8 @@ def _det_one_plus_CD(c: PlaneCompliance, m: LayerMatrices) -> RealArray:
     return 1.0 + c.LL * m.D_LL + c.zz * m.D_zz + 2.0 * c.Lz * m.D_Lz + det_C * _det_D(m)
 
 
-# Compliance of a body on a logarithmic grid of wavenumbers, with its limits: all that responses in real space need.
+# Compliance of a body on a logarithmic grid of wavenumbers, with its limits: all that responses in
+# real space need.
 
 
 Component = Callable[[PlaneCompliance], RealArray]
@@ -302,7 +318,8 @@ Component = Callable[[PlaneCompliance], RealArray]
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """``values`` of alpha C (1/Pa) on ``wavenumber_grid(depth)`` and its limits at short (``high``) and long wavelengths."""
+    """``values`` of alpha C (1/Pa) on ``wavenumber_grid(depth)`` and its limits at short (``high``)
+    and long wavelengths."""
 
     depth: float
     values: PlaneCompliance
@@ -319,14 +336,16 @@ class Samples:
 
 
 def samples(body: Elastic | Layered, depth: float) -> Samples:
-    """Samples of ``body`` around the wavenumber 1/``depth`` (m), which for layers should be about their thickness."""
+    """Samples of ``body`` around the wavenumber 1/``depth`` (m), which for layers should be about
+    their thickness."""
     stack = body.reduced if isinstance(body, Layered) else Layered((), body)
     alpha = wavenumber_grid(depth)
     values = interface_compliances(stack, alpha)[0].scaled(alpha)
     base = low = _strength(stack.base) if isinstance(stack.base, Elastic) else rigid(np.ones(()))
     if stack.slips:
-        # the layers above carry a shear traction as a sheet does, and their Poisson contraction moves the surface: for
-        # one layer C_Lz alpha tends to -nu/2G; displacements along the surface grow without limit
+        # the layers above carry a shear traction as a sheet does, and their Poisson contraction
+        # moves the surface: for one layer C_Lz alpha tends to -nu/2G; displacements along the
+        # surface grow without limit
         low = PlaneCompliance(np.array(np.inf), base.zz, values.Lz[0], np.array(np.inf))
     return Samples(depth, values, _strength(stack.layers[0].material) if stack.layers else base, low)
 
@@ -338,11 +357,13 @@ def _strength(material: Elastic) -> PlaneCompliance:
 
 @dataclass(frozen=True)
 class LayerStack:
-    """Compliance of ``body``, which has at least one layer of finite thickness; names and strengths are left out of it.
+    """Compliance of ``body``, which has at least one layer of finite thickness; names and strengths
+    are left out of it.
 
-    The spectrum of a large map is interpolated between a few hundred wavenumbers, equal steps in their logarithm apart, with
-    a relative error below 1e-13: a map of 1024² points costs about two Fourier transforms, whatever the number of layers.
-    Influence coefficients come from the same spectrum, with a relative error below 1e-8.
+    The spectrum of a large map is interpolated between a few hundred wavenumbers, equal steps in
+    their logarithm apart, with a relative error below 1e-13: a map of 1024² points costs about two
+    Fourier transforms, whatever the number of layers. Influence coefficients come from the same
+    spectrum, with a relative error below 1e-8.
     """
 
     body: Layered
@@ -361,7 +382,8 @@ class LayerStack:
         return PlaneCompliance(*self._interpolated(wavenumber, lambda c: (c.LL, c.zz, c.Lz, c.T)))
 
     def mean_mode(self) -> float:
-        """Compression of the layers per pressure in m/Pa on a rigid base; 0 on a half-space, whose datum is the mean.
+        """Compression of the layers per pressure in m/Pa on a rigid base; 0 on a half-space, whose
+        datum is the mean.
 
         Without lateral strain each layer gives h/M, M = 2G (1 - nu)/(1 - 2nu).
         """
@@ -378,7 +400,8 @@ class LayerStack:
         return patch_coefficients(self._point, grid)
 
     def line_influence(self, grid: Grid, datum: float) -> RealArray:
-        """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx (plane strain)."""
+        """Coefficients in m/Pa, shape (nx, 1), for constant pressure on strips of width dx (plane
+        strain)."""
         return strip_coefficients(self._line, grid, datum)
 
     @cached_property
@@ -396,7 +419,8 @@ class LayerStack:
     def _interpolated(
         self, wavenumber: ArrayLike, components: Callable[[PlaneCompliance], tuple[RealArray, ...]]
     ) -> list[RealArray]:
-        """Some ``components`` of C(q), from a table of q C where the array is larger than the table."""
+        """Some ``components`` of C(q), from a table of q C where the array is larger than the
+        table."""
         q = wavenumbers(wavenumber)
         nodes = covering_grid(float(q.min()), float(q.max())) if q.size > 1 else q
         if q.size <= nodes.size:

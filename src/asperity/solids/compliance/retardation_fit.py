@@ -1,9 +1,12 @@
-"""Series of retardations fitted to complex compliances: non-negative, and of tractions in all directions positive semi-definite.
+"""Series of retardations fitted to complex compliances: non-negative, and of tractions in all
+directions positive semi-definite.
 
-c(omega) = c_0 + sum c_k/(1 + i omega lambda_k), with 1/(i omega) in the place of the last for a fluid. Each term of a passive body stores energy and
-turns it into heat, whatever the direction of the traction: its strengths along the wavevector and along the normal, with that between them,
-are a positive semi-definite matrix. Such a matrix is a sum of squares of directions (c, s) in the plane with non-negative factors. The fit
-begins with the two axes, and takes in the direction of each term in which its error falls fastest, until none helps.
+c(omega) = c_0 + sum c_k/(1 + i omega lambda_k), with 1/(i omega) in the place of the last for a
+fluid. Each term of a passive body stores energy and turns it into heat, whatever the direction of
+the traction: its strengths along the wavevector and along the normal, with that between them, are a
+positive semi-definite matrix. Such a matrix is a sum of squares of directions (c, s) in the plane
+with non-negative factors. The fit begins with the two axes, and takes in the direction of each term
+in which its error falls fastest, until none helps.
 """
 
 from __future__ import annotations
@@ -20,14 +23,17 @@ _ROUNDS = 40
 """Rounds of a fit in the plane at most; two to five are taken."""
 
 _GAIN = 1e-4
-"""Relative change of the residual from one round to the next below which no more directions are taken."""
+"""Relative change of the residual from one round to the next below which no more directions are
+taken."""
 
 _STEEP = 1e-9
-"""Slope of the error with a direction, relative to that of a term on its own, that does not count."""
+"""Slope of the error with a direction, relative to that of a term on its own, that does not
+count."""
 
 
 def responses(times: RealArray, omega: RealArray) -> ComplexArray:
-    """1/(1 + i omega lambda_k) for each of ``omega`` (m,) in rad/s and ``times`` (terms,) in s, 1/(i omega) of an infinite time."""
+    """1/(1 + i omega lambda_k) for each of ``omega`` (m,) in rad/s and ``times`` (terms,) in s,
+    1/(i omega) of an infinite time."""
     finite = np.isfinite(times)
     columns = np.empty((omega.size, times.size), dtype=complex)
     columns[:, finite] = 1.0 / (1.0 + 1j * omega[:, None] * times[finite])
@@ -36,9 +42,11 @@ def responses(times: RealArray, omega: RealArray) -> ComplexArray:
 
 
 def fitted(times: RealArray, omega: RealArray, exact: ComplexArray) -> tuple[RealArray, float]:
-    """Non-negative strengths (terms, n) for the columns of ``exact`` (m + 1, n), and the largest relative error.
+    """Non-negative strengths (terms, n) for the columns of ``exact`` (m + 1, n), and the largest
+    relative error.
 
-    The last row is the value at infinite frequency, which is subtracted. InputError if a value is no number.
+    The last row is the value at infinite frequency, which is subtracted. InputError if a value is
+    no number.
     """
     columns = responses(times, omega)
     strengths, worst = np.empty((times.size, exact.shape[1])), 0.0
@@ -51,7 +59,8 @@ def fitted(times: RealArray, omega: RealArray, exact: ComplexArray) -> tuple[Rea
 
 
 def fitted_planes(times: RealArray, omega: RealArray, exact: PlaneCompliance) -> tuple[PlaneCompliance, float]:
-    """The same of all components of ``exact``, complex arrays (m + 1, n): positive semi-definite strengths (terms, n) of each.
+    """The same of all components of ``exact``, complex arrays (m + 1, n): positive semi-definite
+    strengths (terms, n) of each.
 
     The error of Lz is relative to the root of LL times zz.
     """
@@ -74,9 +83,11 @@ def fitted_planes(times: RealArray, omega: RealArray, exact: PlaneCompliance) ->
 def _fitted_wave(
     columns: ComplexArray, wanted: ComplexArray, size: RealArray, directions: RealArray
 ) -> tuple[RealArray, RealArray]:
-    """Strengths LL, zz, Lz (3, terms) at one wavenumber, begun from the axes and ``directions``, and those taken: term and angle of each, (2, number).
+    """Strengths LL, zz, Lz (3, terms) at one wavenumber, begun from the axes and ``directions``,
+    and those taken: term and angle of each, (2, number).
 
-    ``wanted`` (3, m), with errors relative to ``size`` (3, m), is fitted by the ``columns`` (m, terms).
+    ``wanted`` (3, m), with errors relative to ``size`` (3, m), is fitted by the ``columns`` (m,
+    terms).
     """
     along, normal = size[:2].max(axis=1)
     scale = np.array([[along], [normal], [math.sqrt(along * normal)]])  # units in which the two directions weigh alike
@@ -121,7 +132,8 @@ def _real(values: ComplexArray, size: RealArray | float = 1.0) -> RealArray:
 
 
 def _least(columns: RealArray, wanted: RealArray) -> tuple[RealArray, float]:
-    """Non-negative factors (number,) of the ``columns`` (m, number) nearest ``wanted`` (m,), and the norm of what is left."""
+    """Non-negative factors (number,) of the ``columns`` (m, number) nearest ``wanted`` (m,), and
+    the norm of what is left."""
     from scipy.optimize import nnls
 
     factors, residual = nnls(columns, wanted, maxiter=100 * columns.shape[1])

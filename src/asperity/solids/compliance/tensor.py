@@ -1,4 +1,5 @@
-"""Full surface compliance, tractions (q_x, q_y, p) to displacements (u_x, u_y, u_z), of a periodic cell."""
+"""Full surface compliance, tractions (q_x, q_y, p) to displacements (u_x, u_y, u_z), of a periodic
+cell."""
 
 from __future__ import annotations
 
@@ -33,7 +34,8 @@ from .layered import LayerStack, PlaneCompliance, Samples, half_space, samples
 class SurfaceTensor:
     """Hermitian tensor on the half spectrum (nx, ny // 2 + 1) of a grid, in m/Pa.
 
-    ``xx``, ``yy``, ``zz`` and ``xy`` are real; ``xz`` and ``yz`` are the imaginary parts: C_xz = i xz, C_zx = -i xz.
+    ``xx``, ``yy``, ``zz`` and ``xy`` are real; ``xz`` and ``yz`` are the imaginary parts: C_xz = i
+    xz, C_zx = -i xz.
     """
 
     xx: RealArray
@@ -55,14 +57,17 @@ def plane_compliance(body: Elastic | Layered, wavenumber: RealArray) -> PlaneCom
 
 
 def surface_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> SurfaceTensor:
-    """Displacement of ``body`` relative to ``counter_body`` per traction on ``body``, in Fourier space.
+    """Displacement of ``body`` relative to ``counter_body`` per traction on ``body``, in Fourier
+    space.
 
-    Compliances of both bodies add up, but their coupling between normal and tangential directions subtracts, for the two
-    carry opposite tractions in a common frame. Odd entries are zero on the Nyquist lines, where their sign
-    is undefined, so that real tractions give real displacements. The mean mode is zero, its displacement being the datum,
-    but for the compression and shear of layers on a rigid base.
+    Compliances of both bodies add up, but their coupling between normal and tangential directions
+    subtracts, for the two carry opposite tractions in a common frame. Odd entries are zero on the
+    Nyquist lines, where their sign is undefined, so that real tractions give real displacements.
+    The mean mode is zero, its displacement being the datum, but for the compression and shear of
+    layers on a rigid base.
 
-    ``grid``: periodic cell; ``body``, ``counter_body``: bodies below and above; one of them may be rigid.
+    ``grid``: periodic cell; ``body``, ``counter_body``: bodies below and above; one of them may be
+    rigid.
 
     InputError if both bodies are rigid.
     """
@@ -85,7 +90,8 @@ def surface_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> Surf
 
 
 def tensor_of(grid: Grid, plane: PlaneCompliance, shear: float, normal: float) -> SurfaceTensor:
-    """Tensor of the components ``plane`` at the wavenumbers of ``grid``, and of the mean modes for ``shear`` and ``normal`` traction (m/Pa)."""
+    """Tensor of the components ``plane`` at the wavenumbers of ``grid``, and of the mean modes for
+    ``shear`` and ``normal`` traction (m/Pa)."""
     qx, qy = grid.wavevector()
     q = grid.wavenumber()
     q[0, 0] = 1.0
@@ -108,7 +114,8 @@ def tensor_of(grid: Grid, plane: PlaneCompliance, shear: float, normal: float) -
 
 
 def summed_planes(parts: Sequence[tuple[PlaneCompliance, float]]) -> PlaneCompliance:
-    """Sum of the compliances of bodies with the signs of the tractions that they carry: their couplings subtract."""
+    """Sum of the compliances of bodies with the signs of the tractions that they carry: their
+    couplings subtract."""
     return PlaneCompliance(
         LL=np.add.reduce([part.LL for part, _ in parts]),
         zz=np.add.reduce([part.zz for part, _ in parts]),
@@ -122,10 +129,12 @@ def summed_planes(parts: Sequence[tuple[PlaneCompliance, float]]) -> PlaneCompli
 
 @dataclass(frozen=True, eq=False)
 class InfluenceTensor:
-    """Displacement (m/Pa) at pixel offsets (0…nx-1, 0…ny-1) from a pixel under unit traction, arrays (nx, ny).
+    """Displacement (m/Pa) at pixel offsets (0…nx-1, 0…ny-1) from a pixel under unit traction,
+    arrays (nx, ny).
 
-    ``xx``, ``yy`` and ``zz`` are even in both offsets, ``xy`` is odd in both; ``xz``, u_x under unit pressure, is odd in x
-    and even in y, ``yz`` even in x and odd in y. Reciprocity gives the rest: yx = xy, zx = -xz, zy = -yz.
+    ``xx``, ``yy`` and ``zz`` are even in both offsets, ``xy`` is odd in both; ``xz``, u_x under
+    unit pressure, is odd in x and even in y, ``yz`` even in x and odd in y. Reciprocity gives the
+    rest: yx = xy, zx = -xz, zy = -yz.
     """
 
     xx: RealArray
@@ -137,12 +146,15 @@ class InfluenceTensor:
 
 
 def influence_tensor(grid: Grid, body: Body, counter_body: Body = Rigid()) -> InfluenceTensor:
-    """Displacement of ``body`` relative to ``counter_body`` at every offset on ``grid`` from a loaded pixel.
+    """Displacement of ``body`` relative to ``counter_body`` at every offset on ``grid`` from a
+    loaded pixel.
 
-    Tractions act on ``body``. Compliances of the two add up; their coupling between normal and tangential directions
-    subtracts. The relative error is below 1e-8, as for ``patch_coefficients``.
+    Tractions act on ``body``. Compliances of the two add up; their coupling between normal and
+    tangential directions subtracts. The relative error is below 1e-8, as for
+    ``patch_coefficients``.
 
-    InputError if both bodies are rigid, or a layer may slip: its displacement under a tangential force has no limit.
+    InputError if both bodies are rigid, or a layer may slip: its displacement under a tangential
+    force has no limit.
     """
     surface = BodiesSurface(body, counter_body)
     xx, yy, xy = surface.shear_pixels(grid)
@@ -169,8 +181,9 @@ def _require_bonded(body: Elastic | Layered) -> None:
 def shear_pixels_of(grid: Grid, known: Samples) -> tuple[RealArray, RealArray, RealArray]:
     """``xx``, ``yy`` and ``xy`` of pixels from the samples ``known``.
 
-    From the spectrum: C_xx = (LL + T)/2 + cos 2phi (LL - T)/2, C_xy = sin 2phi (LL - T)/2; C_xz = i cos phi Lz elsewhere.
-    A factor cos(m phi) or sin(m phi) becomes i^m cos(m theta) or i^m sin(m theta) and J_m.
+    From the spectrum: C_xx = (LL + T)/2 + cos 2phi (LL - T)/2, C_xy = sin 2phi (LL - T)/2; C_xz = i
+    cos phi Lz elsewhere. A factor cos(m phi) or sin(m phi) becomes i^m cos(m theta) or i^m sin(m
+    theta) and J_m.
     """
     mean = patch_coefficients(known.kernel(lambda c: 0.5 * (c.LL + c.T)), grid)
     bending = known.kernel(lambda c: 0.5 * (c.LL - c.T), order=2)
@@ -184,24 +197,29 @@ def coupling_pixels_of(grid: Grid, known: Samples) -> tuple[RealArray, RealArray
     return -patch_coefficients(kernel, grid, COS_1), -patch_coefficients(kernel, grid, SIN_1)
 
 
-# Plane strain: strips under shear along x and along y, and the normal displacement by the former, which couples friction to pressure.
+# Plane strain: strips under shear along x and along y, and the normal displacement by the former,
+# which couples friction to pressure.
 
 
 def shear_strips_of(grid: Grid, known: Samples, datum: float) -> tuple[RealArray, RealArray]:
-    """Displacement (m/Pa) along x under unit shear along x, and along y under shear along y, arrays (nx, 1), from the samples ``known``.
+    """Displacement (m/Pa) along x under unit shear along x, and along y under shear along y, arrays
+    (nx, 1), from the samples ``known``.
 
-    At offsets (0…nx-1) dx from a strip of width dx. A half-space gives them relative to the distance ``datum`` (m) from a line load, as
-    ``line_influence`` of the normal compliance, and the first is then the same as the normal displacement (Johnson 1985, eq. 2.24).
+    At offsets (0…nx-1) dx from a strip of width dx. A half-space gives them relative to the
+    distance ``datum`` (m) from a line load, as ``line_influence`` of the normal compliance, and the
+    first is then the same as the normal displacement (Johnson 1985, eq. 2.24).
     """
     along = strip_coefficients(line_kernel(known.values.LL, known.limits(lambda c: c.LL)), grid, datum)
     return along, strip_coefficients(line_kernel(known.values.T, known.limits(lambda c: c.T)), grid, datum)
 
 
 def coupling_strips_of(grid: Grid, known: Samples) -> RealArray:
-    """Normal displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip of width dx under unit shear along +x.
+    """Normal displacement (m/Pa), shape (nx, 1), at offsets (0…nx-1) dx from a strip of width dx
+    under unit shear along +x.
 
-    It is odd in the offset. A line force Q lifts a half-space behind it and lowers it ahead by the same amount at every distance,
-    (1-2ν)/4G times Q (Johnson 1985, eq. 2.24); with layers the step changes from that of the top layer to that of the base. No datum is needed.
+    It is odd in the offset. A line force Q lifts a half-space behind it and lowers it ahead by the
+    same amount at every distance, (1-2ν)/4G times Q (Johnson 1985, eq. 2.24); with layers the step
+    changes from that of the top layer to that of the base. No datum is needed.
     """
     edges, alpha = (np.arange(grid.shape[0]) + 0.5) * grid.spacing[0], wavenumber_grid(known.depth)
     near = float(known.high.Lz)
@@ -217,7 +235,8 @@ class SurfaceCompliance(Protocol):
     """Response of a surface to tractions of all three directions."""
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
-        """(C_LL + C_T)/2 in m/Pa at each ``wavenumber`` > 0 (rad/m), the mean over both directions along the surface."""
+        """(C_LL + C_T)/2 in m/Pa at each ``wavenumber`` > 0 (rad/m), the mean over both directions
+        along the surface."""
 
     def tensor(self, grid: Grid) -> SurfaceTensor:
         """That of a periodic cell."""
@@ -229,7 +248,8 @@ class SurfaceCompliance(Protocol):
         """``xz`` and ``yz`` of an ``InfluenceTensor``."""
 
     def shear_strips(self, grid: Grid, datum: float) -> tuple[RealArray, RealArray]:
-        """Along x under shear along x and along y under shear along y, (nx, 1), see ``shear_strips_of``."""
+        """Along x under shear along x and along y under shear along y, (nx, 1), see
+        ``shear_strips_of``."""
 
     def coupling_strips(self, grid: Grid) -> RealArray:
         """Normal displacement by shear along x, (nx, 1), see ``coupling_strips_of``."""
@@ -283,7 +303,8 @@ class BodiesSurface:
         return along, across
 
     def coupling_strips(self, grid: Grid) -> RealArray:
-        """Normal displacement by shear along x, (nx, 1), of ``body`` relative to ``counter_body``."""
+        """Normal displacement by shear along x, (nx, 1), of ``body`` relative to
+        ``counter_body``."""
         total = np.zeros((grid.shape[0], 1))
         for solid, sign in deformable(self.body, self.counter_body):
             depth = (solid.reduced.thickness if isinstance(solid, Layered) else 0.0) or grid.spacing[0]

@@ -1,1 +1,2 @@
-"""Plastic strain as an eigenstrain of a layered half-space: exact in depth, Fourier in the plane."""
+"""Plastic strain as an eigenstrain of a layered half-space: exact in depth, Fourier in the
+plane."""

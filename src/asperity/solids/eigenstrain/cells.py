@@ -31,7 +31,8 @@ def stack_of(body: Elastic | Layered) -> Layered:
     stack = body.reduced if isinstance(body, Layered) else Layered((), body)
     if stack.slips:
         raise InputError(
-            "layers that hold an eigenstrain must be bonded, but one is Frictionless(). Write Bonded() for its interface."
+            "layers that hold an eigenstrain must be bonded, but one is Frictionless(). Write Bonded() for "
+            "its interface."
         )
     return stack
 
@@ -50,7 +51,8 @@ class DepthCells:
     Raises
     ------
     InputError
-        If the edges do not begin at 0, do not grow, miss an interface or reach below a rigid base, or a layer may slip.
+        If the edges do not begin at 0, do not grow, miss an interface or reach below a rigid base,
+        or a layer may slip.
     """
 
     body: Elastic | Layered
@@ -61,13 +63,15 @@ class DepthCells:
         object.__setattr__(self, "edges", edges)
         if edges.ndim != 1 or edges.size < 2 or edges[0] != 0.0 or not np.all(np.diff(edges) > 0.0):
             raise InputError(
-                f"edges of depth cells (m) must begin at 0 and grow, but are {edges}. Write for example depth_edges(body, depth, first)."
+                f"edges of depth cells (m) must begin at 0 and grow, but are {edges}. Write for example "
+                "depth_edges(body, depth, first)."
             )
         between = interfaces(self.body)
         for depth in between[between < edges[-1] * (1.0 - _SAME)]:
             if np.abs(edges - depth).min() > _SAME * depth:
                 raise InputError(
-                    f"edges of depth cells (m) must hold the interface at {depth:g}, but do not. Write depth_edges(body, depth, first)."
+                    f"edges of depth cells (m) must hold the interface at {depth:g}, but do not. Write "
+                    "depth_edges(body, depth, first)."
                 )
         if isinstance(self.stack.base, RigidBase) and edges[-1] > between[-1] * (1.0 + _SAME):
             raise InputError(
@@ -96,7 +100,8 @@ class DepthCells:
 
     @property
     def regions(self) -> tuple[int, ...]:
-        """Number of the layer that each cell is in, counted from 0 at the surface; the base has the last number."""
+        """Number of the layer that each cell is in, counted from 0 at the surface; the base has the
+        last number."""
         found = np.searchsorted(interfaces(self.body) * (1.0 + _SAME), self.middle)
         return tuple(int(number) for number in found)
 
@@ -110,8 +115,9 @@ class DepthCells:
 
 
 def depth_edges(body: Elastic | Layered, depth: float, first: float, cells: int = 40) -> RealArray:
-    """Edges (m) of about ``cells`` cells from the surface to at least ``depth``: of the thickness ``first`` at the surface and beside
-    interfaces, growing in proportion to the distance from there, at least four in every layer.
+    """Edges (m) of about ``cells`` cells from the surface to at least ``depth``: of the thickness
+    ``first`` at the surface and beside interfaces, growing in proportion to the distance from
+    there, at least four in every layer.
 
     The deepest edge is an interface, if one is near, or ``depth``; of a rigid base its top.
 
@@ -142,7 +148,8 @@ def depth_edges(body: Elastic | Layered, depth: float, first: float, cells: int 
 
 
 def _span(low: float, high: float, first: float, growth: float, *, ends: bool) -> RealArray:
-    """Edges after ``low`` up to ``high``; the thickness is ``first`` plus ``growth`` times the distance from the nearer end that counts."""
+    """Edges after ``low`` up to ``high``; the thickness is ``first`` plus ``growth`` times the
+    distance from the nearer end that counts."""
     length = high - low
     half = 0.5 * length if ends else length
     # cells to the distance x: ∫ dx/(first + growth x)

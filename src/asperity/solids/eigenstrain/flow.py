@@ -1,8 +1,11 @@
-"""Plastic flow of a layered body: return mapping at the points of the depth cells that flow, and the eigenstrain that they leave.
+"""Plastic flow of a layered body: return mapping at the points of the depth cells that flow, and
+the eigenstrain that they leave.
 
-With the deviator s of the stress by tractions and plastic strain, the trial of a point is s + 2GΔ, Δ being the plastic strain of the step so far;
-the return mapping gives the next Δ. Of the operators 0 <= -ε:S:ε <= ε:C:ε, so that this map brings two strains never farther apart (in the norm
-of the elastic energy), with any tractions that follow from the contact as well; extrapolation (Anderson 1965) makes it fast.
+With the deviator s of the stress by tractions and plastic strain, the trial of a point is s + 2GΔ,
+Δ being the plastic strain of the step so far; the return mapping gives the next Δ. Of the operators
+0 <= -ε:S:ε <= ε:C:ε, so that this map brings two strains never farther apart (in the norm of the
+elastic energy), with any tractions that follow from the contact as well; extrapolation (Anderson
+1965) makes it fast.
 """
 
 from __future__ import annotations
@@ -19,7 +22,8 @@ from ..plasticity import J2, WEIGHTS, PlasticState
 from .operator import EigenstrainOperator, shared
 
 Points = NDArray[np.int64]
-"""Points of the volume by their number: depth cell times points in the plane, plus the place in the plane in C order; ascending."""
+"""Points of the volume by their number: depth cell times points in the plane, plus the place in the
+plane in C order; ascending."""
 
 PARTS = (0, 1, 3, 4, 5)
 """Components of a deviator that are transformed: zz follows from xx and yy."""
@@ -76,7 +80,8 @@ class Flowed:
 
 
 def joined(old: Points, new: Points, values: RealArray) -> RealArray:
-    """``values`` (n, …) of the points ``old`` for those of ``new``, which hold them all; zero for others."""
+    """``values`` (n, …) of the points ``old`` for those of ``new``, which hold them all; zero for
+    others."""
     if old.size == new.size:
         return values
     found = np.zeros((new.size, *values.shape[1:]))
@@ -86,13 +91,15 @@ def joined(old: Points, new: Points, values: RealArray) -> RealArray:
 
 @dataclass
 class Extrapolation:
-    """The last iterates of Δ and their steps, each with the points it is for; a ``share`` of each step is taken."""
+    """The last iterates of Δ and their steps, each with the points it is for; a ``share`` of each
+    step is taken."""
 
     share: float = 1.0
     places: list[tuple[Points, RealArray, RealArray]] = field(default_factory=list)
 
     def ahead(self, points: Points, x: RealArray, step: RealArray, weights: RealArray) -> RealArray:
-        """Where the iteration that goes by ``step`` (n, 6) from ``x`` would end if it were linear; ``weights`` (n,) of the squares."""
+        """Where the iteration that goes by ``step`` (n, 6) from ``x`` would end if it were linear;
+        ``weights`` (n,) of the squares."""
         self.places = [*self.places[-REMEMBERED:], (points, x, step)]
         earlier = self.places[:-1]
         if not earlier:
@@ -145,7 +152,8 @@ class VolumeFlow:
         return np.asarray(self.before.plastic_strain + self.delta)
 
     def spread(self) -> ComplexArray:
-        """Displacement (3, …) of the surface by the plastic strain as transforms; the stress by it waits for the tractions."""
+        """Displacement (3, …) of the surface by the plastic strain as transforms; the stress by it
+        waits for the tractions."""
         operator, fields, strain = self.operator, self.fields, self.strain
         fields[:] = 0.0
         ends = np.searchsorted(self.points, np.arange(operator.cells.count + 1) * self._plane)
@@ -168,15 +176,18 @@ class VolumeFlow:
         return none
 
     def displacement(self, moved: ComplexArray, component: int = 2) -> RealArray:
-        """Displacement (nx, ny) in m from its transforms ``moved``; of z, positive into the body, by default."""
+        """Displacement (nx, ny) in m from its transforms ``moved``; of z, positive into the body,
+        by default."""
         found = np.empty(self.shape)
         self.operator.transform.backward(moved[component].copy(), found)
         return found
 
     def returned(self, loads: ComplexArray) -> tuple[RealArray, float]:
-        """Step (n, 6) from Δ to what the return mapping gives under the transforms ``loads`` of the tractions, and its size over that of the larger strain.
+        """Step (n, 6) from Δ to what the return mapping gives under the transforms ``loads`` of the
+        tractions, and its size over that of the larger strain.
 
-        Call ``spread`` before. Points that flow for the first time join those there are, with Δ = 0.
+        Call ``spread`` before. Points that flow for the first time join those there are, with
+        Δ = 0.
         """
         deviators = self._deviators(loads)
         self.stress = deviators

@@ -1,19 +1,25 @@
-"""Compiled sweeps: from surface traction and eigenstrain in depth cells to mean stress in the cells and displacement of the surface.
+"""Compiled sweeps: from surface traction and eigenstrain in depth cells to mean stress in the cells
+and displacement of the surface.
 
-In the frame (L, T, z) of a wavevector with real amplitudes, u_L = iU, u_z = W, σ_Lz = -iτ_L, σ_zz = -τ_z, σ_Tz = -τ_T, σ_LT = iS,
-and of the eigenstrain ε_Lz = ig, ε_LT = is, ε_Tz = t, with k = ν/(1-ν) and M = 2G(1-ν)/(1-2ν),
+In the frame (L, T, z) of a wavevector with real amplitudes, u_L = iU, u_z = W, σ_Lz = -iτ_L, σ_zz =
+-τ_z, σ_Tz = -τ_T, σ_LT = iS, and of the eigenstrain ε_Lz = ig, ε_LT = is, ε_Tz = t, with k =
+ν/(1-ν) and M = 2G(1-ν)/(1-2ν),
 
-    U' = -αW - τ_L/G + 2g,        W' = kαU - τ_z/M + ε_zz + k(ε_LL + ε_TT),        u_T' = -τ_T/G + 2t,
-    τ_z' = ατ_L,        τ_L' = ασ_LL,        σ_LL = -(2GαU + ντ_z + 2G(ε_LL + νε_TT))/(1-ν),        τ_T' = -αS,        S = Gαu_T - 2Gs.
+    U' = -αW - τ_L/G + 2g,        W' = kαU - τ_z/M + ε_zz + k(ε_LL + ε_TT),
+    u_T' = -τ_T/G + 2t,
+    τ_z' = ατ_L,        τ_L' = ασ_LL,        σ_LL = -(2GαU + ντ_z + 2G(ε_LL + νε_TT))/(1-ν),
+    τ_T' = -αS,        S = Gαu_T - 2Gs.
 
-Constant in a cell, the eigenstrain has the constant solution αU = -ε_LL - k(ε_zz + ε_TT), αW = 2g, τ_z = 2G(ε_zz + νε_TT)/(1-ν),
-τ_L = 0, αu_T = 2s, τ_T = 2Gt; the rest obeys the equations of the layer without eigenstrain. With v = Cτ + s at the lower face,
-m = s + Cτ_p - v_p being what does not fit there,
+Constant in a cell, the eigenstrain has the constant solution αU = -ε_LL - k(ε_zz + ε_TT), αW = 2g,
+τ_z = 2G(ε_zz + νε_TT)/(1-ν), τ_L = 0, αu_T = 2s, τ_T = 2Gt; the rest obeys the equations of the
+layer without eigenstrain. With v = Cτ + s at the lower face, m = s + Cτ_p - v_p being what does not
+fit there,
 
-    up:   s_top = v_p - C_top τ_p + F m,        down:   τ_bot = τ_p + Fᵀ(τ_top - τ_p) - K m,        v_bot = v_p + C(τ_bot - τ_p) + m.
+    up:   s_top = v_p - C_top τ_p + F m,
+    down: τ_bot = τ_p + Fᵀ(τ_top - τ_p) - K m,  v_bot = v_p + C(τ_bot - τ_p) + m.
 
-F and K have decaying exponentials only. Means of the stress over a cell follow from the equations by the changes across it, so that stress and
-displacement are exactly adjoint to each other.
+F and K have decaying exponentials only. Means of the stress over a cell follow from the equations
+by the changes across it, so that stress and displacement are exactly adjoint to each other.
 """
 
 from __future__ import annotations
@@ -29,11 +35,14 @@ compiled: Any = njit(**_OPTIONS, fastmath={"reassoc", "contract", "nsz"})
 
 @compiled
 def sweep(span, rows, q, top, table, solids, loads, fields, moved, work):  # type: ignore[no-untyped-def]
-    """Turn the eigenstrain ``fields`` (cells, 6, rows, columns) of the rows ``span`` into mean stress (Pa); add no stress for no ``loads``.
+    """Turn the eigenstrain ``fields`` (cells, 6, rows, columns) of the rows ``span`` into mean
+    stress (Pa); add no stress for no ``loads``.
 
-    ``rows`` gives the row of the ``table`` for each; ``q`` (4, rows, columns) the wavevector, and the same for odd functions of it;
-    ``loads`` (3, rows, columns) tractions (q_x, q_y, p) in Pa; ``moved`` (3, rows, columns) receives the displacement of the surface in m;
-    ``work`` (cells + 2, 3, columns) is room for m of each cell, and for the tractions and the displacement from which the way down goes on.
+    ``rows`` gives the row of the ``table`` for each; ``q`` (4, rows, columns) the wavevector, and
+    the same for odd functions of it; ``loads`` (3, rows, columns) tractions (q_x, q_y, p) in Pa;
+    ``moved`` (3, rows, columns) receives the displacement of the surface in m; ``work`` (cells + 2,
+    3, columns) is room for m of each cell, and for the tractions and the displacement from which
+    the way down goes on.
     """
     count, columns = fields.shape[0], fields.shape[3]
     for row in range(span[0], span[1]):
@@ -164,7 +173,8 @@ def _down(row, place, q, table, solids, fields, work):  # type: ignore[no-untype
 
 @compiled
 def press(span, rows, q, top, table, solids, loads, fields, work):  # type: ignore[no-untyped-def]
-    """Add the mean stress (Pa) by ``loads`` to the ``fields`` of the rows ``span``, as ``sweep`` does for no eigenstrain, and take the mean of xx, yy and zz away.
+    """Add the mean stress (Pa) by ``loads`` to the ``fields`` of the rows ``span``, as ``sweep``
+    does for no eigenstrain, and take the mean of xx, yy and zz away.
 
     ``work`` (5, columns).
     """
@@ -224,9 +234,11 @@ def press(span, rows, q, top, table, solids, loads, fields, work):  # type: igno
 
 @compiled
 def exceeding(deviator, known, limit, found):  # type: ignore[no-untyped-def]
-    """Put the points whose von Mises stress is above ``limit`` (Pa), but for the ``known``, into ``found``; their number.
+    """Put the points whose von Mises stress is above ``limit`` (Pa), but for the ``known``, into
+    ``found``; their number.
 
-    ``deviator`` (5, points) holds xx, yy, xy, xz, yz in Pa, ``known`` (points,) one where a point is known.
+    ``deviator`` (5, points) holds xx, yy, xy, xz, yz in Pa, ``known`` (points,) one where a point
+    is known.
     """
     most, number = limit * limit / 3.0, 0
     for i in range(known.size):

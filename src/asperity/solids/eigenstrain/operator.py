@@ -25,10 +25,11 @@ Slot = tuple[int, int]
 
 @dataclass(frozen=True, eq=False)
 class Wavevectors:
-    """Wavevectors ``q`` (4, rows, columns) in rad/m: x, y, and the same for odd functions of them, zero where the sign is undefined.
+    """Wavevectors ``q`` (4, rows, columns) in rad/m: x, y, and the same for odd functions of them,
+    zero where the sign is undefined.
 
-    ``rows`` (rows,) tells which row of ``alpha``, the wavenumbers > 0 that a table is made for, belongs to each. Where the wavevector
-    vanishes any other stands in its place.
+    ``rows`` (rows,) tells which row of ``alpha``, the wavenumbers > 0 that a table is made for,
+    belongs to each. Where the wavevector vanishes any other stands in its place.
     """
 
     q: RealArray
@@ -45,7 +46,8 @@ class Wavevectors:
 def swept(
     table: SweepTable, waves: Wavevectors, loads: ComplexArray, fields: ComplexArray, threads: int = 1
 ) -> ComplexArray:
-    """Displacement (3, rows, columns) of the surface by the eigenstrain ``fields`` and the tractions ``loads``; turns ``fields`` into mean stress.
+    """Displacement (3, rows, columns) of the surface by the eigenstrain ``fields`` and the
+    tractions ``loads``; turns ``fields`` into mean stress.
 
     Parameters
     ----------
@@ -56,7 +58,8 @@ def swept(
     loads
         (3, rows, columns): transforms of the tractions q_x, q_y, p in Pa.
     fields
-        (cells, 6, rows, columns): transforms of the eigenstrain, xx, yy, zz, xy, xz, yz; overwritten by those of the mean stress in Pa.
+        (cells, 6, rows, columns): transforms of the eigenstrain, xx, yy, zz, xy, xz, yz;
+        overwritten by those of the mean stress in Pa.
     threads
         Number of threads.
     """
@@ -75,7 +78,8 @@ def swept(
 
 
 def shared(task: Callable[[int], object], numbers: Iterable[int], threads: int) -> None:
-    """Do ``task`` for all ``numbers``, in any order, by so many threads; what it returns is not kept."""
+    """Do ``task`` for all ``numbers``, in any order, by so many threads; what it returns is not
+    kept."""
     if threads == 1:
         for number in numbers:
             task(number)
@@ -88,9 +92,10 @@ def shared(task: Callable[[int], object], numbers: Iterable[int], threads: int) 
 class MeanMode:
     """What a mean eigenstrain and mean tractions do, by depth cell.
 
-    Without mean lateral strain (periodic); or in the limit of long wavelengths, averaged over directions, for a load that does not repeat:
-    there the body below the cells stretches by c_s = (1 - 2ν)/2G of the base times the force along the surface (``stretch``), and what the
-    images of the padded grid add is taken away (``images`` (cells,), see ``image_stress``).
+    Without mean lateral strain (periodic); or in the limit of long wavelengths, averaged over
+    directions, for a load that does not repeat: there the body below the cells stretches by c_s =
+    (1 - 2ν)/2G of the base times the force along the surface (``stretch``), and what the images of
+    the padded grid add is taken away (``images`` (cells,), see ``image_stress``).
     """
 
     solids: RealArray
@@ -129,11 +134,13 @@ _SUMMED = 40
 
 
 def image_stress(cells: DepthCells, mean: MeanMode, size: tuple[float, float]) -> RealArray:
-    """Lateral stress (cells,), less its sign, by the images of a pressure of unit mean on a grid of the ``size`` (m) that repeats.
+    """Lateral stress (cells,), less its sign, by the images of a pressure of unit mean on a grid of
+    the ``size`` (m) that repeats.
 
-    The mean of σ_xx and σ_yy under long waves of pressure is f0 + f1 |q|, of a half-space -(1/2 + ν) + (1 + ν) z |q|. Of the cusp the sum over wavevectors
-    makes the field -f1/(2π r³) of a unit force at every image at the distance r, which is nearly the same all over the contact. By reciprocity it is
-    also what the images of an eigenstrain do to the displacement.
+    The mean of σ_xx and σ_yy under long waves of pressure is f0 + f1 |q|, of a half-space -(1/2 +
+    ν) + (1 + ν) z |q|. Of the cusp the sum over wavevectors makes the field -f1/(2π r³) of a unit
+    force at every image at the distance r, which is nearly the same all over the contact. By
+    reciprocity it is also what the images of an eigenstrain do to the displacement.
     """
     depth = float(cells.edges[-1])
     wave = np.array([_LONG / depth])
@@ -153,10 +160,12 @@ def image_stress(cells: DepthCells, mean: MeanMode, size: tuple[float, float]) -
 
 @dataclass(frozen=True, eq=False)
 class EigenstrainOperator:
-    """Linear response of a body on a ``grid``: stress by surface tractions and by eigenstrain that is constant in depth cells.
+    """Linear response of a body on a ``grid``: stress by surface tractions and by eigenstrain that
+    is constant in depth cells.
 
-    Stresses are means over the cells, at the points of the grid; eigenstrain and tractions are trigonometric between them. Both are then
-    adjoint: the work of any tractions on the displacement by an eigenstrain is that of the stress by these tractions on it.
+    Stresses are means over the cells, at the points of the grid; eigenstrain and tractions are
+    trigonometric between them. Both are then adjoint: the work of any tractions on the displacement
+    by an eigenstrain is that of the stress by these tractions on it.
 
     Parameters
     ----------
@@ -165,7 +174,8 @@ class EigenstrainOperator:
     cells
         Body and its depth cells.
     padded
-        Shape of the grid with zeros beyond ``grid``, for a contact that does not repeat; None for one that does.
+        Shape of the grid with zeros beyond ``grid``, for a contact that does not repeat; None for
+        one that does.
     threads
         Number of threads.
     """
@@ -181,7 +191,8 @@ class EigenstrainOperator:
 
     @classmethod
     def prepared(cls, grid: Grid, cells: DepthCells, *, free: bool = False, threads: int | None = None) -> Self:
-        """Operator on ``grid``; if ``free`` nothing repeats, up to images of the residual stress on a zero-padded grid of twice the length."""
+        """Operator on ``grid``; if ``free`` nothing repeats, up to images of the residual stress on
+        a zero-padded grid of twice the length."""
         padded = None if not free else (fast_length(2 * grid.shape[0]), fast_length(2 * grid.shape[1]))
         wide = grid if padded is None else Grid(padded, grid.spacing)
         parts = [part for flag in (False, True) for part in wide.wavevector(odd=flag)]
@@ -215,7 +226,8 @@ class EigenstrainOperator:
         return np.zeros((self.cells.count, 6, *self.spectrum_shape), dtype=complex)
 
     def loads(self, pressure: RealArray, shear: RealArray | None = None) -> ComplexArray:
-        """Transforms (3, …) of the tractions: ``pressure`` and ``shear`` (2, nx, ny) in Pa on the body."""
+        """Transforms (3, …) of the tractions: ``pressure`` and ``shear`` (2, nx, ny) in Pa on the
+        body."""
         found = np.zeros((3, *self.spectrum_shape), dtype=complex)
         for number, values in enumerate([*(() if shear is None else shear), pressure], 0 if shear is not None else 2):
             self.transform.forward(np.ascontiguousarray(values, dtype=float), found[number])
@@ -224,9 +236,11 @@ class EigenstrainOperator:
     def stress(
         self, strain: RealArray | None, pressure: RealArray | None = None, shear: RealArray | None = None
     ) -> tuple[RealArray, RealArray]:
-        """Mean stress (cells, 6, nx, ny) in Pa, and displacement (3, nx, ny) of the surface in m, z into the body.
+        """Mean stress (cells, 6, nx, ny) in Pa, and displacement (3, nx, ny) of the surface in m, z
+        into the body.
 
-        Components are xx, yy, zz, xy, xz, yz. Without mean tractions the displacement is relative to the base.
+        Components are xx, yy, zz, xy, xz, yz. Without mean tractions the displacement is relative
+        to the base.
 
         Parameters
         ----------
@@ -253,12 +267,14 @@ class EigenstrainOperator:
         shared(lambda n: transform.forward(strain[pairs[n]], fields[pairs[n]]), range(len(pairs)), self.threads)
 
     def backward(self, fields: ComplexArray, found: RealArray, slots: Iterable[Slot]) -> None:
-        """Put the fields of the ``slots`` of ``fields``, which are overwritten, into ``found`` (cells, 6, nx, ny)."""
+        """Put the fields of the ``slots`` of ``fields``, which are overwritten, into ``found``
+        (cells, 6, nx, ny)."""
         pairs, transform = list(slots), self.transform
         shared(lambda n: transform.backward(fields[pairs[n]], found[pairs[n]]), range(len(pairs)), self.threads)
 
     def respond(self, loads: ComplexArray, fields: ComplexArray) -> ComplexArray:
-        """Displacement (3, …) of the surface; turns the eigenstrain ``fields`` into mean stress, all of them transforms."""
+        """Displacement (3, …) of the surface; turns the eigenstrain ``fields`` into mean stress,
+        all of them transforms."""
         strain, load = fields[:, :, 0, 0].real.copy(), loads[:, 0, 0].real.copy()
         moved = swept(self.table, self.waves, loads, fields, self.threads)
         fields[:, :, 0, 0] = self.mean.stress(load, strain)
@@ -266,7 +282,8 @@ class EigenstrainOperator:
         return moved
 
     def press(self, loads: ComplexArray, fields: ComplexArray) -> None:
-        """Add the stress by ``loads`` to the ``fields``, and take the mean of xx, yy and zz away: transforms of the deviator remain."""
+        """Add the stress by ``loads`` to the ``fields``, and take the mean of xx, yy and zz away:
+        transforms of the deviator remain."""
         from .kernels import press
 
         added = self.mean.stress(loads[:, 0, 0].real, np.zeros((self.cells.count, 6)))

@@ -11,7 +11,8 @@ from ...core.arrays import RealArray
 from .cells import DepthCells, interfaces
 
 THIN = 1e-4
-"""Thickness of a slice over that of the cell that it is cut from: by as much at most the stress differs from its mean over the slice."""
+"""Thickness of a slice over that of the cell that it is cut from: by as much at most the stress
+differs from its mean over the slice."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +35,8 @@ class Slice:
 
 
 def slice_at(cells: DepthCells, depth: float, *, above: bool, below: bool) -> Slice:
-    """``cells`` with slices ``above`` and ``below`` the ``depth`` (m), which may lie deeper than the last of them."""
+    """``cells`` with slices ``above`` and ``below`` the ``depth`` (m), which may lie deeper than
+    the last of them."""
     edges = cells.edges
     number = min(int(np.searchsorted(edges, depth, side="right")) - 1, cells.count - 1)
     near = cells.thickness[max(number - 1, 0) : number + 2]

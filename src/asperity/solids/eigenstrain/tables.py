@@ -1,4 +1,5 @@
-"""What the sweeps over depth cells need of a body at every wavenumber; see ``kernels`` for the equations."""
+"""What the sweeps over depth cells need of a body at every wavenumber; see ``kernels`` for the
+equations."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ from ..layers import Layer, Layered
 from .cells import DepthCells
 
 ENTRIES = 12
-"""Numbers for each cell and wavenumber: Lz, zz, T of C below the cell; LL, Lz, zL, zz, T of F; LL, Lz, zz, T of K."""
+"""Numbers for each cell and wavenumber: Lz, zz, T of C below the cell; LL, Lz, zL, zz, T of F; LL,
+Lz, zz, T of K."""
 
 
 @dataclass(frozen=True, eq=False)

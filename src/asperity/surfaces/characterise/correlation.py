@@ -24,15 +24,17 @@ LagRange: TypeAlias = tuple[int, int]
 """Largest lags along x and y in pixels."""
 
 DROP_1E, DROP_TENTH, DROP_ISO = math.exp(-1.0), 0.1, 0.2
-"""Values of R/R(0) that define a correlation length: 1/e (β_e), 0.1 (β*, Peng & Bhushan 2001), 0.2 (ISO 25178-2)."""
+"""Values of R/R(0) that define a correlation length: 1/e (β_e), 0.1 (β*, Peng & Bhushan 2001), 0.2
+(ISO 25178-2)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Autocovariance:
-    """R(r) = <h(x) h(x + r)> at the lags r = (k dx, l dy), 0 <= k <= K and -L <= l <= L; R(-r) = R(r).
+    """R(r) = <h(x) h(x + r)> at the lags r = (k dx, l dy), 0 <= k <= K and -L <= l <= L; R(-r) =
+    R(r).
 
-    ``values`` (K + 1, 2 L + 1) in m², ``pairs`` number of pairs of points behind each of them, NaN where there is none;
-    ``spacing`` (dx, dy) and ``size`` of the map in m.
+    ``values`` (K + 1, 2 L + 1) in m², ``pairs`` number of pairs of points behind each of them, NaN
+    where there is none; ``spacing`` (dx, dy) and ``size`` of the map in m.
     """
 
     values: RealArray
@@ -65,11 +67,12 @@ class Autocovariance:
         return np.arange(values.size) * self.spacing[number], values
 
     def correlation_length(self, drop: float, *, axis: str = "x", logarithmic: bool = False) -> float:
-        """Lag in m at which R/R(0) first falls to ``drop`` along ``axis``; NaN if it does not, or if R(0) is zero.
+        """Lag in m at which R/R(0) first falls to ``drop`` along ``axis``; NaN if it does not, or
+        if R(0) is zero.
 
-        Between lags R is interpolated linearly, with ``logarithmic`` its logarithm: exact for an exponential, where
-        linear interpolation is up to 6 % too long at a decay length of one pixel.
-        Raises InputError if the axis is unknown or ``drop`` not between 0 and 1.
+        Between lags R is interpolated linearly, with ``logarithmic`` its logarithm: exact for an
+        exponential, where linear interpolation is up to 6 % too long at a decay length of one
+        pixel. Raises InputError if the axis is unknown or ``drop`` not between 0 and 1.
         """
         require.between(drop, 0.0, 1.0, "drop that defines a correlation length")
         lags, values = self.along(axis)
@@ -97,8 +100,9 @@ class Autocovariance:
 def autocovariance(surface: Surface) -> Autocovariance:
     """Autocovariance of ``surface`` about the mean of its valid points, at all lags.
 
-    For a complete periodic surface it is circular, up to half the map. Otherwise it is the mean over the valid pairs,
-    which is unbiased but has a large variance at lags beyond a quarter of the map. Missing points need no filling.
+    For a complete periodic surface it is circular, up to half the map. Otherwise it is the mean
+    over the valid pairs, which is unbiased but has a large variance at lags beyond a quarter of the
+    map. Missing points need no filling.
     """
     valid = ~surface.mask
     heights = np.where(surface.mask, 0.0, surface.heights - mean_height(surface)).astype(np.float64, copy=False)
@@ -118,7 +122,8 @@ def autocovariance(surface: Surface) -> Autocovariance:
 
 
 def _pair_sums(field: RealArray, transform: RealTransform, largest: LagRange) -> RealArray:
-    """Σ f(x) f(x + r) over all x for the lags up to ``largest``, of ``field`` (nx, ny) padded to the transform."""
+    """Σ f(x) f(x + r) over all x for the lags up to ``largest``, of ``field`` (nx, ny) padded to
+    the transform."""
     work = np.zeros(transform.shape)
     work[: field.shape[0], : field.shape[1]] = field
     spectrum = transform.forward(work)
@@ -142,11 +147,13 @@ class StructureFunction:
 
 @dataclass(frozen=True, eq=False)
 class ScaleDependence:
-    """Slope and curvature of profiles along ``axis`` over stencils of total length ℓ (Sanner et al. 2022).
+    """Slope and curvature of profiles along ``axis`` over stencils of total length ℓ (Sanner et al.
+    2022).
 
-    ``slope_length`` (m) and ``slope`` = <[(h(x+ℓ) - h(x))/ℓ]²>^½; ``curvature_length`` (m), ``curvature`` (1/m) =
-    <[(h(x+ℓ/2) - 2h(x) + h(x-ℓ/2))/(ℓ/2)²]²>^½ and ``sharpest`` (1/m), the smallest of these second derivatives,
-    negative at peaks. At the shortest stencils they are the finite-difference slope and curvature of the map.
+    ``slope_length`` (m) and ``slope`` = <[(h(x+ℓ) - h(x))/ℓ]²>^½; ``curvature_length`` (m),
+    ``curvature`` (1/m) = <[(h(x+ℓ/2) - 2h(x) + h(x-ℓ/2))/(ℓ/2)²]²>^½ and ``sharpest`` (1/m), the
+    smallest of these second derivatives, negative at peaks. At the shortest stencils they are the
+    finite-difference slope and curvature of the map.
     """
 
     axis: str
@@ -159,7 +166,8 @@ class ScaleDependence:
 
 
 def mean_square_increment(surface: Surface, lag: tuple[int, int]) -> float:
-    """S in m² at the ``lag`` (k, l) in pixels, of either sign: mean over all valid pairs; a periodic surface wraps.
+    """S in m² at the ``lag`` (k, l) in pixels, of either sign: mean over all valid pairs; a
+    periodic surface wraps.
 
     Raises InputError if there is no valid pair.
     """
@@ -167,7 +175,8 @@ def mean_square_increment(surface: Surface, lag: tuple[int, int]) -> float:
 
 
 def structure_function(surface: Surface, *, axis: str = "x", lags: Sequence[int] | None = None) -> StructureFunction:
-    """Structure function of the profiles along ``axis``, averaged over all lines; needs no mean and no filling.
+    """Structure function of the profiles along ``axis``, averaged over all lines; needs no mean and
+    no filling.
 
     Raises InputError if a lag has no valid pair or is not a whole number >= 1.
 
@@ -178,7 +187,8 @@ def structure_function(surface: Surface, *, axis: str = "x", lags: Sequence[int]
     axis
         ``x`` or ``y``.
     lags
-        Whole numbers of pixels >= 1; by default geometrically spaced, five per factor of two, up to half the map.
+        Whole numbers of pixels >= 1; by default geometrically spaced, five per factor of two, up to
+        half the map.
     """
     number = axis_index(axis)
     steps = geometric_lags(surface.shape[number] // 2) if lags is None else tuple(lags)
@@ -204,8 +214,8 @@ def scale_dependence(
     axis
         ``x`` or ``y``.
     steps
-        Distances between neighbouring points of the stencils in pixels; by default geometric, five per factor of two,
-        up to a quarter of the map.
+        Distances between neighbouring points of the stencils in pixels; by default geometric, five
+        per factor of two, up to a quarter of the map.
     structure
         Structure function along the axis, from which the slopes follow, if already computed.
     """
@@ -226,11 +236,12 @@ def scale_dependence(
 
 
 def tip_cutoff(dependence: ScaleDependence, tip_radius: float, *, factor: float = 0.5) -> float:
-    """Stencil length in m below which a tip of ``tip_radius`` (m) may have distorted the map; discard shorter waves.
+    """Stencil length in m below which a tip of ``tip_radius`` (m) may have distorted the map;
+    discard shorter waves.
 
-    There the smallest scale-dependent second derivative reaches -``factor``/``tip_radius``, interpolated between the
-    stencils (Sanner et al. 2022, eq. 10, with the empirical factor 1/2). 0 if the sharpest peak is blunter at every
-    length, infinity if it is sharper at every length.
+    There the smallest scale-dependent second derivative reaches -``factor``/``tip_radius``,
+    interpolated between the stencils (Sanner et al. 2022, eq. 10, with the empirical factor 1/2). 0
+    if the sharpest peak is blunter at every length, infinity if it is sharper at every length.
     Raises InputError if the radius or the factor is not positive, or there is no stencil.
     """
     require.positive(tip_radius, "radius of the tip (m)")
@@ -251,7 +262,8 @@ def tip_cutoff(dependence: ScaleDependence, tip_radius: float, *, factor: float 
 
 
 def geometric_lags(largest: int, per_octave: int = 5) -> tuple[int, ...]:
-    """Integers from 1 to ``largest``, up to ``per_octave`` per factor of two, the same for every ``largest``."""
+    """Integers from 1 to ``largest``, up to ``per_octave`` per factor of two, the same for every
+    ``largest``."""
     count = 1 + math.ceil(per_octave * math.log2(max(1, largest)))
     spaced = np.unique(np.rint(2.0 ** (np.arange(count) / per_octave)).astype(int))
     return tuple(int(lag) for lag in spaced if lag <= max(1, largest))
@@ -261,7 +273,8 @@ def geometric_lags(largest: int, per_octave: int = 5) -> tuple[int, ...]:
 
 
 GAMMA = 1.5
-"""Ratio γ of neighbouring frequencies of the Weierstrass-Mandelbrot profile that defines G (Majumdar & Bhushan 1990)."""
+"""Ratio γ of neighbouring frequencies of the Weierstrass-Mandelbrot profile that defines G
+(Majumdar & Bhushan 1990)."""
 
 _FIRST_LAGS = (4, 2)  # pixels; shorter lags are affected by the instrument and by interpolation
 _MARGIN = 0.04  # accuracy of D on sampled Weierstrass-Mandelbrot profiles; smooth profiles give 1 within it
@@ -270,11 +283,12 @@ _FEWEST = 3  # smallest number of lags of a line with a residual
 
 @dataclass(frozen=True)
 class FractalParameters:
-    """Fit of a power law to the structure function along ``axis``: S(τ) = C η^(2D-3) τ^(4-2D) (Ganti & Bhushan 1995).
-    ``dimension`` D of the profile (that of the surface is D + 1) and ``dimension_error``, the standard error of the
-    straight line, which shows curvature rather than sampling error, since the lags are correlated; ``amplitude`` C and
-    ``resolution`` η (= pixel) in m; ``roughness`` G in m for γ = 1.5, NaN if not self-affine; ``first_lag``,
-    ``last_lag`` of the fit in m; ``residual`` rms of ln S about the line.
+    """Fit of a power law to the structure function along ``axis``: S(τ) = C η^(2D-3) τ^(4-2D)
+    (Ganti & Bhushan 1995). ``dimension`` D of the profile (that of the surface is D + 1) and
+    ``dimension_error``, the standard error of the straight line, which shows curvature rather than
+    sampling error, since the lags are correlated; ``amplitude`` C and ``resolution`` η (= pixel) in
+    m; ``roughness`` G in m for γ = 1.5, NaN if not self-affine; ``first_lag``, ``last_lag`` of the
+    fit in m; ``residual`` rms of ln S about the line.
     """
 
     axis: str
@@ -295,7 +309,8 @@ class FractalParameters:
 
     @property
     def self_affine(self) -> bool:
-        """Whether D lies between 1 and 2 by more than its accuracy, so that the profile is fractal in this range."""
+        """Whether D lies between 1 and 2 by more than its accuracy, so that the profile is fractal
+        in this range."""
         return 1.0 + _MARGIN < self.dimension < 2.0 - _MARGIN
 
 
@@ -317,11 +332,12 @@ def fractal_parameters(
     axis
         ``x`` or ``y``.
     lags
-        Lags of the fit in pixels; by default geometrically spaced from 4 pixels (2 if fewer than three would remain) to
-        a tenth of the map, or to the lag where the structure function reaches the mean square height, half of its
-        limit.
+        Lags of the fit in pixels; by default geometrically spaced from 4 pixels (2 if fewer than
+        three would remain) to a tenth of the map, or to the lag where the structure function
+        reaches the mean square height, half of its limit.
     structure
-        Structure function along the axis, if already computed; its lags in the default range are fitted.
+        Structure function along the axis, if already computed; its lags in the default range are
+        fitted.
     """
     number = axis_index(axis)
     if lags is not None:
@@ -345,8 +361,9 @@ def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParame
     require.positive(resolution, "resolution (m)")
     if curve.lag.size < _FEWEST or not np.all(curve.value > 0.0):
         raise InputError(
-            f"structure function must be positive at three lags or more for a fractal dimension, but has only {curve.lag.size} "
-            f"along {curve.axis} between {_FIRST_LAGS[-1]} pixels and the correlation length. Name the lags, or use a finer map."
+            "structure function must be positive at three lags or more for a fractal dimension, but has only "
+            f"{curve.lag.size} along {curve.axis} between {_FIRST_LAGS[-1]} pixels and the correlation length. "
+            "Name the lags, or use a finer map."
         )
     x, y = np.log(curve.lag / resolution), np.log(curve.value)
     centred = x - x.mean()
@@ -374,8 +391,8 @@ def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParame
 def structure_coefficient(dimension: float) -> float:
     """B(D) = π (2π)^(4-2D)/[2 Γ(5-2D) sin π(2-D)], the factor of S = B G^(2(D-1)) τ^(4-2D)/ln γ.
 
-    For a profile with the frequencies γ^n in cycles per length; papers that use radians omit (2π)^(4-2D).
-    Raises InputError if not 1 < ``dimension`` < 2.
+    For a profile with the frequencies γ^n in cycles per length; papers that use radians omit
+    (2π)^(4-2D). Raises InputError if not 1 < ``dimension`` < 2.
     """
     require.between(dimension, 1.0, 2.0, "fractal dimension of a profile")
     power = 4.0 - 2.0 * dimension
@@ -389,8 +406,8 @@ def structure_coefficient(dimension: float) -> float:
 def spectrum_coefficient(dimension: float) -> float:
     """c1/C = Γ(5-2D) sin[π(2-D)]/2π of the two-sided spectrum P = c1 η^(2D-3)/ω^(5-2D), ω in rad/m.
 
-    Source: Ganti & Bhushan (1995); Bhushan (1998), eq. 33b, whose printed denominator is incomplete.
-    Raises InputError if not 1 < ``dimension`` < 2.
+    Source: Ganti & Bhushan (1995); Bhushan (1998), eq. 33b, whose printed denominator is
+    incomplete. Raises InputError if not 1 < ``dimension`` < 2.
     """
     require.between(dimension, 1.0, 2.0, "fractal dimension of a profile")
     return math.gamma(5.0 - 2.0 * dimension) * math.sin(math.pi * (2.0 - dimension)) / (2.0 * math.pi)

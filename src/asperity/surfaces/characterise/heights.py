@@ -1,4 +1,5 @@
-"""Height parameters of ISO 25178-2 about the mean of the valid points, normalised by their number N; material ratio."""
+"""Height parameters of ISO 25178-2 about the mean of the valid points, normalised by their number
+N; material ratio."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ from ..surface import Surface
 
 @dataclass(frozen=True)
 class HeightParameters:
-    """Height parameters: ``Sa``, ``Sq``, ``Sp``, ``Sv``, ``Sz`` in m; ``Ssk``, ``Sku`` NaN if all heights are equal."""
+    """Height parameters: ``Sa``, ``Sq``, ``Sp``, ``Sv``, ``Sz`` in m; ``Ssk``, ``Sku`` NaN if all
+    heights are equal."""
 
     Sa: float
     Sq: float
@@ -69,7 +71,8 @@ def highest_peak(surface: Surface) -> float:
 
 
 def deepest_valley(surface: Surface) -> float:
-    """Sv = -min z in m, positive, z measured from the mean of the valid points (ISO 25178-2, 4.1.5)."""
+    """Sv = -min z in m, positive, z measured from the mean of the valid points (ISO 25178-2,
+    4.1.5)."""
     return float(-deviations(surface).min())
 
 
@@ -88,7 +91,8 @@ def skewness(surface: Surface) -> float:
 
 
 def kurtosis(surface: Surface) -> float:
-    """Sku = <z⁴>/Sq⁴, 3 for Gaussian heights (not the excess), never below 1 + Ssk² (ISO 25178-2, 4.1.3).
+    """Sku = <z⁴>/Sq⁴, 3 for Gaussian heights (not the excess), never below 1 + Ssk² (ISO 25178-2,
+    4.1.3).
 
     Raises InputError if all heights are equal.
     """
@@ -113,7 +117,8 @@ def _defined(value: float, what: str) -> float:
 
 @dataclass(frozen=True, eq=False)
 class HeightDistribution:
-    """Probability density of the heights about their mean: ``edges`` (n + 1,) in m, ``density`` (n,) in 1/m.
+    """Probability density of the heights about their mean: ``edges`` (n + 1,) in m, ``density``
+    (n,) in 1/m.
 
     ``deviation`` is Sq in m.
     """
@@ -123,14 +128,16 @@ class HeightDistribution:
     deviation: float
 
     def normal(self, height: RealArray) -> RealArray:
-        """Density in 1/m of the normal distribution of the same deviation at ``height`` in m; zero for a flat map."""
+        """Density in 1/m of the normal distribution of the same deviation at ``height`` in m; zero
+        for a flat map."""
         if self.deviation == 0.0:
             return np.zeros_like(height)
         return np.asarray(np.exp(-0.5 * (height / self.deviation) ** 2) / (np.sqrt(2.0 * np.pi) * self.deviation))
 
 
 def height_distribution(surface: Surface, bins: int | None = None) -> HeightDistribution:
-    """Histogram of the valid heights of ``surface`` in equal ``bins`` from the lowest to the highest.
+    """Histogram of the valid heights of ``surface`` in equal ``bins`` from the lowest to the
+    highest.
 
     By default the number of bins follows Rice's rule, 2 N^(1/3), up to 100.
     Raises InputError if ``bins`` is not a whole number >= 1.
@@ -151,7 +158,8 @@ def height_distribution(surface: Surface, bins: int | None = None) -> HeightDist
 def tilt_share(surface: Surface) -> float:
     """Share of the mean square height in the least-squares plane, 0 to 1; 0 for a flat map.
 
-    It is exact for a complete map and an estimate with missing points, since the fits along x and y are then not independent.
+    It is exact for a complete map and an estimate with missing points, since the fits along x and y
+    are then not independent.
     """
     z = np.where(surface.mask, 0.0, surface.heights - mean_height(surface))
     total = float(np.einsum("ij,ij", z, z))
@@ -167,7 +175,8 @@ def tilt_share(surface: Surface) -> float:
     return min(1.0, explained / total)
 
 
-# The areal material ratio (Abbott-Firestone, bearing area) curve and its parameters (ISO 25178-2, 4.5).
+# The areal material ratio (Abbott-Firestone, bearing area) curve and its parameters (ISO 25178-2,
+# 4.5).
 
 
 CORE_LINES = ("least squares", "secant")
@@ -180,9 +189,10 @@ _CORE = 0.4  # share of the curve in the window of the core line, ISO 13565-2 an
 class MaterialRatioCurve:
     """Height against the share of the area above it.
 
-    ``heights`` (N,) of the valid points about their mean in m, highest first. The k-th of them (from 1) has the
-    material ratio p = (k - 1/2)/N; the curve is linear in between and constant beyond the ends. Ratios are fractions,
-    not per cent. The curve describes a geometric section, not a contact area.
+    ``heights`` (N,) of the valid points about their mean in m, highest first. The k-th of them
+    (from 1) has the material ratio p = (k - 1/2)/N; the curve is linear in between and constant
+    beyond the ends. Ratios are fractions, not per cent. The curve describes a geometric section,
+    not a contact area.
     """
 
     heights: RealArray
@@ -194,7 +204,8 @@ class MaterialRatioCurve:
         return (np.arange(self.heights.size) + 0.5) / self.heights.size
 
     def height(self, ratio: ArrayLike) -> RealArray:
-        """Smc(p): height in m above the mean plane at the material ``ratio`` 0 <= p <= 1 (any shape)."""
+        """Smc(p): height in m above the mean plane at the material ``ratio`` 0 <= p <= 1 (any
+        shape)."""
         n = self.heights.size
         # position in steps of the samples, within the first and the last, and the sample before it
         place: RealArray = np.clip(np.asarray(ratio, dtype=float) * n - 0.5, 0.0, n - 1.0)
@@ -203,7 +214,8 @@ class MaterialRatioCurve:
         return self.heights[below] + (place - below) * (following - self.heights[below])
 
     def ratio(self, height: ArrayLike) -> RealArray:
-        """Smr(c): share of the valid points with z >= c, for the ``height`` c in m above the mean plane (any shape)."""
+        """Smr(c): share of the valid points with z >= c, for the ``height`` c in m above the mean
+        plane (any shape)."""
         above = np.searchsorted(-self.heights, -np.asarray(height, dtype=float), side="right")
         return above / self.heights.size
 
@@ -220,7 +232,8 @@ class MaterialRatioCurve:
         return (1.0 - ratio) * float(self.height(ratio)) - (self._area_to(1.0) - self._area_to(ratio))
 
     def crossing(self, height: float) -> float:
-        """Material ratio at which the continuous curve passes ``height`` (m); 0 above and 1 below all points."""
+        """Material ratio at which the continuous curve passes ``height`` (m); 0 above and 1 below
+        all points."""
         n, h = self.heights.size, self.heights
         if height >= h[0]:
             return 0.0
@@ -253,11 +266,13 @@ class MaterialRatioCurve:
 
 @dataclass(frozen=True)
 class FunctionalParameters:
-    """Parameters of the material ratio curve (ISO 25178-2, 4.5): heights and volumes per area in m, ratios of one.
+    """Parameters of the material ratio curve (ISO 25178-2, 4.5): heights and volumes per area in m,
+    ratios of one.
 
-    ``Sk`` height of the core, ``Spk`` of the reduced peaks, ``Svk`` of the reduced valleys; ``Smr1``, ``Smr2`` ratios
-    that bound the core; ``Vmp``, ``Vmc`` material volume of peaks (above 10 %) and core (10 to 80 %); ``Vvc``, ``Vvv``
-    void volume of core and valleys (below 80 %); ``Sxp`` = Smc(2.5 %) - Smc(50 %); ``Sdc`` = Smc(10 %) - Smc(80 %).
+    ``Sk`` height of the core, ``Spk`` of the reduced peaks, ``Svk`` of the reduced valleys;
+    ``Smr1``, ``Smr2`` ratios that bound the core; ``Vmp``, ``Vmc`` material volume of peaks (above
+    10 %) and core (10 to 80 %); ``Vvc``, ``Vvv`` void volume of core and valleys (below 80 %);
+    ``Sxp`` = Smc(2.5 %) - Smc(50 %); ``Sdc`` = Smc(10 %) - Smc(80 %).
     """
 
     Sk: float
@@ -275,10 +290,11 @@ class FunctionalParameters:
 
 @dataclass(frozen=True)
 class Core:
-    """Core of a material ratio curve: line from ``top`` at ratio 0 to ``bottom`` at ratio 1 (m), between two ratios.
+    """Core of a material ratio curve: line from ``top`` at ratio 0 to ``bottom`` at ratio 1 (m),
+    between two ratios.
 
-    ``start`` is the ratio where the window of least slope begins; ``reduced_peak`` and ``reduced_valley`` are the
-    heights (m) of the triangles that replace peaks and valleys.
+    ``start`` is the ratio where the window of least slope begins; ``reduced_peak`` and
+    ``reduced_valley`` are the heights (m) of the triangles that replace peaks and valleys.
     """
 
     top: float
@@ -298,10 +314,11 @@ def material_ratio_curve(surface: Surface) -> MaterialRatioCurve:
 
 
 def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
-    """Core of ``curve`` by its 40 % window of least slope (the first, if several) (ISO 25178-2, 4.5.7 to 4.5.11).
+    """Core of ``curve`` by its 40 % window of least slope (the first, if several) (ISO 25178-2,
+    4.5.7 to 4.5.11).
 
-    ``line`` is ``least squares`` (ISO: fitted to the curve in the window) or ``secant`` (through its ends, as in many
-    programs; for Gaussian heights Sk is 2 % larger and Smr1 4 % smaller).
+    ``line`` is ``least squares`` (ISO: fitted to the curve in the window) or ``secant`` (through
+    its ends, as in many programs; for Gaussian heights Sk is 2 % larger and Smr1 4 % smaller).
     Raises InputError if the line is unknown or all heights are equal.
     """
     require.one_of(line, CORE_LINES, "core line")

@@ -1,7 +1,9 @@
-"""Moments of the power spectrum, from finite differences of the heights or from the spectrum itself.
+"""Moments of the power spectrum, from finite differences of the heights or from the spectrum
+itself.
 
-m_ab = (1/4π²) ∫ q_x^a q_y^b C d²q is the covariance of derivatives of the height; m0, m2, m4 without a second index
-are the mean square height, slope and second derivative of a *profile* (Nayak 1971; McCool 1987).
+m_ab = (1/4π²) ∫ q_x^a q_y^b C d²q is the covariance of derivatives of the height; m0, m2, m4
+without a second index are the mean square height, slope and second derivative of a *profile* (Nayak
+1971; McCool 1987).
 """
 
 from __future__ import annotations
@@ -22,7 +24,8 @@ from .spectrum import PowerSpectrum
 class SlopeTensor:
     """Mean products of the slopes: ``xx`` <h_x²>, ``xy`` <h_x h_y>, ``yy`` <h_y²>, dimensionless.
 
-    Its principal axes describe the texture: profiles along ``direction`` are steepest, the lay is perpendicular to it.
+    Its principal axes describe the texture: profiles along ``direction`` are steepest, the lay is
+    perpendicular to it.
     """
 
     xx: float
@@ -49,8 +52,9 @@ class SlopeTensor:
 class DifferenceMoments:
     """Profile moments by finite differences along x and y.
 
-    ``m0`` mean square height (m², normalised by N), ``m2_x``, ``m2_y`` mean square slope (dimensionless), ``m4_x``,
-    ``m4_y`` mean square second derivative (1/m²), ``rms_laplacian`` in 1/m, and the ``slope_tensor``.
+    ``m0`` mean square height (m², normalised by N), ``m2_x``, ``m2_y`` mean square slope
+    (dimensionless), ``m4_x``, ``m4_y`` mean square second derivative (1/m²), ``rms_laplacian`` in
+    1/m, and the ``slope_tensor``.
     """
 
     m0: float
@@ -88,11 +92,12 @@ class DifferenceMoments:
 
 
 def difference_moments(surface: Surface) -> DifferenceMoments:
-    """Moments of ``surface`` by forward first and central second differences over all valid pairs and triples.
+    """Moments of ``surface`` by forward first and central second differences over all valid pairs
+    and triples.
 
-    A periodic surface wraps. Each derivative multiplies the spectrum by [sin(q d/2)/(q d/2)]²: waves shorter than about
-    eight pixels are underestimated (McCool 1987).
-    Raises InputError if there are no three valid neighbours along x or along y.
+    A periodic surface wraps. Each derivative multiplies the spectrum by [sin(q d/2)/(q d/2)]²:
+    waves shorter than about eight pixels are underestimated (McCool 1987). Raises InputError if
+    there are no three valid neighbours along x or along y.
     """
     return DifferenceMoments(
         m0=rms_height(surface) ** 2,
@@ -148,7 +153,8 @@ class SpectralMoments:
 
     @property
     def m4(self) -> float:
-        """Mean square second derivative of a profile in 1/m², averaged over all directions: 3/8 <(∇²h)²>."""
+        """Mean square second derivative of a profile in 1/m², averaged over all directions: 3/8
+        <(∇²h)²>."""
         return 0.375 * self.rms_laplacian**2
 
     @property
@@ -175,8 +181,9 @@ class SpectralMoments:
 def spectral_moments(spectrum: PowerSpectrum) -> SpectralMoments:
     """Moments of ``spectrum`` by summation over its modes.
 
-    On a periodic surface these are the mean squares of the derivatives of its trigonometric interpolation. The window
-    of a non-periodic one adds scatter and a share of about (2π σ/L)² to the mean square slope.
+    On a periodic surface these are the mean squares of the derivatives of its trigonometric
+    interpolation. The window of a non-periodic one adds scatter and a share of about (2π σ/L)² to
+    the mean square slope.
     """
     qx, qy = spectrum.grid.wavevector()
     odd_x, odd_y = spectrum.grid.wavevector(odd=True)
@@ -184,11 +191,13 @@ def spectral_moments(spectrum: PowerSpectrum) -> SpectralMoments:
     for power_x, power_y in ((0, 0), (2, 0), (1, 1), (0, 2), (4, 0), (3, 1), (2, 2), (1, 3), (0, 4)):
         factor_x = (odd_x if power_x % 2 else qx) ** power_x
         factor_y = (odd_y if power_y % 2 else qy) ** power_y
-        # one row of sums over q_x: the matrix product does not write a field as large as the spectrum
+        # one row of sums over q_x: the matrix product does not write a field as large as the
+        # spectrum
         values.append(mode_sum(spectrum.grid, (factor_x.ravel() @ spectrum.psd)[None, :] * factor_y))
     return SpectralMoments(*values)
 
 
 def nayak_parameter(m0: float, m2: float, m4: float) -> float:
-    """α = m0 m4/m2², at least 1.5 for an isotropic Gaussian surface and 1 for any profile; NaN for m2 = 0."""
+    """α = m0 m4/m2², at least 1.5 for an isotropic Gaussian surface and 1 for any profile; NaN for
+    m2 = 0."""
     return m0 * m4 / m2**2 if m2 > 0.0 else math.nan

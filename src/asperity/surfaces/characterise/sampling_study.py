@@ -1,4 +1,5 @@
-"""Dependence of roughness parameters on the size of the scan and on the sampling interval (Poon & Bhushan 1995)."""
+"""Dependence of roughness parameters on the size of the scan and on the sampling interval (Poon &
+Bhushan 1995)."""
 
 from __future__ import annotations
 
@@ -22,23 +23,41 @@ from .slopes import rms_profile_curvature, rms_profile_slope
 from .summits import summit_statistics, summits
 
 STUDIED = (
-    "Sq", "Sp", "Sz", "m2_x", "m2_y", "m4_x", "m4_y", "alpha_x", "alpha_y", "beta_e_x", "beta_e_y", "beta_01_x",
-    "beta_01_y", "dimension_x", "dimension_y", "summit_density", "summit_radius",
-)  # fmt: skip
-"""Quantities of a study, in SI units: heights, mean square slopes and curvatures, Nayak's parameter, correlation lengths,
-fractal dimension, density (1/m²) and radius 1/<κ> (m) of the summits."""
+    "Sq",
+    "Sp",
+    "Sz",
+    "m2_x",
+    "m2_y",
+    "m4_x",
+    "m4_y",
+    "alpha_x",
+    "alpha_y",
+    "beta_e_x",
+    "beta_e_y",
+    "beta_01_x",
+    "beta_01_y",
+    "dimension_x",
+    "dimension_y",
+    "summit_density",
+    "summit_radius",
+)
+"""Quantities of a study, in SI units: heights, mean square slopes and curvatures, Nayak's
+parameter, correlation lengths, fractal dimension, density (1/m²) and radius 1/<κ> (m) of the
+summits."""
 
 MODES = ("pick", "average")
-"""Ways to coarsen a map: every n-th point is picked (which aliases), or blocks are averaged (which removes variance)."""
+"""Ways to coarsen a map: every n-th point is picked (which aliases), or blocks are averaged (which
+removes variance)."""
 
 
 @dataclass(frozen=True, eq=False)
 class SamplingStudy:
-    """Quantities of parts of one surface against their ``length`` (m): the scan size or the sampling interval.
+    """Quantities of parts of one surface against their ``length`` (m): the scan size or the
+    sampling interval.
 
-    ``kind`` of the study and ``form`` removed from every part; ``length`` increasing; ``parts`` number of parts for
-    each length; ``mean`` and ``scatter`` (standard deviation over the parts) by name of the quantity, see ``STUDIED``,
-    NaN where it is not defined on any part.
+    ``kind`` of the study and ``form`` removed from every part; ``length`` increasing; ``parts``
+    number of parts for each length; ``mean`` and ``scatter`` (standard deviation over the parts) by
+    name of the quantity, see ``STUDIED``, NaN where it is not defined on any part.
     """
 
     kind: str
@@ -50,7 +69,8 @@ class SamplingStudy:
     citation_keys: ClassVar[tuple[str, ...]] = ("Poon1995",)
 
     def independent_range(self, name: str, tolerance: float = 0.05) -> tuple[float, float]:
-        """Longest range of lengths (m) over which the means of ``name`` differ by ``tolerance`` at most.
+        """Longest range of lengths (m) over which the means of ``name`` differ by ``tolerance`` at
+        most.
 
         Two NaN if there is none: the quantity then depends on the scan at every length.
         Raises InputError if the name is unknown.
@@ -68,11 +88,13 @@ class SamplingStudy:
 
 
 def scan_size_study(surface: Surface, *, form: str = "plane", smallest: int = 16, most: int = 64) -> SamplingStudy:
-    """Study of windows of size L/2^k at all positions that do not overlap, at the sampling interval of the map.
+    """Study of windows of size L/2^k at all positions that do not overlap, at the sampling interval
+    of the map.
 
     Windows of which more than half is missing are left out.
 
-    Raises InputError if the form is unknown or the map has fewer points than ``smallest`` along a side.
+    Raises InputError if the form is unknown or the map has fewer points than ``smallest`` along a
+    side.
 
     Parameters
     ----------
@@ -109,14 +131,16 @@ def sampling_interval_study(
 ) -> SamplingStudy:
     """Study of the map at 1, 2, 4, … times its sampling interval, over its full size.
 
-    Raises InputError if the mode or form is unknown or the map has fewer points than ``smallest`` along a side.
+    Raises InputError if the mode or form is unknown or the map has fewer points than ``smallest``
+    along a side.
 
     Parameters
     ----------
     surface
         Measured surface; an average over a block with a missing point is missing.
     mode
-        ``pick`` takes every n-th point, with all offsets; ``average`` takes the means of blocks of n x n points.
+        ``pick`` takes every n-th point, with all offsets; ``average`` takes the means of blocks of
+        n x n points.
     form
         Form removed from every map: ``mean``, ``plane`` or ``quadratic``.
     smallest

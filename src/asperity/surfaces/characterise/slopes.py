@@ -30,9 +30,9 @@ def axis_index(axis: str) -> int:
 def increments(surface: Surface, lag: tuple[int, int]) -> RealArray:
     """h(x + r) - h(x) in m for the lag r = (k dx, l dy), k and l whole numbers of either sign.
 
-    A periodic surface wraps and returns (nx, ny) values; otherwise the nodes with both points inside the map. Values
-    with a missing point are NaN.
-    Raises InputError if the lag leaves no pair of points inside the map.
+    A periodic surface wraps and returns (nx, ny) values; otherwise the nodes with both points
+    inside the map. Values with a missing point are NaN. Raises InputError if the lag leaves no pair
+    of points inside the map.
     """
     steps_x, steps_y = lag
     h = surface.heights.astype(np.float64, copy=False)
@@ -65,7 +65,8 @@ def second_differences(surface: Surface, axis: str) -> RealArray:
 
 
 def mean_square(values: RealArray, what: str) -> float:
-    """Mean of the squares of the numbers in ``values``, NaN left out; ``what`` names the quantity for the error.
+    """Mean of the squares of the numbers in ``values``, NaN left out; ``what`` names the quantity
+    for the error.
 
     Raises InputError if there is no number.
     """
@@ -88,8 +89,8 @@ def mean_of(values: RealArray, what: str) -> float:
     return total / values.size
 
 
-# Sums over all difference stencils of one length along an axis, by strips that stay in the cache: 3 to 5 ms on 2048 x
-# 2048 points, 10 to 17 ms with whole arrays of differences.
+# Sums over all difference stencils of one length along an axis, by strips that stay in the cache: 3
+# to 5 ms on 2048 x 2048 points, 10 to 17 ms with whole arrays of differences.
 
 
 _STRIP = 1 << 17  # points of a strip
@@ -97,7 +98,8 @@ _STRIP = 1 << 17  # points of a strip
 
 @dataclass(frozen=True)
 class StencilSums:
-    """Over all valid stencils: mean ``square`` and ``least`` value of the differences (m², m), and their ``count``."""
+    """Over all valid stencils: mean ``square`` and ``least`` value of the differences (m², m), and
+    their ``count``."""
 
     square: float
     least: float
@@ -105,7 +107,8 @@ class StencilSums:
 
 
 def stencil_sums(surface: Surface, axis: str, order: int, step: int) -> StencilSums:
-    """Differences of ``order`` 1, h(x+s) - h(x), or 2, h(x+2s) - 2h(x+s) + h(x), over ``step`` pixels along ``axis``.
+    """Differences of ``order`` 1, h(x+s) - h(x), or 2, h(x+2s) - 2h(x+s) + h(x), over ``step``
+    pixels along ``axis``.
 
     A stencil counts if all its points are valid; a periodic surface wraps.
     Raises InputError if no stencil is valid or the step is not a whole number >= 1.
@@ -115,7 +118,8 @@ def stencil_sums(surface: Surface, axis: str, order: int, step: int) -> StencilS
     n = surface.shape[number]
     if not surface.periodic and n <= order * step:
         raise InputError(
-            f"surface must have more than {order * step} points along {axis} for a difference over {step} pixels, but has {n}."
+            f"surface must have more than {order * step} points along {axis} for a difference over {step} "
+            f"pixels, but has {n}."
         )
     total, least, count, has_holes = 0.0, math.inf, 0, surface.n_missing > 0
     h = surface.heights.astype(np.float64, copy=False)
@@ -158,16 +162,17 @@ def _rows(h: RealArray, start: int, stop: int) -> RealArray:
 def rms_slope(surface: Surface) -> float:
     """Sdq, the rms gradient sqrt(<(∂h/∂x)²> + <(∂h/∂y)²>), dimensionless.
 
-    Scheme: forward differences [h(i+1,j) - h(i,j)]/dx and [h(i,j+1) - h(i,j)]/dy, averaged over all valid pairs of each
-    direction; a periodic surface wraps. Waves shorter than about eight pixels are underestimated (McCool 1987; Jacobs,
-    Junge & Pastewka 2017).
-    Raises InputError if no two neighbours along x or along y are valid.
+    Scheme: forward differences [h(i+1,j) - h(i,j)]/dx and [h(i,j+1) - h(i,j)]/dy, averaged over all
+    valid pairs of each direction; a periodic surface wraps. Waves shorter than about eight pixels
+    are underestimated (McCool 1987; Jacobs, Junge & Pastewka 2017). Raises InputError if no two
+    neighbours along x or along y are valid.
     """
     return math.hypot(rms_profile_slope(surface, axis="x"), rms_profile_slope(surface, axis="y"))
 
 
 def rms_profile_slope(surface: Surface, *, axis: str = "x") -> float:
-    """Rms slope of the profiles along ``axis`` (square root of m2): forward differences over all valid pairs.
+    """Rms slope of the profiles along ``axis`` (square root of m2): forward differences over all
+    valid pairs.
 
     A periodic surface wraps. Dimensionless; ``axis`` is ``x`` or ``y``.
     Raises InputError if the axis is unknown or no two neighbours are valid.
@@ -178,9 +183,9 @@ def rms_profile_slope(surface: Surface, *, axis: str = "x") -> float:
 def rms_profile_curvature(surface: Surface, *, axis: str = "x") -> float:
     """Rms second derivative of the profiles along ``axis`` (square root of m4) in 1/m.
 
-    Scheme: [h(i+1) - 2 h(i) + h(i-1)]/d² over all valid triples (McCool 1987); a periodic surface wraps. Waves
-    shorter than about eight pixels are underestimated.
-    Raises InputError if the axis is unknown or no three neighbours are valid.
+    Scheme: [h(i+1) - 2 h(i) + h(i-1)]/d² over all valid triples (McCool 1987); a periodic surface
+    wraps. Waves shorter than about eight pixels are underestimated. Raises InputError if the axis
+    is unknown or no three neighbours are valid.
     """
     return math.sqrt(stencil_sums(surface, axis, 2, 1).square) / surface.grid.spacing[axis_index(axis)] ** 2
 
@@ -201,10 +206,11 @@ def rms_laplacian(surface: Surface) -> float:
 
 
 def developed_area_ratio(surface: Surface) -> float:
-    """Sdr, the surface area over its projection less 1 (a fraction, not %), dimensionless (ISO 25178-2, 4.4.2).
+    """Sdr, the surface area over its projection less 1 (a fraction, not %), dimensionless (ISO
+    25178-2, 4.4.2).
 
-    The area of a cell of four valid points is the mean over its two triangulations; a periodic surface wraps.
-    Raises InputError if no cell has four valid corners.
+    The area of a cell of four valid points is the mean over its two triangulations; a periodic
+    surface wraps. Raises InputError if no cell has four valid corners.
     """
     h = surface.heights.astype(np.float64, copy=False)
     if surface.periodic:

@@ -1,7 +1,8 @@
 """Fit of a plateau and power laws to a measured spectrum by Whittle's likelihood.
 
-The values of a periodogram are exponentially distributed about C(q), so -2 ln L = Σ N_b [I_b/C(q_b) + ln C(q_b)] over
-rings of N_b modes with the mean I_b, each pair of opposite modes counted once (Whittle 1953).
+The values of a periodogram are exponentially distributed about C(q), so -2 ln L = Σ N_b
+[I_b/C(q_b) + ln C(q_b)] over rings of N_b modes with the mean I_b, each pair of opposite modes
+counted once (Whittle 1953).
 """
 
 from __future__ import annotations
@@ -26,11 +27,13 @@ from .spectrum import LOST_MODES, PowerSpectrum, RadialSpectrum, default_edges, 
 
 @dataclass(frozen=True, kw_only=True)
 class SpectralModel:
-    """C(q) = C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, from there on with the exponent a2, plus a floor.
+    """C(q) = C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, from there on with the exponent a2, plus a
+    floor.
 
-    Zero beyond the longest and the shortest wave; a spectrum without plateau begins at its roll-off. Convention of
-    Jacobs, Junge & Pastewka (2017). ``asperity.generate.gaussian`` accepts it as a spectrum.
-    Raises InputError if a number is out of range or the wavelengths are out of order.
+    Zero beyond the longest and the shortest wave; a spectrum without plateau begins at its
+    roll-off. Convention of Jacobs, Junge & Pastewka (2017). ``asperity.generate.gaussian`` accepts
+    it as a spectrum. Raises InputError if a number is out of range or the wavelengths are out of
+    order.
 
     Parameters
     ----------
@@ -39,7 +42,8 @@ class SpectralModel:
     rolloff_wavelength
         λ_r = 2π/q_r in m.
     exponents
-        (a1,) or (a1, a2), any real numbers; a = 2 + 2H of a self-affine surface with the Hurst exponent H.
+        (a1,) or (a1, a2), any real numbers; a = 2 + 2H of a self-affine surface with the Hurst
+        exponent H.
     crossover_wavelength
         λ_c = 2π/q_c <= λ_r in m where the exponent changes; needed with two exponents.
     floor
@@ -94,7 +98,8 @@ class SpectralModel:
 
     @property
     def correlation_range(self) -> float:
-        """Distance in m beyond which heights are taken as uncorrelated: two roll-off wavelengths."""
+        """Distance in m beyond which heights are taken as uncorrelated: two roll-off
+        wavelengths."""
         return 2.0 * self.rolloff_wavelength
 
     def psd(self, q: RealArray | float) -> RealArray:
@@ -104,9 +109,11 @@ class SpectralModel:
         return np.where(relative > 0.0, self.level * relative + self.floor, 0.0)
 
     def moments(self, shortest_wavelength: float = 0.0, longest_wavelength: float = math.inf) -> tuple[float, ...]:
-        """Profile moments m0 (m²), m2, m4 (1/m²) of the continuous surface between two wavelengths (m), without floor.
+        """Profile moments m0 (m²), m2, m4 (1/m²) of the continuous surface between two wavelengths
+        (m), without floor.
 
-        m0 = (1/2π) ∫ q C dq, m2 = (1/4π) ∫ q³ C dq, m4 = (3/16π) ∫ q⁵ C dq. Infinite where an integral diverges.
+        m0 = (1/2π) ∫ q C dq, m2 = (1/4π) ∫ q³ C dq, m4 = (3/16π) ∫ q⁵ C dq. Infinite where an
+        integral diverges.
         """
         high = min(self.law.high, 2.0 * math.pi / shortest_wavelength if shortest_wavelength > 0.0 else math.inf)
         law = replace(self.law, low=max(self.law.low, 2.0 * math.pi / longest_wavelength), high=high)
@@ -121,7 +128,8 @@ class SpectralModel:
         values = self.psd(grid.wavenumber())
         if not values.any():
             raise InputError(
-                f"grid of {grid.size[0]:g} x {grid.size[1]:g} m must hold waves of the spectrum, but has none. Change its size."
+                f"grid of {grid.size[0]:g} x {grid.size[1]:g} m must hold waves of the spectrum, but has none. "
+                "Change its size."
             )
         return values
 
@@ -134,7 +142,8 @@ class SpectralModel:
         return f"{start}, {self.level:.4g} m^4 at {self.rolloff_wavelength:.4g} m, {laws}{bend}{floor}"
 
 
-# Maximum Whittle likelihood of one shape of spectrum: starting values, optimisation, standard errors.
+# Maximum Whittle likelihood of one shape of spectrum: starting values, optimisation, standard
+# errors.
 
 
 _STARTS = 3  # best of the grid of starting values that are optimised
@@ -146,7 +155,8 @@ _NEAREST = 0.1  # least ln(q_c/q_r) of two power laws
 
 @dataclass(frozen=True)
 class Shape:
-    """Form of a spectrum: with or without ``plateau`` and ``floor``, and the number ``slopes`` of power laws."""
+    """Form of a spectrum: with or without ``plateau`` and ``floor``, and the number ``slopes`` of
+    power laws."""
 
     plateau: bool
     slopes: int
@@ -166,10 +176,11 @@ class Shape:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """Best parameters of a ``shape``: logarithms of level, breaks and floor and plain exponents, relative to ``unit``.
+    """Best parameters of a ``shape``: logarithms of level, breaks and floor and plain exponents,
+    relative to ``unit``.
 
-    ``values`` in the order ln C0, [ln q_r], [ln q_c/q_r or ln q_c], a1, [a2], [ln C_n]; ``unit`` (q in rad/m, C in m⁴)
-    of the logarithms; ``deviance`` Σ N_b [I/C + ln C] with C in that unit.
+    ``values`` in the order ln C0, [ln q_r], [ln q_c/q_r or ln q_c], a1, [a2], [ln C_n]; ``unit`` (q
+    in rad/m, C in m⁴) of the logarithms; ``deviance`` Σ N_b [I/C + ln C] with C in that unit.
     """
 
     shape: Shape
@@ -178,7 +189,8 @@ class Solution:
     deviance: float
 
     def model(self, longest: float) -> SpectralModel:
-        """The spectrum with these parameters; without a plateau it begins at the ``longest`` wave (m)."""
+        """The spectrum with these parameters; without a plateau it begins at the ``longest`` wave
+        (m)."""
         log_level, log_r, log_c, exponents, log_floor = _split(self.shape, self.values)
         unit_q, unit_c = self.unit
         if not self.shape.plateau:  # the level is stated at q = unit
@@ -195,7 +207,8 @@ class Solution:
         )
 
     def errors(self, rings: RadialSpectrum, lost: float) -> dict[str, float]:
-        """Standard errors from the Fisher information of N_b/(2 ``lost``) independent modes a ring; NaN if singular."""
+        """Standard errors from the Fisher information of N_b/(2 ``lost``) independent modes a ring;
+        NaN if singular."""
         _, gradient = _log_psd(self.shape, self.values, np.log(rings.q / self.unit[0]))
         information = (gradient * (0.5 * rings.modes / lost)) @ gradient.T
         try:
@@ -253,7 +266,8 @@ def fitted_shape(rings: RadialSpectrum, shape: Shape) -> Solution:
 
 
 def _split(shape: Shape, values: RealArray) -> tuple[float, float, float, tuple[float, ...], float]:
-    """ln C0, ln q_r, ln q_c, exponents and ln C_n; the level of a spectrum without plateau is stated at ln q = 0."""
+    """ln C0, ln q_r, ln q_c, exponents and ln C_n; the level of a spectrum without plateau is
+    stated at ln q = 0."""
     rest = [float(v) for v in values]
     log_level = rest.pop(0)
     log_r = rest.pop(0) if shape.plateau else 0.0
@@ -327,8 +341,9 @@ _DROP = 0.02  # share of the extrapolation below which all of the rest must lie
 def short_cutoff(spectrum: PowerSpectrum, rings: RadialSpectrum) -> float:
     """Wavenumber in rad/m of the last mode before the spectrum drops to zero; NaN if it does not.
 
-    The drop is where all further rings lie below 2 % of the power law through the eight rings before, which does not
-    happen by the scatter of a periodogram. The wavenumber is that of the last single mode above this level.
+    The drop is where all further rings lie below 2 % of the power law through the eight rings
+    before, which does not happen by the scatter of a periodogram. The wavenumber is that of the
+    last single mode above this level.
     """
     with np.errstate(divide="ignore"):
         log_q, log_c = np.log(rings.q), np.log(rings.psd)
@@ -353,19 +368,22 @@ _FEWEST_RINGS = 8  # two more than the parameters of the largest shape
 SHAPES = tuple(
     Shape(plateau, slopes, floor) for slopes in (1, 2) for plateau in (False, True) for floor in (False, True)
 )
-"""The shapes that are tried: one or two power laws, with or without a plateau, with or without a floor."""
+"""The shapes that are tried: one or two power laws, with or without a plateau, with or without a
+floor."""
 
 
 @dataclass(frozen=True, eq=False)
 class SpectralFit:
     """Model of a spectrum with the standard errors of its parameters.
 
-    ``model``; ``errors``: relative standard error of ``level``, ``rolloff_wavelength``, ``crossover_wavelength`` and
-    ``floor``, absolute one of ``exponent_1``, ``exponent_2``, for the parameters that were fitted (Fisher information,
-    modes lost to the window counted); ``first``, ``last`` wavenumber (rad/m) of the fitted range; ``short_cutoff``
-    wavelength (m) below which the spectrum vanishes, NaN if it extends to the end of the range; ``mean_square_ratio``,
-    ``slope_ratio`` mean square height and slope of the model over those of the spectrum in the range; ``rings`` the
-    spectrum that was fitted; ``candidates`` Bayesian information criterion, less the best, by shape.
+    ``model``; ``errors``: relative standard error of ``level``, ``rolloff_wavelength``,
+    ``crossover_wavelength`` and ``floor``, absolute one of ``exponent_1``, ``exponent_2``, for the
+    parameters that were fitted (Fisher information, modes lost to the window counted); ``first``,
+    ``last`` wavenumber (rad/m) of the fitted range; ``short_cutoff`` wavelength (m) below which the
+    spectrum vanishes, NaN if it extends to the end of the range; ``mean_square_ratio``,
+    ``slope_ratio`` mean square height and slope of the model over those of the spectrum in the
+    range; ``rings`` the spectrum that was fitted; ``candidates`` Bayesian information criterion,
+    less the best, by shape.
     """
 
     model: SpectralModel
@@ -381,7 +399,8 @@ class SpectralFit:
 
     @property
     def has_rolloff(self) -> bool:
-        """Whether the spectrum has a plateau; otherwise the roll-off wavelength exceeds the scan size."""
+        """Whether the spectrum has a plateau; otherwise the roll-off wavelength exceeds the scan
+        size."""
         return self.model.has_plateau
 
     @property
@@ -408,13 +427,16 @@ def fit_spectrum(
     spectrum
         Spectrum of a levelled surface.
     plateau, slopes, floor
-        Whether the model has a plateau, how many power laws (1 or 2), whether it has a floor of white noise; by default
-        selected by the criterion. A plateau of fewer than ten modes is accepted only if ``plateau`` is True.
+        Whether the model has a plateau, how many power laws (1 or 2), whether it has a floor of
+        white noise; by default selected by the criterion. A plateau of fewer than ten modes is
+        accepted only if ``plateau`` is True.
     reliable_wavelength
-        Shortest wavelength in m that the instrument resolves (see ``tip_cutoff``); shorter ones are left out.
+        Shortest wavelength in m that the instrument resolves (see ``tip_cutoff``); shorter ones are
+        left out.
     model_error
-        Relative error of the model, which no real surface follows exactly; 0.1 keeps the thousands of short waves of a
-        measured map from dominating the fit, 0 is for surfaces generated with such a spectrum.
+        Relative error of the model, which no real surface follows exactly; 0.1 keeps the thousands
+        of short waves of a measured map from dominating the fit, 0 is for surfaces generated with
+        such a spectrum.
     """
     if slopes not in (None, 1, 2):
         raise InputError(f"number of power laws of a spectrum must be 1 or 2, but is {slopes!r}.")

@@ -1,7 +1,8 @@
 """Power spectra in the convention of Jacobs, Junge & Pastewka (2017).
 
-C(q) = (dx dy/(nx ny)) |FFT h|² in m⁴ with m0 = (1/A) Σ C → (1/4π²) ∫ C d²q; for profiles C1D = (d/n) |FFT h|² in m³,
-two-sided, with m0 = (1/L) Σ C1D → (1/π) ∫₀ C1D dq. Wavenumbers q = 2π/λ in rad/m. The mean height is removed first.
+C(q) = (dx dy/(nx ny)) |FFT h|² in m⁴ with m0 = (1/A) Σ C → (1/4π²) ∫ C d²q; for profiles C1D =
+(d/n) |FFT h|² in m³, two-sided, with m0 = (1/L) Σ C1D → (1/π) ∫₀ C1D dq. Wavenumbers q = 2π/λ in
+rad/m. The mean height is removed first.
 """
 
 from __future__ import annotations
@@ -24,18 +25,21 @@ from ..prepare.level import require_complete
 from ..surface import Surface
 from .slopes import axis_index
 
-# Windows by which heights are multiplied before a Fourier transform, normalised to a mean square of one.
+# Windows by which heights are multiplied before a Fourier transform, normalised to a mean square of
+# one.
 
 
 WINDOWS = ("none", "hann", "radial hann")
 """Kinds of window."""
 
 LOST_MODES = {"none": 1.0, "hann": 35.0 / 18.0, "radial hann": 2.0}
-"""Factor per axis by which a window reduces the number of independent modes: <w⁴>/<w²>², in one dimension."""
+"""Factor per axis by which a window reduces the number of independent modes: <w⁴>/<w²>², in one
+dimension."""
 
 
 def chosen_window(window: str, surface: Surface) -> str:
-    """Kind of window for ``surface``: as named; ``auto`` gives none for a periodic surface and hann otherwise.
+    """Kind of window for ``surface``: as named; ``auto`` gives none for a periodic surface and hann
+    otherwise.
 
     Raises InputError if the name is unknown.
     """
@@ -46,7 +50,8 @@ def chosen_window(window: str, surface: Surface) -> str:
 
 
 def line_window(kind: str, n: int) -> RealArray:
-    """Weights at ``n`` points of a line; all one if the line is too short for a Hann window (one or two points)."""
+    """Weights at ``n`` points of a line; all one if the line is too short for a Hann window (one or
+    two points)."""
     if kind == "none" or n < 3:
         return np.ones(n)
     weights = 0.5 * (1.0 - np.cos(2.0 * np.pi * np.arange(n) / n))
@@ -58,7 +63,8 @@ _ROUNDING = 1e-9  # upper bound of the rounding error of Parseval's identity, re
 
 @dataclass(frozen=True, eq=False)
 class PowerSpectrum:
-    """Two-dimensional spectrum: ``psd`` C in m⁴ on the half plane of modes (nx, ny // 2 + 1) of ``grid``.
+    """Two-dimensional spectrum: ``psd`` C in m⁴ on the half plane of modes (nx, ny // 2 + 1) of
+    ``grid``.
 
     ``window`` by which the heights were multiplied ("none" for a periodic surface).
     """
@@ -85,8 +91,8 @@ class RadialSpectrum:
 
     A ring holds the modes with ``low`` < q <= ``high`` (rad/m); empty rings are omitted.
 
-    ``q`` log-mean wavenumber (rad/m), ``psd`` arithmetic mean of C (m⁴), ``modes`` number of modes of both half planes,
-    of which half are independent; ``window`` of the spectrum.
+    ``q`` log-mean wavenumber (rad/m), ``psd`` arithmetic mean of C (m⁴), ``modes`` number of modes
+    of both half planes, of which half are independent; ``window`` of the spectrum.
     """
 
     q: RealArray
@@ -99,7 +105,8 @@ class RadialSpectrum:
 
 @dataclass(frozen=True, eq=False)
 class ProfileSpectrum:
-    """Two-sided spectrum ``psd`` C1D in m³ of the profiles along ``axis`` at ``q`` > 0 (rad/m), averaged over them."""
+    """Two-sided spectrum ``psd`` C1D in m³ of the profiles along ``axis`` at ``q`` > 0 (rad/m),
+    averaged over them."""
 
     axis: str
     q: RealArray
@@ -117,8 +124,9 @@ def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
     surface
         Complete surface; level a measured one first.
     window
-        ``auto`` (none for a periodic surface, hann otherwise), ``none``, ``hann`` (separable) or ``radial hann``.
-        Without a window, the jump between opposite borders of a non-periodic map masks spectra steeper than q^-3.
+        ``auto`` (none for a periodic surface, hann otherwise), ``none``, ``hann`` (separable) or
+        ``radial hann``. Without a window, the jump between opposite borders of a non-periodic map
+        masks spectra steeper than q^-3.
     """
     require_complete(surface, "transformed")
     kind = chosen_window(window, surface)
@@ -138,8 +146,8 @@ def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
     direct = float(np.mean(np.square(heights)))
     if abs(spectrum.mean_square - direct) > _ROUNDING * direct:
         raise ArithmeticError(
-            f"sum over the spectrum is {spectrum.mean_square:g} m^2 but the mean square of the heights is {direct:g} m^2: "
-            "the Fourier transform is wrong."
+            f"sum over the spectrum is {spectrum.mean_square:g} m^2 but the mean square of the heights is "
+            f"{direct:g} m^2: the Fourier transform is wrong."
         )
     psd[0, 0] = 0.0  # the window restores a mean height, which is no roughness
     return spectrum
@@ -148,8 +156,8 @@ def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
 def profile_spectrum(surface: Surface, *, axis: str = "x", window: str = "auto") -> ProfileSpectrum:
     """Mean over all lines of the spectrum of the profiles along ``axis``, each about its own mean.
 
-    ``window`` as for :func:`power_spectrum`, except ``radial hann``.
-    Raises InputError if points are missing, the axis or window is unknown, or the lines have a single point.
+    ``window`` as for :func:`power_spectrum`, except ``radial hann``. Raises InputError if points
+    are missing, the axis or window is unknown, or the lines have a single point.
     """
     number = axis_index(axis)
     require_complete(surface, "transformed")
@@ -171,15 +179,16 @@ def profile_spectrum(surface: Surface, *, axis: str = "x", window: str = "auto")
 
 
 def radial_spectrum(spectrum: PowerSpectrum, edges: RealArray | None = None, *, per_decade: int = 20) -> RadialSpectrum:
-    """Arithmetic mean of C over rings of modes (the mean of log C would be low by Euler's constant).
+    """Arithmetic mean of C over rings of modes (the mean of log C would be low by Euler's
+    constant).
 
     Parameters
     ----------
     spectrum
         Two-dimensional spectrum.
     edges
-        Increasing wavenumbers in rad/m that bound the rings; ``per_decade`` rings per factor of ten from the longest
-        wave to the last complete ring (π over the larger pixel) if omitted.
+        Increasing wavenumbers in rad/m that bound the rings; ``per_decade`` rings per factor of ten
+        from the longest wave to the last complete ring (π over the larger pixel) if omitted.
     per_decade
         Rings per decade.
     """
@@ -201,9 +210,10 @@ def radial_spectrum(spectrum: PowerSpectrum, edges: RealArray | None = None, *, 
 def default_edges(spectrum: PowerSpectrum, per_decade: int = 20, *, corners: bool = False) -> RealArray:
     """Edges in rad/m of logarithmic rings from just below the longest wave to the Nyquist circle.
 
-    With ``corners`` to the largest wavenumber of the grid: beyond the circle rings are not complete, and their mean is
-    that of all directions only where the surface is isotropic. A mode on an edge counts in the ring below, independent
-    of rounding: the edges are 1e-9 above their nominal wavenumbers.
+    With ``corners`` to the largest wavenumber of the grid: beyond the circle rings are not
+    complete, and their mean is that of all directions only where the surface is isotropic. A mode
+    on an edge counts in the ring below, independent of rounding: the edges are 1e-9 above their
+    nominal wavenumbers.
     """
     shortest = 2.0 * np.pi / max(spectrum.grid.size)
     dx, dy = spectrum.grid.spacing
@@ -215,11 +225,13 @@ def default_edges(spectrum: PowerSpectrum, per_decade: int = 20, *, corners: boo
     return edges
 
 
-# Expected moments of an isotropic random surface of known spectrum C(q) on a window of finite size and pixel.
+# Expected moments of an isotropic random surface of known spectrum C(q) on a window of finite size
+# and pixel.
 
 
 IsotropicPsd: TypeAlias = Callable[[RealArray], RealArray]
-"""C in m⁴ at wavenumbers in rad/m, such as the method ``psd`` of ``SpectralModel`` or ``SelfAffine``."""
+"""C in m⁴ at wavenumbers in rad/m, such as the method ``psd`` of ``SpectralModel`` or
+``SelfAffine``."""
 
 DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
 """Degree of the polynomial that levelling by a form removes."""
@@ -241,9 +253,10 @@ def mean_square_after_levelling(
 ) -> float:
     """Expected mean square height in m² of a window after removal of the mean, plane or quadratic.
 
-    E = (1/4π²) ∫ C(q) [1 - Σ_(a+b<=d) (2a+1)(2b+1) j_a²(q_x Lx/2) j_b²(q_y Ly/2)] d²q, spherical Bessel functions j, for
-    the continuous window ``size`` (Lx, Ly) in m and waves between the two wavelengths in m. Accurate to about 1e-4.
-    Raises InputError if the form is unknown or a length is not positive.
+    E = (1/4π²) ∫ C(q) [1 - Σ_(a+b<=d) (2a+1)(2b+1) j_a²(q_x Lx/2) j_b²(q_y Ly/2)] d²q, spherical
+    Bessel functions j, for the continuous window ``size`` (Lx, Ly) in m and waves between the two
+    wavelengths in m. Accurate to about 1e-4. Raises InputError if the form is unknown or a length
+    is not positive.
     """
     degree = DEGREES[require.one_of(form, DEGREES, "form to be removed")]
     shorter, longer = sorted(require.positive(side, "side of a window (m)") for side in size)
@@ -287,12 +300,13 @@ def expected_difference_moments(
     longest_wavelength: float,
     bends: Sequence[float] = (),
 ) -> tuple[float, float]:
-    """Expected mean squares of the first (m2) and second (m4, 1/m²) differences over ``spacing`` Δ in m along a line.
+    """Expected mean squares of the first (m2) and second (m4, 1/m²) differences over ``spacing`` Δ
+    in m along a line.
 
-    m2 = (1/2π) ∫ q C 2[1 - J0(qΔ)]/Δ² dq, m4 = (1/2π) ∫ q C 2[3 - 4 J0(qΔ) + J0(2qΔ)]/Δ⁴ dq over the waves between the
-    two wavelengths in m. Compared with the moments of the continuous surface they show the error of the pixel size.
-    ``bends``: wavelengths in m at which C has a kink, for accuracy beyond 1e-4.
-    Raises InputError if the spacing or a wavelength is not positive.
+    m2 = (1/2π) ∫ q C 2[1 - J0(qΔ)]/Δ² dq, m4 = (1/2π) ∫ q C 2[3 - 4 J0(qΔ) + J0(2qΔ)]/Δ⁴ dq over
+    the waves between the two wavelengths in m. Compared with the moments of the continuous surface
+    they show the error of the pixel size. ``bends``: wavelengths in m at which C has a kink, for
+    accuracy beyond 1e-4. Raises InputError if the spacing or a wavelength is not positive.
     """
     from scipy.special import j0
 
@@ -311,10 +325,12 @@ def expected_difference_moments(
 
 
 def effective_samples(spectrum: PowerSpectrum) -> float:
-    """Number of independent heights N_eff = (Σ C)²/Σ C² of a Gaussian surface with this periodogram; NaN if flat.
+    """Number of independent heights N_eff = (Σ C)²/Σ C² of a Gaussian surface with this
+    periodogram; NaN if flat.
 
-    The relative scatter from map to map is sqrt(2/N_eff) for the mean square height and sqrt(1/(2 N_eff)) for the rms
-    height. The squares of a periodogram are on average twice the squared spectrum, which is accounted for.
+    The relative scatter from map to map is sqrt(2/N_eff) for the mean square height and sqrt(1/(2
+    N_eff)) for the rms height. The squares of a periodogram are on average twice the squared
+    spectrum, which is accounted for.
     """
     columns = multiplicity(spectrum.grid)
     total = float(spectrum.psd.sum(axis=0) @ columns)

@@ -63,13 +63,15 @@ T = TypeVar("T")
 
 
 class Attempts:
-    """Evaluates quantities; one that is undefined for the surface gives None and adds a sentence to ``remarks``."""
+    """Evaluates quantities; one that is undefined for the surface gives None and adds a sentence to
+    ``remarks``."""
 
     def __init__(self) -> None:
         self.remarks: list[str] = []
 
     def __call__(self, what: str, measure: Callable[[], T]) -> T | None:
-        """Value of ``measure()``, or None after an ``InputError``; ``what`` names it in the remark."""
+        """Value of ``measure()``, or None after an ``InputError``; ``what`` names it in the
+        remark."""
         try:
             return measure()
         except InputError as error:
@@ -89,7 +91,8 @@ _MODEL_ERROR = 0.1  # of power laws fitted to measured maps, which are not perio
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """Functions of a surface; tuples hold those along x and y. None where a function is not defined."""
+    """Functions of a surface; tuples hold those along x and y. None where a function is not
+    defined."""
 
     material_ratio: MaterialRatioCurve
     distribution: HeightDistribution
@@ -101,10 +104,11 @@ class Curves:
 
 @dataclass(frozen=True, eq=False)
 class SpectralCurves:
-    """Spectra of a surface; ``tip_cutoff`` (m) is the wavelength below which they were not fitted, NaN if none was given.
+    """Spectra of a surface; ``tip_cutoff`` (m) is the wavelength below which they were not fitted,
+    NaN if none was given.
 
-    ``power`` two-dimensional spectrum, ``radial`` its mean over rings, ``profiles`` those along x and y, ``angular`` by
-    direction, ``fit`` the fitted model. None where it is not defined.
+    ``power`` two-dimensional spectrum, ``radial`` its mean over rings, ``profiles`` those along x
+    and y, ``angular`` by direction, ``fit`` the fitted model. None where it is not defined.
     """
 
     power: PowerSpectrum | None
@@ -118,7 +122,8 @@ class SpectralCurves:
 def measured_spectra(
     surface: Surface, window: str, *, tip_radius: float | None, curves: Curves, attempt: Attempts
 ) -> SpectralCurves:
-    """Spectra of the complete ``surface``, fitted above the length that a tip of ``tip_radius`` (m) resolves."""
+    """Spectra of the complete ``surface``, fitted above the length that a tip of ``tip_radius`` (m)
+    resolves."""
     cutoff = math.nan
     if tip_radius is not None:
         cutoff = max((tip_cutoff(curve, tip_radius) for curve in curves.scale if curve is not None), default=math.nan)
@@ -142,7 +147,8 @@ def measured_spectra(
 
 
 def completed(surface: Surface, fill: str | None, attempt: Attempts) -> Surface:
-    """``surface`` with its missing points filled by the method ``fill``, for the spectra; as it is without one."""
+    """``surface`` with its missing points filled by the method ``fill``, for the spectra; as it is
+    without one."""
     if fill is None or surface.n_missing == 0:
         return surface
     complete = filled(surface, fill)  # type: ignore[arg-type]  # checked by the function
@@ -159,11 +165,13 @@ _NAN = math.nan
 
 @dataclass(frozen=True)
 class SpatialParameters:
-    """Lengths over which heights are correlated (m) and directions of the texture (rad from +x towards +y, [0, π)).
+    """Lengths over which heights are correlated (m) and directions of the texture (rad from +x
+    towards +y, [0, π)).
 
-    ``Sal``, ``Str``, ``Std`` of ISO 25178-2; ``lay`` across the steepest axis of the slope tensor, which is less
-    sensitive to noise than Std; ``beta_e_x``, ``beta_e_y`` distance of R/R(0) = 1/e and ``beta_01_x``, ``beta_01_y``
-    (β*) of 0.1 along the axes. NaN where the correlation does not fall that far inside the map.
+    ``Sal``, ``Str``, ``Std`` of ISO 25178-2; ``lay`` across the steepest axis of the slope tensor,
+    which is less sensitive to noise than Std; ``beta_e_x``, ``beta_e_y`` distance of R/R(0) = 1/e
+    and ``beta_01_x``, ``beta_01_y`` (β*) of 0.1 along the axes. NaN where the correlation does not
+    fall that far inside the map.
     """
 
     Sal: float
@@ -178,7 +186,8 @@ class SpatialParameters:
 
 @dataclass(frozen=True)
 class HybridParameters:
-    """``Sdq`` rms gradient, ``Sdr`` developed area less one (both dimensionless), ``Ssc`` mean summit curvature (1/m)."""
+    """``Sdq`` rms gradient, ``Sdr`` developed area less one (both dimensionless), ``Ssc`` mean
+    summit curvature (1/m)."""
 
     Sdq: float
     Sdr: float
@@ -195,7 +204,8 @@ class Moments:
 
 @dataclass(frozen=True)
 class SummitDensities:
-    """Summit statistics by both definitions: above 8 neighbours (``eight``, the one to use) and above 4 (``four``)."""
+    """Summit statistics by both definitions: above 8 neighbours (``eight``, the one to use) and
+    above 4 (``four``)."""
 
     eight: SummitStatistics
     four: SummitStatistics
@@ -203,12 +213,14 @@ class SummitDensities:
 
 @dataclass(frozen=True)
 class SpectralParameters:
-    """Fitted form of the spectrum; relative standard errors (``*_error``) but for exponents, whose are absolute.
+    """Fitted form of the spectrum; relative standard errors (``*_error``) but for exponents, whose
+    are absolute.
 
-    ``exponent_1``, ``exponent_2`` of C ~ q^-a; ``hurst`` = (a1 - 2)/2 where that is a Hurst exponent, between 0 and 1 to
-    two standard errors; ``plateau`` C0 (m⁴) and ``rolloff_wavelength``
-    (m), NaN if the scan shows no roll-off; ``crossover_wavelength`` (m) between two power laws; ``floor`` (m⁴) of white
-    noise; ``short_cutoff`` wavelength (m) at which the spectrum ends. NaN for what the spectrum does not have.
+    ``exponent_1``, ``exponent_2`` of C ~ q^-a; ``hurst`` = (a1 - 2)/2 where that is a Hurst
+    exponent, between 0 and 1 to two standard errors; ``plateau`` C0 (m⁴) and ``rolloff_wavelength``
+    (m), NaN if the scan shows no roll-off; ``crossover_wavelength`` (m) between two power laws;
+    ``floor`` (m⁴) of white noise; ``short_cutoff`` wavelength (m) at which the spectrum ends. NaN
+    for what the spectrum does not have.
     """
 
     hurst: float = _NAN
@@ -232,8 +244,9 @@ class SpectralParameters:
 class Sampling:
     """Sampling error of the map, for Gaussian heights.
 
-    ``effective_samples`` number of independent heights; ``Sq_error`` relative scatter of Sq from map to map,
-    1/sqrt(2 N_eff); ``tip_cutoff`` length (m) below which the tip may have distorted the map, NaN if no tip was given.
+    ``effective_samples`` number of independent heights; ``Sq_error`` relative scatter of Sq from
+    map to map, 1/sqrt(2 N_eff); ``tip_cutoff`` length (m) below which the tip may have distorted
+    the map, NaN if no tip was given.
     """
 
     effective_samples: float
@@ -277,11 +290,12 @@ _TILT = 1e-3  # share of the mean square height in a plane above which a map was
 class Characterisation(Drawn):
     """The numbers that describe ``surface``, in SI units, in groups; NaN for what is not defined.
 
-    ``heights``, ``spatial``, ``hybrid``, ``functional``: parameters of ISO 25178-2; ``moments``, ``summits``,
-    ``peaks_x``, ``peaks_y``, ``fractal_x``, ``fractal_y``, ``spectrum``: statistics for contact theories; ``sampling``:
-    their sampling error; ``curves`` and ``spectra``: the functions from which they follow; ``remarks``: one sentence
-    for each quantity that could not be computed and each assumption. ``values()`` lists every quantity with unit,
-    definition and source.
+    ``heights``, ``spatial``, ``hybrid``, ``functional``: parameters of ISO 25178-2; ``moments``,
+    ``summits``, ``peaks_x``, ``peaks_y``, ``fractal_x``, ``fractal_y``, ``spectrum``: statistics
+    for contact theories; ``sampling``: their sampling error; ``curves`` and ``spectra``: the
+    functions from which they follow; ``remarks``: one sentence for each quantity that could not be
+    computed and each assumption. ``values()`` lists every quantity with unit, definition and
+    source.
     """
 
     surface: Surface
@@ -328,24 +342,25 @@ class Characterisation(Drawn):
 def characterise(
     surface: Surface, *, fill: str | None = "harmonic", window: str = "auto", tip_radius: float | None = None
 ) -> Characterisation:
-    """All roughness quantities of ``surface``: ISO 25178-2 parameters, spectra, correlation, summits, fractal parameters.
+    """All roughness quantities of ``surface``: ISO 25178-2 parameters, spectra, correlation,
+    summits, fractal parameters.
 
-    Nothing is levelled, filtered or cropped: prepare the surface first. Heights are measured from their mean.
-    Raises InputError if a choice is unknown or the radius is not positive. What cannot be computed for this surface
-    is NaN and explained in ``remarks``.
+    Nothing is levelled, filtered or cropped: prepare the surface first. Heights are measured from
+    their mean. Raises InputError if a choice is unknown or the radius is not positive. What cannot
+    be computed for this surface is NaN and explained in ``remarks``.
 
     Parameters
     ----------
     surface
         Prepared surface, measured or generated; periodic or not, any pixels.
     fill
-        Method by which missing points are filled for the spectra (see ``filled``), or None for no spectra. All other
-        quantities exclude missing points.
+        Method by which missing points are filled for the spectra (see ``filled``), or None for no
+        spectra. All other quantities exclude missing points.
     window
         Window of the spectra, see ``asperity.roughness.power_spectrum``.
     tip_radius
-        Radius in m of the tip of the scanning probe: waves that it may have distorted are excluded from the fitted
-        spectrum.
+        Radius in m of the tip of the scanning probe: waves that it may have distorted are excluded
+        from the fitted spectrum.
     """
     chosen_window(window, surface)
     if tip_radius is not None:

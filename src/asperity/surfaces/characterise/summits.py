@@ -1,4 +1,5 @@
-"""Summits of a surface: the points above all their neighbours, with their heights and curvatures."""
+"""Summits of a surface: the points above all their neighbours, with their heights and
+curvatures."""
 
 from __future__ import annotations
 
@@ -33,8 +34,8 @@ class Summits:
     height
         (n,) heights above the mean of the valid points in m.
     kappa_x, kappa_y, kappa_xy
-        (n,) curvatures -∂²h/∂x², -∂²h/∂y², -∂²h/∂x∂y by central differences in 1/m, the first two positive;
-        ``kappa_xy`` is NaN where a diagonal neighbour is missing (4 neighbours only).
+        (n,) curvatures -∂²h/∂x², -∂²h/∂y², -∂²h/∂x∂y by central differences in 1/m, the first two
+        positive; ``kappa_xy`` is NaN where a diagonal neighbour is missing (4 neighbours only).
     candidates
         Number of points that have all their neighbours.
     candidate_area
@@ -87,10 +88,11 @@ class Summits:
 class SummitStatistics:
     """Averages over the summits, NaN where there is none.
 
-    ``count``; ``density`` (1/m²); ``mean_height``, ``height_deviation`` (m, above the mean plane, normalised by the
-    number of summits); ``mean_curvature`` <κ> (= Ssc), ``curvature_deviation``, ``mean_geometric_curvature`` (1/m);
-    ``radius`` = 1/<κ> and ``mean_radius`` = <1/κ> (m), which is larger; ``saddles``, the number of summits whose
-    smallest principal curvature is not positive; ``bandwidth`` = density × radius × deviation of heights (η R σ_s).
+    ``count``; ``density`` (1/m²); ``mean_height``, ``height_deviation`` (m, above the mean plane,
+    normalised by the number of summits); ``mean_curvature`` <κ> (= Ssc), ``curvature_deviation``,
+    ``mean_geometric_curvature`` (1/m); ``radius`` = 1/<κ> and ``mean_radius`` = <1/κ> (m), which is
+    larger; ``saddles``, the number of summits whose smallest principal curvature is not positive;
+    ``bandwidth`` = density × radius × deviation of heights (η R σ_s).
     """
 
     count: int = 0
@@ -107,12 +109,14 @@ class SummitStatistics:
 
 
 def summits(surface: Surface, neighbours: int = 8) -> Summits:
-    """Points strictly above all their ``neighbours``, all present and valid; equal heights are never summits.
+    """Points strictly above all their ``neighbours``, all present and valid; equal heights are
+    never summits.
 
-    Borders are excluded unless the surface is periodic. With 8 neighbours the density of a well resolved isotropic
-    surface is 1.01 times the true one, with 4 it is 1.31 times: use 8, and 4 for comparison with the literature only.
-    On a surface rough down to the pixel densities and curvatures depend on the sampling interval.
-    Raises InputError if ``neighbours`` is neither 4 nor 8.
+    Borders are excluded unless the surface is periodic. With 8 neighbours the density of a well
+    resolved isotropic surface is 1.01 times the true one, with 4 it is 1.31 times: use 8, and 4 for
+    comparison with the literature only. On a surface rough down to the pixel densities and
+    curvatures depend on the sampling interval. Raises InputError if ``neighbours`` is neither 4
+    nor 8.
     """
     if neighbours not in (4, 8):
         raise InputError(f"neighbours of a summit must be 4 or 8, but are {neighbours!r}.")
@@ -173,10 +177,11 @@ def summit_statistics(found: Summits) -> SummitStatistics:
 class ProfilePeaks:
     """Three-point peaks of all profiles along ``axis``; NaN where there is none.
 
-    ``density`` peaks per length and ``zero_crossings`` crossings of the mean plane per length (1/m); ``mean_height``,
-    ``height_deviation`` above the mean plane (m); ``mean_curvature``, ``curvature_deviation`` (1/m);
-    ``rho_1``, ``rho_2`` correlation of the heights one and two points apart, from which the theory of Whitehouse &
-    Archard predicts all the others for Gaussian heights.
+    ``density`` peaks per length and ``zero_crossings`` crossings of the mean plane per length
+    (1/m); ``mean_height``, ``height_deviation`` above the mean plane (m); ``mean_curvature``,
+    ``curvature_deviation`` (1/m); ``rho_1``, ``rho_2`` correlation of the heights one and two
+    points apart, from which the theory of Whitehouse & Archard predicts all the others for Gaussian
+    heights.
     """
 
     axis: str
@@ -192,10 +197,11 @@ class ProfilePeaks:
 
 
 def profile_peaks(surface: Surface, *, axis: str = "x") -> ProfilePeaks:
-    """Peaks of the profiles of ``surface``: points strictly above both neighbours along ``axis``, all three valid.
+    """Peaks of the profiles of ``surface``: points strictly above both neighbours along ``axis``,
+    all three valid.
 
-    A periodic surface wraps. Correlations are pair averages over the mean square of the valid heights.
-    Raises InputError if the axis is neither x nor y.
+    A periodic surface wraps. Correlations are pair averages over the mean square of the valid
+    heights. Raises InputError if the axis is neither x nor y.
     """
     number = axis_index(axis)
     d, variance = surface.grid.spacing[number], rms_height(surface) ** 2

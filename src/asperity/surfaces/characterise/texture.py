@@ -21,10 +21,12 @@ _BLOCK = 1 << 20  # samples taken at once
 
 @dataclass(frozen=True)
 class TextureLengths:
-    """``Sal`` shortest distance in m at which R/R(0) drops to 0.2, ``Str`` = Sal/longest such distance (0 to 1).
+    """``Sal`` shortest distance in m at which R/R(0) drops to 0.2, ``Str`` = Sal/longest such
+    distance (0 to 1).
 
-    ``Sal_direction``, ``longest_direction`` are the angles of both in rad from +x towards +y, in [0, π). NaN where no
-    direction decays inside the map, or (Str and the longest direction) where one does not.
+    ``Sal_direction``, ``longest_direction`` are the angles of both in rad from +x towards +y, in
+    [0, π). NaN where no direction decays inside the map, or (Str and the longest direction) where
+    one does not.
     """
 
     Sal: float
@@ -37,8 +39,8 @@ class TextureLengths:
 class AngularSpectrum:
     """Share of the mean square height by the direction of its waves.
 
-    ``angle`` of the middle of the sectors in rad from +x towards +y, in [0, π); ``density`` per rad, whose integral
-    over [0, π) is one (NaN for a flat map).
+    ``angle`` of the middle of the sectors in rad from +x towards +y, in [0, π); ``density`` per
+    rad, whose integral over [0, π) is one (NaN for a flat map).
     """
 
     angle: RealArray
@@ -46,15 +48,17 @@ class AngularSpectrum:
 
     @property
     def peak(self) -> float:
-        """Std: direction in rad, [0, π), of the strongest waves; the lay is perpendicular to it. NaN for a flat map."""
+        """Std: direction in rad, [0, π), of the strongest waves; the lay is perpendicular to it.
+        NaN for a flat map."""
         return math.nan if np.isnan(self.density).any() else float(self.angle[int(np.argmax(self.density))])
 
 
 def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> TextureLengths:
-    """Sal and Str (ISO 25178-2, 4.3.1 and 4.3.2) from the first falls to ``drop`` R(0) along rays, one per degree.
+    """Sal and Str (ISO 25178-2, 4.3.1 and 4.3.2) from the first falls to ``drop`` R(0) along rays,
+    one per degree.
 
-    Rays end at half the map; R is interpolated bilinearly, in blocks of distances from the origin up to the last crossing.
-    Raises InputError if ``drop`` is not between 0 and 1.
+    Rays end at half the map; R is interpolated bilinearly, in blocks of distances from the origin
+    up to the last crossing. Raises InputError if ``drop`` is not between 0 and 1.
     """
     require.between(drop, 0.0, 1.0, "drop that defines a correlation length")
     half = tuple(
@@ -104,11 +108,13 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
 
 
 def angular_spectrum(spectrum: PowerSpectrum) -> AngularSpectrum:
-    """Spectrum summed over sectors within the Nyquist circle, from the third mode of a windowed map on.
+    """Spectrum summed over sectors within the Nyquist circle, from the third mode of a windowed map
+    on.
 
-    Sectors hold at least two modes at the Nyquist circle and span at least one degree; the value of a sector is the
-    mean over its modes, which removes the effect of the square lattice of modes. The angle of the largest density is
-    Std (ISO 25178-2, 4.3.3), which is more sensitive to noise than the axis of the slope tensor.
+    Sectors hold at least two modes at the Nyquist circle and span at least one degree; the value of
+    a sector is the mean over its modes, which removes the effect of the square lattice of modes.
+    The angle of the largest density is Std (ISO 25178-2, 4.3.3), which is more sensitive to noise
+    than the axis of the slope tensor.
     """
     qx, qy = spectrum.grid.wavevector()
     q = spectrum.grid.wavenumber()

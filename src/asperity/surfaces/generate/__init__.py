@@ -1,1 +1,2 @@
-"""Generated surfaces: deterministic shapes and textures, spectra, Gaussian and other random roughness."""
+"""Generated surfaces: deterministic shapes and textures, spectra, Gaussian and other random
+roughness."""

@@ -17,7 +17,8 @@ from ...core.values import Fraction, Length
 from .gaussian import clipped_eigenvalues, eigenvalues, negative_part
 
 LEAST_DROP = 1e-3
-"""Correlation at and below which heights count as independent: three 10 % lengths of the exponential."""
+"""Correlation at and below which heights count as independent: three 10 % lengths of the
+exponential."""
 
 _INDEPENDENT = math.log(1.0 / LEAST_DROP)
 _AMPLE = 1.5  # embedding lengths from which on there is no negative part: computed for both autocorrelations
@@ -26,7 +27,8 @@ _NOISE = 1e-15  # negative part that rounding of the transform leaves
 
 @dataclass(frozen=True)
 class _Autocorrelation(Declared):
-    """Base of autocorrelations that fall as exp(-c) over c decay lengths in every direction, ``smooth`` ones over sqrt(c).
+    """Base of autocorrelations that fall as exp(-c) over c decay lengths in every direction,
+    ``smooth`` ones over sqrt(c).
 
     ``form`` is their name in words, ``domain`` the number of decay lengths that a period must hold.
     """
@@ -43,8 +45,9 @@ class _Autocorrelation(Declared):
         super().__post_init__()
         if self.drop < LEAST_DROP:
             raise InputError(
-                f"drop of an autocorrelation must be from {LEAST_DROP:g} to below 1, but is {self.drop:g}: it is what is left at the "
-                "correlation length, such as 0.1 or 0.37. Give a second length as correlation_length_y."
+                f"drop of an autocorrelation must be from {LEAST_DROP:g} to below 1, but is {self.drop:g}: it "
+                "is what is left at the correlation length, such as 0.1 or 0.37. Give a second length as "
+                "correlation_length_y."
             )
 
     @property
@@ -63,7 +66,8 @@ class _Autocorrelation(Declared):
 
     @property
     def embedding_lengths(self) -> tuple[float, float]:
-        """Sides in m of a periodic domain that is large enough: 12 decay lengths of an exponential, 8 of a Gaussian."""
+        """Sides in m of a periodic domain that is large enough: 12 decay lengths of an exponential,
+        8 of a Gaussian."""
         return self.domain * self.decay_lengths[0], self.domain * self.decay_lengths[1]
 
     def autocovariance(self, x: RealArray, y: RealArray) -> RealArray:
@@ -73,7 +77,8 @@ class _Autocorrelation(Declared):
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
 
-        Raises InputError if the grid is so small that the wrapped autocovariance has a negative part above 1e-4.
+        Raises InputError if the grid is so small that the wrapped autocovariance has a negative
+        part above 1e-4.
         """
         psd: RealArray = grid.pixel_area * clipped_eigenvalues(self, grid)
         psd[0, 0] = 0.0
@@ -91,11 +96,12 @@ class _Autocorrelation(Declared):
 
 @dataclass(frozen=True)
 class ExponentialAutocorrelation(_Autocorrelation):
-    """Autocovariance σ² exp[-ln(1/drop) sqrt((x/βx)² + (y/βy)²)], met exactly at every lag of a periodic grid.
+    """Autocovariance σ² exp[-ln(1/drop) sqrt((x/βx)² + (y/βy)²)], met exactly at every lag of a
+    periodic grid.
 
-    Synthesis is by circulant embedding. ``gaussian`` removes the mean of every realisation, so the expected mean square
-    is σ² less the variance of the mean, as for any finite window. Source: Peng & Bhushan (2001) for the 10 % length;
-    Dietrich & Newsam (1997) for the embedding.
+    Synthesis is by circulant embedding. ``gaussian`` removes the mean of every realisation, so the
+    expected mean square is σ² less the variance of the mean, as for any finite window. Source: Peng
+    & Bhushan (2001) for the 10 % length; Dietrich & Newsam (1997) for the embedding.
     """
 
     form: ClassVar[str] = "exponential"
@@ -109,7 +115,8 @@ class ExponentialAutocorrelation(_Autocorrelation):
         return np.asarray(self.rms_height**2 * np.exp(-np.hypot(x / beta_x, y / beta_y)))
 
     def psd(self, qx: RealArray | float, qy: RealArray | float = 0.0) -> RealArray:
-        """C in m⁴ of the continuous surface, 2π σ² βx βy [1 + (qx βx)² + (qy βy)²]^(-3/2) with 1/e lengths β."""
+        """C in m⁴ of the continuous surface, 2π σ² βx βy [1 + (qx βx)² + (qy βy)²]^(-3/2) with 1/e
+        lengths β."""
         beta_x, beta_y = self.decay_lengths
         squared = (np.asarray(qx, dtype=float) * beta_x) ** 2 + (np.asarray(qy, dtype=float) * beta_y) ** 2
         return 2.0 * np.pi * self.rms_height**2 * beta_x * beta_y * (1.0 + squared) ** -1.5
@@ -117,10 +124,11 @@ class ExponentialAutocorrelation(_Autocorrelation):
 
 @dataclass(frozen=True)
 class GaussianAutocorrelation(_Autocorrelation):
-    """Autocovariance σ² exp[-ln(1/drop) ((x/βx)² + (y/βy)²)], met exactly at every lag of a periodic grid.
+    """Autocovariance σ² exp[-ln(1/drop) ((x/βx)² + (y/βy)²)], met exactly at every lag of a
+    periodic grid.
 
-    The surface is smooth: m2 = 2σ²/b², m4 = 12σ²/b⁴, Nayak's parameter 3, with b the 1/e length. Parameters, mean and
-    errors as for ``ExponentialAutocorrelation``.
+    The surface is smooth: m2 = 2σ²/b², m4 = 12σ²/b⁴, Nayak's parameter 3, with b the 1/e length.
+    Parameters, mean and errors as for ``ExponentialAutocorrelation``.
     """
 
     form: ClassVar[str] = "Gaussian"
@@ -134,7 +142,8 @@ class GaussianAutocorrelation(_Autocorrelation):
         return np.asarray(self.rms_height**2 * np.exp(-np.square(x / b_x) - np.square(y / b_y)))
 
     def psd(self, qx: RealArray | float, qy: RealArray | float = 0.0) -> RealArray:
-        """C in m⁴ of the continuous surface, π σ² bx by exp{-[(qx bx)² + (qy by)²]/4} with 1/e lengths b."""
+        """C in m⁴ of the continuous surface, π σ² bx by exp{-[(qx bx)² + (qy by)²]/4} with 1/e
+        lengths b."""
         b_x, b_y = self.decay_lengths
         squared = (np.asarray(qx, dtype=float) * b_x) ** 2 + (np.asarray(qy, dtype=float) * b_y) ** 2
         return np.pi * self.rms_height**2 * b_x * b_y * np.exp(-0.25 * squared)

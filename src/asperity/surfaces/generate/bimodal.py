@@ -1,7 +1,8 @@
 """Surfaces of two roughnesses: patches, plateaus with valleys, particles on a matrix.
 
-Peng & Bhushan (2000) brought surfaces of bimodal roughness, such as coatings with particles, into contact mechanics; the
-three constructions here, all from independent Gaussian fields, cover that class but follow no formula of their paper.
+Peng & Bhushan (2000) brought surfaces of bimodal roughness, such as coatings with particles, into
+contact mechanics; the three constructions here, all from independent Gaussian fields, cover that
+class but follow no formula of their paper.
 """
 
 from __future__ import annotations
@@ -37,12 +38,13 @@ def bimodal(
     patches: Annotated[Spectrum, "spectrum of M, which shapes the patches; its rms height does not matter"],
     seed: SurfaceSeed,
 ) -> Surface:
-    """Periodic surface of two textures side by side: patches of the first on ``share`` of the area, the second elsewhere.
+    """Periodic surface of two textures side by side: patches of the first on ``share`` of the area,
+    the second elsewhere.
 
-    h = X where M < Φ⁻¹(share), else Y, with independent Gaussian fields X, Y and M; there are steps at the boundaries.
-    With p the share, d the distance of a mean from the common one: <h²> = Σ p (σ² + d²), <h³> = Σ p (d³ + 3 d σ²),
-    <h⁴> = Σ p (d⁴ + 6 d² σ² + 3 σ⁴) about the mean.
-    Raises InputError if the grid does not suit a spectrum.
+    h = X where M < Φ⁻¹(share), else Y, with independent Gaussian fields X, Y and M; there are steps
+    at the boundaries. With p the share, d the distance of a mean from the common one: <h²> = Σ p
+    (σ² + d²), <h³> = Σ p (d³ + 3 d σ²), <h⁴> = Σ p (d⁴ + 6 d² σ² + 3 σ⁴) about the mean. Raises
+    InputError if the grid does not suit a spectrum.
     """
     from scipy.special import ndtri
 
@@ -68,11 +70,12 @@ def two_process(
     seed: SurfaceSeed,
     keep: Annotated[Literal["lower", "upper"], "which of the two surfaces is kept at each point"] = "lower",
 ) -> Surface:
-    """Periodic surface of a second process over a first one: h = min(X, Y), as by honing or wear; max for deposits.
+    """Periodic surface of a second process over a first one: h = min(X, Y), as by honing or wear;
+    max for deposits.
 
-    X is the fine texture of the plateau with mean 0, Y the coarse one with mean ``offset``, independent Gaussian
-    fields. The material ratio on probability paper is two straight lines; the heights are usually strongly skewed.
-    Raises InputError if the grid does not suit a spectrum.
+    X is the fine texture of the plateau with mean 0, Y the coarse one with mean ``offset``,
+    independent Gaussian fields. The material ratio on probability paper is two straight lines; the
+    heights are usually strongly skewed. Raises InputError if the grid does not suit a spectrum.
     """
     first, second = (random_field(grid, s, n) for s, n in zip((plateau, valleys), sub_seeds(seed, 2), strict=True))
     heights = (np.minimum if keep == "lower" else np.maximum)(first, second + offset)
@@ -101,10 +104,10 @@ def particles(
 ) -> Surface:
     """Periodic surface of spheres in or on a rough matrix: h = max(h_m, z - R + sqrt(R² - r²)).
 
-    Places are independent and uniform, so spheres overlap by chance; their number is Poisson distributed. Radii are normal,
-    those not positive drawn again. The top of each stands ``exposure`` radii above the matrix at its centre.
-    Raises InputError if a value is out of range, there are more than ten million particles, or one is wider than the
-    grid.
+    Places are independent and uniform, so spheres overlap by chance; their number is Poisson
+    distributed. Radii are normal, those not positive drawn again. The top of each stands
+    ``exposure`` radii above the matrix at its centre. Raises InputError if a value is out of range,
+    there are more than ten million particles, or one is wider than the grid.
     """
     if density * grid.area > _MOST_PARTICLES:
         raise InputError(
@@ -122,8 +125,8 @@ def particles(
     for place, size in zip(places, (float(number) for number in radii), strict=True):
         if 2.0 * size > min(grid.size):
             raise InputError(
-                f"particles must fit into the grid of {grid.size[0]:.3g} x {grid.size[1]:.3g} m, but one has the radius "
-                f"{size:.3g} m. Enlarge the grid or reduce the radius."
+                f"particles must fit into the grid of {grid.size[0]:.3g} x {grid.size[1]:.3g} m, but one has "
+                f"the radius {size:.3g} m. Enlarge the grid or reduce the radius."
             )
         nodes = [
             np.arange(math.ceil((c - size) / d), math.floor((c + size) / d) + 1)
@@ -139,8 +142,8 @@ def particles(
         at = np.ix_(nodes[0] % grid.shape[0], nodes[1] % grid.shape[1])
         heights[at] = np.maximum(heights[at], cap)
     text = (
-        f"{count} particles of radius {show(radius, 'm')} ± {show(radius_deviation, 'm')}, exposed by {exposure:.4g} radii, "
-        f"on {matrix.describe(grid)}, seed {seed}"
+        f"{count} particles of radius {show(radius, 'm')} ± {show(radius_deviation, 'm')}, exposed by "
+        f"{exposure:.4g} radii, on {matrix.describe(grid)}, seed {seed}"
     )
     keys = (*citation_keys(matrix), *_KEYS)
     return generated(grid, heights, "particles", text, citation_keys=keys)

@@ -21,7 +21,8 @@ WaveAmplitude: TypeAlias = Annotated[Length, "amplitude of the wave"]
 Wavelength: TypeAlias = Annotated[Length, "length λ of the wave; the size holds a whole number of them"]
 Along: TypeAlias = Annotated[Axis, "direction along which it runs"]
 
-# Deterministic shapes: heights positive out of the body, highest point at zero, centred at node (nx//2, ny//2).
+# Deterministic shapes: heights positive out of the body, highest point at zero, centred at node
+# (nx//2, ny//2).
 #
 # Johnson, K. L. (1985), Contact Mechanics, chapters 4, 5 and 13, uses the same undeformed profiles.
 
@@ -33,10 +34,12 @@ def sphere(
     radius: Annotated[Length, "radius R"],
     exact: Annotated[bool, "the exact sphere instead of its paraboloid"] = False,
 ) -> Surface:
-    """Sphere of ``radius`` R (m), by default its paraboloid h = -r²/(2R), the profile of Hertz' theory.
+    """Sphere of ``radius`` R (m), by default its paraboloid h = -r²/(2R), the profile of Hertz'
+    theory.
 
-    With ``exact`` the profile is h = -R + sqrt(R² - r²); paraboloid and sphere differ by about r²/(4R²) of the sag.
-    Raises InputError if the radius is not positive, or with ``exact`` a node lies outside r <= R.
+    With ``exact`` the profile is h = -R + sqrt(R² - r²); paraboloid and sphere differ by about
+    r²/(4R²) of the sag. Raises InputError if the radius is not positive, or with ``exact`` a node
+    lies outside r <= R.
     """
     r_squared = _radius_squared(grid)
     if not exact:
@@ -58,7 +61,8 @@ def elliptic_paraboloid(
     radius_x: Annotated[Length, "principal radius along x"],
     radius_y: Annotated[Length, "principal radius along y"],
 ) -> Surface:
-    """Elliptic paraboloid h = -x²/(2 Rx) - y²/(2 Ry) with principal radii ``radius_x``, ``radius_y`` (m, positive)."""
+    """Elliptic paraboloid h = -x²/(2 Rx) - y²/(2 Ry) with principal radii ``radius_x``,
+    ``radius_y`` (m, positive)."""
     x, y = grid.centred_coordinates()
     heights = -(x**2) / (2.0 * radius_x) - y**2 / (2.0 * radius_y)
     return _shape(grid, heights, f"elliptic paraboloid, radii {show(radius_x, 'm')} and {show(radius_y, 'm')}")
@@ -66,7 +70,8 @@ def elliptic_paraboloid(
 
 @checked
 def cylinder(grid: Grid, *, radius: Annotated[Length, "radius R"], axis: Along = "y") -> Surface:
-    """Parabolic cylinder of ``radius`` R (m) along ``axis``: h = -x²/(2R) for a cylinder along y."""
+    """Parabolic cylinder of ``radius`` R (m) along ``axis``: h = -x²/(2R) for a cylinder along
+    y."""
     x, y = grid.centred_coordinates()
     across = x if axis == "y" else y
     return _shape(grid, -(across**2) / (2.0 * radius), f"parabolic cylinder along {axis}, radius {show(radius, 'm')}")
@@ -78,13 +83,15 @@ Slope: TypeAlias = Annotated[Positive, "tangent of the angle between flank and s
 
 @checked
 def cone(grid: Grid, *, slope: Slope) -> Surface:
-    """Cone h = -slope · r; ``slope`` is the tangent of the angle between flank and surface (dimensionless, positive)."""
+    """Cone h = -slope · r; ``slope`` is the tangent of the angle between flank and surface
+    (dimensionless, positive)."""
     return _shape(grid, -slope * np.sqrt(_radius_squared(grid)), f"cone, slope {slope:g}")
 
 
 @checked
 def wedge(grid: Grid, *, slope: Slope, axis: Along = "y") -> Surface:
-    """Wedge whose edge runs along ``axis``: h = -slope · |x| for an edge along y; ``slope`` as for :func:`cone`."""
+    """Wedge whose edge runs along ``axis``: h = -slope · |x| for an edge along y; ``slope`` as for
+    :func:`cone`."""
     x, y = grid.centred_coordinates()
     return _shape(grid, -slope * np.abs(x if axis == "y" else y), f"wedge along {axis}, slope {slope:g}")
 
@@ -97,7 +104,8 @@ def power_law(
     radius: Annotated[Length, "distance from the axis"],
     height: Annotated[Length, "fall of the indenter at the radius"],
 ) -> Surface:
-    """Indenter h = -height · (r/radius)^n of the ``exponent`` n: 1 a cone, 2 a paraboloid, large n nearly a flat punch.
+    """Indenter h = -height · (r/radius)^n of the ``exponent`` n: 1 a cone, 2 a paraboloid, large n
+    nearly a flat punch.
 
     ``height`` is the sag at the ``radius``, both in m and positive.
     """
@@ -113,11 +121,13 @@ def flat_punch(
     depth: Annotated[Length, "depth of the surface around it"],
     edge_radius: Annotated[NonNegativeLength, "radius R_e of the rounded edge"] = 0.0,
 ) -> Surface:
-    """Flat-ended circular punch: h = 0 for r <= ``radius`` and h = -``depth`` outside (both m, positive).
+    """Flat-ended circular punch: h = 0 for r <= ``radius`` and h = -``depth`` outside (both m,
+    positive).
 
-    The edge is resolved to half a pixel; choose ``depth`` larger than any displacement of the problem. With an
-    ``edge_radius`` R_e (m) the edge is rounded within a - R_e < r <= a: h = -(R_e - sqrt[R_e² - (r - a + R_e)²]).
-    Raises InputError if radius or depth is not positive, or the edge radius is not between 0 and both.
+    The edge is resolved to half a pixel; choose ``depth`` larger than any displacement of the
+    problem. With an ``edge_radius`` R_e (m) the edge is rounded within a - R_e < r <= a: h =
+    -(R_e - sqrt[R_e² - (r - a + R_e)²]). Raises InputError if radius or depth is not positive, or
+    the edge radius is not between 0 and both.
     """
     r_squared = _radius_squared(grid)
     text = f"flat punch, radius {show(radius, 'm')}, depth {show(depth, 'm')}"
@@ -138,7 +148,8 @@ def sinusoid(
     wavelength: Wavelength,
     axis: Along = "x",
 ) -> Surface:
-    """Wave h = amplitude · [cos(2πx/λ) - 1] along ``axis``, periodic; amplitude and wavelength λ in m, positive.
+    """Wave h = amplitude · [cos(2πx/λ) - 1] along ``axis``, periodic; amplitude and wavelength λ in
+    m, positive.
 
     Against a flat the gap is amplitude · [1 - cos(2πx/λ)] (Johnson 1985, section 13.2).
     Raises InputError if the grid is not a whole number of wavelengths sampled at least twice each.
@@ -155,7 +166,8 @@ def bisinusoid(
     amplitude: WaveAmplitude,
     wavelength: Wavelength,
 ) -> Surface:
-    """Egg-box h = amplitude · [cos(2πx/λ) + cos(2πy/λ) - 2], periodic; amplitude and wavelength λ in m, positive.
+    """Egg-box h = amplitude · [cos(2πx/λ) + cos(2πy/λ) - 2], periodic; amplitude and wavelength λ
+    in m, positive.
 
     Source: Johnson, Greenwood & Higginson (1985), with the highest points at zero.
     Raises InputError if a side of the grid is not a whole number of wavelengths.
@@ -215,17 +227,21 @@ def laser_bumps(
     depth: Annotated[NonNegativeLength, "depth d of the crater"] = 0.0,
     crater_radius: Annotated[Length | None, "radius w0 of the crater; that of the rim if left out"] = None,
 ) -> Surface:
-    """Periodic lattice of laser-textured bumps: a ring-shaped rim around a crater, or a dome for ``rim_radius`` 0.
+    """Periodic lattice of laser-textured bumps: a ring-shaped rim around a crater, or a dome for
+    ``rim_radius`` 0.
 
-    h = h_rim exp[-(r - r_rim)²/w²] - d exp(-r²/w0²), r from the nearest centre. A description to be fitted to measured
-    bumps, not a law. Heights are measured from the surface between the bumps.
+    h = h_rim exp[-(r - r_rim)²/w²] - d exp(-r²/w0²), r from the nearest centre. A description to be
+    fitted to measured bumps, not a law. Heights are measured from the surface between the bumps.
     Raises InputError if a side of the grid is not a whole number of pitches.
     """
     height, width, rim, crater = rim_height, rim_width, rim_radius, depth
     radius = crater_radius or rim or width
     r = np.hypot(*(_from_nearest(grid, pitch[axis], axis) for axis in (0, 1)))
     heights = height * np.exp(-(((r - rim) / width) ** 2)) - crater * np.exp(-((r / radius) ** 2))
-    text = f"laser bumps, rim {show(height, 'm')} high at {show(rim, 'm')}, {show(width, 'm')} wide, crater {show(crater, 'm')} deep"
+    text = (
+        f"laser bumps, rim {show(height, 'm')} high at {show(rim, 'm')}, {show(width, 'm')} wide, crater "
+        f"{show(crater, 'm')} deep"
+    )
     text += f", pitch {show(pitch[0], 'm')} x {show(pitch[1], 'm')}"
     return _shape(grid, heights, text, periodic=True)
 
@@ -240,11 +256,12 @@ def dimples(
     sharpness: Annotated[float, Number(least=1.0), "exponent p: 1 for Gaussian walls, more for steeper ones"] = 1.0,
     raised: Annotated[bool, "pillars instead of dimples"] = False,
 ) -> Surface:
-    """Periodic lattice of dimples h = -depth exp[-(r/a)^(2p)], or with ``raised`` of pillars of that height.
+    """Periodic lattice of dimples h = -depth exp[-(r/a)^(2p)], or with ``raised`` of pillars of
+    that height.
 
-    ``sharpness`` p >= 1: 1 is a Gaussian, large values have steep walls and a flat bottom. ``radius`` a and ``depth`` in m;
-    ``pitch`` as for :func:`laser_bumps`. The highest level is zero.
-    Raises InputError if a side of the grid is not a whole number of pitches.
+    ``sharpness`` p >= 1: 1 is a Gaussian, large values have steep walls and a flat bottom.
+    ``radius`` a and ``depth`` in m; ``pitch`` as for :func:`laser_bumps`. The highest level is
+    zero. Raises InputError if a side of the grid is not a whole number of pitches.
     """
     x, y = (_from_nearest(grid, pitch[axis], axis) for axis in (0, 1))
     with np.errstate(over="ignore"):  # far outside a sharp dimple
@@ -267,9 +284,10 @@ def grooves(
 ) -> Surface:
     """Periodic grooves along ``axis`` in a flat surface at height zero.
 
-    Within half a ``width`` of its middle a groove is ``vee`` shaped, ``round`` (a parabola) or a ``cosine`` that meets the
-    surface smoothly; depth at the middle. ``pitch`` >= ``width``, all in m. A groove lies at the middle of the grid.
-    Raises InputError if the side across the grooves is not a whole number of pitches.
+    Within half a ``width`` of its middle a groove is ``vee`` shaped, ``round`` (a parabola) or a
+    ``cosine`` that meets the surface smoothly; depth at the middle. ``pitch`` >= ``width``, all in
+    m. A groove lies at the middle of the grid. Raises InputError if the side across the grooves is
+    not a whole number of pitches.
     """
     if width > pitch * (1.0 + 1e-9):
         raise InputError(f"width of the grooves must not exceed their pitch ({pitch:g} m), but is {width:g} m.")
@@ -281,7 +299,8 @@ def grooves(
 
 
 def _from_nearest(grid: Grid, pitch: float, axis: int) -> RealArray:
-    """Distances along ``axis`` in m, x (nx, 1) or y (1, ny), from the nearest centre of the lattice."""
+    """Distances along ``axis`` in m, x (nx, 1) or y (1, ny), from the nearest centre of the
+    lattice."""
     size, name = grid.size[axis], "xy"[axis]
     count = round(size / pitch)
     if count < 1 or abs(size / pitch - count) > 1e-9 * count:
@@ -294,7 +313,8 @@ def _from_nearest(grid: Grid, pitch: float, axis: int) -> RealArray:
     return u - period * np.round(u / period)
 
 
-# Weierstrass-Mandelbrot functions: deterministic fractal profiles and surfaces of a discrete spectrum.
+# Weierstrass-Mandelbrot functions: deterministic fractal profiles and surfaces of a discrete
+# spectrum.
 
 
 FrequencyRatio: TypeAlias = Annotated[
@@ -320,17 +340,20 @@ def weierstrass_mandelbrot(
     length: LongestWave = None,
     shortest_wavelength: ShortestWave = None,
 ) -> Surface:
-    """Weierstrass-Mandelbrot surface (Ausloos & Berman 1985; Yan & Komvopoulos 1998) without its constant.
+    """Weierstrass-Mandelbrot surface (Ausloos & Berman 1985; Yan & Komvopoulos 1998) without its
+    constant.
 
-    z = -L (G/L)^(D-2) sqrt(ln γ/M) Σ_m Σ_n γ^((D-3)n) cos[2π γ^n (x cos(πm/M) + y sin(πm/M))/L + φ_mn], m = 1…M, n = 0…n_max,
-    n_max = floor(ln(L/L_s)/ln γ), phases φ uniform. The spectrum is a set of lines, the map is not periodic, and isotropic only
-    for many ridges; prefer ``asp.generate.gaussian`` unless a published case is to be repeated.
+    z = -L (G/L)^(D-2) sqrt(ln γ/M) Σ_m Σ_n γ^((D-3)n) cos[2π γ^n (x cos(πm/M) + y sin(πm/M))/L +
+    φ_mn], m = 1…M, n = 0…n_max, n_max = floor(ln(L/L_s)/ln γ), phases φ uniform. The spectrum is a
+    set of lines, the map is not periodic, and isotropic only for many ridges; prefer
+    ``asp.generate.gaussian`` unless a published case is to be repeated.
     """
     longest = max(grid.size) if length is None else length
     shortest = 2.0 * max(grid.spacing) if shortest_wavelength is None else shortest_wavelength
     if shortest > longest:
         raise InputError(
-            f"shortest wave must not be longer than the longest ({longest:g} m), but is {shortest:g} m. Refine the grid."
+            f"shortest wave must not be longer than the longest ({longest:g} m), but is {shortest:g} m. Refine "
+            "the grid."
         )
     count = math.floor(math.log(longest / shortest) / math.log(gamma) + 1e-9) + 1
     _require_count(count * ridges)
@@ -363,9 +386,11 @@ def weierstrass_mandelbrot_profile(
     shortest_wavelength: ShortestWave = None,
     seed: Annotated[Seed | None, "seed of random phases; all are 0 if left out"] = None,
 ) -> Surface:
-    """Weierstrass-Mandelbrot profile along x, equal for all y: z = G^(D-1) Σ cos(2π γ^n x + φ_n)/γ^((2-D)n), n = n1…n2.
+    """Weierstrass-Mandelbrot profile along x, equal for all y: z = G^(D-1) Σ cos(2π γ^n x +
+    φ_n)/γ^((2-D)n), n = n1…n2.
 
-    γ^n counts cycles per metre; n1 = floor(ln(1/L)/ln γ), n2 = ceil(ln(1/L_s)/ln γ) (Majumdar & Bhushan 1990).
+    γ^n counts cycles per metre; n1 = floor(ln(1/L)/ln γ), n2 = ceil(ln(1/L_s)/ln γ) (Majumdar &
+    Bhushan 1990).
     """
     longest = grid.size[0] if length is None else length
     shortest = 2.0 * grid.spacing[0] if shortest_wavelength is None else shortest_wavelength

@@ -1,4 +1,5 @@
-"""Surfaces by the two-dimensional digital filter of Hu & Tønder (1992): finite windows of an endless surface, or periodic."""
+"""Surfaces by the two-dimensional digital filter of Hu & Tønder (1992): finite windows of an
+endless surface, or periodic."""
 
 from __future__ import annotations
 
@@ -21,10 +22,11 @@ from .gaussian import BLOCK, Spectrum, SurfaceSeed, block_noise, lattice_eigenva
 from .non_gaussian import HeightKurtosis, HeightLaw, HeightSkewness, HeightSystem, height_law
 from .power_laws import RmsHeight
 
-# Moving-average kernel of a random surface: each height is a weighted sum of white noise around its node.
+# Moving-average kernel of a random surface: each height is a weighted sum of white noise around its
+# node.
 #
-# Hu & Tønder (1992): z(I, J) = Σ α(k, l) η(I + k, J + l) with α = IFFT sqrt(FFT R), the zero-phase filter, has the
-# autocovariance R. A kernel of finite reach needs no periodic domain.
+# Hu & Tønder (1992): z(I, J) = Σ α(k, l) η(I + k, J + l) with α = IFFT sqrt(FFT R), the zero-phase
+# filter, has the autocovariance R. A kernel of finite reach needs no periodic domain.
 
 
 _LARGEST_DOMAIN = 2**29  # points on which a kernel is computed: 4 GB
@@ -35,8 +37,8 @@ _ERROR_LIMIT = 1e-2  # largest error of the autocorrelation that cutting the ker
 class FilterKernel:
     """Kernel ``weights`` α(k, l) in m, shape (2K + 1, 2M + 1), centre in the middle, symmetric.
 
-    ``spacing`` (dx, dy) in m for which it was made; ``error``: largest difference between its autocovariance and the
-    one asked for, in units of the mean square.
+    ``spacing`` (dx, dy) in m for which it was made; ``error``: largest difference between its
+    autocovariance and the one asked for, in units of the mean square.
     """
 
     weights: RealArray
@@ -55,10 +57,11 @@ class FilterKernel:
 
 
 def filter_kernel(spectrum: Spectrum, spacing: tuple[float, float], *, reach: float | None = None) -> FilterKernel:
-    """Kernel of the digital filter for surfaces of ``spectrum`` with pixels ``spacing`` (dx, dy) in m.
+    """Kernel of the digital filter for surfaces of ``spectrum`` with pixels ``spacing`` (dx, dy) in
+    m.
 
-    Raises InputError if the range is unknown, or the kernel decays so slowly that dropping changes the
-    autocorrelation by 1e-2.
+    Raises InputError if the range is unknown, or the kernel decays so slowly that dropping changes
+    the autocorrelation by 1e-2.
 
     Parameters
     ----------
@@ -67,8 +70,8 @@ def filter_kernel(spectrum: Spectrum, spacing: tuple[float, float], *, reach: fl
     spacing
         (dx, dy) in m.
     reach
-        Distance in m beyond which the weights are dropped (the rest is scaled to the same mean square);
-        ``spectrum.correlation_range`` if omitted.
+        Distance in m beyond which the weights are dropped (the rest is scaled to the same mean
+        square); ``spectrum.correlation_range`` if omitted.
     """
     known = getattr(spectrum, "correlation_range", None)
     if reach is not None:
@@ -86,8 +89,9 @@ def filter_kernel(spectrum: Spectrum, spacing: tuple[float, float], *, reach: fl
     )
     if nx * ny > _LARGEST_DOMAIN:
         raise InputError(
-            f"pixel of a digital filter must not be much smaller than its reach of {length:.3g} m, but {spacing[0]:.3g} x "
-            f"{spacing[1]:.3g} m take {nx} x {ny} points. Enlarge the pixel or shorten the reach."
+            f"pixel of a digital filter must not be much smaller than its reach of {length:.3g} m, but "
+            f"{spacing[0]:.3g} x {spacing[1]:.3g} m take {nx} x {ny} points. Enlarge the pixel or shorten the "
+            "reach."
         )
     domain = Grid((nx, ny), spacing)
     values = lattice_eigenvalues(spectrum, domain)
@@ -109,19 +113,22 @@ def filter_kernel(spectrum: Spectrum, spacing: tuple[float, float], *, reach: fl
     error = float(np.abs(transform.backward(missed.astype(complex))).max() / np.sum(kept**2))
     if error > _ERROR_LIMIT:
         raise InputError(
-            f"spectrum of a digital filter must have a kernel that dies out within {length:.3g} m, but dropping the rest "
-            f"changes the autocorrelation by {error:.2g}. Give a longer reach, or use gaussian() with a roll-off."
+            f"spectrum of a digital filter must have a kernel that dies out within {length:.3g} m, but "
+            f"dropping the rest changes the autocorrelation by {error:.2g}. Give a longer reach, or use "
+            "gaussian() with a roll-off."
         )
     return FilterKernel(kept, spacing, error)
 
 
 def zero_phase_weights(eigenvalues: RealArray, grid: Grid) -> RealArray:
-    """α (nx, ny) in m of the periodic filter, centre at node (0, 0), from the mean squares of the waves in m²."""
+    """α (nx, ny) in m of the periodic filter, centre at node (0, 0), from the mean squares of the
+    waves in m²."""
     return RealTransform(grid.shape, thread_count()).backward(np.sqrt(eigenvalues).astype(complex))
 
 
 def cumulant_factors(weights: RealArray) -> tuple[float, float]:
-    """N3 = Σα³/(Σα²)^(3/2) and N4 = Σα⁴/(Σα²)²: by what the filter reduces skewness and excess kurtosis of its input."""
+    """N3 = Σα³/(Σα²)^(3/2) and N4 = Σα⁴/(Σα²)²: by what the filter reduces skewness and excess
+    kurtosis of its input."""
     square = float(np.sum(weights**2))
     return float(np.sum(weights**3)) / square**1.5, float(np.sum(weights**4)) / square**2
 
@@ -132,7 +139,8 @@ _NON_GAUSSIAN_KEY = "Chilamakuri1998"
 
 @dataclass(frozen=True, eq=False)
 class PreparedFilter:
-    """The filter for windows of one ``shape``: transfer function (px, py // 2 + 1) in m on the padded window."""
+    """The filter for windows of one ``shape``: transfer function (px, py // 2 + 1) in m on the
+    padded window."""
 
     shape: tuple[int, int]
     padded: tuple[int, int]
@@ -142,10 +150,12 @@ class PreparedFilter:
 
 @dataclass(frozen=True, eq=False)
 class EndlessSurface:
-    """Surface without borders, of which any window can be had: the same node has the same height in every window.
+    """Surface without borders, of which any window can be had: the same node has the same height in
+    every window.
 
-    Heights are those of the infinite surface, of zero mean; mean and rms height of a window scatter. Windows agree
-    up to rounding of the transform (1e-14 of the rms height). Made by :func:`endless`.
+    Heights are those of the infinite surface, of zero mean; mean and rms height of a window
+    scatter. Windows agree up to rounding of the transform (1e-14 of the rms height). Made by
+    :func:`endless`.
     """
 
     kernel: FilterKernel
@@ -154,7 +164,8 @@ class EndlessSurface:
     origin: Origin
 
     def window(self, shape: tuple[int, int], first: tuple[int, int] = (0, 0)) -> Surface:
-        """Surface on ``shape`` (nx, ny) nodes from the node ``first`` (i, j) of the endless one on, of either sign.
+        """Surface on ``shape`` (nx, ny) nodes from the node ``first`` (i, j) of the endless one on,
+        of either sign.
 
         Raises InputError if a number is not whole or a number of points is below 1.
         """
@@ -177,7 +188,8 @@ class EndlessSurface:
         return PreparedFilter(shape, padded, (k, m), transfer)
 
     def heights(self, prepared: PreparedFilter, first: tuple[int, int]) -> RealArray:
-        """Heights in m of the window at ``first`` by the ``prepared`` filter, from the noise of the window and around it (overlap-save)."""
+        """Heights in m of the window at ``first`` by the ``prepared`` filter, from the noise of the
+        window and around it (overlap-save)."""
         (k, m), (nx, ny) = prepared.reach, prepared.shape
         normal = block_noise((first[0] - k, first[1] - m), (nx + 2 * k, ny + 2 * m), self.seed)
         noise = self.noise.of_normal(normal)
@@ -200,17 +212,20 @@ def endless(
     system: str = "johnson",
     reach: float | None = None,
 ) -> EndlessSurface:
-    """Endless surface with the given spectrum, for windows of any size and place, and for maps larger than the memory.
+    """Endless surface with the given spectrum, for windows of any size and place, and for maps
+    larger than the memory.
 
-    White noise is drawn in blocks of 64 x 64 nodes, each with its own stream of the counter-based generator Philox,
-    and filtered by a kernel of finite reach. Heights of other skewness or kurtosis come from noise whose cumulants are
-    raised by what the filter takes away (Chilamakuri & Bhushan 1998).
-    Raises InputError if the kernel does not die out, or no noise gives these heights through the filter.
+    White noise is drawn in blocks of 64 x 64 nodes, each with its own stream of the counter-based
+    generator Philox, and filtered by a kernel of finite reach. Heights of other skewness or
+    kurtosis come from noise whose cumulants are raised by what the filter takes away (Chilamakuri &
+    Bhushan 1998). Raises InputError if the kernel does not die out, or no noise gives these heights
+    through the filter.
 
     Parameters
     ----------
     spectrum
-        ``SelfAffine`` or ``TwoSlopes`` with a plateau, an autocorrelation, or any with ``correlation_range``.
+        ``SelfAffine`` or ``TwoSlopes`` with a plateau, an autocorrelation, or any with
+        ``correlation_range``.
     spacing
         Pixel (dx, dy) in m.
     seed
@@ -250,13 +265,15 @@ def digital_filter(
     system: HeightSystem = "johnson",
     periodic: Annotated[bool, "periodic surface, or a window of an endless one"] = False,
 ) -> Surface:
-    """Surface by the digital filter of Hu & Tønder (1992), with given skewness and kurtosis of the heights.
+    """Surface by the digital filter of Hu & Tønder (1992), with given skewness and kurtosis of the
+    heights.
 
-    The autocovariance is exact; skewness and kurtosis are those of the infinite surface, and scatter in a realisation.
-    The mean is not removed. The closer the noise must come to the limit of what a distribution can be, the rarer
-    and higher its spikes, and the larger this scatter.
-    A window lies at node (0, 0) of the endless surface; a periodic one needs no ``correlation_range`` of its spectrum.
-    Raises InputError if no noise gives these heights through the filter, or the grid does not suit the spectrum.
+    The autocovariance is exact; skewness and kurtosis are those of the infinite surface, and
+    scatter in a realisation. The mean is not removed. The closer the noise must come to the limit
+    of what a distribution can be, the rarer and higher its spikes, and the larger this scatter. A
+    window lies at node (0, 0) of the endless surface; a periodic one needs no ``correlation_range``
+    of its spectrum. Raises InputError if no noise gives these heights through the filter, or the
+    grid does not suit the spectrum.
     """
     if not periodic:
         made = endless(spectrum, grid.spacing, seed=seed, skewness=skewness, kurtosis=kurtosis, system=system)
@@ -272,10 +289,11 @@ def digital_filter(
 
 
 def input_noise(weights: RealArray, skewness: float, kurtosis: float, system: str = "johnson") -> HeightLaw:
-    """Distribution of the noise from which the filter ``weights`` make heights of this skewness and kurtosis.
+    """Distribution of the noise from which the filter ``weights`` make heights of this skewness and
+    kurtosis.
 
-    Third and fourth cumulants are reduced by N3 and N4, so Ssk_η = Ssk/N3 and Sku_η = 3 + (Sku - 3)/N4.
-    Raises InputError if that noise would have a kurtosis below 1 + skewness².
+    Third and fourth cumulants are reduced by N3 and N4, so Ssk_η = Ssk/N3 and Sku_η = 3 + (Sku -
+    3)/N4. Raises InputError if that noise would have a kurtosis below 1 + skewness².
     """
     require_possible(skewness, kurtosis)
     third, fourth = cumulant_factors(weights)
@@ -283,9 +301,9 @@ def input_noise(weights: RealArray, skewness: float, kurtosis: float, system: st
     if kurt < 1.0 + skew**2:
         least = 3.0 - 2.0 * fourth + skewness**2 * fourth / third**2
         raise InputError(
-            f"kurtosis of the heights at skewness {skewness:.4g} must be at least {least:.4g} for this digital filter, which "
-            f"averages over many nodes (N3 = {third:.3g}, N4 = {fourth:.3g}), but is {kurtosis:.4g}. "
-            "Use rank_ordered() or translated(), or larger pixels."
+            f"kurtosis of the heights at skewness {skewness:.4g} must be at least {least:.4g} for this digital "
+            f"filter, which averages over many nodes (N3 = {third:.3g}, N4 = {fourth:.3g}), but is "
+            f"{kurtosis:.4g}. Use rank_ordered() or translated(), or larger pixels."
         )
     return height_law(skew, kurt, system)
 

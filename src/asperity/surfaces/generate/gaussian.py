@@ -22,20 +22,21 @@ SurfaceSeed: TypeAlias = Annotated[Seed, "seed of the random numbers; equal seed
 
 # From an autocovariance function to the spectrum of a periodic lattice: circulant embedding.
 #
-# The autocovariance is sampled at the shortest periodic lags and transformed, so that every lag of the lattice up to half
-# the domain is met exactly. Cutting the continuous spectrum at the Nyquist wavenumber instead would lose variance, and
-# even more slope. Source: Dietrich & Newsam (1997).
+# The autocovariance is sampled at the shortest periodic lags and transformed, so that every lag of
+# the lattice up to half the domain is met exactly. Cutting the continuous spectrum at the Nyquist
+# wavenumber instead would lose variance, and even more slope. Source: Dietrich & Newsam (1997).
 
 
 CLIP_LIMIT = 1e-4
-"""Largest negative part of a circulant spectrum, relative to its positive part, that may be clipped."""
+"""Largest negative part of a circulant spectrum, relative to its positive part, that may be
+clipped."""
 
 
 class Spectrum(Protocol):
     """Isotropic or anisotropic spectrum from which a periodic random surface can be generated.
 
-    Optional attributes: ``correlation_range`` (m), the distance beyond which heights are uncorrelated, for surfaces
-    that are not periodic; ``citation_keys``.
+    Optional attributes: ``correlation_range`` (m), the distance beyond which heights are
+    uncorrelated, for surfaces that are not periodic; ``citation_keys``.
     """
 
     def lattice_psd(self, grid: Grid) -> RealArray:
@@ -60,8 +61,9 @@ class Autocovariance(Protocol):
 def lattice_eigenvalues(spectrum: Spectrum, grid: Grid) -> RealArray:
     """Mean square of the waves of a random field in m², C/(dx dy), shape (nx, ny // 2 + 1).
 
-    The zero mode is that of the autocovariance where ``spectrum`` is given by one, so that the mean of a realisation
-    fluctuates as in any window of an infinite surface; it is zero for a spectrum given by C.
+    The zero mode is that of the autocovariance where ``spectrum`` is given by one, so that the mean
+    of a realisation fluctuates as in any window of an infinite surface; it is zero for a spectrum
+    given by C.
     """
     if isinstance(spectrum, Autocovariance):
         return clipped_eigenvalues(spectrum, grid)
@@ -69,7 +71,8 @@ def lattice_eigenvalues(spectrum: Spectrum, grid: Grid) -> RealArray:
 
 
 def eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:
-    """FFT of the wrapped autocovariance in m², shape (nx, ny // 2 + 1); C = dx dy times it; may be negative."""
+    """FFT of the wrapped autocovariance in m², shape (nx, ny // 2 + 1); C = dx dy times it; may be
+    negative."""
     (nx, ny), (dx, dy) = grid.shape, grid.spacing
     x, y = np.arange(nx), np.arange(ny)
     lag_x, lag_y = (
@@ -82,7 +85,8 @@ def eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:
 def clipped_eigenvalues(model: Autocovariance, grid: Grid) -> RealArray:
     """Eigenvalues in m² without their negative part.
 
-    Raises InputError if the grid is so small that the negative part exceeds 1e-4 of the positive one.
+    Raises InputError if the grid is so small that the negative part exceeds 1e-4 of the positive
+    one.
     """
     values = eigenvalues(model, grid)
     if negative_part(grid, values) > CLIP_LIMIT:
@@ -101,8 +105,9 @@ def negative_part(grid: Grid, values: RealArray) -> float:
 
 # White noise: standard normal numbers in an order that no machine, thread count or tiling changes.
 #
-# Streams are those of NumPy's bit generators PCG64 and Philox (Salmon et al. 2011), which NumPy keeps fixed, turned into
-# normal numbers by ``Generator.standard_normal``; a test holds their first values.
+# Streams are those of NumPy's bit generators PCG64 and Philox (Salmon et al. 2011), which NumPy
+# keeps fixed, turned into normal numbers by ``Generator.standard_normal``; a test holds their first
+# values.
 
 
 BLOCK = 64
@@ -110,7 +115,8 @@ BLOCK = 64
 
 
 def sub_seeds(seed: int, count: int) -> tuple[int, ...]:
-    """Seeds of ``count`` independent streams that belong to one ``seed``, by NumPy's ``SeedSequence``."""
+    """Seeds of ``count`` independent streams that belong to one ``seed``, by NumPy's
+    ``SeedSequence``."""
     return tuple(int(number) for number in np.random.SeedSequence(seed).generate_state(count, np.uint64))
 
 
@@ -127,10 +133,12 @@ def noise_rows(shape: tuple[int, int], seed: int, rows: int) -> Iterator[RealArr
 
 
 def block_noise(first: tuple[int, int], shape: tuple[int, int], seed: int) -> RealArray:
-    """White noise (nx, ny) at the nodes of an infinite lattice from the node ``first`` (of either sign) on.
+    """White noise (nx, ny) at the nodes of an infinite lattice from the node ``first`` (of either
+    sign) on.
 
-    The lattice is cut into blocks of 64 x 64 nodes. Block (bx, by) is drawn from Philox with the key ``seed`` and the
-    counter (0, 0, bx, by), so that each node has the same number in whatever window it is asked for.
+    The lattice is cut into blocks of 64 x 64 nodes. Block (bx, by) is drawn from Philox with the
+    key ``seed`` and the counter (0, 0, bx, by), so that each node has the same number in whatever
+    window it is asked for.
     """
     noise = np.empty(shape)
     starts_x, starts_y = (range(f // BLOCK, -(-(f + n) // BLOCK)) for f, n in zip(first, shape, strict=True))
@@ -148,10 +156,11 @@ def block_noise(first: tuple[int, int], shape: tuple[int, int], seed: int) -> Re
 
 
 def wave_noise(shape: tuple[int, int], seed: int) -> ComplexArray:
-    """FFT (nx, ny // 2 + 1) of white noise whose waves are numbered by their whole wavenumbers (kx, ky).
+    """FFT (nx, ny // 2 + 1) of white noise whose waves are numbered by their whole wavenumbers (kx,
+    ky).
 
-    The complex amplitudes are drawn (PCG64 of ``seed``) ring by ring of max(|kx|, |ky|), so a finer grid of the same size
-    has the waves of the coarser one and further ones. The zero mode is zero.
+    The complex amplitudes are drawn (PCG64 of ``seed``) ring by ring of max(|kx|, |ky|), so a finer
+    grid of the same size has the waves of the coarser one and further ones. The zero mode is zero.
     """
     (nx, ny), draw = shape, np.random.Generator(np.random.PCG64(seed))
     half = np.zeros((nx, ny // 2 + 1), dtype=complex)
@@ -170,7 +179,8 @@ def wave_noise(shape: tuple[int, int], seed: int) -> ComplexArray:
             negative = min(ring - 1, (nx - 1) // 2)
             if negative:
                 half[-negative:, ring] = across[ring - 1 - negative : ring - 1]
-    # the columns that are their own mirror image (ky = 0 and the Nyquist column) have the symmetry of a real field
+    # the columns that are their own mirror image (ky = 0 and the Nyquist column) have the symmetry
+    # of a real field
     for column in (0, ny // 2) if ny % 2 == 0 else (0,):
         positive = half[1 : (nx - 1) // 2 + 1, column]
         if positive.size:
@@ -201,28 +211,31 @@ def gaussian(
 ) -> Surface:
     """Gaussian surface with the given power spectrum.
 
-    White noise η (standard normal) is filtered: h = IFFT[FFT[η] sqrt(C/(dx dy))]. Equal seeds give equal surfaces on
-    every machine and for every number of threads, up to rounding of the transform.
-    Raises InputError if the seed is not a whole number >= 0, the variant is unknown or the grid does not suit the
-    spectrum.
+    White noise η (standard normal) is filtered: h = IFFT[FFT[η] sqrt(C/(dx dy))]. Equal seeds give
+    equal surfaces on every machine and for every number of threads, up to rounding of the
+    transform. Raises InputError if the seed is not a whole number >= 0, the variant is unknown or
+    the grid does not suit the spectrum.
 
     Parameters
     ----------
     grid, spectrum, seed
-        Nodes; ``SelfAffine``, ``ExponentialAutocorrelation`` or any object with ``lattice_psd`` and ``describe`` (and
-        ``citation_keys``); whole number >= 0.
+        Nodes; ``SelfAffine``, ``ExponentialAutocorrelation`` or any object with ``lattice_psd`` and
+        ``describe`` (and ``citation_keys``); whole number >= 0.
     variant
-        ``random``: noise at the nodes (PCG64, in the order of the array); amplitudes and phases are random, so a mode has
-        the power C only on average and the rms height of one realisation scatters. ``fixed``: the same phases with all
-        amplitudes equal to sqrt(C); spectrum and rms height are exact in every realisation, heights are Gaussian by
-        the central limit theorem only (Wu 2000). ``nested``: noise numbered by wave instead of by node, so that grids
-        of one size and different pixels show the same surface: for studies of the mesh.
+        ``random``: noise at the nodes (PCG64, in the order of the array); amplitudes and phases are
+        random, so a mode has the power C only on average and the rms height of one realisation
+        scatters. ``fixed``: the same phases with all amplitudes equal to sqrt(C); spectrum and rms
+        height are exact in every realisation, heights are Gaussian by the central limit theorem
+        only (Wu 2000). ``nested``: noise numbered by wave instead of by node, so that grids of one
+        size and different pixels show the same surface: for studies of the mesh.
     exact_rms
-        Rescale this realisation to the expected rms height. That is another ensemble: mean square slopes and
-        curvatures are then biased by up to the relative variance of the mean square height.
+        Rescale this realisation to the expected rms height. That is another ensemble: mean square
+        slopes and curvatures are then biased by up to the relative variance of the mean square
+        height.
     periodic
-        If false, a window of a periodic surface that is longer by ``spectrum.correlation_range`` (twice as long if the
-        spectrum has none), so that opposite borders are independent. Its mean, tilt and rms height scatter.
+        If false, a window of a periodic surface that is longer by ``spectrum.correlation_range``
+        (twice as long if the spectrum has none), so that opposite borders are independent. Its
+        mean, tilt and rms height scatter.
     """
     parent = grid
     if not periodic:
@@ -233,8 +246,9 @@ def gaussian(
         nx, ny = (fast_length(int(np.ceil(length / d))) for length, d in zip(lengths, grid.spacing, strict=True))
         if nx * ny > _LARGEST_PARENT:
             raise InputError(
-                f"grid of a window must not be much smaller than the longest waves of the spectrum, but {grid.size[0]:.3g} x "
-                f"{grid.size[1]:.3g} m would be cut from {nx} x {ny} points. Enlarge the window or shorten the waves."
+                "grid of a window must not be much smaller than the longest waves of the spectrum, but "
+                f"{grid.size[0]:.3g} x {grid.size[1]:.3g} m would be cut from {nx} x {ny} points. Enlarge the "
+                "window or shorten the waves."
             )
         parent = Grid((nx, ny), grid.spacing)
     psd = spectrum.lattice_psd(parent)
@@ -258,14 +272,15 @@ def gaussian(
 
 
 def random_field(grid: Grid, spectrum: Spectrum, seed: int) -> RealArray:
-    """Heights (nx, ny) in m of a periodic Gaussian field, a window of which an autocovariance describes: see
-    ``lattice_eigenvalues`` for its mean.
+    """Heights (nx, ny) in m of a periodic Gaussian field, a window of which an autocovariance
+    describes: see ``lattice_eigenvalues`` for its mean.
     """
     return filtered_noise(grid, lattice_eigenvalues(spectrum, grid), seed)
 
 
 def filtered_noise(grid: Grid, eigenvalues: RealArray, seed: int) -> RealArray:
-    """White noise (nx, ny) whose waves are given the mean square ``eigenvalues`` (nx, ny // 2 + 1)."""
+    """White noise (nx, ny) whose waves are given the mean square ``eigenvalues`` (nx, ny // 2 +
+    1)."""
     transform = RealTransform(grid.shape, thread_count())
     modes = transform.forward(node_noise(grid.shape, seed))
     modes *= np.sqrt(eigenvalues)

@@ -1,4 +1,5 @@
-"""Surfaces with given heights: laws of skewness and kurtosis, Gaussian surfaces translated to them, ranks put in order."""
+"""Surfaces with given heights: laws of skewness and kurtosis, Gaussian surfaces translated to them,
+ranks put in order."""
 
 from __future__ import annotations
 
@@ -22,10 +23,12 @@ from ..surface import Surface, generated
 from .gaussian import CLIP_LIMIT, Spectrum, SurfaceSeed, filtered_noise, lattice_eigenvalues, negative_part
 from .power_laws import mean_square
 
-# Johnson's system of distributions: the one with given skewness and kurtosis, as a function of a normal number.
+# Johnson's system of distributions: the one with given skewness and kurtosis, as a function of a
+# normal number.
 #
-# G = γ + δ f((z - ξ)/λ) is standard normal; unbounded z = ξ + λ sinh((G - γ)/δ), bounded z = ξ + λ/(1 + exp(-(G - γ)/δ)),
-# lognormal z = ξ + λ exp((G - γ)/δ) (Johnson 1949). Here z has zero mean and unit variance.
+# G = γ + δ f((z - ξ)/λ) is standard normal; unbounded z = ξ + λ sinh((G - γ)/δ), bounded z = ξ +
+# λ/(1 + exp(-(G - γ)/δ)), lognormal z = ξ + λ exp((G - γ)/δ) (Johnson 1949). Here z has zero mean
+# and unit variance.
 
 
 KINDS = ("normal", "lognormal", "unbounded", "bounded")
@@ -40,7 +43,8 @@ _SQRT_TWO_PI = math.sqrt(2.0 * math.pi)
 
 @dataclass(frozen=True)
 class Johnson:
-    """Distribution of one ``kind`` of the system with its four parameters; made by :func:`johnson`."""
+    """Distribution of one ``kind`` of the system with its four parameters; made by
+    :func:`johnson`."""
 
     kind: str
     gamma: float
@@ -65,12 +69,12 @@ class Johnson:
 
 
 def johnson(skewness: float, kurtosis: float) -> Johnson:
-    """Distribution of zero mean, unit variance and the given ``skewness`` and ``kurtosis`` (3 for Gaussian heights).
+    """Distribution of zero mean, unit variance and the given ``skewness`` and ``kurtosis`` (3 for
+    Gaussian heights).
 
-    The lognormal curve in the plane of both divides the unbounded family (larger kurtosis; Tuenter 2001) from the
-    bounded one, whose moments come by quadrature.
-    Raises InputError if kurtosis < 1 + skewness², which no distribution has, or so close to it that only two heights
-    remain.
+    The lognormal curve in the plane of both divides the unbounded family (larger kurtosis; Tuenter
+    2001) from the bounded one, whose moments come by quadrature. Raises InputError if kurtosis <
+    1 + skewness², which no distribution has, or so close to it that only two heights remain.
     """
     require_possible(skewness, kurtosis)
     if abs(skewness) < _ON_LINE:
@@ -87,7 +91,8 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
         return other
     from scipy.optimize import brentq
 
-    # w = exp(1/δ²) >= 1 of the lognormal, (w - 1)(w + 2)² = skewness²; the bracket from (w + 2)² >= 9
+    # w = exp(1/δ²) >= 1 of the lognormal, (w - 1)(w + 2)² = skewness²; the bracket from (w + 2)² >=
+    # 9
     top = 1.0 + skewness**2 / 9.0 + 1e-15
     w = float(brentq(lambda w: (w - 1.0) * (w + 2.0) ** 2 - skewness**2, 1.0, top, xtol=1e-15, rtol=1e-14))
     line = w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0
@@ -100,7 +105,8 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
 
 
 def _unbounded(skewness: float, kurtosis: float) -> Johnson:
-    """Tuenter (2001): skewness² as a function of w alone, at the given kurtosis, and its one root."""
+    """Tuenter (2001): skewness² as a function of w alone, at the given kurtosis, and its one
+    root."""
     from scipy.optimize import brentq
 
     square = skewness**2
@@ -124,7 +130,8 @@ def _unbounded(skewness: float, kurtosis: float) -> Johnson:
 
 
 def _bounded(skewness: float, kurtosis: float, w: float) -> Johnson:
-    """At each δ the skewness fixes γ; along this line the kurtosis rises from 1 + skewness² to the lognormal one.
+    """At each δ the skewness fixes γ; along this line the kurtosis rises from 1 + skewness² to the
+    lognormal one.
 
     The line is followed to a per cent, Newton's method does the rest.
     """
@@ -187,7 +194,8 @@ def _bounded_moments(gamma: float, delta: float) -> _Moments:
     return _Moments(mean * unit, deviation * unit, third / deviation**3, fourth / square**2)
 
 
-# Distribution of heights with given skewness and kurtosis, of one of the systems that have one for every such pair.
+# Distribution of heights with given skewness and kurtosis, of one of the systems that have one for
+# every such pair.
 
 
 System: TypeAlias = Literal["johnson", "pearson"]
@@ -214,16 +222,19 @@ class HeightLaw(Protocol):
 
 
 def height_law(skewness: float, kurtosis: float, system: str = "johnson") -> HeightLaw:
-    """Distribution of zero mean, unit variance and the given ``skewness`` and ``kurtosis``, of ``johnson`` or ``pearson``.
+    """Distribution of zero mean, unit variance and the given ``skewness`` and ``kurtosis``, of
+    ``johnson`` or ``pearson``.
 
-    Raises InputError if no distribution has these moments, only one of two heights, or the system is unknown.
+    Raises InputError if no distribution has these moments, only one of two heights, or the system
+    is unknown.
     """
     if require.one_of(system, get_args(System), "system of distributions of the heights") == "pearson":
         return Pearson(skewness, kurtosis)
     return johnson(skewness, kurtosis)
 
 
-# Distributions of heights that a surface can be made to have exactly: by moments, of a measured surface, of two levels.
+# Distributions of heights that a surface can be made to have exactly: by moments, of a measured
+# surface, of two levels.
 
 
 class Marginal(Protocol):
@@ -238,7 +249,8 @@ class Marginal(Protocol):
 
 @dataclass(frozen=True)
 class HeightMoments(Declared):
-    """Heights of given ``skewness`` and ``kurtosis`` (3 for Gaussian ones): the distribution of Johnson's or Pearson's system.
+    """Heights of given ``skewness`` and ``kurtosis`` (3 for Gaussian ones): the distribution of
+    Johnson's or Pearson's system.
 
     Raises InputError if kurtosis < 1 + skewness², or the system is unknown.
     """
@@ -257,7 +269,8 @@ class HeightMoments(Declared):
         return height_law(self.skewness, self.kurtosis, self.system).citation_keys
 
     def sorted_heights(self, count: int) -> RealArray:
-        """Quantiles at (k - 1/2)/count; their moments are those asked for up to the tails beyond the outermost."""
+        """Quantiles at (k - 1/2)/count; their moments are those asked for up to the tails beyond
+        the outermost."""
         from scipy.special import ndtri
 
         law = height_law(self.skewness, self.kurtosis, self.system)
@@ -271,7 +284,8 @@ class HeightMoments(Declared):
 
 @dataclass(frozen=True, eq=False)
 class HeightsOf(Declared):
-    """Heights distributed as those of a measured ``surface``, levelled beforehand; missing points do not count."""
+    """Heights distributed as those of a measured ``surface``, levelled beforehand; missing points
+    do not count."""
 
     surface: Annotated[Surface, "measured heights, levelled"]
 
@@ -293,10 +307,12 @@ class HeightsOf(Declared):
 
 @dataclass(frozen=True)
 class TwoLevels(Declared):
-    """Two Gaussian distributions of heights, ``separation`` apart: the upper one on the ``share`` of the area.
+    """Two Gaussian distributions of heights, ``separation`` apart: the upper one on the ``share``
+    of the area.
 
-    ``separation`` of their means and ``upper_deviation`` in units of the standard deviation of the lower one. Equal
-    distributions show two maxima if their means are more than two standard deviations apart.
+    ``separation`` of their means and ``upper_deviation`` in units of the standard deviation of the
+    lower one. Equal distributions show two maxima if their means are more than two standard
+    deviations apart.
     """
 
     share: Annotated[Fraction, "share of the area"]
@@ -304,7 +320,8 @@ class TwoLevels(Declared):
     upper_deviation: Annotated[Positive, "standard deviation of the upper level in those of the lower one"] = 1.0
 
     def sorted_heights(self, count: int) -> RealArray:
-        """Quantiles at (k - 1/2)/count, by inversion of the distribution function on a fine table."""
+        """Quantiles at (k - 1/2)/count, by inversion of the distribution function on a fine
+        table."""
         from scipy.special import ndtr
 
         low = min(-9.0, self.separation - 9.0 * self.upper_deviation)
@@ -320,7 +337,8 @@ class TwoLevels(Declared):
         return f"two levels {distance} on {self.share:.4g} of the area"
 
 
-# Surfaces whose heights are a function of a Gaussian field: any marginal distribution, at any resolution.
+# Surfaces whose heights are a function of a Gaussian field: any marginal distribution, at any
+# resolution.
 
 
 _TERMS, _REST = 400, 1e-13  # most Hermite coefficients of a translation, and the variance they may miss
@@ -341,13 +359,14 @@ def translated(
         bool, "whether the spectrum is that of the heights, or of the Gaussian field they are made of"
     ] = True,
 ) -> Surface:
-    """Periodic surface z = T(G) of given skewness and kurtosis, G a Gaussian field and T of a system of distributions.
+    """Periodic surface z = T(G) of given skewness and kurtosis, G a Gaussian field and T of a
+    system of distributions.
 
-    Every height has the distribution of T exactly, at any resolution; the moments of a realisation scatter about it. T
-    changes the correlation of two heights by a few per cent; ``predistorted`` gives G the autocovariance from which T
-    makes that of ``spectrum``. The mean is not removed.
-    Raises InputError if no distribution has these moments, or no Gaussian field has the autocovariance that the
-    translation would need.
+    Every height has the distribution of T exactly, at any resolution; the moments of a realisation
+    scatter about it. T changes the correlation of two heights by a few per cent; ``predistorted``
+    gives G the autocovariance from which T makes that of ``spectrum``. The mean is not removed.
+    Raises InputError if no distribution has these moments, or no Gaussian field has the
+    autocovariance that the translation would need.
 
     Parameters
     ----------
@@ -377,8 +396,9 @@ def translated(
         lowest = float(wanted.min())
         if lowest < reachable[0]:
             raise InputError(
-                f"autocorrelation of these heights must not fall below {reachable[0]:.4g}, the least that a translation of this "
-                f"skewness and kurtosis reaches, but falls to {lowest:.4g}. Use rank_ordered()."
+                f"autocorrelation of these heights must not fall below {reachable[0]:.4g}, the least that a "
+                f"translation of this skewness and kurtosis reaches, but falls to {lowest:.4g}. Use "
+                "rank_ordered()."
             )
         needed = np.interp(wanted, reachable, table)
         needed[0, 0] = 1.0
@@ -386,8 +406,9 @@ def translated(
         clipped = negative_part(grid, values)
         if clipped > CLIP_LIMIT:
             raise InputError(
-                "no Gaussian field has the autocorrelation that a translation to this skewness and kurtosis needs: its spectrum "
-                f"would be negative by {clipped:.2g} of the whole. Use rank_ordered(), or predistorted=False.",
+                "no Gaussian field has the autocorrelation that a translation to this skewness and kurtosis "
+                f"needs: its spectrum would be negative by {clipped:.2g} of the whole. Use rank_ordered(), or "
+                "predistorted=False.",
                 subject="autocorrelation of the Gaussian field",
             )
         eigenvalues = np.maximum(values, 0.0)
@@ -404,7 +425,8 @@ def translated(
 
 
 def translated_correlation(law: HeightLaw, correlation: RealArray) -> RealArray:
-    """Correlation of T(G1) and T(G2) for that of the normal numbers G1, G2: ρ_z = Σ c_k² ρ_G^k, k = 1, 2, …
+    """Correlation of T(G1) and T(G2) for that of the normal numbers G1, G2: ρ_z = Σ c_k² ρ_G^k, k =
+    1, 2, …
 
     c_k are the Hermite coefficients of T = Σ c_k He_k/sqrt(k!).
     """
@@ -421,7 +443,8 @@ def translated_correlation(law: HeightLaw, correlation: RealArray) -> RealArray:
     return np.asarray(np.polynomial.polynomial.polyval(correlation, np.concatenate([[0.0], normalised])))
 
 
-# Surfaces with a prescribed spectrum and prescribed heights at once, by alternating between the two.
+# Surfaces with a prescribed spectrum and prescribed heights at once, by alternating between the
+# two.
 
 
 _KEYS = ("Schreiber1996", "PerezRafols2019")
@@ -443,15 +466,17 @@ def rank_ordered(
 ) -> Surface:
     """Periodic surface with the amplitudes of ``spectrum`` and the distribution of ``heights``.
 
-    From a random arrangement of the heights two steps alternate: the amplitudes of the waves are replaced by those of the
-    spectrum, then the values by the wanted heights in the same order of rank (Schreiber & Schmitz 1996; Pérez-Ràfols &
-    Almqvist 2019). It ends at the ``tolerance``, or when ten more iterations improve the amplitudes by less than 3 %:
-    spectra that end at long waves leave errors of 1e-3 to 1e-2 with heavy tails of the heights. The history records the
-    error. Spectrum and histogram do not scatter between realisations. Rounding differences between FFT libraries are
-    amplified by the ranks: another library gives another realisation.
-    ``heights`` are ``HeightMoments``, ``HeightsOf`` a measured surface, ``TwoLevels``, or any with ``sorted_heights`` and
-    ``describe``; ``progress`` receives the relative error of the amplitudes.
-    Raises InputError if the spectrum cannot carry these heights: a relative error of the amplitudes above 5 % is left.
+    From a random arrangement of the heights two steps alternate: the amplitudes of the waves are
+    replaced by those of the spectrum, then the values by the wanted heights in the same order of
+    rank (Schreiber & Schmitz 1996; Pérez-Ràfols & Almqvist 2019). It ends at the ``tolerance``, or
+    when ten more iterations improve the amplitudes by less than 3 %: spectra that end at long waves
+    leave errors of 1e-3 to 1e-2 with heavy tails of the heights. The history records the error.
+    Spectrum and histogram do not scatter between realisations. Rounding differences between FFT
+    libraries are amplified by the ranks: another library gives another realisation. ``heights`` are
+    ``HeightMoments``, ``HeightsOf`` a measured surface, ``TwoLevels``, or any with
+    ``sorted_heights`` and ``describe``; ``progress`` receives the relative error of the amplitudes.
+    Raises InputError if the spectrum cannot carry these heights: a relative error of the amplitudes
+    above 5 % is left.
     """
     psd = spectrum.lattice_psd(grid)
     square = mean_square(grid, psd)
@@ -477,9 +502,9 @@ def rank_ordered(
     error = _amplitude_error(transform.forward(values), amplitude, grid)
     if error > _ERROR_LIMIT:
         raise InputError(
-            "spectrum and distribution of the heights must go together, but after "
-            f"{iterations} iterations the amplitudes are off by {error:.2g}: waves of so few lengths cannot add up to heights "
-            f"of {heights.describe()}. Use a broader spectrum or other heights."
+            f"spectrum and distribution of the heights must go together, but after {iterations} iterations the "
+            f"amplitudes are off by {error:.2g}: waves of so few lengths cannot add up to heights of "
+            f"{heights.describe()}. Use a broader spectrum or other heights."
         )
     exact = f"amplitudes to {error:.1e}"
     if last == "spectrum":
@@ -493,7 +518,8 @@ def rank_ordered(
 
 
 def _with_amplitudes(modes: ComplexArray, amplitude: RealArray, transform: RealTransform) -> RealArray:
-    """Values of the ``modes``, which are overwritten, with their phases kept and their amplitudes replaced."""
+    """Values of the ``modes``, which are overwritten, with their phases kept and their amplitudes
+    replaced."""
     magnitude = np.abs(modes)
     modes *= np.divide(amplitude, magnitude, out=np.zeros_like(magnitude), where=magnitude > 0.0)
     return transform.backward(modes)

@@ -1,4 +1,5 @@
-"""Isotropic spectra made of a plateau and power laws: the shape, its integrals and its level on a grid."""
+"""Isotropic spectra made of a plateau and power laws: the shape, its integrals and its level on a
+grid."""
 
 from __future__ import annotations
 
@@ -29,7 +30,8 @@ class RmsHeight(Declared):
 
 @dataclass(frozen=True)
 class RmsSlope(Declared):
-    """Amplitude of a spectrum given by the rms gradient sqrt(<|∇h|²>) of the surface (spectral, dimensionless)."""
+    """Amplitude of a spectrum given by the rms gradient sqrt(<|∇h|²>) of the surface (spectral,
+    dimensionless)."""
 
     value: Annotated[Positive, "rms slope; one of rms height, rms slope and plateau is given"]
 
@@ -80,9 +82,11 @@ _ROUNDING = 1e-9  # relative slack on a cut-off wavenumber, so that a mode exact
 
 @dataclass(frozen=True)
 class PowerLaws:
-    """C(q)/C0: 1 up to the first of ``bends``, then falling as q to the power -``exponents[i]`` beyond bend i.
+    """C(q)/C0: 1 up to the first of ``bends``, then falling as q to the power -``exponents[i]``
+    beyond bend i.
 
-    Zero for q < ``low`` and q > ``high``, and at q = 0; wavenumbers in rad/m, bends in ascending order.
+    Zero for q < ``low`` and q > ``high``, and at q = 0; wavenumbers in rad/m, bends in ascending
+    order.
     """
 
     bends: tuple[float, ...]
@@ -125,9 +129,11 @@ class PowerLaws:
 
 
 def lattice_psd(law: PowerLaws, amplitude: Amplitude, grid: Grid) -> RealArray:
-    """C in m⁴ on the modes of ``grid``, shape (nx, ny // 2 + 1): ``law`` at the level that meets ``amplitude`` there.
+    """C in m⁴ on the modes of ``grid``, shape (nx, ny // 2 + 1): ``law`` at the level that meets
+    ``amplitude`` there.
 
-    Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+    Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the
+    spectrum.
     """
     relative = law.relative(grid.wavenumber())
     relative *= lattice_level(law, amplitude, grid, [(slice(None), relative)])
@@ -137,8 +143,8 @@ def lattice_psd(law: PowerLaws, amplitude: Amplitude, grid: Grid) -> RealArray:
 def lattice_level(law: PowerLaws, amplitude: Amplitude, grid: Grid, parts: Iterable[tuple[slice, RealArray]]) -> float:
     """C0 in m⁴ at which ``law`` meets the ``amplitude`` on ``grid``.
 
-    ``parts`` are C/C0 on all modes, in pieces for consecutive columns of the half spectrum.
-    Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+    ``parts`` are C/C0 on all modes, in pieces for consecutive columns of the half spectrum. Raises
+    InputError if the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
     """
     finest, shortest = 2.0 * max(grid.spacing), 2.0 * np.pi / law.high
     if 0.0 < shortest < finest * (1.0 - _ROUNDING):

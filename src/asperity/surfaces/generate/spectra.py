@@ -1,6 +1,7 @@
 """Power spectra of random surfaces in the convention C of Jacobs, Junge & Pastewka (2017).
 
-m0 = (1/A) Σ C(q) over the modes of a periodic map, → (1/4π²) ∫ C d²q; C in m⁴, wavenumbers q = 2π/λ in rad/m.
+m0 = (1/A) Σ C(q) over the modes of a periodic map, → (1/4π²) ∫ C d²q; C in m⁴, wavenumbers q = 2π/λ
+in rad/m.
 """
 
 from __future__ import annotations
@@ -69,7 +70,8 @@ class _PowerLawSpectrum(Declared, ABC):
     @property
     @abstractmethod
     def bends(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Wavenumbers (rad/m) at which the spectrum bends, and the exponents with which it falls beyond each."""
+        """Wavenumbers (rad/m) at which the spectrum bends, and the exponents with which it falls
+        beyond each."""
 
     @cached_property
     def law(self) -> PowerLaws:
@@ -79,22 +81,24 @@ class _PowerLawSpectrum(Declared, ABC):
 
     @property
     def correlation_range(self) -> float:
-        """Distance in m beyond which heights are uncorrelated: two roll-off wavelengths or the longest wave."""
+        """Distance in m beyond which heights are uncorrelated: two roll-off wavelengths or the
+        longest wave."""
         twice = 2.0 * self.rolloff_wavelength
         return twice if math.isinf(self.longest_wavelength) else max(twice, self.longest_wavelength)
 
     def psd(self, q: RealArray | float) -> RealArray:
         """C(q) in m⁴ of the continuous surface at wavenumbers ``q`` (rad/m, any shape).
 
-        C0 follows from <h²> = (1/2π) ∫ q C dq or <|∇h|²> = (1/2π) ∫ q³ C dq. Raises InputError if the integral diverges.
+        C0 follows from <h²> = (1/2π) ∫ q C dq or <|∇h|²> = (1/2π) ∫ q³ C dq. Raises InputError if
+        the integral diverges.
         """
         level = self.amplitude.value
         if not isinstance(self.amplitude, PlateauPSD):
             moment = self.law.integral(1.0 if isinstance(self.amplitude, RmsHeight) else 3.0) / (2.0 * np.pi)
             if math.isinf(moment):
                 raise InputError(
-                    "shortest wavelength must be greater than zero for an rms slope of the continuous surface to be finite, "
-                    "but is 0. Give a cut-off, or the plateau of the spectrum."
+                    "shortest wavelength must be greater than zero for an rms slope of the continuous surface "
+                    "to be finite, but is 0. Give a cut-off, or the plateau of the spectrum."
                 )
             level = self.amplitude.value**2 / moment
         return level * self.law.relative(np.asarray(q, dtype=float))
@@ -102,19 +106,22 @@ class _PowerLawSpectrum(Declared, ABC):
     def lattice_psd(self, grid: Grid) -> RealArray:
         """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
 
-        Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the spectrum.
+        Raises InputError if the grid cannot resolve the shortest wavelength or holds no mode of the
+        spectrum.
         """
         return lattice_psd(self.law, self.amplitude, grid)
 
 
 @dataclass(frozen=True, kw_only=True)
 class SelfAffine(_PowerLawSpectrum):
-    """Plateau and power law: C = C0 for q_L <= q <= q_r, C0 (q/q_r)^(-2-2H) for q_r < q <= q_s, zero elsewhere.
+    """Plateau and power law: C = C0 for q_L <= q <= q_r, C0 (q/q_r)^(-2-2H) for q_r < q <= q_s,
+    zero elsewhere.
 
-    ``amplitude`` fixes C0; on a grid an rms height or rms slope is met exactly by the sum over the modes of that grid
-    (ensemble average), in :meth:`psd` by the integral. Source: Jacobs, Junge & Pastewka (2017), section 2.
-    λ_s <= λ_r <= λ_L; λ_L = λ_r has no plateau, λ_L = inf excludes only the mean, λ_s = 0 keeps all modes of the grid, those in
-    the corners of the Nyquist square too. Raises InputError if the wavelengths are out of order.
+    ``amplitude`` fixes C0; on a grid an rms height or rms slope is met exactly by the sum over the
+    modes of that grid (ensemble average), in :meth:`psd` by the integral. Source: Jacobs, Junge &
+    Pastewka (2017), section 2. λ_s <= λ_r <= λ_L; λ_L = λ_r has no plateau, λ_L = inf excludes only
+    the mean, λ_s = 0 keeps all modes of the grid, those in the corners of the Nyquist square too.
+    Raises InputError if the wavelengths are out of order.
     """
 
     amplitude: Annotated[Amplitude, "what fixes C0"]
@@ -140,11 +147,12 @@ class SelfAffine(_PowerLawSpectrum):
 
 @dataclass(frozen=True, kw_only=True)
 class TwoSlopes(_PowerLawSpectrum):
-    """Plateau and two power laws: C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, then continued as q^-a2 up to q_s.
+    """Plateau and two power laws: C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, then continued as q^-a2
+    up to q_s.
 
-    Films whose asperities are smooth, or rounded by the tip of the instrument, fall faster than q^-4 (H > 1): such a
-    spectrum is no fractal, and is accepted. ``amplitude`` as for ``SelfAffine``.
-    λ_s <= λ_c <= λ_r <= λ_L. Raises InputError if the wavelengths are out of order.
+    Films whose asperities are smooth, or rounded by the tip of the instrument, fall faster than
+    q^-4 (H > 1): such a spectrum is no fractal, and is accepted. ``amplitude`` as for
+    ``SelfAffine``. λ_s <= λ_c <= λ_r <= λ_L. Raises InputError if the wavelengths are out of order.
     """
 
     amplitude: Annotated[Amplitude, "what fixes C0"]
@@ -166,7 +174,10 @@ class TwoSlopes(_PowerLawSpectrum):
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
         first, second = self.exponents
-        bends = f"q^-{first:.4g} from {show(self.rolloff_wavelength, 'm')}, q^-{second:.4g} from {show(self.crossover_wavelength, 'm')}"
+        bends = (
+            f"q^-{first:.4g} from {show(self.rolloff_wavelength, 'm')}, q^-{second:.4g} from "
+            f"{show(self.crossover_wavelength, 'm')}"
+        )
         ends = _ends(self.shortest_wavelength, self.longest_wavelength)
         return f"two slopes, {bends}, {ends}, {amplitude_text(self.amplitude)}"
 
@@ -185,16 +196,19 @@ _MIXED = 2.5  # modes below are mixed with the mean by a window
 
 @dataclass(frozen=True, eq=False, init=False)
 class TabulatedSpectrum:
-    """Isotropic spectrum given by a table: ln C linear in ln q between the rows, constant below, zero beyond the last.
+    """Isotropic spectrum given by a table: ln C linear in ln q between the rows, constant below,
+    zero beyond the last.
 
-    Raises InputError if the two columns are not of one length of at least 2, or hold values out of range.
+    Raises InputError if the two columns are not of one length of at least 2, or hold values out of
+    range.
 
     Parameters
     ----------
     q
         Wavenumbers in rad/m, positive and ascending.
     psd
-        C in m⁴ at these wavenumbers, not negative; zero rows cut the spectrum between their neighbours.
+        C in m⁴ at these wavenumbers, not negative; zero rows cut the spectrum between their
+        neighbours.
     words
         What it is, for the history.
     citation_keys
@@ -212,7 +226,8 @@ class TabulatedSpectrum:
         q, psd = (np.array(values, dtype=np.float64) for values in (q, psd))
         if q.ndim != 1 or q.shape != psd.shape or q.size < 2:
             raise InputError(
-                f"table of a spectrum must have two columns of equal length, at least 2, but has {q.shape} and {psd.shape}."
+                f"table of a spectrum must have two columns of equal length, at least 2, but has {q.shape} and "
+                f"{psd.shape}."
             )
         if not (np.isfinite(q).all() and np.isfinite(psd).all() and q[0] > 0.0 and (np.diff(q) > 0.0).all()):
             raise InputError("wavenumbers of a spectrum (rad/m) must be positive and ascending numbers, but are not.")
@@ -225,7 +240,8 @@ class TabulatedSpectrum:
 
     @property
     def correlation_range(self) -> float:
-        """Distance in m beyond which heights are taken as uncorrelated: the longest wave of the table."""
+        """Distance in m beyond which heights are taken as uncorrelated: the longest wave of the
+        table."""
         return float(2.0 * np.pi / self.q[0])
 
     def interpolated(self, q: RealArray) -> RealArray:
@@ -246,10 +262,11 @@ class TabulatedSpectrum:
 
 @dataclass(frozen=True, eq=False)
 class MeasuredSpectrum:
-    """Spectrum of a measured surface with all its directions: C of the nearest modes, linear in between, zero outside.
+    """Spectrum of a measured surface with all its directions: C of the nearest modes, linear in
+    between, zero outside.
 
-    ``spectrum`` of ``source``; on the grid of a periodic surface it is met mode by mode. Waves longer than the measured
-    surface have the power of its longest ones.
+    ``spectrum`` of ``source``; on the grid of a periodic surface it is met mode by mode. Waves
+    longer than the measured surface have the power of its longest ones.
     """
 
     spectrum: PowerSpectrum
@@ -258,7 +275,8 @@ class MeasuredSpectrum:
 
     @property
     def correlation_range(self) -> float:
-        """Distance in m beyond which heights are taken as uncorrelated: the size of the measured surface."""
+        """Distance in m beyond which heights are taken as uncorrelated: the size of the measured
+        surface."""
         return max(self.spectrum.grid.size)
 
     def lattice_psd(self, grid: Grid) -> RealArray:
@@ -308,13 +326,14 @@ def spectrum_of(
 ) -> TabulatedSpectrum | MeasuredSpectrum:
     """Spectrum of a measured ``surface``, to generate more of the same on any grid.
 
-    Level the surface and fill missing points first. One that is not periodic is windowed (Hann), without which the
-    jump between its borders would be generated too; the lowest modes, which a window mixes with the mean, take the power
-    of the next ones. Waves longer than the surface have that power too, waves shorter than those of its grid none. The
-    shortest waves of a square grid run along its diagonals: the isotropic average takes their power for all directions, and
-    keeps that of every ring of wavenumbers.
-    ``window`` is that of ``power_spectrum``, ``per_decade`` the rings per factor of ten in wavenumber of an isotropic spectrum.
-    Raises InputError if points are missing, all heights are equal, or nothing is left above the floor.
+    Level the surface and fill missing points first. One that is not periodic is windowed (Hann),
+    without which the jump between its borders would be generated too; the lowest modes, which a
+    window mixes with the mean, take the power of the next ones. Waves longer than the surface have
+    that power too, waves shorter than those of its grid none. The shortest waves of a square grid
+    run along its diagonals: the isotropic average takes their power for all directions, and keeps
+    that of every ring of wavenumbers. ``window`` is that of ``power_spectrum``, ``per_decade`` the
+    rings per factor of ten in wavenumber of an isotropic spectrum. Raises InputError if points are
+    missing, all heights are equal, or nothing is left above the floor.
     """
     spectrum = power_spectrum(surface, window)
     source = surface.origin.source or "a surface"
@@ -342,7 +361,8 @@ def spectrum_of(
     return MeasuredSpectrum(replace(spectrum, psd=psd), source, keys)
 
 
-# The table of an isotropic spectrum whose interpolation keeps the power of every ring of modes it was averaged over.
+# The table of an isotropic spectrum whose interpolation keeps the power of every ring of modes it
+# was averaged over.
 
 
 _PARTS = 8  # of a ring, for the sum of the interpolated spectrum over it
@@ -351,11 +371,12 @@ _ROUNDS = 12  # they leave 1e-4 of the power of a ring of a smooth spectrum, 1e-
 
 
 def ring_table(spectrum: PowerSpectrum, *, per_decade: int, lowest: float, floor: float) -> tuple[RealArray, RealArray]:
-    """Wavenumbers (rad/m) and C (m⁴) of the rings beyond ``lowest`` (rad/m) to the corners of the grid, less the ``floor`` (m⁴).
+    """Wavenumbers (rad/m) and C (m⁴) of the rings beyond ``lowest`` (rad/m) to the corners of the
+    grid, less the ``floor`` (m⁴).
 
-    The means of C over the rings, between which a power law is taken, would lose power where C is curved: 2 % of the mean
-    square height at a roll-off, 12 % of the mean square curvature at a cut-off. They are scaled until the interpolated
-    spectrum sums up to the power of each ring.
+    The means of C over the rings, between which a power law is taken, would lose power where C is
+    curved: 2 % of the mean square height at a roll-off, 12 % of the mean square curvature at a
+    cut-off. They are scaled until the interpolated spectrum sums up to the power of each ring.
     """
     edges = default_edges(spectrum, per_decade, corners=True)
     rings = radial_spectrum(spectrum, edges)
@@ -386,17 +407,20 @@ Columns = Callable[[slice], RealArray]
 
 
 def spectrum_columns(spectrum: Spectrum, grid: Grid, width: int) -> Columns:
-    """``spectrum.lattice_psd(grid)`` in pieces; ``width`` columns at a time where a sum over all modes is needed first.
+    """``spectrum.lattice_psd(grid)`` in pieces; ``width`` columns at a time where a sum over all
+    modes is needed first.
 
-    Raises InputError if the spectrum is not a function of the wavenumber alone, or the grid does not suit it.
+    Raises InputError if the spectrum is not a function of the wavenumber alone, or the grid does
+    not suit it.
     """
     if isinstance(spectrum, TabulatedSpectrum):
         table = spectrum
         return lambda columns: table.interpolated(_wavenumber(grid, columns))
     if not isinstance(spectrum, SelfAffine | TwoSlopes):
         raise InputError(
-            "spectrum of a surface beyond the memory must be SelfAffine, TwoSlopes or a table of the wavenumber, but is "
-            f"{type(spectrum).__name__}. Use endless(), or on the command line digital_filter, for autocorrelations."
+            "spectrum of a surface beyond the memory must be SelfAffine, TwoSlopes or a table of the "
+            f"wavenumber, but is {type(spectrum).__name__}. Use endless(), or on the command line "
+            "digital_filter, for autocorrelations."
         )
     law = spectrum.law
     level = lattice_level(

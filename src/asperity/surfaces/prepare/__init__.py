@@ -1,1 +1,2 @@
-"""Preparation of measured surfaces: levelling, cropping, resampling, filling and making periodic."""
+"""Preparation of measured surfaces: levelling, cropping, resampling, filling and making
+periodic."""

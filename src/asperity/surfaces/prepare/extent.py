@@ -28,12 +28,13 @@ def cropped(
     x: Annotated[LengthRange | None, "part to keep along x, from the corner"] = None,
     y: Annotated[LengthRange | None, "part to keep along y, from the corner"] = None,
 ) -> Surface:
-    """Part of the surface between ``x`` = (x0, x1) and ``y`` = (y0, y1) in m from its corner, rounded to whole pixels.
+    """Part of the surface between ``x`` = (x0, x1) and ``y`` = (y0, y1) in m from its corner,
+    rounded to whole pixels.
 
-    An omitted range keeps the full side. Pixel i covers i·dx to (i+1)·dx, so the size of the result is x1 - x0 to
-    within one pixel. A cropped periodic surface is not periodic; level it again.
-    Raises InputError if a range is reversed, empty after rounding, or reaches more than half a pixel outside the
-    surface.
+    An omitted range keeps the full side. Pixel i covers i·dx to (i+1)·dx, so the size of the result
+    is x1 - x0 to within one pixel. A cropped periodic surface is not periodic; level it again.
+    Raises InputError if a range is reversed, empty after rounding, or reaches more than half a
+    pixel outside the surface.
     """
     (first_x, last_x), (first_y, last_y) = _pixels(surface, x, 0), _pixels(surface, y, 1)
     if (last_x - first_x, last_y - first_y) == surface.shape:
@@ -92,8 +93,8 @@ def sliced(
 ) -> Surface:
     """One line of ``surface``, at ``y`` or at ``x``, as a surface (n, 1) along x.
 
-    Raises InputError if none or both positions are given, the position lies outside the map, or the length is not
-    positive.
+    Raises InputError if none or both positions are given, the position lies outside the map, or the
+    length is not positive.
     """
     if (x is None) == (y is None):
         raise InputError(f"line of a map must be given by exactly one of x and y, but is given by x={x!r}, y={y!r}.")
@@ -103,7 +104,8 @@ def sliced(
     place = float(count // 2 * spacing if position == "middle" else position or 0.0)
     if not 0.0 <= place <= count * spacing * (1.0 + 1e-9):
         raise InputError(
-            f"{name} of a line must lie on the map, between 0 and {show(count * spacing, 'm')}, but is {show(place, 'm')}."
+            f"{name} of a line must lie on the map, between 0 and {show(count * spacing, 'm')}, but is "
+            f"{show(place, 'm')}."
         )
     number = count // 2 if position == "middle" else min(int(place / spacing), count - 1)
     heights = np.take(surface.heights, number, axis=axis)[:, None]
@@ -122,13 +124,15 @@ def sliced(
 
 @checked
 def resampled(surface: Surface, points: Annotated[Points, "new numbers of points along x and y"]) -> Surface:
-    """Surface of the same physical size on ``points`` = (nx, ny) points; the pixel size changes accordingly.
+    """Surface of the same physical size on ``points`` = (nx, ny) points; the pixel size changes
+    accordingly.
 
-    A periodic surface is resampled in Fourier space: zeros are added, or short waves removed (node 0 stays in place,
-    the Nyquist lines of even sizes are split in halves). Any other surface is interpolated by a bicubic spline along
-    an axis that becomes finer and averaged over pixel areas along an axis that becomes coarser (pixel areas stay in
-    place). Removing short waves and averaging both reduce the rms height; neither aliases.
-    Raises InputError if a number of points is not a whole number >= 1 or points are missing.
+    A periodic surface is resampled in Fourier space: zeros are added, or short waves removed (node
+    0 stays in place, the Nyquist lines of even sizes are split in halves). Any other surface is
+    interpolated by a bicubic spline along an axis that becomes finer and averaged over pixel areas
+    along an axis that becomes coarser (pixel areas stay in place). Removing short waves and
+    averaging both reduce the rms height; neither aliases. Raises InputError if a number of points
+    is not a whole number >= 1 or points are missing.
     """
     nx, ny = points
     require_complete(surface, "resampled")
@@ -178,7 +182,8 @@ def resampled(surface: Surface, points: Annotated[Points, "new numbers of points
 
 
 def _axis_resampled(heights: RealArray, new: int) -> RealArray:
-    """Heights at ``new`` points of axis 0: means over equal intervals, from the cumulative integral of the pixel values, or a spline."""
+    """Heights at ``new`` points of axis 0: means over equal intervals, from the cumulative integral
+    of the pixel values, or a spline."""
     old = heights.shape[0]
     if new == old:
         return heights
@@ -207,7 +212,8 @@ def tapered(
         float, Number(above=0.0, most=0.5), "width of the tapered strip at each border as a fraction of the side"
     ] = 0.1,
 ) -> Surface:
-    """Periodic surface whose heights are tapered to their mean at the borders (cosine or Tukey taper).
+    """Periodic surface whose heights are tapered to their mean at the borders (cosine or Tukey
+    taper).
 
     Raises InputError if the width is out of range or points are missing.
     """
@@ -223,12 +229,14 @@ def tapered(
 
 
 def periodised(surface: Surface) -> Surface:
-    """Periodic surface: the surface less the smooth component that contains the jumps between opposite borders.
+    """Periodic surface: the surface less the smooth component that contains the jumps between
+    opposite borders.
 
-    The smooth component s solves the discrete periodic equation ∇²s = v, where v is zero inside the map and holds
-    the jumps at its borders, so that the discrete Laplacian of all interior points and the mean height are preserved. A
-    periodic surface is returned unchanged. Source: Moisan (2011), eqs. 11-14, here with the weights 1/dx² and 1/dy².
-    Raises InputError if points are missing.
+    The smooth component s solves the discrete periodic equation ∇²s = v, where v is zero inside the
+    map and holds the jumps at its borders, so that the discrete Laplacian of all interior points
+    and the mean height are preserved. A periodic surface is returned unchanged. Source: Moisan
+    (2011), eqs. 11-14, here with the weights 1/dx² and 1/dy². Raises InputError if points are
+    missing.
     """
     if surface.periodic:
         return surface

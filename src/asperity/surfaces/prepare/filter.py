@@ -20,9 +20,10 @@ from ..characterise.correlation import scale_dependence, tip_cutoff
 from ..surface import Surface
 from .level import recorded, require_complete
 
-# Local regression with a Gaussian window (ISO 16610-61 and -71): at every node a polynomial of order 0, 1 or 2 in x and
-# y is fitted with the weights s(x, y) = exp[-π (x/(γ λx))² - π (y/(γ λy))²]; its value there is the smooth surface. γ
-# gives a wave of length λ the transmission one half: sqrt(ln 2/π) for order 0 and 1, 0.7309 for order 2.
+# Local regression with a Gaussian window (ISO 16610-61 and -71): at every node a polynomial of
+# order 0, 1 or 2 in x and y is fitted with the weights s(x, y) = exp[-π (x/(γ λx))² - π (y/(γ
+# λy))²]; its value there is the smooth surface. γ gives a wave of length λ the transmission one
+# half: sqrt(ln 2/π) for order 0 and 1, 0.7309 for order 2.
 
 
 _FIRST = math.log(2.0)  # transmission e^-t with t = π γ² at the cut-off
@@ -38,7 +39,8 @@ def gamma(order: int) -> float:
 
 
 def transmission(ratio: RealArray | float, order: int = 0) -> RealArray:
-    """Amplitude transmission of a wave of length λ on an infinite surface; ``ratio`` λc/λ, both dimensionless."""
+    """Amplitude transmission of a wave of length λ on an infinite surface; ``ratio`` λc/λ, both
+    dimensionless."""
     t = (_SECOND if order == 2 else _FIRST) * np.square(np.asarray(ratio, dtype=float))
     return np.asarray((1.0 + t) * np.exp(-t) if order == 2 else np.exp(-t))
 
@@ -47,8 +49,8 @@ def transmission(ratio: RealArray | float, order: int = 0) -> RealArray:
 class LocalRegression:
     """Local regression on one grid: transfer functions of the moments of the window along x and y.
 
-    ``along_x[a]`` (px, 1) and ``along_y[b]`` (1, py // 2 + 1) of s(u) (u/λ)^a; ``padded`` is the grid itself if it is
-    periodic.
+    ``along_x[a]`` (px, 1) and ``along_y[b]`` (1, py // 2 + 1) of s(u) (u/λ)^a; ``padded`` is the
+    grid itself if it is periodic.
     """
 
     shape: tuple[int, int]
@@ -58,7 +60,8 @@ class LocalRegression:
     along_y: tuple[ComplexArray, ...]
 
     def smooth(self, heights: RealArray, weights: RealArray) -> RealArray:
-        """Fitted values (nx, ny) in m; ``weights`` (nx, ny) >= 0 of the nodes, 0 to exclude ``heights`` (m)."""
+        """Fitted values (nx, ny) in m; ``weights`` (nx, ny) >= 0 of the nodes, 0 to exclude
+        ``heights`` (m)."""
         transform = RealTransform(self.padded, thread_count())
         spectra = []
         for field in (weights, weights * heights):
@@ -146,7 +149,8 @@ KINDS = ("gaussian", "robust", "sharp")
 _LONGEST = {"short": 1.0, "long": 10.0}  # cut-offs in sides: beyond the first, hardly a wave of the map is left
 
 FINEST = 4.0
-"""Shortest cut-off in pixels: at 3 pixels the transmission at the cut-off would be 0.56 instead of 0.5."""
+"""Shortest cut-off in pixels: at 3 pixels the transmission at the cut-off would be 0.56 instead of
+0.5."""
 
 _BIWEIGHT = 4.4478  # times the median of |residual|: three standard deviations of normal residuals
 _LEAST_WEIGHT = 1e-6  # of an outlier, so that every neighbourhood has some weight
@@ -164,27 +168,32 @@ def filtered(
     order: int = 0,
     reach: float = 1.0,
 ) -> Surface:
-    """Surface without waves shorter than ``short`` (S-filter) and longer than ``long`` (L-filter); one or both.
+    """Surface without waves shorter than ``short`` (S-filter) and longer than ``long`` (L-filter);
+    one or both.
 
-    ``gaussian`` (ISO 16610-61): the transmission is one half at the cut-off and 2^-(short/λ)² at the wavelength λ; at
-    borders and missing points the weights of the valid nodes within reach are normalised. ``robust`` (ISO 16610-71):
-    nodes at the distance r from the smooth surface have the weight (1 - (r/c)²)² with c = 4.4478 times the median of
-    |r|, iterated until c converges; spikes and deep valleys then do not distort their surroundings. ``sharp``: ideal
-    band-pass between the cut-offs, for periodic surfaces only. Missing points stay missing.
-    Raises InputError if no cut-off is given, one is out of range, they are out of order, or a sharp filter is applied
-    to a surface that is not periodic or not complete.
+    ``gaussian`` (ISO 16610-61): the transmission is one half at the cut-off and 2^-(short/λ)² at
+    the wavelength λ; at borders and missing points the weights of the valid nodes within reach are
+    normalised. ``robust`` (ISO 16610-71): nodes at the distance r from the smooth surface have the
+    weight (1 - (r/c)²)² with c = 4.4478 times the median of |r|, iterated until c converges; spikes
+    and deep valleys then do not distort their surroundings. ``sharp``: ideal
+    band-pass between the cut-offs, for periodic surfaces only. Missing points stay missing. Raises
+    InputError if no cut-off is given, one is out of range, they are out of order, or a sharp filter
+    is applied to a surface that is not periodic or not complete.
 
     Parameters
     ----------
     surface
-        Surface; level it first, since smoothing bends a tilt at the borders (not with ``order`` 1 or 2).
+        Surface; level it first, since smoothing bends a tilt at the borders (not with ``order`` 1
+        or 2).
     short, long
-        Wavelengths in m, or pairs (along x, along y), of at least four pixels (two for ``sharp``), short < long; the
-        short one at most the longer side of the surface, the long one ten times that.
+        Wavelengths in m, or pairs (along x, along y), of at least four pixels (two for ``sharp``),
+        short < long; the short one at most the longer side of the surface, the long one ten times
+        that.
     kind
         ``gaussian``, ``robust`` or ``sharp``.
     order
-        Order of the local polynomial: 0 as in ISO 16610-61; 1 preserves planes and 2 quadratic forms up to the borders.
+        Order of the local polynomial: 0 as in ISO 16610-61; 1 preserves planes and 2 quadratic
+        forms up to the borders.
     reach
         Half width of the window in cut-offs; 1 is exact to 2e-7, 0.5 to 1 %.
     """
@@ -265,7 +274,8 @@ def _cutoffs(
 
 
 def _robust(values: RealArray, valid: RealArray, fit: LocalRegression) -> RealArray:
-    """Smooth surface by iteratively reweighted fits (ISO 16610-71) of ``values``, which are ``valid`` where that is 1, not 0."""
+    """Smooth surface by iteratively reweighted fits (ISO 16610-71) of ``values``, which are
+    ``valid`` where that is 1, not 0."""
     present = valid > 0.0
     weights, width = valid.copy(), np.inf
     smooth = values
@@ -287,11 +297,12 @@ _KEYS = ("Sanner2022",)
 
 
 def reliability_cutoff(surface: Surface, tip_radius: float) -> float:
-    """Wavelength in m below which a tip of ``tip_radius`` (m) may have distorted the map; may be 0 or infinite.
+    """Wavelength in m below which a tip of ``tip_radius`` (m) may have distorted the map; may be 0
+    or infinite.
 
-    The longer of the stencil lengths along x and y at which the sharpest peak has the curvature 1/(2 R) (Sanner et al.
-    2022, eq. 10). SurfaceTopography applies the same criterion along x alone.
-    Raises InputError if the radius is not positive or the map too small for a stencil.
+    The longer of the stencil lengths along x and y at which the sharpest peak has the curvature
+    1/(2 R) (Sanner et al. 2022, eq. 10). SurfaceTopography applies the same criterion along x
+    alone. Raises InputError if the radius is not positive or the map too small for a stencil.
     """
     radius = require.positive(tip_radius, "radius of the tip (m)")
     return max(tip_cutoff(scale_dependence(surface, axis=axis), radius) for axis in ("x", "y"))
@@ -301,9 +312,10 @@ def reliability_cutoff(surface: Surface, tip_radius: float) -> float:
 def tip_limited(surface: Surface, radius: Annotated[Length, "radius of the tip"]) -> Surface:
     """Surface without the waves that a tip of ``radius`` (m) may have shaped, by a Gaussian filter.
 
-    If the tip was sharp enough for every peak at every length, or the cut-off is below four pixels, which a filter does
-    not resolve, the heights are unchanged; the history records the cut-off in any case.
-    Raises InputError if the tip is blunter than the surface at every length: no wave of the map is reliable.
+    If the tip was sharp enough for every peak at every length, or the cut-off is below four pixels,
+    which a filter does not resolve, the heights are unchanged; the history records the cut-off in
+    any case. Raises InputError if the tip is blunter than the surface at every length: no wave of
+    the map is reliable.
     """
     cutoff = reliability_cutoff(surface, radius)
     if math.isinf(cutoff):

@@ -21,7 +21,8 @@ from ..surface import Surface
 
 
 def require_complete(surface: Surface, word: str) -> None:
-    """Raise an error for missing points; ``word`` is the participle of the step, such as ``"tapered"``.
+    """Raise an error for missing points; ``word`` is the participle of the step, such as
+    ``"tapered"``.
 
     Raises InputError if points are missing.
     """
@@ -35,7 +36,8 @@ def require_complete(surface: Surface, word: str) -> None:
 def recorded(
     surface: Surface, heights: RealArray, step: str, *, periodic: bool, citation_keys: tuple[str, ...] = ()
 ) -> Surface:
-    """``surface`` with other ``heights`` (nx, ny) in m; the history records ``step`` and both rms heights."""
+    """``surface`` with other ``heights`` (nx, ny) in m; the history records ``step`` and both rms
+    heights."""
     after = Surface(heights, surface.dx, surface.dy, periodic=periodic)
     change = f"{step} (rms {show(rms_height(surface), 'm', 3)} -> {show(rms_height(after), 'm', 3)})"
     origin = surface.origin.continued(change, citation_keys)
@@ -56,28 +58,32 @@ _FACTORISED_TOGETHER = 1 << 16  # points in one block of the orthogonal factoris
 
 
 def usual_form(surface: Surface) -> str:
-    """What is removed where no form is asked for: the ``mean`` of a periodic surface, whose plane is part of it, else the ``plane``."""
+    """What is removed where no form is asked for: the ``mean`` of a periodic surface, whose plane
+    is part of it, else the ``plane``."""
     return "mean" if surface.periodic else "plane"
 
 
 def levelled(surface: Surface, form: str | int | None = None, *, robust: bool = False) -> Surface:
     """Surface less its least-squares ``form`` over the valid points.
 
-    The form is a polynomial Σ c_ab x^a y^b of total degree a + b <= 0 (``mean``), 1 (``plane``), 2 (``quadratic``) or
-    of any whole number up to 20, found by QR factorisation in products of Legendre polynomials on [-1, 1]². Levelling
-    is a high-pass filter: it reduces the rms height of a surface with waves as long as the map, the more the higher the
-    degree. A periodic surface stays periodic only if no more than the mean is removed.
-    Raises InputError if the form is unknown or the valid points do not determine it (all on one line, for example).
+    The form is a polynomial Σ c_ab x^a y^b of total degree a + b <= 0 (``mean``), 1 (``plane``), 2
+    (``quadratic``) or of any whole number up to 20, found by QR factorisation in products of
+    Legendre polynomials on [-1, 1]². Levelling is a high-pass filter: it reduces the rms height of
+    a surface with waves as long as the map, the more the higher the degree. A periodic surface
+    stays periodic only if no more than the mean is removed. Raises InputError if the form is
+    unknown or the valid points do not determine it (all on one line, for example).
 
     Parameters
     ----------
     surface
         Surface; missing points have no weight.
     form
-        ``mean``, ``plane``, ``quadratic`` or the total degree; by default the mean of a periodic surface and the plane of any other.
+        ``mean``, ``plane``, ``quadratic`` or the total degree; by default the mean of a periodic
+        surface and the plane of any other.
     robust
-        Repeat the fit without the points more than three standard deviations (3 x 1.4826 MAD) from it, until the
-        excluded points no longer change: for surfaces whose peaks or pits would tilt the plane.
+        Repeat the fit without the points more than three standard deviations (3 x 1.4826 MAD) from
+        it, until the excluded points no longer change: for surfaces whose peaks or pits would tilt
+        the plane.
     """
     form = usual_form(surface) if form is None else form
     if isinstance(form, str):
@@ -148,10 +154,12 @@ def despiked(
     *,
     window: Annotated[int, Whole(3, odd=True), "nodes along a side of the neighbourhood"] = 5,
 ) -> Surface:
-    """Surface whose spikes are missing points: nodes far from the median of their ``window`` x ``window`` neighbourhood.
+    """Surface whose spikes are missing points: nodes far from the median of their ``window`` x
+    ``window`` neighbourhood.
 
-    The limit is ``threshold`` standard deviations of these distances, estimated robustly from their median (1.4826
-    MAD). Fill the points afterwards, or leave them missing. Heights are never clipped.
+    The limit is ``threshold`` standard deviations of these distances, estimated robustly from their
+    median (1.4826 MAD). Fill the points afterwards, or leave them missing. Heights are never
+    clipped.
     """
     half = window // 2
     heights: RealArray = surface.heights.astype(np.float64)
@@ -187,10 +195,12 @@ def despiked(
 def line_corrected(
     surface: Surface, axis: Annotated[Axis, "fast axis, along which the scan lines run"] = "x"
 ) -> Surface:
-    """Surface without the offsets between scan lines: the lines run along the fast ``axis`` of the instrument.
+    """Surface without the offsets between scan lines: the lines run along the fast ``axis`` of the
+    instrument.
 
-    The offset of a line is the cumulative sum of the medians of the differences between successive lines. Height
-    variations only across the lines are removed as well; spectra and slopes along the lines are unchanged.
+    The offset of a line is the cumulative sum of the medians of the differences between successive
+    lines. Height variations only across the lines are removed as well; spectra and slopes along the
+    lines are unchanged.
     """
     lines = surface.heights.astype(np.float64)
     lines = lines if axis == "x" else lines.T  # lines[:, j] is one scan line
@@ -214,11 +224,12 @@ _METHODS = {"harmonic": "harmonic interpolation", "mean": "the mean height", "ne
 
 @checked
 def filled(surface: Surface, method: Annotated[FillMethod, "how missing points are filled"] = "harmonic") -> Surface:
-    """Surface without missing points; valid points are unchanged and the history records how many were filled.
+    """Surface without missing points; valid points are unchanged and the history records how many
+    were filled.
 
-    ``harmonic`` solves ∇²h = 0 in every hole with the heights on its rim (zero normal slope at the border of the
-    map), ``nearest`` takes the closest valid height and ``mean`` the mean of the valid heights. Fills are smooth:
-    they reduce mean square slopes and curvatures near the holes.
+    ``harmonic`` solves ∇²h = 0 in every hole with the heights on its rim (zero normal slope at the
+    border of the map), ``nearest`` takes the closest valid height and ``mean`` the mean of the
+    valid heights. Fills are smooth: they reduce mean square slopes and curvatures near the holes.
     """
     if surface.n_missing == 0:
         return surface

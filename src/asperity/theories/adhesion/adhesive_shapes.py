@@ -1,4 +1,5 @@
-"""Adhesion of infinitely short range beyond the sphere: any power-law profile, a cylinder, and a wave with its jump into full contact."""
+"""Adhesion of infinitely short range beyond the sphere: any power-law profile, a cylinder, and a
+wave with its jump into full contact."""
 
 from __future__ import annotations
 
@@ -23,9 +24,11 @@ from .short_range import CylinderJKR, PowerLawJKR, WavyJKR
 
 @dataclass(frozen=True)
 class AdhesivePowerLaw(Theory):
-    """Profile B r^n against a half-space, with adhesion in the contact alone; JKR's sphere is n = 2, B = 1/2R.
+    """Profile B r^n against a half-space, with adhesion in the contact alone; JKR's sphere is n =
+    2, B = 1/2R.
 
-        P = P_H(a) - sqrt(8π E* w a³),  δ = δ_H(a) - sqrt(2π a w/E*),  δ_H = κ B a^n,  P_H = 2n/(n + 1) E* a δ_H.
+        P = P_H(a) - sqrt(8π E* w a³),  δ = δ_H(a) - sqrt(2π a w/E*),  δ_H = κ B a^n,
+        P_H = 2n/(n + 1) E* a δ_H.
 
     Examples
     --------
@@ -76,7 +79,8 @@ class AdhesivePowerLaw(Theory):
         return self._contact.unloaded.radius
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
-        """The contact of the ``contact_radius`` a in m, > 0, of any shape; its pressure is infinitely tensile at the edge."""
+        """The contact of the ``contact_radius`` a in m, > 0, of any shape; its pressure is
+        infinitely tensile at the edge."""
         a = checked(contact_radius, "contact radius (m)", lowest=np.finfo(float).tiny)
         n, E = self.exponent, self.E_star
         pressed, pull, lift = self._contact.terms(a)
@@ -90,11 +94,13 @@ class AdhesivePowerLaw(Theory):
 
 @dataclass(frozen=True)
 class AdhesiveCylinder(Theory):
-    """Cylinder of relative radius R with adhesion in the contact alone; P per length, a the half-width, P_c the pull-off force.
+    """Cylinder of relative radius R with adhesion in the contact alone; P per length, a the
+    half-width, P_c the pull-off force.
 
         P = π E* a²/4R - sqrt(2π E* w a),  P_c = 3 (π E* w² R/16)^(1/3)
 
-    The approach of distant points depends on how the bodies are held, so approach and stiffness are NaN.
+    The approach of distant points depends on how the bodies are held, so approach and stiffness are
+    NaN.
 
     Examples
     --------
@@ -136,7 +142,8 @@ class AdhesiveCylinder(Theory):
         return self._contact.unloaded.radius
 
     def at_half_width(self, half_width: ArrayLike) -> ContactAnswer:
-        """The contact of the ``half_width`` a in m, > 0, of any shape; its pressure is infinitely tensile at the edge."""
+        """The contact of the ``half_width`` a in m, > 0, of any shape; its pressure is infinitely
+        tensile at the edge."""
         a = checked(half_width, "half-width (m)", lowest=np.finfo(float).tiny)
         unknown = np.full_like(a, np.nan)
         return ContactAnswer(self._contact.load(a), unknown, a, 2.0 * a, unknown, unknown)
@@ -144,16 +151,19 @@ class AdhesiveCylinder(Theory):
 
 @dataclass(frozen=True)
 class AdhesiveWave(Theory):
-    """Gap Δ(1 - cos 2πx/λ) with adhesion in the contact alone (Johnson 1995), ψ = πa/λ, p* = πE*Δ/λ.
+    """Gap Δ(1 - cos 2πx/λ) with adhesion in the contact alone (Johnson 1995), ψ = πa/λ, p* =
+    πE*Δ/λ.
 
         p̄/p* = sin²ψ - α sqrt(tan ψ),  α² = 2E*w/(λ (p*)²).
 
-    Pull-off and the jump into full contact lie where 4 sin^(3/2)ψ cos^(5/2)ψ = α; from α = 0.570 on the wave closes without load.
+    Pull-off and the jump into full contact lie where 4 sin^(3/2)ψ cos^(5/2)ψ = α; from α = 0.570 on
+    the wave closes without load.
 
     Examples
     --------
     >>> wave = AdhesiveWave(E_star=1e6, amplitude=1e-6, wavelength=1e-4, work=2e-3)
-    >>> f"α = {wave.alpha:.3f}, pulls off at {-wave.pull_off_pressure:.0f} Pa, closes at {wave.jump_pressure:.0f} Pa"
+    >>> pull_off, jump = -wave.pull_off_pressure, wave.jump_pressure
+    >>> f"α = {wave.alpha:.3f}, pulls off at {pull_off:.0f} Pa, closes at {jump:.0f} Pa"
     'α = 0.201, pulls off at 1763 Pa, closes at 17321 Pa'
     """
 
@@ -208,7 +218,8 @@ class AdhesiveWave(Theory):
         return self._wave.mean_pressure(found[1]) * self.full_contact_pressure if found else math.nan
 
     def at_fraction(self, fraction: ArrayLike) -> WaveAnswer:
-        """Mean pressure and approach at contact fractions between 0 and 1, of any shape; InputError if one is not."""
+        """Mean pressure and approach at contact fractions between 0 and 1, of any shape; InputError
+        if one is not."""
         share = checked(fraction, "contact fraction", lowest=np.finfo(float).tiny)
         if (share >= 1.0).any():
             raise InputError(f"contact fraction must be below 1, but is {share.max():.6g}.")

@@ -1,4 +1,5 @@
-"""Adhesion of infinitely short range of a sphere on a coated half-space, by the energy that the edge of the contact releases."""
+"""Adhesion of infinitely short range of a sphere on a coated half-space, by the energy that the
+edge of the contact releases."""
 
 from __future__ import annotations
 
@@ -20,8 +21,8 @@ from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, PoissonOfSolid, Rad
 from .short_range import CoatedJKR, CoatedState
 
 WIDEST = 100.0
-"""Contact radius over thickness up to which contacts are solved, to 1e-10. At 80 a coating ten times as stiff as the base still takes 2 % from the
-pull-off, one a tenth as stiff adds 5 %."""
+"""Contact radius over thickness up to which contacts are solved, to 1e-10. At 80 a coating ten
+times as stiff as the base still takes 2 % from the pull-off, one a tenth as stiff adds 5 %."""
 
 _SCANNED = 40
 """Radii among which the largest tensile load is bracketed."""
@@ -29,25 +30,30 @@ _SCANNED = 40
 
 @dataclass(frozen=True)
 class AdhesiveCoatedSphere(Theory):
-    """Rigid sphere on a coating (1) of thickness h bonded to a half-space (2), with adhesion in the contact alone.
+    """Rigid sphere on a coating (1) of thickness h bonded to a half-space (2), with adhesion in the
+    contact alone.
 
-    With the compliance C(q) of the coated half-space the pressure follows from φ of one Fredholm equation of the contact radius a,
+    With the compliance C(q) of the coated half-space the pressure follows from φ of one Fredholm
+    equation of the contact radius a,
 
-        φ(x) + (2/π) ∫ φ(t) ∫ M(q) cos qx cos qt dq dt = 2 E1* (δ - x²/R),  P = ∫ φ dt over 0 < t < a,
+        φ(x) + (2/π) ∫ φ(t) ∫ M(q) cos qx cos qt dq dt = 2 E1* (δ - x²/R),
+        P = ∫ φ dt over 0 < t < a,
         C(q) = 2 [1 + M(q)]/(E1* q),  E1* = E1/(1 - ν1²).
 
     The edge lies in the coating and releases the work of adhesion where
 
         φ(a)² = 8π E1* a w,  φ(a) < 0.
 
-    M is that of a layer and a half-space (O'Sullivan & King 1988), with ξ = q h, μ = G1/G2, κ = (μ - 1)/(μ + 3 - 4ν1)
-    and λ = 1 - 4(1 - ν1)/[1 + μ(3 - 4ν2)],
+    M is that of a layer and a half-space (O'Sullivan & King 1988), with ξ = q h, μ = G1/G2, κ =
+    (μ - 1)/(μ + 3 - 4ν1) and λ = 1 - 4(1 - ν1)/[1 + μ(3 - 4ν2)],
 
         1 + M = [1 + 4κξ e^(-2ξ) - λκ e^(-4ξ)]/[1 - (λ + κ + 4κξ²) e^(-2ξ) + λκ e^(-4ξ)].
 
     Examples
     --------
-    >>> stiff = AdhesiveCoatedSphere(10e6, 1e6, thickness=10e-6, radius=100e-6, work=2.0, coating_nu=0.25, base_nu=0.3)
+    >>> stiff = AdhesiveCoatedSphere(
+    ...     10e6, 1e6, thickness=10e-6, radius=100e-6, work=2.0, coating_nu=0.25, base_nu=0.3
+    ... )
     >>> f"{stiff.pull_off * 1e6:.0f} µN, {stiff.pull_off_ratio:.3f} of that without a coating"
     '730 µN, 0.774 of that without a coating'
     """
@@ -76,7 +82,8 @@ class AdhesiveCoatedSphere(Theory):
         return self.coating / (1.0 - self.coating_nu**2)
 
     def excess(self, wavenumber: RealArray) -> RealArray:
-        """M of ``wavenumber`` q in rad/m, >= 0, of any shape: by how much the base makes the coating more compliant."""
+        """M of ``wavenumber`` q in rad/m, >= 0, of any shape: by how much the base makes the
+        coating more compliant."""
         shear = (self.coating / (1.0 + self.coating_nu)) / (self.base / (1.0 + self.base_nu))
         kappa = (shear - 1.0) / (shear + 3.0 - 4.0 * self.coating_nu)
         lam = 1.0 - 4.0 * (1.0 - self.coating_nu) / (1.0 + shear * (3.0 - 4.0 * self.base_nu))
@@ -86,15 +93,16 @@ class AdhesiveCoatedSphere(Theory):
         return np.asarray(rise / (1.0 - e * (lam + kappa + 4.0 * kappa * xi**2 - lam * kappa * e)))
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
-        """The contact of the ``contact_radius`` a in m, > 0, of any shape; its pressure is infinitely tensile at the edge.
+        """The contact of the ``contact_radius`` a in m, > 0, of any shape; its pressure is
+        infinitely tensile at the edge.
 
         InputError if a radius is not positive, or more than 100 times the thickness.
         """
         a = checked(contact_radius, "contact radius (m)", lowest=np.finfo(float).tiny)
         if (a > WIDEST * self.thickness).any():
             raise InputError(
-                f"contact radius (m) must be at most {WIDEST:g} times the thickness {self.thickness:g} of the coating, but is {a.max():g}. "
-                "Use the theory jkr with the base alone."
+                f"contact radius (m) must be at most {WIDEST:g} times the thickness {self.thickness:g} of the "
+                f"coating, but is {a.max():g}. Use the theory jkr with the base alone."
             )
         contact = CoatedJKR(self.coating_modulus, self.excess, self.thickness, self.radius, self.work)
         found = [contact.at_radius(float(value)) for value in a.ravel()]
@@ -105,7 +113,8 @@ class AdhesiveCoatedSphere(Theory):
 
     @cached_property
     def _off(self) -> CoatedState | None:
-        """The contact of the most tensile load; None where its radius may be more than can be solved."""
+        """The contact of the most tensile load; None where its radius may be more than can be
+        solved."""
         moduli = self.coating_modulus, self.base / (1.0 - self.base_nu**2)
         sizes = [float(np.cbrt(1.125 * math.pi * self.work * self.radius**2 / modulus)) for modulus in moduli]
         widest = WIDEST * self.thickness
@@ -120,7 +129,8 @@ class AdhesiveCoatedSphere(Theory):
 
     @property
     def pull_off(self) -> float:
-        """Force in N that separates the bodies under dead load; NaN where the contact would be wider than 100 thicknesses."""
+        """Force in N that separates the bodies under dead load; NaN where the contact would be
+        wider than 100 thicknesses."""
         return math.nan if self._off is None else -self._off.load
 
     @property

@@ -1,4 +1,5 @@
-"""Adhesion of a rough surface: Greenwood and Williamson's summits, each an adhesive sphere (Fuller & Tabor 1975)."""
+"""Adhesion of a rough surface: Greenwood and Williamson's summits, each an adhesive sphere (Fuller
+& Tabor 1975)."""
 
 from __future__ import annotations
 
@@ -42,18 +43,22 @@ _JUMP_IN = 4.0 ** (2.0 / 3.0)  # a/ac of JKR at zero approach
 class FullerTabor(OnSummits):
     """Summits of one radius and Gaussian heights with JKR's adhesion at each.
 
-    With the pull-off force P_c and the extension δ_c of one summit, Δ_c = δ_c/σ_s and D the separation over σ_s,
+    With the pull-off force P_c and the extension δ_c of one summit, Δ_c = δ_c/σ_s and D the
+    separation over σ_s,
 
         p = η P_c ∫_(D_0)^∞ f((s - D)/Δ_c) φ(s) ds,
 
-    f = P/P_c of JKR at the approach over δ_c; D_0 = D - Δ_c when the surfaces part (summits hold on to -δ_c), and D when
-    they approach (summits jump in at touch).
+    f = P/P_c of JKR at the approach over δ_c; D_0 = D - Δ_c when the surfaces part (summits hold on
+    to -δ_c), and D when they approach (summits jump in at touch).
 
     Examples
     --------
-    >>> soft = FullerTabor(E_star=10e6, density=1e10, radius=10e-6, height_deviation=1e-7, work=0.05)
+    >>> soft = FullerTabor(
+    ...     E_star=10e6, density=1e10, radius=10e-6, height_deviation=1e-7, work=0.05
+    ... )
     >>> separation, pressure = soft.pull_off()
-    >>> f"{pressure / 1e3:.1f} kPa against {soft.density * soft.sphere.pull_off / 1e3:.1f} kPa of equal heights"
+    >>> equal_heights = soft.density * soft.sphere.pull_off
+    >>> f"{pressure / 1e3:.1f} kPa against {equal_heights / 1e3:.1f} kPa of equal heights"
     '-12.1 kPa against 23.6 kPa of equal heights'
     """
 
@@ -111,7 +116,8 @@ class FullerTabor(OnSummits):
         return self.E_star * self.height_deviation * math.sqrt(self.height_deviation / self.radius) / self.work
 
     def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane of the surface; negative pressures pull."""
+        """Prediction at separations (n,) in m from the mean plane of the surface; negative
+        pressures pull."""
         h = curve(separation, "separations (m)")
         D = self.summits.standardised(h)
         x, s, weight = self._summits_at(D)
@@ -127,16 +133,16 @@ class FullerTabor(OnSummits):
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
         """Prediction at nominal pressures (n,) in Pa, positive, on the branch that repels.
 
-        InputError if a pressure is not positive, or larger than at 40 standard deviations below the mean summit
-        height.
+        InputError if a pressure is not positive, or larger than at 40 standard deviations below the
+        mean summit height.
         """
         unit = self.density * self.sphere.pull_off
         wanted = curve(pressure, "pressures (Pa)", positive=True) / unit
         highest = float(self.load_per_summit(LOWEST))
         if wanted.max(initial=0.0) > highest:
             raise InputError(
-                f"pressure must be at most {highest * unit:.4g} Pa, at which the surfaces are {-LOWEST:g} standard deviations "
-                f"below the mean summit height, but is {wanted.max() * unit:.4g} Pa."
+                f"pressure must be at most {highest * unit:.4g} Pa, at which the surfaces are {-LOWEST:g} "
+                f"standard deviations below the mean summit height, but is {wanted.max() * unit:.4g} Pa."
             )
         least = np.full_like(wanted, self._least()[0])
         D = bisected(lambda d: wanted - self.load_per_summit(d), np.full_like(wanted, LOWEST), least, halvings=20)
@@ -152,12 +158,14 @@ class FullerTabor(OnSummits):
         return self.mean_height + self.height_deviation * D, self.density * self.sphere.pull_off * load
 
     def load_per_summit(self, D: ArrayLike) -> RealArray:
-        """f in units of P_c, over all summits, at the separation ``D`` = d/σ_s from their mean height, any shape."""
+        """f in units of P_c, over all summits, at the separation ``D`` = d/σ_s from their mean
+        height, any shape."""
         x, _, weight = self._summits_at(np.asarray(D, dtype=float))
         return np.asarray(np.sum(weight * load_ratio(x), axis=-1))
 
     def _summits_at(self, D: RealArray) -> tuple[RealArray, RealArray, RealArray]:
-        """Nodes x = a/a_c, their heights s, and weights of the mean over all summits; nothing has to be inverted in x."""
+        """Nodes x = a/a_c, their heights s, and weights of the mean over all summits; nothing has
+        to be inverted in x."""
         first = 1.0 if self.parting else _JUMP_IN
         lowest = D + self.reach * float(approach_ratio(np.array(first)))
         # far apart the density falls like exp(-lowest u): it ends where it has fallen by exp(-40)
@@ -171,7 +179,8 @@ class FullerTabor(OnSummits):
         return x, s, weight * step * np.exp(-0.5 * s * s) / math.sqrt(2.0 * math.pi)
 
     def _least(self) -> tuple[float, float]:
-        """Separation D and load f where f is least, by ever finer grids about the least of the last one."""
+        """Separation D and load f where f is least, by ever finer grids about the least of the last
+        one."""
         low, high = LOWEST / 4.0, HIGHEST / 4.0 + self.reach
         for _ in range(14):  # each a tenth of the one before
             D = np.linspace(low, high, 41)

@@ -1,6 +1,8 @@
-"""Adhesion of infinitely short range: JKR's contacts of any power-law profile, of a cylinder, of a wave, and of a coated sphere.
+"""Adhesion of infinitely short range: JKR's contacts of any power-law profile, of a cylinder, of a
+wave, and of a coated sphere.
 
-Detachment by Griffith's criterion at the edge of the contact. Loads and approaches are positive where they press.
+Detachment by Griffith's criterion at the edge of the contact. Loads and approaches are positive
+where they press.
 """
 
 from __future__ import annotations
@@ -18,7 +20,8 @@ from ...core.quadrature import gauss
 
 @dataclass(frozen=True)
 class ShortRangeState:
-    """A contact: radius or half-width (m), load (N, or N/m of a line contact) and approach (m; NaN of a cylinder)."""
+    """A contact: radius or half-width (m), load (N, or N/m of a line contact) and approach (m; NaN
+    of a cylinder)."""
 
     radius: float
     load: float
@@ -29,7 +32,8 @@ class ShortRangeState:
 class PowerLawJKR:
     """Profile B r^n against a half-space, with adhesion in the contact alone.
 
-        P = P_H(a) - sqrt(8π E* w a³),  δ = δ_H(a) - sqrt(2π a w/E*),  δ_H = n κ B a^n,  P_H = 2E* n/(n+1) δ_H a,
+        P = P_H(a) - sqrt(8π E* w a³),  δ = δ_H(a) - sqrt(2π a w/E*),  δ_H = n κ B a^n,
+        P_H = 2E* n/(n+1) δ_H a,
 
     κ = ∫ t^(n-1)/sqrt(1 - t²) dt over 0 < t < 1 (Johnson, Kendall & Roberts 1971 for n = 2).
 
@@ -50,7 +54,8 @@ class PowerLawJKR:
         return n * 0.5 * math.sqrt(math.pi) * math.exp(math.lgamma(0.5 * n) - math.lgamma(0.5 * n + 0.5))
 
     def terms(self, a: RealArray) -> tuple[RealArray, RealArray, RealArray]:
-        """δ_H in m, and what adhesion takes from load (N) and approach (m), of contact radii ``a`` (m) of any shape, > 0."""
+        """δ_H in m, and what adhesion takes from load (N) and approach (m), of contact radii ``a``
+        (m) of any shape, > 0."""
         pull = np.sqrt(8.0 * np.pi * self.E_star * self.work * a**3)
         return self._nk * self.coefficient * a**self.exponent, pull, np.sqrt(2.0 * np.pi * a * self.work / self.E_star)
 
@@ -84,7 +89,8 @@ class PowerLawJKR:
 
 @dataclass(frozen=True)
 class CylinderJKR:
-    """Cylinder of ``radius`` R on a half-space, per length: P = π E* a²/4R - sqrt(2π E* w a), a the half-width.
+    """Cylinder of ``radius`` R on a half-space, per length: P = π E* a²/4R - sqrt(2π E* w a), a the
+    half-width.
 
     ``E_star`` in Pa, ``radius`` in m, ``work`` of adhesion in J/m², all > 0.
     """
@@ -114,18 +120,21 @@ class CylinderJKR:
         return self.at_half_width(float(np.cbrt(32.0 * self.work * self.radius**2 / (math.pi * self.E_star))))
 
     def centre_pressure(self, half_width: float) -> float:
-        """Pressure in Pa in the middle of a contact of this ``half_width`` in m: E*a/2R - sqrt(2E*w/πa)."""
+        """Pressure in Pa in the middle of a contact of this ``half_width`` in m: E*a/2R -
+        sqrt(2E*w/πa)."""
         a = require.positive(half_width, "half-width (m)")
         return 0.5 * self.E_star * a / self.radius - math.sqrt(2.0 * self.E_star * self.work / (math.pi * a))
 
 
 @dataclass(frozen=True)
 class WavyJKR:
-    """Wave with the gap Δ(1 - cos 2πx/λ) before contact, with adhesion in the contact alone (Johnson 1995).
+    """Wave with the gap Δ(1 - cos 2πx/λ) before contact, with adhesion in the contact alone
+    (Johnson 1995).
 
     With ψ = πa/λ, half-width a, ω = sin²ψ, in units of p* = πE*Δ/λ and of Δ:
 
-        p/p* = sin²ψ - α sqrt(tan ψ),  δ/Δ = ω (1 - ln ω) + α sqrt(tan ψ) ln ω,  α² = 2E*w/(λ (p*)²).
+        p/p* = sin²ψ - α sqrt(tan ψ),  δ/Δ = ω (1 - ln ω) + α sqrt(tan ψ) ln ω,
+        α² = 2E*w/(λ (p*)²).
 
     ``alpha`` is α >= 0.
     """
@@ -134,7 +143,8 @@ class WavyJKR:
 
     @classmethod
     def of(cls, E_star: float, wavelength: float, amplitude: float, work: float) -> WavyJKR:
-        """Theory of a wave of this ``wavelength`` λ and ``amplitude`` Δ in m, contact modulus in Pa, work of adhesion in J/m², all > 0."""
+        """Theory of a wave of this ``wavelength`` λ and ``amplitude`` Δ in m, contact modulus in
+        Pa, work of adhesion in J/m², all > 0."""
         full = math.pi * E_star * amplitude / wavelength
         return cls(math.sqrt(2.0 * E_star * work / wavelength) / full)
 
@@ -158,7 +168,8 @@ class WavyJKR:
 
     @property
     def stationary(self) -> tuple[float, ...]:
-        """Contact fractions of pull-off and of the jump into full contact, where 4 sin^(3/2)ψ cos^(5/2)ψ = α; none beyond α = 1.065."""
+        """Contact fractions of pull-off and of the jump into full contact, where 4 sin^(3/2)ψ
+        cos^(5/2)ψ = α; none beyond α = 1.065."""
         from scipy.optimize import brentq
 
         def miss(psi: float) -> float:
@@ -177,19 +188,23 @@ class WavyJKR:
 
 _PANELS, _NODES, _DECAY = 60, 20, 40.0
 _FINER = 6.0, 2.5
-"""Further points over the contact, and panels of wavenumbers in all, per thickness in its radius: a hundred of these leave 1e-11."""
+"""Further points over the contact, and panels of wavenumbers in all, per thickness in its radius: a
+hundred of these leave 1e-11."""
 _HALVED = 5
-"""Times that the first panel of wavenumbers is halved: a film passes from bending to its own modulus at q h of (6 E2/E1)^(1/3), for
-E1/E2 = 50 within that panel, where 20 nodes lost 2e-8 of the approach."""
+"""Times that the first panel of wavenumbers is halved: a film passes from bending to its own
+modulus at q h of (6 E2/E1)^(1/3), for E1/E2 = 50 within that panel, where 20 nodes lost 2e-8 of the
+approach."""
 
 
 @dataclass(frozen=True)
 class CoatedJKR:
-    """Rigid sphere on a coated half-space, with adhesion in the contact alone; the edge lies in the top layer.
+    """Rigid sphere on a coated half-space, with adhesion in the contact alone; the edge lies in the
+    top layer.
 
     With C(q) = 2/(E_1* q) [1 + M(q)] the pressure follows from φ(x) of one Fredholm equation,
 
-        φ(x) + (2/π) ∫ φ(t) ∫ M(q) cos qx cos qt dq dt = 2E_1* (δ - x²/R),  P = ∫ φ dt over 0 < t < a,
+        φ(x) + (2/π) ∫ φ(t) ∫ M(q) cos qx cos qt dq dt = 2E_1* (δ - x²/R),
+        P = ∫ φ dt over 0 < t < a,
 
     φ(a) = 0 without adhesion, φ(a)² = 8π E_1* a w and φ(a) < 0 with it.
 
@@ -206,7 +221,8 @@ class CoatedJKR:
     work
         Work of adhesion in J/m².
     nodes
-        Points of Gauss' quadrature over a contact smaller than the depth, more over larger ones; 48 leave 1e-12.
+        Points of Gauss' quadrature over a contact smaller than the depth, more over larger ones; 48
+        leave 1e-12.
     """
 
     top_modulus: float
@@ -253,7 +269,8 @@ class CoatedJKR:
 
 @dataclass(frozen=True)
 class CoatedState:
-    """A contact of ``radius`` (m): load (N) and approach (m) without adhesion, stiffness dP/dδ at this radius (N/m), load and approach with it."""
+    """A contact of ``radius`` (m): load (N) and approach (m) without adhesion, stiffness dP/dδ at
+    this radius (N/m), load and approach with it."""
 
     radius: float
     hertz_load: float

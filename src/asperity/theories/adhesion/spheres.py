@@ -1,4 +1,5 @@
-"""Adhesive spheres: Johnson, Kendall and Roberts; Derjaguin, Muller and Toporov; Maugis and Dugdale."""
+"""Adhesive spheres: Johnson, Kendall and Roberts; Derjaguin, Muller and Toporov; Maugis and
+Dugdale."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ from ..ask import BY_CONTACT, Way
 from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Radius, Theory, Work, bisected, checked
 from ..single.hertz import hertz_profile
 
-# Adhesive spheres in the two limits: JKR, compliant, and DMT, stiff (Johnson 1971; Derjaguin 1975; Tabor 1977).
+# Adhesive spheres in the two limits: JKR, compliant, and DMT, stiff (Johnson 1971; Derjaguin 1975;
+# Tabor 1977).
 
 
 ADHESION = (
@@ -29,7 +31,8 @@ ADHESION = (
 
 
 def tabor_parameter(E_star: float, radius: float, work: float, spacing: float) -> float:
-    """μ_T = (R w²/E*² z0³)^(1/3): elastic stretch of the neck over the equilibrium ``spacing`` z0 in m; all > 0."""
+    """μ_T = (R w²/E*² z0³)^(1/3): elastic stretch of the neck over the equilibrium ``spacing`` z0
+    in m; all > 0."""
     for value, what in (
         (radius, "radius (m)"),
         (E_star, "contact modulus E_star (Pa)"),
@@ -100,7 +103,8 @@ class JKR(_AdhesiveSphere):
 
     @property
     def critical_extension(self) -> float:
-        """δc = (3/4)(π²w²R/E*²)^(1/3) in m, the extension at which the contact breaks with fixed grips."""
+        """δc = (3/4)(π²w²R/E*²)^(1/3) in m, the extension at which the contact breaks with fixed
+        grips."""
         return 0.75 * float(np.cbrt((np.pi * self.work / self.E_star) ** 2 * self.radius))
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
@@ -123,7 +127,8 @@ class JKR(_AdhesiveSphere):
         return self.at_radius(self.critical_radius * contact_ratio(delta))
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
-        """The contact of the ``contact_radius`` a in m, >= 0, of any shape: stable under dead load where dP/dδ > 0."""
+        """The contact of the ``contact_radius`` a in m, >= 0, of any shape: stable under dead load
+        where dP/dδ > 0."""
         a = checked(contact_radius, "contact radius (m)")
         x = a / self.critical_radius
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -139,7 +144,8 @@ class JKR(_AdhesiveSphere):
         )
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis, negative where it pulls.
+        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis, negative where it
+        pulls.
 
         (2E*/πR) sqrt(a² - r²) - sqrt(2E*w/πa)/sqrt(1 - r²/a²), minus infinity at the edge.
         """
@@ -162,9 +168,11 @@ def approach_ratio(x: RealArray) -> RealArray:
 
 
 def contact_ratio(approach: ArrayLike) -> RealArray:
-    """a/ac >= 1 of JKR at δ/δc = ``approach`` >= -1 of any shape: the branch that is stable with fixed grips.
+    """a/ac >= 1 of JKR at δ/δc = ``approach`` >= -1 of any shape: the branch that is stable with
+    fixed grips.
 
-    Largest root of y⁴ - 4y - 3δ = 0, y² = a/ac, by Ferrari's resolvent u³ + 12δu - 16 = 0 and a step of Newton's method.
+    Largest root of y⁴ - 4y - 3δ = 0, y² = a/ac, by Ferrari's resolvent u³ + 12δu - 16 = 0 and a
+    step of Newton's method.
     """
     delta = np.asarray(approach, dtype=float)
     v = np.cbrt(1.0 + np.sqrt(np.maximum(1.0 + delta**3, 0.0)))
@@ -205,7 +213,8 @@ class DMT(_AdhesiveSphere):
         return 2.0 * np.pi * self.work * self.radius
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N, >= -2πwR, of any shape; ``max_pressure`` is that of the contact, p0.
+        """The contact under ``load`` in N, >= -2πwR, of any shape; ``max_pressure`` is that of the
+        contact, p0.
 
         InputError if a load is below the pull-off force.
         """
@@ -213,9 +222,11 @@ class DMT(_AdhesiveSphere):
         return self.at_radius(np.cbrt(0.75 * self.radius / self.E_star * (P + self.pull_off)))
 
     def at_approach(self, approach: ArrayLike) -> ContactAnswer:
-        """The contact with fixed grips at the ``approach`` δ in m, >= 0, of any shape: that of Hertz.
+        """The contact with fixed grips at the ``approach`` δ in m, >= 0, of any shape: that of
+        Hertz.
 
-        InputError if an approach is negative: apart from each other the bodies attract, but do not touch.
+        InputError if an approach is negative: apart from each other the bodies attract, but do not
+        touch.
         """
         return self.at_radius(np.sqrt(self.radius * checked(approach, "approach (m)")))
 
@@ -232,7 +243,8 @@ class DMT(_AdhesiveSphere):
         )
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa inside of the contact at the distance ``r`` in m (any shape): that of Hertz at P + 2πwR."""
+        """Pressure in Pa inside of the contact at the distance ``r`` in m (any shape): that of
+        Hertz at P + 2πwR."""
         return hertz_profile(np.asarray(r, dtype=float), self.at_load(load))
 
 
@@ -248,9 +260,11 @@ _WIDEST, _NARROWEST = 46.0, -46.0  # ln s between which any contact lies
 
 @dataclass(frozen=True, eq=False)
 class MaugisState:
-    """Contact in units of Maugis: radius (πwR²/K)^(1/3), load πwR, approach (π²w²R/K²)^(1/3), K = 4E*/3.
+    """Contact in units of Maugis: radius (πwR²/K)^(1/3), load πwR, approach (π²w²R/K²)^(1/3), K =
+    4E*/3.
 
-    ``ring`` is s = sqrt(m² - 1) with the outer radius of the attraction over that of the contact, m = c/a.
+    ``ring`` is s = sqrt(m² - 1) with the outer radius of the attraction over that of the contact,
+    m = c/a.
     """
 
     radius: RealArray
@@ -265,7 +279,8 @@ class MaugisState:
 
 
 def maugis_state(transition: float, contact_radius: ArrayLike) -> MaugisState:
-    """Attracting ring, load and approach at the normalised ``contact_radius`` A > 0 (any shape), λ = ``transition`` > 0.
+    """Attracting ring, load and approach at the normalised ``contact_radius`` A > 0 (any shape),
+    λ = ``transition`` > 0.
 
     With m = c/a, s = sqrt(m² - 1), ϑ = arctan s
 
@@ -290,7 +305,8 @@ def maugis_pull_off(transition: float) -> MaugisState:
 
 
 def maugis_fold(transition: float) -> MaugisState:
-    """The contact of the least approach, for λ = ``transition`` > 0, below which rigid grips hold no contact.
+    """The contact of the least approach, for λ = ``transition`` > 0, below which rigid grips hold
+    no contact.
 
     Up to λ = 0.94 the contact shrinks to a point there, and the bodies go on attracting each other.
     """
@@ -332,10 +348,12 @@ _OUTER = Quantity("outer_radius", "m", "outer radius of the attraction around th
 
 @dataclass(frozen=True)
 class MaugisDugdale(Theory):
-    """Sphere that attracts with the stress σ0 where the gap is below w/σ0, around a contact that Hertz's pressure lifts.
+    """Sphere that attracts with the stress σ0 where the gap is below w/σ0, around a contact that
+    Hertz's pressure lifts.
 
-    In Maugis' units of radius, (πwR²/K)^(1/3), load, πwR, and approach, (π²w²R/K²)^(1/3), K = 4E*/3, with m = c/a the outer
-    over the inner radius of the attraction, s = sqrt(m² - 1) and θ = arctan s,
+    In Maugis' units of radius, (πwR²/K)^(1/3), load, πwR, and approach, (π²w²R/K²)^(1/3), K =
+    4E*/3, with m = c/a the outer over the inner radius of the attraction, s = sqrt(m² - 1) and θ =
+    arctan s,
 
         (λ A²/2) [s + (m² - 2) θ] + (4 λ² A/3) [s θ - m + 1] = 1,  λ = 2 σ_0 (R/(π w K²))^(1/3),
         P = A³ - λ A² [s + m² θ],  δ = A² - (4/3) λ A s.
@@ -380,9 +398,11 @@ class MaugisDugdale(Theory):
         return self._answer(maugis_at_ring(self.transition, s))
 
     def at_approach(self, approach: ArrayLike) -> MaugisAnswer:
-        """The stable contact with fixed grips at the ``approach`` δ in m of any shape; negative down to where it breaks.
+        """The stable contact with fixed grips at the ``approach`` δ in m of any shape; negative
+        down to where it breaks.
 
-        InputError if an approach is below that: from λ = 0.94 on the contact jumps off there, else it has shrunk to a point.
+        InputError if an approach is below that: from λ = 0.94 on the contact jumps off there, else
+        it has shrunk to a point.
         """
         least, unit = maugis_fold(self.transition), self._unit_radius**2 / self.radius
         delta = (

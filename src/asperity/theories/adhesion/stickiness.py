@@ -1,4 +1,5 @@
-"""Criteria for the stickiness of rough surfaces from the moments of their roughness: numbers in, numbers out."""
+"""Criteria for the stickiness of rough surfaces from the moments of their roughness: numbers in,
+numbers out."""
 
 from __future__ import annotations
 
@@ -51,9 +52,11 @@ def stickiness_of(
     laplacian
         h'', rms of the Laplacian of the heights in 1/m, > 0.
     full_contact_energy
-        U_el/A in J/m², >= 0, elastic energy of full contact over nominal area: (E*/4) ∫ q C d²q of a half-space.
+        U_el/A in J/m², >= 0, elastic energy of full contact over nominal area: (E*/4) ∫ q C d²q of
+        a half-space.
     E_star, work, reach
-        Contact modulus in Pa, work of adhesion in J/m², range Δr of the attraction in m, >= 0, without which the number is zero.
+        Contact modulus in Pa, work of adhesion in J/m², range Δr of the attraction in m, >= 0,
+        without which the number is zero.
 
     Raises
     ------
@@ -73,7 +76,8 @@ def stickiness_of(
 
 @dataclass(frozen=True)
 class PastewkaRobbins(Theory):
-    """Stickiness of a rough surface from its slope and Laplacian: whether the area of contact would grow under no load.
+    """Stickiness of a rough surface from its slope and Laplacian: whether the area of contact would
+    grow under no load.
 
         (h' Δr/κ ℓ_a) (h' d_rep/4Δr)^(2/3) < π (3/16)^(2/3),  ℓ_a = w/E*,  d_rep = 4 h'/h'',  κ = 2.
 
@@ -112,7 +116,8 @@ class PastewkaRobbins(Theory):
 
 @dataclass(frozen=True)
 class PerssonTosatti(Theory):
-    """Work of adhesion that full contact of a rough surface leaves; there is no full contact where it is negative.
+    """Work of adhesion that full contact of a rough surface leaves; there is no full contact where
+    it is negative.
 
         w_eff = w - U_el/A,  U_el/A = (E*/4) ∫ q C(q) d²q.
 

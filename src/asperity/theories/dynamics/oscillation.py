@@ -1,4 +1,5 @@
-"""Closed forms of motion on a rough interface: free vibration on a power law, and the stick-slip of a block on a belt."""
+"""Closed forms of motion on a rough interface: free vibration on a power law, and the stick-slip of
+a block on a belt."""
 
 from __future__ import annotations
 
@@ -39,10 +40,12 @@ NODES = 200
 
 
 def free_vibration(exponent: ArrayLike, highest: ArrayLike) -> FreeVibration:
-    """Vibration with the largest penetration ``highest`` > 1 over that at rest, on a law with ``exponent`` m >= 1; of any shape.
+    """Vibration with the largest penetration ``highest`` > 1 over that at rest, on a law with
+    ``exponent`` m >= 1; of any shape.
 
-    Y'' = 1 - Y₊^m has the energy E = Y'²/2 - Y + Y₊^{m+1}/(m+1); the period is 2 ∫ dY/sqrt(2 (E + Y - Y₊^{m+1}/(m+1))) between the
-    turning points, of which flight takes 2 sqrt(2E) if E > 0. Handbook formulas of Oden and Martins' law (1985).
+    Y'' = 1 - Y₊^m has the energy E = Y'²/2 - Y + Y₊^{m+1}/(m+1); the period is 2 ∫ dY/sqrt(2 (E +
+    Y - Y₊^{m+1}/(m+1))) between the turning points, of which flight takes 2 sqrt(2E) if E > 0.
+    Handbook formulas of Oden and Martins' law (1985).
     """
     m, top = np.broadcast_arrays(np.asarray(exponent, dtype=float), np.asarray(highest, dtype=float))
     if np.any(~(m >= 1.0)) or np.any(~(top > 1.0)) or not (np.isfinite(m).all() and np.isfinite(top).all()):
@@ -52,8 +55,9 @@ def free_vibration(exponent: ArrayLike, highest: ArrayLike) -> FreeVibration:
     # in contact the lower turning point is between 0 and 1
     low = bisected(lambda y: y - y ** (m + 1.0) / (m + 1.0) + energy, np.zeros_like(top), np.ones_like(top))
     lowest = np.where(flies, -energy, low)
-    # Y = middle + half sin θ takes away the roots at turning points, and the kinetic energy is taken from the nearer of them,
-    # without cancellation; without a turning point below, Y = top sin θ from θ = 0
+    # Y = middle + half sin θ takes away the roots at turning points, and the kinetic energy is
+    # taken from the nearer of them, without cancellation; without a turning point below, Y = top
+    # sin θ from θ = 0
     low = np.where(flies, 0.0, low)
     nodes, weights = rule(NODES)
     start = np.where(flies, 0.0, -0.5 * math.pi)
@@ -102,21 +106,25 @@ class BeltStickSlip:
 def belt_stick_slip(
     mass: float, stiffness: float, normal_force: float, speed: float, *, static: float, kinetic: float
 ) -> BeltStickSlip:
-    """Undamped block of ``mass`` (kg) on a spring of ``stiffness`` (N/m), pressed by ``normal_force`` (N) on a belt of ``speed`` > 0 (m/s).
+    """Undamped block of ``mass`` (kg) on a spring of ``stiffness`` (N/m), pressed by
+    ``normal_force`` (N) on a belt of ``speed`` > 0 (m/s).
 
-    With Δ = (μ_s - μ_k) N/k and ω = sqrt(k/M): slip from μ_s N/k to μ_k N/k - Δ takes (2/ω) [π - arctan(Δω/U)], stick 2Δ/U.
+    With Δ = (μ_s - μ_k) N/k and ω = sqrt(k/M): slip from μ_s N/k to μ_k N/k - Δ takes (2/ω) [π -
+    arctan(Δω/U)], stick 2Δ/U.
 
     Raises
     ------
     InputError
-        If a value is not positive, or ``static`` is not above ``kinetic``: then there is no stick-slip.
+        If a value is not positive, or ``static`` is not above ``kinetic``: then there is no
+        stick-slip.
     """
     M, k = require.positive(mass, "mass (kg)"), require.positive(stiffness, "stiffness (N/m)")
     N, U = require.positive(normal_force, "normal force (N)"), require.positive(speed, "speed (m/s)")
     low = require.not_negative(kinetic, "kinetic friction coefficient")
     if require.finite(static, "static friction coefficient") <= low:
         raise InputError(
-            f"static friction coefficient must be above the kinetic one, {kinetic:g}, but is {static!r}: without a difference nothing sticks."
+            f"static friction coefficient must be above the kinetic one, {kinetic:g}, but is {static!r}: "
+            "without a difference nothing sticks."
         )
     omega, reach = math.sqrt(k / M), (static - low) * N / k
     slip = 2.0 / omega * (math.pi - math.atan(reach * omega / U))
@@ -124,10 +132,12 @@ def belt_stick_slip(
 
 
 def flutter_friction(exponent: ArrayLike, length: ArrayLike, height: ArrayLike) -> RealArray:
-    """Friction coefficient above which steady sliding of a block flutters, without damping and for small tilt.
+    """Friction coefficient above which steady sliding of a block flutters, without damping and for
+    small tilt.
 
-    μ = m_n H / (2 sqrt(3 (m_n - 1)) sqrt(b² + H²)) for a block of ``length`` b and ``height`` H (m) that slides on p = c δ^m (Martins, Oden
-    and Simoes 1990); infinite for m_n = 1. Arrays that fit together.
+    μ = m_n H / (2 sqrt(3 (m_n - 1)) sqrt(b² + H²)) for a block of ``length`` b and ``height`` H (m)
+    that slides on p = c δ^m (Martins, Oden and Simoes 1990); infinite for m_n = 1. Arrays that fit
+    together.
     """
     m, b, H = (np.asarray(value, dtype=float) for value in (exponent, length, height))
     if np.any(~(m >= 1.0)) or np.any(~(b > 0.0)) or np.any(~(H > 0.0)):
@@ -146,11 +156,13 @@ def critical_stiffness(
     mass: ArrayLike = 0.0,
     speed: ArrayLike = 0.0,
 ) -> RealArray:
-    """Stiffness in N/m below which steady sliding with rate-and-state friction is unstable (Rice and Ruina 1983).
+    """Stiffness in N/m below which steady sliding with rate-and-state friction is unstable (Rice
+    and Ruina 1983).
 
-    k = N (b - a)/D [1 + M V²/(N a D)] with the ``direct`` effect a, the ``evolution`` effect b, the ``distance`` D in m, ``normal_force`` N in N,
-    ``mass`` in kg and ``speed`` in m/s; arrays that fit together. Not above zero where the friction grows with the speed, b <= a: then sliding
-    is stable at any stiffness.
+    k = N (b - a)/D [1 + M V²/(N a D)] with the ``direct`` effect a, the ``evolution`` effect b, the
+    ``distance`` D in m, ``normal_force`` N in N, ``mass`` in kg and ``speed`` in m/s; arrays that
+    fit together. Not above zero where the friction grows with the speed, b <= a: then sliding is
+    stable at any stiffness.
     """
     N, a, b, D, M, V = (
         np.asarray(value, dtype=float) for value in (normal_force, direct, evolution, distance, mass, speed)

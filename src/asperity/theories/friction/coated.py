@@ -1,11 +1,13 @@
 """Partial slip of coated bodies that are mirror images of each other, from their compliances alone.
 
-Bodies without coupling between normal and tangential directions, whose compliances per wavenumber α are given functions:
-``normal`` S_zz, along the wave S_LL, across it S_T, sums of both bodies in m/Pa, such as of layers (solids.plane_compliance).
-α times each tends to a constant for large α, that of the surface layer; the rest decays and makes a smooth kernel. A
-parabola x²/2R in plane strain or r²/2R is pressed to the half-width or radius a, then sheared or twisted until it
-sticks within c. The reduced rule Q = μ [P(a) - P(c)] of homogeneous bodies is wrong for layers by tens of per cent.
-The nodes grow with the contact over the coat, the time with its cube: a second at a ratio of fifty.
+Bodies without coupling between normal and tangential directions, whose compliances per wavenumber α
+are given functions: ``normal`` S_zz, along the wave S_LL, across it S_T, sums of both bodies in
+m/Pa, such as of layers (solids.plane_compliance). α times each tends to a constant for large α,
+that of the surface layer; the rest decays and makes a smooth kernel. A parabola x²/2R in plane
+strain or r²/2R is pressed to the half-width or radius a, then sheared or twisted until it sticks
+within c. The reduced rule Q = μ [P(a) - P(c)] of homogeneous bodies is wrong for layers by tens of
+per cent. The nodes grow with the contact over the coat, the time with its cube: a second at a ratio
+of fifty.
 """
 
 from __future__ import annotations
@@ -36,7 +38,8 @@ _OCTAVES = 44
 
 @dataclass(frozen=True, eq=False)
 class _Split:
-    """αS(α) as its ``limit`` for large α and the rest: ``excess`` times weight at the nodes ``alpha``."""
+    """αS(α) as its ``limit`` for large α and the rest: ``excess`` times weight at the nodes
+    ``alpha``."""
 
     limit: float
     alpha: RealArray
@@ -52,7 +55,8 @@ class _Split:
         if not far.size:
             return cls(limit, np.zeros(1), np.zeros(1))
         end = float(octaves[min(int(far[-1]) + 1, octaves.size - 1)])
-        # the decay has a scale of end/36, a coat on a soft body one of its own near zero, the waves in the contact 1/length
+        # the decay has a scale of end/36, a coat on a soft body one of its own near zero, the waves
+        # in the contact 1/length
         width = min(end / 12.0, 10.0 / length)
         breaks = np.concatenate(
             [[0.0], width * 0.5 ** np.arange(20.0, 0.0, -1.0), np.arange(1.0, end / width + 1.0) * width]
@@ -83,7 +87,8 @@ class _Split:
 
 # Lines: Cauchy's kernel by Gauss-Chebyshev quadrature of the second kind (Erdogan & Gupta 1972).
 #
-# For u' = -(1/π) ∫ [limit/(x - s) + L(x - s)] p(s) ds of tractions that end as roots, p = Σ b_k sin kθ with s = a cos θ.
+# For u' = -(1/π) ∫ [limit/(x - s) + L(x - s)] p(s) ds of tractions that end as roots, p = Σ b_k sin
+# kθ with s = a cos θ.
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +121,8 @@ class _Roots:
 
 
 def _solved(split: _Split, half_width: float, count: int, slope: Callable[[RealArray], RealArray]) -> _Roots:
-    """Traction p with ∫ [limit/(x - s) + L(x - s)] p ds = ``slope`` at x within the half-width, for an odd slope."""
+    """Traction p with ∫ [limit/(x - s) + L(x - s)] p ds = ``slope`` at x within the half-width, for
+    an odd slope."""
     empty = _Roots(half_width, np.pi * np.arange(1.0, count + 1.0) / (count + 1.0), np.zeros(count))
     s = empty.places
     x = half_width * np.cos(np.pi * (np.arange(1.0, count + 2.0) - 0.5) / (count + 1.0))
@@ -155,13 +161,16 @@ class CoatedLineSlip:
 
 @dataclass(frozen=True)
 class CoatedLine:
-    """Cylinder on coated twins in plane strain, sheared in the plane (``shear`` S_LL) or across it (S_T).
+    """Cylinder on coated twins in plane strain, sheared in the plane (``shear`` S_LL) or across it
+    (S_T).
 
     Examples
     --------
     Compliances of homogeneous bodies give Cattaneo's stick zone, c = a sqrt(1 - Q/(μ P)):
 
-    >>> line = CoatedLine(normal=lambda alpha: 2.0 / alpha, shear=lambda alpha: 2.0 / alpha, radius=10.0, friction=0.5)
+    >>> def half_space(alpha):
+    ...     return 2.0 / alpha
+    >>> line = CoatedLine(normal=half_space, shear=half_space, radius=10.0, friction=0.5)
     >>> slip = line.at_stick_width(half_width=1.0, share=0.6)
     >>> print(f"{slip.tangential / (0.5 * slip.load):.6f}")
     0.640000
@@ -173,7 +182,8 @@ class CoatedLine:
     friction: float
 
     def at_stick_width(self, half_width: float, share: float) -> CoatedLineSlip:
-        """The contact of the ``half_width`` a in m that sticks within a ``share`` c/a of it, 0 < c/a < 1."""
+        """The contact of the ``half_width`` a in m that sticks within a ``share`` c/a of it, 0 <
+        c/a < 1."""
         a = require.positive(half_width, "half-width (m)")
         k, mu = _share(share), require.positive(self.friction, "friction coefficient")
         normal, shear = _Split.of(self.normal, a), _Split.of(self.shear, a)
@@ -196,14 +206,17 @@ class CoatedLine:
         return _solved(normal, half_width, count, lambda x: np.pi * x / radius)
 
 
-# Torsion: equations of the second kind for the Abel transforms P = ∫ rp/sqrt(r² - x²) dr and Q = x ∫ q/sqrt(r² - x²) dr.
+# Torsion: equations of the second kind for the Abel transforms P = ∫ rp/sqrt(r² - x²) dr and Q = x
+# ∫ q/sqrt(r² - x²) dr.
 #
-# limit P + (2/π) ∫∫ (αS - limit) cos αx cos αt dα P dt = δ - x²/R, with P(a) = 0; with sines limit Q + … = 2θx within c.
+# limit P + (2/π) ∫∫ (αS - limit) cos αx cos αt dα P dt = δ - x²/R, with P(a) = 0; with sines limit
+# Q + … = 2θx within c.
 
 
 @dataclass(frozen=True, eq=False)
 class CoatedTwistSlip:
-    """A coated round contact under a torque: ``load`` in N, ``approach`` in m, ``rotation`` in rad, ``torque`` in N m."""
+    """A coated round contact under a torque: ``load`` in N, ``approach`` in m, ``rotation`` in rad,
+    ``torque`` in N m."""
 
     load: float
     approach: float
@@ -213,13 +226,19 @@ class CoatedTwistSlip:
 
 @dataclass(frozen=True)
 class CoatedTwist:
-    """Sphere on coated twins, pressed and twisted; exact for every Poisson's ratio (``across`` is S_T).
+    """Sphere on coated twins, pressed and twisted; exact for every Poisson's ratio (``across`` is
+    S_T).
 
     Examples
     --------
     Homogeneous bodies are those of Lubkin:
 
-    >>> twist = CoatedTwist(normal=lambda alpha: 2.0 / alpha, across=lambda alpha: 2.5 / alpha, radius=10.0, friction=0.5)
+    >>> twist = CoatedTwist(
+    ...     normal=lambda alpha: 2.0 / alpha,
+    ...     across=lambda alpha: 2.5 / alpha,
+    ...     radius=10.0,
+    ...     friction=0.5,
+    ... )
     >>> slip = twist.at_stick_radius(contact_radius=1.0, share=0.6)
     >>> print(f"{slip.torque / (3 * np.pi / 16 * 0.5 * slip.load):.6f}")
     0.815688
@@ -231,7 +250,8 @@ class CoatedTwist:
     friction: float
 
     def at_stick_radius(self, contact_radius: float, share: float) -> CoatedTwistSlip:
-        """The contact of the ``contact_radius`` a in m that sticks within a ``share`` c/a of it, 0 < c/a < 1."""
+        """The contact of the ``contact_radius`` a in m that sticks within a ``share`` c/a of it,
+        0 < c/a < 1."""
         a, k = require.positive(contact_radius, "contact radius (m)"), _share(share)
         mu, c = require.positive(self.friction, "friction coefficient"), k * a
         split = _Split.of(self.across, a)

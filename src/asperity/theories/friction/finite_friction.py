@@ -1,15 +1,18 @@
-"""Pressing unlike bodies together with friction: a disc that sticks and an annulus that slips inwards (Spence 1973, 1975).
+"""Pressing unlike bodies together with friction: a disc that sticks and an annulus that slips
+inwards (Spence 1973, 1975).
 
-By similarity the stick zone is the same part c/a of the contact for the flat punch and for every profile B rⁿ, and depends
-on the friction coefficient μ and Dundurs' β only. The flat punch of radius 1 and displacement 1 is solved for the Abel
-transforms P = ∫ rp/sqrt(r² - x²) dr and Q = x ∫ q/sqrt(r² - x²) dr, over E*/2:
+By similarity the stick zone is the same part c/a of the contact for the flat punch and for every
+profile B rⁿ, and depends on the friction coefficient μ and Dundurs' β only. The flat punch of
+radius 1 and displacement 1 is solved for the Abel transforms P = ∫ rp/sqrt(r² - x²) dr and Q = x ∫
+q/sqrt(r² - x²) dr, over E*/2:
 
     P(x) - (2β/π) ∫ Q(t) t/(t² - x²) dt = 1                 (0 < x < 1),
     Q(x) + (2β/π) ∫ P(t) x/(t² - x²) dt = 0                 (0 < x < c, no radial motion),
     Q(x) = μ [P(x) - (2x/π) ∫ P(t) (K - E)/(k²t²) dt]       (c < x < 1, q = μp), k² = 1 - x²/t²,
 
-and Q is continuous at c, or q would be infinite there. Panels are graded geometrically toward c from both sides and
-toward 1; with polynomials of 16 nodes all ratios are within 1e-10 of those of finer meshes.
+and Q is continuous at c, or q would be infinite there. Panels are graded geometrically toward c
+from both sides and toward 1; with polynomials of 16 nodes all ratios are within 1e-10 of those of
+finer meshes.
 """
 
 from __future__ import annotations
@@ -45,7 +48,8 @@ _SMALLEST = 1e-6  # stick zone or annulus that is not told from none
 
 
 class _Mesh:
-    """Panels on (0, 1); places are kept as distances from c or 1, where they would lose their digits otherwise."""
+    """Panels on (0, 1); places are kept as distances from c or 1, where they would lose their
+    digits otherwise."""
 
     def __init__(self, share: float) -> None:
         c, half = share, 0.5 * (1.0 - share)
@@ -139,7 +143,8 @@ class _Punch:
 
 
 def friction_of_stick(beta: float, share: float) -> float:
-    """Friction coefficient μ that leaves the ``share`` c/a of a round contact sticking, 1e-6 <= c/a <= 1 - 1e-6.
+    """Friction coefficient μ that leaves the ``share`` c/a of a round contact sticking, 1e-6 <=
+    c/a <= 1 - 1e-6.
 
     Examples
     --------
@@ -158,13 +163,15 @@ def friction_of_stick(beta: float, share: float) -> float:
         high *= 2.0
         if high > 1e3 * guess:
             raise InputError(
-                f"stick radius over contact radius must be less for β = {beta:g}, but is {share:g}: no friction holds so much."
+                f"stick radius over contact radius must be less for β = {beta:g}, but is {share:g}: no "
+                "friction holds so much."
             )
     return _root(punch.jump, 0.5 * guess, high)
 
 
 def stick_share(beta: float, friction: float) -> float:
-    """Share c/a of a round contact that sticks; 0 or 1 where stick zone or annulus are less than 1e-6 of the contact."""
+    """Share c/a of a round contact that sticks; 0 or 1 where stick zone or annulus are less than
+    1e-6 of the contact."""
     coupling, mu = abs(_coupling(beta)), require.positive(friction, "friction coefficient")
     # μ of the round contact is 0.63 to 1.3 times that of Goodman's line
     low, high = (goodman_share(beta, factor * mu) for factor in (0.4, 2.2))
@@ -200,7 +207,8 @@ def _root(function: Callable[[float], float], low: float, high: float) -> float:
 
 
 def goodman_friction(beta: float, share: float) -> float:
-    """μ = |β| K(c/a)/K(sqrt(1 - c²/a²)) that leaves the ``share`` c/a of a line contact sticking, between 0 and 1."""
+    """μ = |β| K(c/a)/K(sqrt(1 - c²/a²)) that leaves the ``share`` c/a of a line contact sticking,
+    between 0 and 1."""
     from scipy.special import ellipk, ellipkm1
 
     at = require.finite(share, "stick zone over contact")
@@ -225,12 +233,13 @@ _STICK = Quantity("stick_share", "1", "stick radius (half-width) over that of th
 
 @dataclass(frozen=True)
 class GoodmanLine(Theory):
-    """Stick zone of any power-law profile or flat punch that is pressed with friction, in plane strain.
+    """Stick zone of any power-law profile or flat punch that is pressed with friction, in plane
+    strain.
 
         μ/β = K(c/a)/K(sqrt(1 - c²/a²)).
 
-    K is the complete elliptic integral of the modulus. The effect of the shear on the pressure is left out. Round
-    contacts need up to a third less friction, see ``FrictionalIndenter``.
+    K is the complete elliptic integral of the modulus. The effect of the shear on the pressure is
+    left out. Round contacts need up to a third less friction, see ``FrictionalIndenter``.
     """
 
     beta: Beta
@@ -283,18 +292,22 @@ class FrictionalPunch(Theory):
 
 @dataclass(frozen=True)
 class FrictionalIndenter(Theory):
-    """Profile f = B r^n pressed with friction; it sticks within the radius c and slips inwards outside.
+    """Profile f = B r^n pressed with friction; it sticks within the radius c and slips inwards
+    outside.
 
         δ = D δ_0,  P = C D P_0,
 
-    beside the contact of the same radius without friction, δ_0 and P_0. C is the gain of the flat punch, and D and c/a
-    depend on β, μ and, D, on n. For steadily growing load; unloading takes another path.
+    beside the contact of the same radius without friction, δ_0 and P_0. C is the gain of the flat
+    punch, and D and c/a depend on β, μ and, D, on n. For steadily growing load; unloading takes
+    another path.
 
     Examples
     --------
     A rigid sphere on a body of ν = 0.3 at μ = 0.2:
 
-    >>> ball = FrictionalIndenter(E_star=1e9, coefficient=50.0, exponent=2.0, beta=2 / 7, friction=0.2)
+    >>> ball = FrictionalIndenter(
+    ...     E_star=1e9, coefficient=50.0, exponent=2.0, beta=2 / 7, friction=0.2
+    ... )
     >>> print(f"{ball.stick_share:.4f}, {ball.load_gain:.5f}")
     0.6983, 1.03444
     """
@@ -334,7 +347,8 @@ class FrictionalIndenter(Theory):
         return self._both[0] * self._both[1]
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N, >= 0, of any shape; the largest pressure has no closed form (NaN)."""
+        """The contact under ``load`` in N, >= 0, of any shape; the largest pressure has no closed
+        form (NaN)."""
         free = PowerLawIndenter(self.E_star, self.coefficient, self.exponent)
         return self.at_radius(free.at_load(checked(load, "load (N)") / self.load_gain).radius)
 
@@ -354,8 +368,8 @@ class FrictionalIndenter(Theory):
 def _gains(beta: float, friction: float, share: float, exponent: float) -> tuple[float, float]:
     """Load of the flat punch, and approach of B rⁿ at the same radius, over those without friction.
 
-    Each increment moves the surface outside of its contact by w(x) = (2β/π) ∫ Q t/(x² - t²) dt in terms of Abel
-    transforms, so that 1/D = 1 - n ∫ s^(n-1) w(1/s) ds over 0 < s < 1.
+    Each increment moves the surface outside of its contact by w(x) = (2β/π) ∫ Q t/(x² - t²) dt in
+    terms of Abel transforms, so that 1/D = 1 - n ∫ s^(n-1) w(1/s) ds over 0 < s < 1.
     """
     from scipy.special import hyp2f1
 

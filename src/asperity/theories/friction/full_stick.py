@@ -42,7 +42,8 @@ def oscillation(beta: float) -> float:
 
 
 def sticking_gain(beta: float) -> float:
-    """ln((1 + β)/(1 - β))/2β, stiffness of a round contact without slip over that without friction."""
+    """ln((1 + β)/(1 - β))/2β, stiffness of a round contact without slip over that without
+    friction."""
     return math.atanh(beta) / beta if beta else 1.0
 
 
@@ -86,9 +87,11 @@ class StickingPunch(Theory):
         )
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``r`` in m (any shape, less than a) from the axis under ``load`` in N, > 0.
+        """Pressure in Pa at the distance ``r`` in m (any shape, less than a) from the axis under
+        ``load`` in N, > 0.
 
-        Inverse of ∫ rp/sqrt(r² - x²) dr = A cos κL over x < r < a with L = ln((a + x)/(a - x)), A = E*δ/2 sqrt(1 - β²).
+        Inverse of ∫ rp/sqrt(r² - x²) dr = A cos κL over x < r < a with L = ln((a + x)/(a - x)), A =
+        E*δ/2 sqrt(1 - β²).
         """
         a, kappa = self.radius, oscillation(self.beta)
         x, angle, scale = self._inverse(r, load)
@@ -96,7 +99,8 @@ class StickingPunch(Theory):
         return np.asarray(np.sum(scale * terms, axis=-1))
 
     def traction(self, r: ArrayLike, load: float) -> RealArray:
-        """Radial shear traction on the body in Pa, outwards, at ``r`` in m (any shape, between 0 and a); as ``pressure``.
+        """Radial shear traction on the body in Pa, outwards, at ``r`` in m (any shape, between 0
+        and a); as ``pressure``.
 
         Inverse of ∫ xq/sqrt(r² - x²) dr = A sin κL.
         """
@@ -106,12 +110,14 @@ class StickingPunch(Theory):
         return np.asarray(np.abs(np.asarray(r, dtype=float)) * np.sum(scale * terms, axis=-1))
 
     def _inverse(self, r: ArrayLike, load: float) -> tuple[RealArray, RealArray, RealArray]:
-        """x = sqrt(r² + (a² - r²) s²) at the nodes of s = tanh t, L there, and the weights times 2A/π sqrt(a² - r²)."""
+        """x = sqrt(r² + (a² - r²) s²) at the nodes of s = tanh t, L there, and the weights times
+        2A/π sqrt(a² - r²)."""
         a = self.radius
         distance = np.abs(np.asarray(r, dtype=float))
         if np.any(distance >= a):
             raise InputError(
-                f"distance from the axis must be less than the radius of the punch, {a:g} m, but is {float(distance.max()):g} m."
+                f"distance from the axis must be less than the radius of the punch, {a:g} m, but is "
+                f"{float(distance.max()):g} m."
             )
         approach = float(self.at_load(require.positive(load, "load (N)")).approach)
         t, weight = gauss(np.array([0.0, 18.0]), _NODES)
@@ -141,16 +147,19 @@ class StickingPunchLine(Theory):
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N/m, >= 0, of any shape; as without friction but for the tractions."""
+        """The contact under ``load`` in N/m, >= 0, of any shape; as without friction but for the
+        tractions."""
         return LineFlatPunch(self.E_star, self.half_width).at_load(load)
 
     def pressure(self, x: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at ``x`` in m (any shape, inside the punch) from the middle under ``load`` in N/m, > 0."""
+        """Pressure in Pa at ``x`` in m (any shape, inside the punch) from the middle under ``load``
+        in N/m, > 0."""
         size, angle = self._polar(x, load)
         return size * np.cos(angle)
 
     def traction(self, x: ArrayLike, load: float) -> RealArray:
-        """Shear traction on the body along +x in Pa at ``x`` in m (any shape) under ``load`` in N/m, > 0: outwards."""
+        """Shear traction on the body along +x in Pa at ``x`` in m (any shape) under ``load`` in
+        N/m, > 0: outwards."""
         size, angle = self._polar(x, load)
         return size * np.sin(angle)
 
@@ -158,7 +167,8 @@ class StickingPunchLine(Theory):
         place, a = np.asarray(x, dtype=float), self.half_width
         if np.any(np.abs(place) >= a):
             raise InputError(
-                f"place under the punch must be within its half-width, {a:g} m, but is {float(np.abs(place).max()):g} m."
+                f"place under the punch must be within its half-width, {a:g} m, but is "
+                f"{float(np.abs(place).max()):g} m."
             )
         P = require.positive(load, "load per length (N/m)")
         angle = oscillation(self.beta) * np.log((a + place) / (a - place))
@@ -166,14 +176,16 @@ class StickingPunchLine(Theory):
 
 
 def _rooted(end: float) -> tuple[RealArray, RealArray]:
-    """Nodes y and weights up to ``end``: y = u⁴ removes the root of tanh^(n-1) at zero; at large n all lies within 1 of y = ln(4n)/2, hence panels."""
+    """Nodes y and weights up to ``end``: y = u⁴ removes the root of tanh^(n-1) at zero; at large n
+    all lies within 1 of y = ln(4n)/2, hence panels."""
     u, weight = gauss(np.linspace(0.0, end**0.25, 5), _NODES)
     return u**4, weight * 4.0 * u**3
 
 
 @dataclass(frozen=True)
 class StickingIndenter(Theory):
-    """Profile f = B r^n without slip; beside the contact of the same radius without friction, δ_0 and P_0:
+    """Profile f = B r^n without slip; beside the contact of the same radius without friction, δ_0
+    and P_0:
 
         δ = δ_0/(n I),  P = C P_0/(n I),  C = ln((1 + β)/(1 - β))/(2 β),
         I = ∫_0^1 t^(n - 1) cos(κ ln((1 + t)/(1 - t))) dt,  κ = ln((1 + β)/(1 - β))/(2 π).
@@ -208,7 +220,8 @@ class StickingIndenter(Theory):
         return sticking_gain(self.beta) * self.approach_gain
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N, >= 0, of any shape; the largest pressure has no closed form (NaN)."""
+        """The contact under ``load`` in N, >= 0, of any shape; the largest pressure has no closed
+        form (NaN)."""
         free = PowerLawIndenter(self.E_star, self.coefficient, self.exponent)
         return self._with_stick(free.at_load(checked(load, "load (N)") / self.load_gain))
 
@@ -218,10 +231,12 @@ class StickingIndenter(Theory):
         return self._with_stick(free.at_radius(contact_radius))
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``r`` in m (any shape, less than a) from the axis under ``load`` in N, > 0.
+        """Pressure in Pa at the distance ``r`` in m (any shape, less than a) from the axis under
+        ``load`` in N, > 0.
 
-        Punches of growing radius add up to -P'(x) = A x^(n-1) [cos 2κη + 2κ ∫ (coth^n y - 1) sin 2κy dy] over y > η of
-        P = ∫ rp/sqrt(r² - x²) dr, with tanh η = x/a. Infinite at the apex of a cone.
+        Punches of growing radius add up to -P'(x) = A x^(n-1) [cos 2κη + 2κ ∫ (coth^n y - 1) sin
+        2κy dy] over y > η of P = ∫ rp/sqrt(r² - x²) dr, with tanh η = x/a. Infinite at the apex of
+        a cone.
         """
         x, eta, rule = self._inverse(r, load)
         tail = self._tail(eta, np.sin)
@@ -230,10 +245,11 @@ class StickingIndenter(Theory):
         return np.where(at_apex, np.inf, values)
 
     def traction(self, r: ArrayLike, load: float) -> RealArray:
-        """Radial shear traction on the body in Pa, outwards, at ``r`` in m (any shape, between 0 and a); as ``pressure``.
+        """Radial shear traction on the body in Pa, outwards, at ``r`` in m (any shape, between 0
+        and a); as ``pressure``.
 
-        From -(Q/x)' = A x^(n-2) [(coth^n η + (n - 1)) sin 2κη - (n - 1) 2κ ∫ (coth^n y - 1) cos 2κy dy]/n, with
-        Q = x ∫ q/sqrt(r² - x²) dr.
+        From -(Q/x)' = A x^(n-2) [(coth^n η + (n - 1)) sin 2κη - (n - 1) 2κ ∫ (coth^n y - 1) cos 2κy
+        dy]/n, with Q = x ∫ q/sqrt(r² - x²) dr.
         """
         x, eta, rule = self._inverse(r, load)
         n = self.exponent
@@ -255,12 +271,14 @@ class StickingIndenter(Theory):
         return found
 
     def _inverse(self, r: ArrayLike, load: float) -> tuple[RealArray, RealArray, RealArray]:
-        """x = sqrt(r² + (a² - r²) s²) at nodes of s = tanh t, artanh(x/a), and the rule of (2/π) A ∫ dx/sqrt(x² - r²)."""
+        """x = sqrt(r² + (a² - r²) s²) at nodes of s = tanh t, artanh(x/a), and the rule of (2/π) A
+        ∫ dx/sqrt(x² - r²)."""
         answer = self.at_load(require.positive(load, "load (N)"))
         a, distance = float(answer.radius), np.abs(np.asarray(r, dtype=float))
         if np.any(distance >= a):
             raise InputError(
-                f"distance from the axis must be less than the radius of the contact, {a:g} m, but is {float(distance.max()):g} m."
+                f"distance from the axis must be less than the radius of the contact, {a:g} m, but is "
+                f"{float(distance.max()):g} m."
             )
         t, weight = geometric(np.asarray(0.0), np.asarray(_REACH))
         rest = 1.0 / np.cosh(t) ** 2  # 1 - s²
@@ -284,9 +302,11 @@ class StickingIndenter(Theory):
 
 @dataclass(frozen=True)
 class StickingIndenterLine(Theory):
-    """Profile f = B |x|^n in plane strain without slip; the contact of half-width a carries P = P_0 I_0/I_κ.
+    """Profile f = B |x|^n in plane strain without slip; the contact of half-width a carries P = P_0
+    I_0/I_κ.
 
-        I_κ = ∫_0^1 t^(n - 1) cos(κ ln((1 + t)/(1 - t)))/sqrt(1 - t²) dt,  κ = ln((1 + β)/(1 - β))/(2 π).
+        I_κ = ∫_0^1 t^(n - 1) cos(κ ln((1 + t)/(1 - t)))/sqrt(1 - t²) dt,
+        κ = ln((1 + β)/(1 - β))/(2 π).
 
     P_0 is the load without friction. A wedge (n = 1) carries P_0 cosh(πκ).
 
@@ -319,7 +339,8 @@ class StickingIndenterLine(Theory):
         return float(np.sum(density) / np.sum(density * np.cos(2.0 * kappa * y)))
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N/m, >= 0, of any shape; the largest pressure has no closed form (NaN)."""
+        """The contact under ``load`` in N/m, >= 0, of any shape; the largest pressure has no closed
+        form (NaN)."""
         free = LinePowerLawIndenter(self.E_star, self.coefficient, self.exponent)
         return self.at_half_width(free.at_load(checked(load, "load per length (N/m)") / self.load_gain).radius)
 
@@ -330,14 +351,17 @@ class StickingIndenterLine(Theory):
         return ContactAnswer(free.load * self.load_gain, unknown, free.radius, free.area, unknown, unknown)
 
     def pressure(self, x: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at ``x`` in m (any shape, inside the contact) from the middle under ``load`` in N/m, > 0.
+        """Pressure in Pa at ``x`` in m (any shape, inside the contact) from the middle under
+        ``load`` in N/m, > 0.
 
-        Punches of growing width: p + iq = (nP cosh πκ/πa) ∫ (ξ coth y)^(n-1) csch y exp(2iκy) dy over tanh y > ξ = |x|/a.
+        Punches of growing width: p + iq = (nP cosh πκ/πa) ∫ (ξ coth y)^(n-1) csch y exp(2iκy) dy
+        over tanh y > ξ = |x|/a.
         """
         return self._superposed(x, load, np.cos)
 
     def traction(self, x: ArrayLike, load: float) -> RealArray:
-        """Shear traction on the body along +x in Pa at ``x`` in m (any shape), outwards; as ``pressure``."""
+        """Shear traction on the body along +x in Pa at ``x`` in m (any shape), outwards; as
+        ``pressure``."""
         return np.asarray(np.sign(np.asarray(x, dtype=float)) * self._superposed(x, load, np.sin))
 
     def _superposed(self, x: ArrayLike, load: float, wave: Callable[[RealArray], RealArray]) -> RealArray:

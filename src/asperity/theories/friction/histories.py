@@ -1,14 +1,17 @@
-"""Any path of normal and tangential loading in partial slip, from the normal contact alone (Jäger 1998; Popov & Heß 2015).
+"""Any path of normal and tangential loading in partial slip, from the normal contact alone (Jäger
+1998; Popov & Heß 2015).
 
-Two bodies whose tangential compliance is κ times the normal one: identical ones of ν = 0, in plane strain all without
-coupling, otherwise an approximation with κ = E*/G*. The shear traction is then a sum of differences of normal contacts,
+Two bodies whose tangential compliance is κ times the normal one: identical ones of ν = 0, in plane
+strain all without coupling, otherwise an approximation with κ = E*/G*. The shear traction is then a
+sum of differences of normal contacts,
 
-    q = Σ m_i [p(P_i) - p(P_(i-1))],  Q = Σ m_i (P_i - P_(i-1)),  δ_t = κ Σ m_i (δ_i - δ_(i-1)),  |m_i| ≤ μ,
+    q = Σ m_i [p(P_i) - p(P_(i-1))],  Q = Σ m_i (P_i - P_(i-1)),  δ_t = κ Σ m_i (δ_i - δ_(i-1)),
+    |m_i| ≤ μ,
 
-and the levels P_i with their slopes m_i are the memory of the contact, which slip erases from the edge inwards. Both on
-paths that are straight in the forces (P, Q), and on those straight in approach and shift (δ, δ_t/κ), a step of any
-length is exact: with X the normal and Y the tangential member of the pair the new slip annulus X* < X_i < X follows from
-Y(X*) + sμ(X - X*) = Y, s = ±1.
+and the levels P_i with their slopes m_i are the memory of the contact, which slip erases from the
+edge inwards. Both on paths that are straight in the forces (P, Q), and on those straight in
+approach and shift (δ, δ_t/κ), a step of any length is exact: with X the normal and Y the tangential
+member of the pair the new slip annulus X* < X_i < X follows from Y(X*) + sμ(X - X*) = Y, s = ±1.
 """
 
 from __future__ import annotations
@@ -52,8 +55,8 @@ class SlipMemory:
     Parameters
     ----------
     load, approach
-        (n + 1,) levels of the normal contact in N and m, rising from zero to the present ones; approaches NaN where the
-        theory gives none.
+        (n + 1,) levels of the normal contact in N and m, rising from zero to the present ones;
+        approaches NaN where the theory gives none.
     slopes
         (n,) tangential over normal force that was added between the levels, -μ to μ.
     shift
@@ -79,7 +82,8 @@ class SlipMemory:
         return float(np.sum(self.slopes * np.diff(self.approach)))
 
     def stick_load(self, friction: float) -> float:
-        """Load in N whose contact is the stick zone: the highest level below which the slope is not ±μ."""
+        """Load in N whose contact is the stick zone: the highest level below which the slope is not
+        ±μ."""
         sticking = np.flatnonzero(np.abs(self.slopes) < friction * (1.0 - 1e-12))
         return float(self.load[sticking[-1] + 1]) if sticking.size else 0.0
 
@@ -97,7 +101,8 @@ class SlipPath:
     load, tangential
         Normal and tangential force P and Q in N.
     approach, shift
-        Normal and tangential displacement of distant points δ and δ_t in m; NaN where the theory gives no approach.
+        Normal and tangential displacement of distant points δ and δ_t in m; NaN where the theory
+        gives no approach.
     stick_load
         Load in N whose contact is the stick zone.
     dissipated
@@ -117,12 +122,13 @@ class SlipPath:
 
 @dataclass(frozen=True)
 class PartialSlip:
-    """Histories of a ``normal`` contact with ``friction`` coefficient μ and ``ratio`` κ of tangential over normal compliance.
+    """Histories of a ``normal`` contact with ``friction`` coefficient μ and ``ratio`` κ of
+    tangential over normal compliance.
 
     Examples
     --------
-    A sphere is pressed, pulled to half the limit of friction, and back: what is left at zero force is the memory of the
-    reversal (Mindlin & Deresiewicz 1953).
+    A sphere is pressed, pulled to half the limit of friction, and back: what is left at zero force
+    is the memory of the reversal (Mindlin & Deresiewicz 1953).
 
     >>> from asperity.theories import HertzPoint
     >>> contact = PartialSlip(HertzPoint(E_star=1e9, radius=1e-2), friction=0.3)
@@ -155,32 +161,36 @@ class PartialSlip:
         return self._path(P, Q, start, self.normal.at_load, of_shifts=False)
 
     def under_shifts(self, approach: ArrayLike, shift: ArrayLike, start: SlipMemory = UNTOUCHED) -> SlipPath:
-        """Path through ``approach`` δ and ``shift`` δ_t in m, (n,) each, straight in between; δ < 0 is out of contact."""
+        """Path through ``approach`` δ and ``shift`` δ_t in m, (n,) each, straight in between; δ < 0
+        is out of contact."""
         delta, moved = _paired(curve(approach, "approach (m)"), curve(shift, "shift (m)"))
         at_approach = getattr(self.normal, "at_approach", None)
         if at_approach is None:
             raise InputError(
-                f"normal contact must be a theory with at_approach on a path of shifts, but is {type(self.normal).__name__} "
-                "which has none. Prescribe the forces instead."
+                "normal contact must be a theory with at_approach on a path of shifts, but is "
+                f"{type(self.normal).__name__} which has none. Prescribe the forces instead."
             )
         return self._path(delta, moved, start, at_approach, of_shifts=True)
 
     def traction(self, r: ArrayLike, memory: SlipMemory) -> RealArray:
-        """Shear traction in Pa at the distance ``r`` in m (any shape) from the axis in the state ``memory``."""
+        """Shear traction in Pa at the distance ``r`` in m (any shape) from the axis in the state
+        ``memory``."""
         place = np.asarray(r, dtype=float)
         pressures = [self.normal.pressure(place, float(P)) if P > 0.0 else 0.0 * place for P in memory.load]
         parts = (m * (p - q) for m, p, q in zip(memory.slopes, pressures[1:], pressures, strict=False))
         return np.asarray(sum(parts, start=0.0 * place))
 
     def cycle_dissipation(self, load: float, amplitude: float) -> float:
-        """Work of friction in J of a cycle of Q between ±``amplitude`` in N under the ``load`` in N."""
+        """Work of friction in J of a cycle of Q between ±``amplitude`` in N under the ``load`` in
+        N."""
         path = self.under_forces([load] * 4, amplitude * np.array([0.0, 1.0, -1.0, 1.0]))
         return float(path.dissipated[-1] - path.dissipated[1])
 
     def _path(
         self, normal: RealArray, tangential: RealArray, memory: SlipMemory, contacts: Contacts, *, of_shifts: bool
     ) -> SlipPath:
-        """Straight steps of X and Y: load and tangential force, or approach and shift over κ; ``contacts`` are those at levels of X."""
+        """Straight steps of X and Y: load and tangential force, or approach and shift over κ;
+        ``contacts`` are those at levels of X."""
         memories, work = [], []
         for x, y in zip(normal.tolist(), tangential.tolist(), strict=True):
             if of_shifts:
@@ -245,7 +255,8 @@ class _Stack:
 
 @dataclass(frozen=True, eq=False)
 class _Leg:
-    """Straight step of a ``stack`` from the level ``x0`` to ``x1`` while Y is driven by ``drive``."""
+    """Straight step of a ``stack`` from the level ``x0`` to ``x1`` while Y is driven by
+    ``drive``."""
 
     stack: _Stack
     x0: float
@@ -289,7 +300,8 @@ class _Leg:
         return self.stack.cut(self.x1).extended(self.x1, min(max(slope, -self.friction), self.friction))
 
     def events(self) -> RealArray:
-        """Rising parts t of the step, 0 to 1, between which X, X* and the direction of slip change smoothly."""
+        """Rising parts t of the step, 0 to 1, between which X, X* and the direction of slip change
+        smoothly."""
         old, dx, mu = self.stack, self.x1 - self.x0, self.friction
         with np.errstate(divide="ignore", invalid="ignore"):
             times = [(old.levels - self.x0) / dx]  # the edge passes a level

@@ -1,4 +1,5 @@
-"""Coefficients of linear rolling contact: Kalker's table (Kalker 1967; 1990, appendix E) where it was at hand, our own solution elsewhere."""
+"""Coefficients of linear rolling contact: Kalker's table (Kalker 1967; 1990, appendix E) where it
+was at hand, our own solution elsewhere."""
 
 from __future__ import annotations
 
@@ -36,13 +37,15 @@ _TABLE = {
         (11.7, 5.70, 3.72, 2.79, 2.22, 1.86, 1.61, 1.42, 1.27, 1.16, 1.06, 0.958, 0.852, 0.751, 0.653, 0.549, 0.446, 0.341, 0.227),
     ),
 }  # fmt: skip
-"""Rows of ν = 0, 1/4, 1/2, three digits: Kalker's, but for those of ``COMPUTED`` and for C11 at a/b = ν = 0.5, printed as 4.83 against the trend of
-its neighbours, which is 4.870 ± 0.005 here."""
+"""Rows of ν = 0, 1/4, 1/2, three digits: Kalker's, but for those of ``COMPUTED`` and for C11 at
+a/b = ν = 0.5, printed as 4.83 against the trend of its neighbours, which is 4.870 ± 0.005 here."""
 
 COMPUTED = {0.0: (0, 6, 7, 15, 17), 0.25: (0, 1, 3, 4, 7, 8, 10, 13, 17, 18), 0.5: (1, 3, 6, 9, 10, 11, 14, 18)}
-"""Places in their row, by ν, of the coefficients that are not Kalker's. They are steady rolling of a punch that sticks, on five grids of 40² to 160² pixels, with a
-parabola in the pixel taken to zero (``validation/kalker_table.py``). Other fits differ by 0.1 % (C33 0.3 %, 1.5 % at a/b = 10); from the rows of Kalker's so
-found differ by 0.2 % on the average (C33 0.5 %) and by 1 % at most, at a/b = 10."""
+"""Places in their row, by ν, of the coefficients that are not Kalker's. They are steady rolling of
+a punch that sticks, on five grids of 40² to 160² pixels, with a parabola in the pixel taken to zero
+(``validation/kalker_table.py``). Other fits differ by 0.1 % (C33 0.3 %, 1.5 % at a/b = 10); from
+the rows of Kalker's so found differ by 0.2 % on the average (C33 0.5 %) and by 1 % at most, at
+a/b = 10."""
 
 SMALLEST_RATIO, LARGEST_RATIO = 0.1, 10.0
 """a/b at which the table ends."""
@@ -59,10 +62,11 @@ class KalkerCoefficients:
 
 
 def kalker_coefficients(ratio: float, nu: float) -> KalkerCoefficients:
-    """Coefficients for the ``ratio`` a/b of the semi-axes along and across the direction of rolling, and Poisson's ratio.
+    """Coefficients for the ``ratio`` a/b of the semi-axes along and across the direction of
+    rolling, and Poisson's ratio.
 
-    Between the rows of the table, whose three digits they keep: cubic splines of the logarithms over ln(a/b), and
-    parabolas in ν.
+    Between the rows of the table, whose three digits they keep: cubic splines of the logarithms
+    over ln(a/b), and parabolas in ν.
 
     InputError if the ratio is not from 0.1 to 10, or ν not from 0 to 0.5.
     """

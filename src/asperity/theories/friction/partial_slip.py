@@ -1,9 +1,10 @@
-"""Tangential loading below the limit of friction: a stick zone and a slipping rim (Cattaneo 1938; Mindlin 1949).
+"""Tangential loading below the limit of friction: a stick zone and a slipping rim (Cattaneo 1938;
+Mindlin 1949).
 
-The normal force comes first, then Q <= μP. The shear traction is q = μ [p(P) - p(P*)] with P* = P - Q/μ, the contact of
-P* being the stick zone, and the slip is μκ times the gap under P* (Ciavarella 1998; Jäger 1998): exact for equal
-materials in plane strain, and for a point contact of ν = 0, otherwise but for the small transverse traction. Other paths
-of loading are in ``histories``.
+The normal force comes first, then Q <= μP. The shear traction is q = μ [p(P) - p(P*)] with P* = P -
+Q/μ, the contact of P* being the stick zone, and the slip is μκ times the gap under P* (Ciavarella
+1998; Jäger 1998): exact for equal materials in plane strain, and for a point contact of ν = 0,
+otherwise but for the small transverse traction. Other paths of loading are in ``histories``.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ from ..single.waves import Amplitude, Wavelength, Westergaard
 
 
 def tangential_modulus(shear_0: float, nu_0: float, shear_1: float, nu_1: float) -> float:
-    """G* in Pa, 1/G* = (2 - ν0)/4G0 + (2 - ν1)/4G1, from shear moduli (Pa) and Poisson's ratios of both bodies."""
+    """G* in Pa, 1/G* = (2 - ν0)/4G0 + (2 - ν1)/4G1, from shear moduli (Pa) and Poisson's ratios of
+    both bodies."""
     parts = [(shear_0, nu_0), (shear_1, nu_1)]
     return 1.0 / sum((2.0 - nu) / (4.0 * require.positive(G, "shear modulus (Pa)")) for G, nu in parts)
 
@@ -107,7 +109,8 @@ class MindlinPoint(Theory):
         return HertzPoint(self.E_star, self.radius)
 
     def at_load(self, load: float, tangential: ArrayLike) -> SlipAnswer:
-        """Under ``load`` P in N, > 0, and the ``tangential`` force Q in N, 0 <= Q <= μP, of any shape.
+        """Under ``load`` P in N, > 0, and the ``tangential`` force Q in N, 0 <= Q <= μP, of any
+        shape.
 
         InputError if Q exceeds the limit of friction.
         """
@@ -123,20 +126,24 @@ class MindlinPoint(Theory):
         return _difference(self.normal.pressure, r, load, tangential, self.friction)
 
     def displacement(self, r: ArrayLike, load: float, tangential: float) -> RealArray:
-        """Tangential displacement of one surface less that of the other in m at the distance ``r`` in m (any shape).
+        """Tangential displacement of one surface less that of the other in m at the distance ``r``
+        in m (any shape).
 
-        Each of two equal bodies moves by half of it. It is δ_x less the ``slip``, also outside of the contact.
+        Each of two equal bodies moves by half of it. It is δ_x less the ``slip``, also outside of
+        the contact.
         """
         relative = _difference(self.normal.displacement, r, load, tangential, self.friction)
         return self.E_star / self.G_star * relative
 
     def slip(self, r: ArrayLike, load: float, tangential: float) -> RealArray:
-        """Motion of facing points past each other in m at the distance ``r`` in m (any shape) from the axis."""
+        """Motion of facing points past each other in m at the distance ``r`` in m (any shape) from
+        the axis."""
         normal, left = self.normal, load * sticking_share(tangential, self.friction * load)
         return _slip(normal.gap, r, load, left, self.friction * self.E_star / self.G_star)
 
     def cycle_dissipation(self, load: float, amplitude: ArrayLike) -> RealArray:
-        """Work of friction in J of one cycle of Q between ± ``amplitude`` in N, 0 <= Q <= μP, of any shape.
+        """Work of friction in J of one cycle of Q between ± ``amplitude`` in N, 0 <= Q <= μP, of
+        any shape.
 
         4μPδ_m e³ (1 - e + e²/5), e = 1 - c/a and δ_m = μ (E*/G*) a²/R (Mindlin & Deresiewicz 1953).
         """
@@ -150,7 +157,8 @@ class MindlinPoint(Theory):
 
 @dataclass(frozen=True)
 class MindlinLine(Theory):
-    """Cylinder in plane strain pressed by P, then pulled by Q (both per length); it sticks within |x| < c.
+    """Cylinder in plane strain pressed by P, then pulled by Q (both per length); it sticks within
+    |x| < c.
 
     c = a sqrt(1 - Q/(μ P)).
     """
@@ -180,7 +188,8 @@ class MindlinLine(Theory):
         return HertzLine(self.E_star, self.radius)
 
     def at_load(self, load: float, tangential: ArrayLike) -> SlipAnswer:
-        """Under ``load`` P in N/m, > 0, and the ``tangential`` force Q in N/m, 0 <= Q <= μP, of any shape."""
+        """Under ``load`` P in N/m, > 0, and the ``tangential`` force Q in N/m, 0 <= Q <= μP, of any
+        shape."""
         normal = self.normal.at_load(require.positive(load, "load per length (N/m)"))
         a = float(normal.radius)
         c = a * np.sqrt(sticking_share(tangential, self.friction * load))
@@ -192,12 +201,14 @@ class MindlinLine(Theory):
         return _difference(self.normal.pressure, x, load, tangential, self.friction)
 
     def slip(self, x: ArrayLike, load: float, tangential: float) -> RealArray:
-        """Motion of facing points past each other in m at ``x`` in m (any shape) from the middle."""
+        """Motion of facing points past each other in m at ``x`` in m (any shape) from the
+        middle."""
         normal, left = self.normal, load * sticking_share(tangential, self.friction * load)
         return _slip(normal.gap, x, load, left, self.friction * self.ratio)
 
     def cycle_dissipation(self, load: float, amplitude: ArrayLike) -> RealArray:
-        """Work of friction in J/m of one cycle of Q between ± ``amplitude`` in N/m, 0 <= Q <= μP, of any shape.
+        """Work of friction in J/m of one cycle of Q between ± ``amplitude`` in N/m, 0 <= Q <= μP,
+        of any shape.
 
         Independent of the supports, which add a displacement proportional to Q.
         """
@@ -205,9 +216,11 @@ class MindlinLine(Theory):
         return self.ratio / (np.pi * self.E_star) * _loop(np.asarray(load), Q, self.friction)
 
     def stick_shift(self, load: float, tangential: float, bulk_stress: float) -> float:
-        """Shift e = aσ/(4μp0) in m of the stick zone by a tension σ = ``bulk_stress`` (Pa) in one of the bodies.
+        """Shift e = aσ/(4μp0) in m of the stick zone by a tension σ = ``bulk_stress`` (Pa) in one
+        of the bodies.
 
-        InputError if the stick zone would reach the edge of the contact, e + c > a, where the solution is another one.
+        InputError if the stick zone would reach the edge of the contact, e + c > a, where the
+        solution is another one.
         """
         answer = self.normal.at_load(require.positive(load, "load per length (N/m)"))
         a, c = float(answer.radius), float(self.at_load(load, tangential).stick_radius)
@@ -225,8 +238,8 @@ def sticking_share(tangential: ArrayLike, limit: float) -> RealArray:
     Q = checked(tangential, "tangential force")
     if np.any(limit * (1.0 + 1e-12) < Q):
         raise InputError(
-            f"tangential force must be at most friction coefficient times load, {limit:.6g}, but is {float(Q.max()):.6g}. "
-            "Beyond it the contact slides."
+            f"tangential force must be at most friction coefficient times load, {limit:.6g}, but is "
+            f"{float(Q.max()):.6g}. Beyond it the contact slides."
         )
     return np.asarray(np.maximum(1.0 - Q / limit, 0.0))
 
@@ -252,7 +265,8 @@ def _slip(
 
 
 def _loop(load: RealArray, amplitude: RealArray, friction: float) -> RealArray:
-    """Area 8 [Q δ(Q)/2 - ∫ δ dQ] of the loop for a compliance dδ/dP = -ln P, that of lines and waves.
+    """Area 8 [Q δ(Q)/2 - ∫ δ dQ] of the loop for a compliance dδ/dP = -ln P, that of lines and
+    waves.
 
     16μ² P_m² ∫ u artanh u du up to Q/2μP_m, with P_m = P - Q/2μ.
     """
@@ -295,7 +309,8 @@ class WaveSlipAnswer(Tabled):
 
 @dataclass(frozen=True)
 class WaveContact:
-    """A ``wave`` as a contact: its load is the mean pressure in Pa, at most that of full contact, its radius a half-width."""
+    """A ``wave`` as a contact: its load is the mean pressure in Pa, at most that of full contact,
+    its radius a half-width."""
 
     wave: Westergaard
 
@@ -308,28 +323,33 @@ class WaveContact:
         )
 
     def at_approach(self, approach: ArrayLike) -> ContactAnswer:
-        """The contact at approaches of the mean planes in m, from 0 to the amplitude of the wave, of any shape."""
+        """The contact at approaches of the mean planes in m, from 0 to the amplitude of the wave,
+        of any shape."""
         delta = checked(approach, "approach (m)")
         if np.any(delta > self.wave.amplitude):
             raise InputError(
-                f"approach (m) must be at most the amplitude of the wave, {self.wave.amplitude:g}, but is {float(delta.max()):g}."
+                f"approach (m) must be at most the amplitude of the wave, {self.wave.amplitude:g}, but is "
+                f"{float(delta.max()):g}."
             )
         full = np.full_like(delta, self.wave.full_contact_pressure)
         return self.at_load(bisected(lambda p: self.wave.approach(p) - delta, 0.0 * full, full))
 
     def pressure(self, x: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at ``x`` in m (any shape) from a crest under the mean pressure ``load``."""
+        """Pressure in Pa at ``x`` in m (any shape) from a crest under the mean pressure
+        ``load``."""
         return self.wave.pressure(x, load)
 
 
 @dataclass(frozen=True)
 class MindlinWave(Theory):
-    """Gap Δ(1 - cos 2πx/λ) pressed by the mean pressure p̄, then sheared by q̄; it sticks within |x| < c.
+    """Gap Δ(1 - cos 2πx/λ) pressed by the mean pressure p̄, then sheared by q̄; it sticks within
+    |x| < c.
 
         ω = p̄/p*,  ω_s = ω - q̄/(μ p*),  sin²(π a/λ) = ω,  sin²(π c/λ) = ω_s,
         δ_x = μ κ Δ [ω (1 - ln ω) - ω_s (1 - ln ω_s)].
 
-    p* is that of the normal contact; from it on nothing opens, and nothing slips until p̄ - q̄/μ is less than p*.
+    p* is that of the normal contact; from it on nothing opens, and nothing slips until p̄ - q̄/μ is
+    less than p*.
 
     Examples
     --------
@@ -372,11 +392,13 @@ class MindlinWave(Theory):
 
     @property
     def contact(self) -> WaveContact:
-        """The normal contact for ``PartialSlip``, on any path of mean pressure and mean shear stress."""
+        """The normal contact for ``PartialSlip``, on any path of mean pressure and mean shear
+        stress."""
         return WaveContact(self.normal)
 
     def at_pressure(self, pressure: float, tangential: ArrayLike) -> WaveSlipAnswer:
-        """Under mean ``pressure`` p̄ in Pa, > 0, and mean shear stress ``tangential`` q̄, 0 <= q̄ <= μp̄, of any shape."""
+        """Under mean ``pressure`` p̄ in Pa, > 0, and mean shear stress ``tangential`` q̄, 0 <=
+        q̄ <= μp̄, of any shape."""
         p = require.positive(pressure, "mean pressure (Pa)")
         left = p * sticking_share(tangential, self.friction * p)
         a, c = (0.5 * self.wavelength * self.normal.area_fraction(value) for value in (p, left))

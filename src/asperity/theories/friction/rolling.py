@@ -1,8 +1,9 @@
-"""Steady rolling with creepage: Carter's cylinders, and ellipses after Kalker's linear theory, its saturation, and FASTSIM.
+"""Steady rolling with creepage: Carter's cylinders, and ellipses after Kalker's linear theory, its
+saturation, and FASTSIM.
 
-The counter body rolls along +x, so that the leading edge is at x = +a; it slides over the body with the creepages ξ_x, ξ_y
-and the spin φ (1/m) per distance rolled: the slip of rigid bodies is (ξ_x - φy, ξ_y + φx). Forces are those on the body,
-which the creepage drags along.
+The counter body rolls along +x, so that the leading edge is at x = +a; it slides over the body with
+the creepages ξ_x, ξ_y and the spin φ (1/m) per distance rolled: the slip of rigid bodies is (ξ_x -
+φy, ξ_y + φx). Forces are those on the body, which the creepage drags along.
 """
 
 from __future__ import annotations
@@ -52,7 +53,8 @@ class CarterAnswer(Tabled):
 
 @dataclass(frozen=True)
 class CarterRolling(Theory):
-    """Elastically similar cylinders that roll under the load P and the tractive force Q, both per length.
+    """Elastically similar cylinders that roll under the load P and the tractive force Q, both per
+    length.
 
         c = a sqrt(1 - Q/(μ P)),  ξ = (μ a/R) [1 - sqrt(1 - Q/(μ P))],  W = ξ Q,
         q = μ p_0 [sqrt(1 - x²/a²) - (c/a) sqrt(1 - (x - a + c)²/c²)].
@@ -94,7 +96,8 @@ class CarterRolling(Theory):
         return HertzLine(self.E_star, self.radius)
 
     def at_load(self, load: float, tangential: ArrayLike) -> CarterAnswer:
-        """Under ``load`` P in N/m, > 0, and the ``tangential`` force Q in N/m, 0 <= Q <= μP, of any shape."""
+        """Under ``load`` P in N/m, > 0, and the ``tangential`` force Q in N/m, 0 <= Q <= μP, of any
+        shape."""
         normal = self.normal.at_load(require.positive(load, "load per length (N/m)"))
         root = np.sqrt(sticking_share(tangential, self.friction * load))
         # 1 - sqrt(1 - s) = s/(1 + sqrt(1 - s))
@@ -111,7 +114,8 @@ class CarterRolling(Theory):
         return np.asarray(self.friction * q)
 
     def slip_velocity(self, x: ArrayLike, load: float, tangential: float) -> RealArray:
-        """Velocity of slip over that of rolling at ``x`` in m (any shape) from the middle; NaN outside of the contact.
+        """Velocity of slip over that of rolling at ``x`` in m (any shape) from the middle; NaN
+        outside of the contact.
 
         (μ/R) sqrt((x - a + c)² - c²) behind the stick zone.
         """
@@ -208,7 +212,8 @@ class KalkerLinear(Theory):
         return kalker_coefficients(self.semi_x / self.semi_y, self.nu)
 
     def at_creepage(self, creepage: ArrayLike, lateral: ArrayLike = 0.0, spin: ArrayLike = 0.0) -> CreepForces:
-        """Forces at ``creepage`` ξ_x, ``lateral`` creepage ξ_y and ``spin`` φ in 1/m, which broadcast."""
+        """Forces at ``creepage`` ξ_x, ``lateral`` creepage ξ_y and ``spin`` φ in 1/m, which
+        broadcast."""
         x, y, phi = _creepages(creepage, lateral, spin)
         C, size = self.coefficients, math.sqrt(self.semi_x * self.semi_y)
         scale = self.shear * size**2
@@ -225,7 +230,8 @@ class ShenHedrickElkins(Theory):
 
         F' = μ P (ρ - ρ²/3 + ρ³/27),  ρ = F/(μ P) ≤ 3.
 
-    For larger ρ F' is μ P. The direction is that of the linear force; the moment is left out. For small spin.
+    For larger ρ F' is μ P. The direction is that of the linear force; the moment is left out. For
+    small spin.
     """
 
     semi_x: SemiX
@@ -250,13 +256,14 @@ class ShenHedrickElkins(Theory):
 
 @dataclass(frozen=True)
 class Fastsim(Theory):
-    """Surface that yields to the traction at the same place only, u = L q, under the parabolic bound of a Hertz ellipse.
+    """Surface that yields to the traction at the same place only, u = L q, under the parabolic
+    bound of a Hertz ellipse.
 
         L_1 = 8 a/(3 G C_11),  L_2 = 8 a/(3 G C_22),  L_3 = π a²/(4 G sqrt(a b) C_23),
         |q| ≤ (2 μ P/(π a b)) (1 - x²/a² - y²/b²).
 
-    From the leading edge dq/dx = -(ξ_x/L_1 - φ y/L_3, ξ_y/L_2 + φ x/L_3), cut off at the bound. Forces err by some 5 to
-    10 % of those of the half-space, 20 % with large spin.
+    From the leading edge dq/dx = -(ξ_x/L_1 - φ y/L_3, ξ_y/L_2 + φ x/L_3), cut off at the bound.
+    Forces err by some 5 to 10 % of those of the half-space, 20 % with large spin.
     """
 
     semi_x: SemiX
@@ -281,7 +288,8 @@ class Fastsim(Theory):
     def at_creepage(
         self, creepage: ArrayLike, lateral: ArrayLike = 0.0, spin: ArrayLike = 0.0, cells: int = 60
     ) -> CreepForces:
-        """Forces as of ``KalkerLinear``, from ``cells`` strips of as many cells; the error falls as 1/cells²."""
+        """Forces as of ``KalkerLinear``, from ``cells`` strips of as many cells; the error falls as
+        1/cells²."""
         a, b = self.semi_x, self.semi_y
         xi_x, xi_y, phi = (part[..., None] for part in _creepages(creepage, lateral, spin))
         L1, L2, L3 = self.flexibilities

@@ -1,8 +1,10 @@
-"""Torsion about the normal: full stick, a sphere with a slipping rim, and any pressure (Lubkin 1951; Johnson 1985, sec. 7.6).
+"""Torsion about the normal: full stick, a sphere with a slipping rim, and any pressure (Lubkin
+1951; Johnson 1985, sec. 7.6).
 
-Torsion couples to nothing else, so all of this is exact for every Poisson's ratio, if the pressure was applied without
-radial friction. With F(x) = ∫ q/sqrt(r² - x²) dr over x < r < a the torque is M = 8 ∫ x² F dx; where it sticks F is
-constant, 2Gθ with the rotation θ of the bodies against each other.
+Torsion couples to nothing else, so all of this is exact for every Poisson's ratio, if the pressure
+was applied without radial friction. With F(x) = ∫ q/sqrt(r² - x²) dr over x < r < a the torque is
+M = 8 ∫ x² F dx; where it sticks F is constant, 2Gθ with the rotation θ of the bodies against each
+other.
 """
 
 from __future__ import annotations
@@ -75,7 +77,8 @@ class StickingTwist(Theory):
         return 16.0 / 3.0 * self.G_torsion * self.radius**3
 
     def traction(self, r: ArrayLike, torque: float) -> RealArray:
-        """Circumferential traction in Pa at the distance ``r`` in m (any shape) from the axis; infinite at the edge."""
+        """Circumferential traction in Pa at the distance ``r`` in m (any shape) from the axis;
+        infinite at the edge."""
         distance, a = np.abs(np.asarray(r, dtype=float)), self.radius
         scale = 3.0 * require.finite(torque, "torque (N m)") / (4.0 * np.pi * a**3)
         with np.errstate(divide="ignore"):
@@ -135,7 +138,8 @@ class LubkinSphere(Theory):
         return 3.0 * np.pi / 16.0 * self.friction * load * a
 
     def at_load(self, load: float, torque: ArrayLike) -> TwistAnswer:
-        """Under ``load`` P in N, > 0, and the ``torque`` M in N m, at least zero and less than the largest, of any shape."""
+        """Under ``load`` P in N, > 0, and the ``torque`` M in N m, at least zero and less than the
+        largest, of any shape."""
         largest, M = self.largest_torque(load), checked(torque, "torque (N m)")
         if np.any(largest * (1.0 + 1e-12) < M):
             raise InputError(
@@ -146,14 +150,16 @@ class LubkinSphere(Theory):
         return self._answer(load, 1.0 - rim)
 
     def at_stick_radius(self, load: float, share: ArrayLike) -> TwistAnswer:
-        """Under ``load`` P in N with the stick radius a ``share`` of the contact radius, more than 0 and at most 1."""
+        """Under ``load`` P in N with the stick radius a ``share`` of the contact radius, more than
+        0 and at most 1."""
         k = checked(share, "stick radius over contact radius")
         if np.any((k > 1.0) | (k == 0.0)):
             raise InputError(f"stick radius over contact radius must be more than 0 and at most 1, but is {k!r}.")
         return self._answer(load, k)
 
     def torque(self, load: float, share: ArrayLike) -> RealArray:
-        """Torque M in N m under ``load`` in N that leaves the ``share`` c/a, from 0 to 1, of any shape, sticking."""
+        """Torque M in N m under ``load`` in N that leaves the ``share`` c/a, from 0 to 1, of any
+        shape, sticking."""
         return self.largest_torque(load) * self._torque(checked(share, "stick radius over contact radius"))
 
     def traction(self, r: ArrayLike, load: float, torque: float) -> RealArray:
@@ -192,7 +198,8 @@ class LubkinSphere(Theory):
 
 
 def elliptic_ratio(n: RealArray) -> RealArray:
-    """(K - E)/k² of the complementary parameter 0 < n <= 1, n = 1 - k²; a series where K and E cancel."""
+    """(K - E)/k² of the complementary parameter 0 < n <= 1, n = 1 - k²; a series where K and E
+    cancel."""
     from scipy.special import ellipe, ellipkm1
 
     m = 1.0 - n
@@ -204,10 +211,11 @@ def elliptic_ratio(n: RealArray) -> RealArray:
 
 
 def slip_transform(pressure: Callable[[RealArray], RealArray], x: RealArray, a: float) -> RealArray:
-    """x ∫ p/sqrt(r² - x²) dr over x < r < a from ``pressure`` ∫ rp/sqrt(r² - x²) dr = P(x), at ``x`` (n,) in (0, a].
+    """x ∫ p/sqrt(r² - x²) dr over x < r < a from ``pressure`` ∫ rp/sqrt(r² - x²) dr = P(x), at
+    ``x`` (n,) in (0, a].
 
-    P(x) - (2x/π) ∫ P(t) (K - E)/(k²t²) dt over x < t < a, k² = 1 - x²/t²: the traction of a slipping annulus over μ, of
-    torsion as well as of radial friction.
+    P(x) - (2x/π) ∫ P(t) (K - E)/(k²t²) dt over x < t < a, k² = 1 - x²/t²: the traction of a
+    slipping annulus over μ, of torsion as well as of radial friction.
     """
     t, weight = geometric(x, np.full_like(x, a))
     kernel = elliptic_ratio((x[:, None] / t) ** 2) / t**2

@@ -1,7 +1,8 @@
-"""Contacts of fixed size whose shear traction is bounded by a constant τ, whatever the pressure (Tresca's law of friction).
+"""Contacts of fixed size whose shear traction is bounded by a constant τ, whatever the pressure
+(Tresca's law of friction).
 
-The stick zone shrinks from the edge as in Cattaneo's and Lubkin's contacts; the tractions are elementary functions. The
-tangential twin of a flat punch with a plastic rim.
+The stick zone shrinks from the edge as in Cattaneo's and Lubkin's contacts; the tractions are
+elementary functions. The tangential twin of a flat punch with a plastic rim.
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ class BoundedSlip(Tabled):
     stick_radius
         Radius (half-width) c of the stick zone in m.
     displacement
-        Tangential displacement in m or rotation in rad of distant points against each other; NaN in plane strain.
+        Tangential displacement in m or rotation in rad of distant points against each other; NaN in
+        plane strain.
     stiffness
         Derivative of force or torque by it; NaN in plane strain.
     """
@@ -61,7 +63,8 @@ def _angle(load: ArrayLike, what: str, largest: float) -> RealArray:
 
 
 def _sticking(r: RealArray, a: float, c: float, factor: RealArray | float = 1.0) -> RealArray:
-    """(2/π) arctan of ``factor`` sqrt((a² - c²)/(c² - r²)) where it sticks, one where it slips, zero outside."""
+    """(2/π) arctan of ``factor`` sqrt((a² - c²)/(c² - r²)) where it sticks, one where it slips,
+    zero outside."""
     room = np.maximum((c - r) * (c + r), np.finfo(float).tiny)
     sticking = 2.0 / np.pi * np.arctan(factor * np.sqrt((a - c) * (a + c) / room))
     return np.where(r < c, sticking, np.where(r <= a, 1.0, 0.0))
@@ -74,7 +77,8 @@ class TrescaDisc(Theory):
         Q = 2 τ a² [arccos(c/a) + (c/a) sqrt(1 - c²/a²)],  δ_x = (2 τ/G*) sqrt(a² - c²),
         q = (2 τ/π) arctan sqrt((a² - c²)/(c² - r²)).
 
-    Exact for identical bodies of ν = 0, G* = G; otherwise but for the transverse traction, with G* of ``MindlinPoint``.
+    Exact for identical bodies of ν = 0, G* = G; otherwise but for the transverse traction, with G*
+    of ``MindlinPoint``.
 
     Examples
     --------
@@ -159,7 +163,8 @@ class TrescaTwist(Theory):
 
 @dataclass(frozen=True)
 class TrescaLine(Theory):
-    """Strip of half-width a under a shear force Q per length, in the plane or across it; it sticks within |x| < c.
+    """Strip of half-width a under a shear force Q per length, in the plane or across it; it sticks
+    within |x| < c.
 
         Q = 2 τ sqrt(a² - c²),  q = (2 τ/π) arctan sqrt((a² - c²)/(c² - x²)).
 

@@ -1,4 +1,5 @@
-"""Cavities in elastic-plastic solids under pressure, and the model of indentation that is made of them."""
+"""Cavities in elastic-plastic solids under pressure, and the model of indentation that is made of
+them."""
 
 from __future__ import annotations
 
@@ -11,7 +12,8 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 
 FULLY_PLASTIC = 3.0
-"""Mean pressure over the yield stress at which the cavity model is cut off; it has no plateau of its own."""
+"""Mean pressure over the yield stress at which the cavity model is cut off; it has no plateau of
+its own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +61,8 @@ def expanding_cavity(ratio: ArrayLike, modulus: ArrayLike, nu: ArrayLike) -> Exp
 
 
 def cavity_model(strain: ArrayLike, nu: ArrayLike, *, most: float = FULLY_PLASTIC) -> RealArray:
-    """Mean pressure over Y under a rigid ball by Johnson's cavity model (1970), for the ``strain`` E* a/(Y R) > 0, not above ``most``.
+    """Mean pressure over Y under a rigid ball by Johnson's cavity model (1970), for the ``strain``
+    E* a/(Y R) > 0, not above ``most``.
 
         p_m/Y = (2/3) [2 + ln((E a/(Y R) + 4 (1 - 2ν))/(6 (1 - ν)))],   E = (1 - ν²) E*.
 

@@ -39,7 +39,8 @@ class EffectiveHardness(Theory):
 
     Notes
     -----
-    Fitted to finite elements with a rigid cone, for depths up to about h; beyond, the formulas tend to the substrate.
+    Fitted to finite elements with a rigid cone, for depths up to about h; beyond, the formulas tend
+    to the substrate.
 
     Examples
     --------
@@ -69,7 +70,8 @@ class EffectiveHardness(Theory):
     )
 
     def at(self, depth_ratio: ArrayLike) -> RealArray:
-        """H_e in Pa at h_c/h = ``depth_ratio`` (any shape, >= 0). InputError if a depth is negative."""
+        """H_e in Pa at h_c/h = ``depth_ratio`` (any shape, >= 0). InputError if a depth is
+        negative."""
         return self.substrate + (self.film - self.substrate) * self.film_share(depth_ratio)
 
     def at_depth_ratio(self, depth_ratio: ArrayLike) -> HardnessAnswer:
@@ -77,7 +79,8 @@ class EffectiveHardness(Theory):
         return HardnessAnswer(self.at(depth_ratio), self.film_share(depth_ratio))
 
     def film_share(self, depth_ratio: ArrayLike) -> RealArray:
-        """Weight (H_e - H2)/(H1 - H2) of the film at h_c/h = ``depth_ratio`` (any shape, >= 0), from one down to zero."""
+        """Weight (H_e - H2)/(H1 - H2) of the film at h_c/h = ``depth_ratio`` (any shape, >= 0),
+        from one down to zero."""
         depth = checked(depth_ratio, "depth of an indentation")
         hardness_ratio = self.film / self.substrate
         yield_ratio = hardness_ratio if self.yield_ratio is None else self.yield_ratio
@@ -96,20 +99,24 @@ _ORDER = 4
 
 @dataclass(frozen=True, eq=False)
 class StackHardness:
-    """Hardness at the depth d of coatings whose lower faces lie at the depths t_k: H = H_N + Σ (H_k - H_(k+1)) s_k(d).
+    """Hardness at the depth d of coatings whose lower faces lie at the depths t_k: H = H_N + Σ
+    (H_k - H_(k+1)) s_k(d).
 
-    s_k is the share of the film in the law of Bhattacharya & Nix for the materials above and below the face k, at the
-    depth ratio d/t_k, but at least s_(k-1): every material keeps a weight >= 0, so that H lies between the extremes of
-    the stack. One coating gives their law itself, a face between equal materials changes nothing, d -> 0 the hardness
-    of the top, d -> ∞ that of the base, and coatings of well separated thicknesses each other's hardness in between.
-    The sum over faces is an extension of this package; one coating is what was fitted.
+    s_k is the share of the film in the law of Bhattacharya & Nix for the materials above and below
+    the face k, at the depth ratio d/t_k, but at least s_(k-1): every material keeps a weight >= 0,
+    so that H lies between the extremes of the stack. One coating gives their law itself, a face
+    between equal materials changes nothing, d -> 0 the hardness of the top, d -> ∞ that of the
+    base, and coatings of well separated thicknesses each other's hardness in between. The sum over
+    faces is an extension of this package; one coating is what was fitted.
 
-    InputError if there is no face, the depths are not as many, positive and increasing, or neighbours do not agree.
+    InputError if there is no face, the depths are not as many, positive and increasing, or
+    neighbours do not agree.
 
     Parameters
     ----------
     faces
-        The law of film and substrate at every face, from the top; the substrate of one is the film of the next.
+        The law of film and substrate at every face, from the top; the substrate of one is the film
+        of the next.
     depths
         Depths t_k in m of the faces, increasing, > 0.
     """
@@ -153,15 +160,16 @@ class StackHardness:
 
     @property
     def extremes(self) -> tuple[float, float]:
-        """Lowest and highest hardness in Pa at any depth, from the surface to far below all faces, where it is that of the base."""
+        """Lowest and highest hardness in Pa at any depth, from the surface to far below all faces,
+        where it is that of the base."""
         values = self.at(self._knots)
         return float(values.min()), float(values.max())
 
     def work(self, depth: ArrayLike) -> RealArray:
         """∫ H dd from the surface to ``depth`` in m (any shape, >= 0): work per area in J/m².
 
-        By Gauss's rule between knots a hundredth deeper one than the other; relative error about 1e-10, and 1e-6 where
-        one share passes another between two knots.
+        By Gauss's rule between knots a hundredth deeper one than the other; relative error about
+        1e-10, and 1e-6 where one share passes another between two knots.
         """
         d = np.asarray(depth, dtype=float)
         below = np.searchsorted(self._knots, d, side="right") - 1
@@ -176,7 +184,8 @@ class StackHardness:
 
 
 CONE, PARABOLOID, PUNCH = 0.72, 0.75, 1.0
-"""ε of h_c = h_max - ε W/S by the shape of the indenter; Berkovich indenters behave as the paraboloid."""
+"""ε of h_c = h_max - ε W/S by the shape of the indenter; Berkovich indenters behave as the
+paraboloid."""
 
 BERKOVICH = 24.5
 """Area over depth squared of an ideal Berkovich pyramid."""

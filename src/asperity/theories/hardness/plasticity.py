@@ -1,4 +1,5 @@
-"""Plasticity indices of a surface, the plastic share of its contact, and roughness for the least area without plasticity."""
+"""Plasticity indices of a surface, the plastic share of its contact, and roughness for the least
+area without plasticity."""
 
 from __future__ import annotations
 
@@ -29,15 +30,15 @@ from ..protocol import (
 from ..rough.greenwood_williamson import plastic_area_share, plastic_number_share
 from ..statistics.roughness import Roughness
 
-# Interferences at which a summit yields, and the plasticity indices made of them (Greenwood & Williamson 1966; Bhushan
-# 1998).
+# Interferences at which a summit yields, and the plasticity indices made of them (Greenwood &
+# Williamson 1966; Bhushan 1998).
 #
 # Three different indices are in use for the same surface.
 
 
 def hardness_coefficient(nu: float) -> float:
-    """K = 0.454 + 0.41ν of p0 = K H at first yield of a sphere, the later form of Chang, Etsion & Bogy (1987); ``nu``
-    from 0 to 0.5.
+    """K = 0.454 + 0.41ν of p0 = K H at first yield of a sphere, the later form of Chang, Etsion &
+    Bogy (1987); ``nu`` from 0 to 0.5.
 
     With H = 2.8Y within 2.2 % of the exact value (``sphere_yield_onset``), 0.2 % at ν = 0.3.
     """
@@ -45,12 +46,14 @@ def hardness_coefficient(nu: float) -> float:
 
 
 def yield_coefficient(nu: float) -> float:
-    """C = 1.295 exp(0.736ν) of p0 = C Y at first yield (Jackson & Green 2005): within 0.4 % of the exact value."""
+    """C = 1.295 exp(0.736ν) of p0 = C Y at first yield (Jackson & Green 2005): within 0.4 % of the
+    exact value."""
     return 1.295 * math.exp(0.736 * poissons_ratio(nu))
 
 
 def nominal_interference(E_star: float, radius: float, hardness: float) -> float:
-    """δ_p = R (H/E*)² in m, the round number of Greenwood & Williamson; first yield at p_m = H/3 has (π²/16) δ_p."""
+    """δ_p = R (H/E*)² in m, the round number of Greenwood & Williamson; first yield at p_m = H/3
+    has (π²/16) δ_p."""
     return (
         require.positive(radius, "radius (m)")
         * (require.positive(hardness, "hardness (Pa)") / require.positive(E_star, "contact modulus E_star (Pa)")) ** 2
@@ -58,7 +61,8 @@ def nominal_interference(E_star: float, radius: float, hardness: float) -> float
 
 
 def critical_interference(E_star: float, radius: float, peak: float) -> float:
-    """ω_c = (π p0/2E*)² R in m at which the Hertz pressure of a sphere reaches the ``peak`` p0 in Pa.
+    """ω_c = (π p0/2E*)² R in m at which the Hertz pressure of a sphere reaches the ``peak`` p0 in
+    Pa.
 
     p0 = K H for Chang, Etsion & Bogy and Kogut & Etsion, C Y for Jackson & Green.
     """
@@ -75,10 +79,12 @@ def critical_interference(E_star: float, radius: float, peak: float) -> float:
 
 
 def summit_plasticity_index(height_deviation: float, interference: float) -> float:
-    """ψ = sqrt(σ_s/δ): deviation of the summit heights over the ``interference`` of yield, both in m, > 0.
+    """ψ = sqrt(σ_s/δ): deviation of the summit heights over the ``interference`` of yield, both in
+    m, > 0.
 
-    With δ_p (``nominal_interference``) ψ = (E*/H) sqrt(σ_s/R) of Greenwood & Williamson: below 0.6 elastic at any
-    realistic load, above 1 plastic at any. With ω_c it is ψ_c of Chang, Etsion & Bogy, 1.1 times larger at ν = 0.3.
+    With δ_p (``nominal_interference``) ψ = (E*/H) sqrt(σ_s/R) of Greenwood & Williamson: below 0.6
+    elastic at any realistic load, above 1 plastic at any. With ω_c it is ψ_c of Chang, Etsion &
+    Bogy, 1.1 times larger at ν = 0.3.
     """
     return math.sqrt(
         require.positive(height_deviation, "deviation of summit heights (m)")
@@ -87,9 +93,11 @@ def summit_plasticity_index(height_deviation: float, interference: float) -> flo
 
 
 def profile_plasticity_index(E_star: float, hardness: float, deviation: float, correlation_length: float) -> float:
-    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard, β* the ``correlation_length`` (1/e, in m) of an exponential autocorrelation.
+    """ψ = (E*/H)(σ/β*) of Whitehouse & Archard, β* the ``correlation_length`` (1/e, in m) of an
+    exponential autocorrelation.
 
-    Onions & Archard (1973): plastic flow is most unlikely below 0.25 and happens at trivial loads above 0.45.
+    Onions & Archard (1973): plastic flow is most unlikely below 0.25 and happens at trivial loads
+    above 0.45.
     """
     slope = require.positive(deviation, "deviation of heights (m)") / require.positive(
         correlation_length, "correlation length (m)"
@@ -107,7 +115,8 @@ class PlasticShares(Tabled):
 
 @dataclass(frozen=True)
 class PlasticityIndex(Theory):
-    """Plasticity of Greenwood and Williamson's summits, the index of Chang, Etsion & Bogy, and what flows.
+    """Plasticity of Greenwood and Williamson's summits, the index of Chang, Etsion & Bogy, and what
+    flows.
 
         ψ = (E*/H) sqrt(σ_s/R),  ψ_c = sqrt(σ_s/ω_c),  ω_c = (π K H/(2 E*))² R,  K = 0.454 + 0.41 ν.
 
@@ -181,7 +190,8 @@ class PlasticityIndex(Theory):
 
 @dataclass(frozen=True)
 class ProfilePlasticityIndex(Theory):
-    """Index of Whitehouse & Archard: plastic flow is most unlikely below 0.25 and trivial above 0.45.
+    """Index of Whitehouse & Archard: plastic flow is most unlikely below 0.25 and trivial above
+    0.45.
 
     ψ = (E*/H) (σ/β*).
     """
@@ -210,13 +220,16 @@ class ProfilePlasticityIndex(Theory):
 
 
 ELASTIC_INDEX = 0.6
-"""Plasticity index ψ = (E*/H) sqrt(σ_s/R) below which a Gaussian rough contact is elastic at any realistic load."""
+"""Plasticity index ψ = (E*/H) sqrt(σ_s/R) below which a Gaussian rough contact is elastic at any
+realistic load."""
 
 ELASTIC_PROFILE_INDEX = 0.25
-"""Plasticity index (E*/H)(σ/β*) below which plastic flow is most unlikely (Onions & Archard 1973)."""
+"""Plasticity index (E*/H)(σ/β*) below which plastic flow is most unlikely (Onions & Archard
+1973)."""
 
 AREA_FACTOR = 3.2
-"""A_r/A_a = 3.2 p_a/(E* sqrt(σ_s/R)), within 10 % for 1e-4 <= p_a/(η R σ_s E* sqrt(σ_s/R)) <= 1e-2."""
+"""A_r/A_a = 3.2 p_a/(E* sqrt(σ_s/R)), within 10 % for 1e-4 <= p_a/(η R σ_s E* sqrt(σ_s/R)) <=
+1e-2."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -229,7 +242,8 @@ class RoughnessFor(Tabled):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LeastAreas(Tabled):
-    """Real over nominal area at pressures (n,): ``elastic`` of the designed surface, ``plastic`` if everything flowed."""
+    """Real over nominal area at pressures (n,): ``elastic`` of the designed surface, ``plastic`` if
+    everything flowed."""
 
     elastic: RealArray
     plastic: RealArray
@@ -237,15 +251,17 @@ class LeastAreas(Tabled):
 
 @dataclass(frozen=True)
 class LeastArea(Theory):
-    """Surface of the least real area that stays elastic: the area falls with E* sqrt(σ_s/R) until that reaches ψ H.
+    """Surface of the least real area that stays elastic: the area falls with E* sqrt(σ_s/R) until
+    that reaches ψ H.
 
         A_r/A_a = 3.2 p/(E* sqrt(σ_s/R)),  E* sqrt(σ_s/R) = ψ H.
 
-    A plastic contact has less area yet, p/H, but smooths itself and ends elastic with more. Both the real area and
-    the real pressure should be low, so the elastic limit is the aim. Friction brings yield to the surface at a lower
-    pressure: multiply ``plasticity_index`` by the ratio of the pressures at first yield with and without it. A stiffer
-    overcoat lowers the admissible index, a more compliant one raises it, unless contacts are much larger than the
-    overcoat is thick. Hardness and modulus are those at the strain rate of a passing asperity.
+    A plastic contact has less area yet, p/H, but smooths itself and ends elastic with more. Both
+    the real area and the real pressure should be low, so the elastic limit is the aim. Friction
+    brings yield to the surface at a lower pressure: multiply ``plasticity_index`` by the ratio of
+    the pressures at first yield with and without it. A stiffer overcoat lowers the admissible
+    index, a more compliant one raises it, unless contacts are much larger than the overcoat is
+    thick. Hardness and modulus are those at the strain rate of a passing asperity.
     """
 
     hardness: Annotated[HardnessValue, Help("hardness H of the softer solid", of="bodies")]
@@ -276,7 +292,8 @@ class LeastArea(Theory):
     )
 
     def summit_ratio(self, E_star: float) -> float:
-        """Largest σ_s/R, deviation of the summit heights over summit radius, for the contact modulus ``E_star`` in Pa."""
+        """Largest σ_s/R, deviation of the summit heights over summit radius, for the contact
+        modulus ``E_star`` in Pa."""
         modulus = require.positive(E_star, "contact modulus E* (Pa)")
         return (self.plasticity_index * self.hardness / modulus) ** 2
 
@@ -288,7 +305,8 @@ class LeastArea(Theory):
     def profile_ratio(self, E_star: float, index: float = ELASTIC_PROFILE_INDEX) -> float:
         """Largest σ/β*, rms height over correlation length (1/e), for the modulus ``E_star`` in Pa.
 
-        The same guidance for exponential autocorrelation: plasticity is avoided by less height or longer waves.
+        The same guidance for exponential autocorrelation: plasticity is avoided by less height or
+        longer waves.
         """
         modulus = require.positive(E_star, "contact modulus E* (Pa)")
         return require.positive(index, "plasticity index of a profile") * self.hardness / modulus
@@ -311,7 +329,8 @@ class LeastArea(Theory):
         return self.plasticity_index * self.hardness / AREA_FACTOR
 
     def area_fraction(self, mean_pressure: float) -> float:
-        """Real over nominal area of that surface at ``mean_pressure`` in Pa: 3.2 p/(ψ H), 5.3 p/H for ψ = 0.6."""
+        """Real over nominal area of that surface at ``mean_pressure`` in Pa: 3.2 p/(ψ H), 5.3 p/H
+        for ψ = 0.6."""
         return require.positive(mean_pressure, "mean pressure (Pa)") / self.mean_real_pressure
 
     def plastic_area_fraction(self, mean_pressure: float) -> float:

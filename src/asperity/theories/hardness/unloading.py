@@ -1,4 +1,5 @@
-"""What an indentation curve says: the unloading stiffness, contact depth, hardness and modulus, energies, and the depth that stays."""
+"""What an indentation curve says: the unloading stiffness, contact depth, hardness and modulus,
+energies, and the depth that stays."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ from ...core.errors import InputError
 from .effective_hardness import BERKOVICH, PARABOLOID
 
 UPPER_SHARE = 0.75
-"""Part of the unloading that is fitted, from the peak load down; its end may bend with reverse yield."""
+"""Part of the unloading that is fitted, from the peak load down; its end may bend with reverse
+yield."""
 
 FEWEST = 4
 """Points of a curve that determine the three values of the fit and its error."""
@@ -61,7 +63,8 @@ class UnloadingFit:
 def fit_unloading(depth: ArrayLike, force: ArrayLike, *, share: float = UPPER_SHARE) -> UnloadingFit:
     """Power law of the first unloading of a curve (Oliver and Pharr 1992, eq. 7).
 
-    The unloading begins at the largest force, and ends with the curve or where the force rises again.
+    The unloading begins at the largest force, and ends with the curve or where the force rises
+    again.
 
     Parameters
     ----------
@@ -73,22 +76,24 @@ def fit_unloading(depth: ArrayLike, force: ArrayLike, *, share: float = UPPER_SH
     Raises
     ------
     InputError
-        If the values are not finite or do not fit together, or the part to be fitted has fewer than four points.
+        If the values are not finite or do not fit together, or the part to be fitted has fewer than
+        four points.
     """
     h, F = unloading_part(depth, force)
     require.between(share, 0.0, 1.0 + 1e-12, "share of the unloading")
     kept = ((1.0 - share) * F[0] <= F) & (F > 0.0)
     if np.count_nonzero(kept) < FEWEST:
         raise InputError(
-            f"unloading must have at least {FEWEST} points above {1.0 - share:.0%} of the peak force, but has {np.count_nonzero(kept)}. "
-            "Take more steps, or a larger share.",
+            f"unloading must have at least {FEWEST} points above {1.0 - share:.0%} of the peak force, but has "
+            f"{np.count_nonzero(kept)}. Take more steps, or a larger share.",
             subject="unloading",
         )
     h, F = h[kept], F[kept]
     lowest, width = float(h.min()), float(np.ptp(h))
 
     def law(distance: float) -> tuple[float, float]:
-        """Logarithm of B, and m, for a final depth that lies so many widths under the lowest point; points weigh as their force."""
+        """Logarithm of B, and m, for a final depth that lies so many widths under the lowest point;
+        points weigh as their force."""
         along = np.log((h - lowest) / width + distance)
         weights, logs = F / F[0], np.log(F / F[0])
         slope, start = np.polyfit(along, logs, 1, w=weights)
@@ -143,7 +148,8 @@ def berkovich_area(depth: float) -> float:
 
 
 def sphere_area(radius: float) -> Callable[[float], float]:
-    """Area function π (2 R h - h²) of a sphere of ``radius`` in m; of the paraboloid, 2 π R h, where h is beyond R.
+    """Area function π (2 R h - h²) of a sphere of ``radius`` in m; of the paraboloid, 2 π R h,
+    where h is beyond R.
 
     InputError if the radius is not positive.
     """
@@ -152,13 +158,15 @@ def sphere_area(radius: float) -> Callable[[float], float]:
 
 
 def paraboloid_area(radius: float) -> Callable[[float], float]:
-    """Area function 2 π R h of a paraboloid of ``radius`` of curvature in m. InputError if the radius is not positive."""
+    """Area function 2 π R h of a paraboloid of ``radius`` of curvature in m. InputError if the
+    radius is not positive."""
     R = require.positive(radius, "radius (m)")
     return lambda depth: 2.0 * math.pi * R * depth
 
 
 def cone_area(half_angle: float) -> Callable[[float], float]:
-    """Area function π (h tan θ)² of a cone of ``half_angle`` in rad, 0 to π/2. InputError outside."""
+    """Area function π (h tan θ)² of a cone of ``half_angle`` in rad, 0 to π/2. InputError
+    outside."""
     tangent = math.tan(require.between(half_angle, 0.0, 0.5 * math.pi, "half angle of a cone (rad)"))
     return lambda depth: math.pi * (depth * tangent) ** 2
 
@@ -183,7 +191,8 @@ class IndentationAnalysis:
     contact_modulus
         (sqrt(π)/2) S/sqrt(A) in Pa.
     true_area, true_hardness
-        Area of the contact at the peak in m², and the mean pressure on it in Pa; NaN where not known.
+        Area of the contact at the peak in m², and the mean pressure on it in Pa; NaN where not
+        known.
     loading_work, recovered_work
         Work of the loading and work given back in the unloading, J.
     """
@@ -201,12 +210,14 @@ class IndentationAnalysis:
 
     @property
     def dissipated_work(self) -> float:
-        """Work that the loop of loading and unloading takes, J: plastic work and energy of the residual stresses."""
+        """Work that the loop of loading and unloading takes, J: plastic work and energy of the
+        residual stresses."""
         return self.loading_work - self.recovered_work
 
     @property
     def pile_up(self) -> float:
-        """True area over that of the contact depth: above 1 where the material piles up, below where it sinks in."""
+        """True area over that of the contact depth: above 1 where the material piles up, below
+        where it sinks in."""
         return self.true_area / self.area
 
 
@@ -219,7 +230,8 @@ def analyse_indentation(
     share: float = UPPER_SHARE,
     true_area: float = math.nan,
 ) -> IndentationAnalysis:
-    """Hardness and modulus of a curve of loading and unloading by the method of Oliver and Pharr (1992).
+    """Hardness and modulus of a curve of loading and unloading by the method of Oliver and Pharr
+    (1992).
 
     Parameters
     ----------
@@ -253,7 +265,8 @@ def analyse_indentation(
     deep = fit.peak_depth - factor * fit.peak_force / fit.stiffness
     if deep <= 0.0:
         raise InputError(
-            f"contact depth (m) must be above zero, but is {deep:g}: the unloading springs back by more than was pressed in. Check depth and force.",
+            f"contact depth (m) must be above zero, but is {deep:g}: the unloading springs back by more than "
+            "was pressed in. Check depth and force.",
             subject="contact depth (m)",
         )
     size = float(area(deep))
@@ -273,11 +286,13 @@ def analyse_indentation(
 
 
 def residual_depth(ratio: ArrayLike) -> RealArray:
-    """Depth that stays over the largest approach of a flattened elastic-plastic ball (Etsion, Kligerman and Kadin 2005).
+    """Depth that stays over the largest approach of a flattened elastic-plastic ball (Etsion,
+    Kligerman and Kadin 2005).
 
         δ_res/δ_max = (1 - x^-0.33) (1 - x^-0.31),   x = δ_max/δ_y.
 
-    A fit to finite elements for 1 <= x <= 170, ν = 0.3; zero below first yield. Indented half-spaces keep some per cent more.
+    A fit to finite elements for 1 <= x <= 170, ν = 0.3; zero below first yield. Indented
+    half-spaces keep some per cent more.
 
     Parameters
     ----------

@@ -29,7 +29,8 @@ from ..protocol import (
 from ..single.hertz import HertzPoint
 from ..statistics.roughness import Roughness
 
-# Greenwood & Williamson's theory for the individual summits of a map, each with its height and radius.
+# Greenwood & Williamson's theory for the individual summits of a map, each with its height and
+# radius.
 
 
 _REACH = 4.0  # ranges of the heights below the lowest summit to which pressures are inverted
@@ -161,7 +162,8 @@ class IdenticalAsperities(Theory):
         return self._prediction(self.asperity.at_approach(np.maximum(self.height - h, 0.0)), h)
 
     def pressure_at_yield(self, hardness: float) -> float:
-        """Nominal pressure in Pa at p_m = H/3: η π³R²H³/48E*², ``hardness`` H in Pa; plan with a third to a half of it.
+        """Nominal pressure in Pa at p_m = H/3: η π³R²H³/48E*², ``hardness`` H in Pa; plan with a
+        third to a half of it.
 
         Exact first yield is at p_m = 0.38H for ν = 0.3 and H = 2.8Y, half as much load again.
         """

@@ -1,4 +1,5 @@
-"""Elastic-plastic asperities, one and many: the laws of Chang, Etsion and Bogy, of Kogut and Etsion, of Jackson and Green."""
+"""Elastic-plastic asperities, one and many: the laws of Chang, Etsion and Bogy, of Kogut and
+Etsion, of Jackson and Green."""
 
 from __future__ import annotations
 
@@ -51,11 +52,13 @@ PoissonC: TypeAlias = Annotated[
     PoissonOfSolid, Help("Poisson's ratio ν of the body that yields, up to 0.5; C = 1.295 exp(0.736ν)", of="bodies")
 ]
 
-# What laws of elastic-plastic spheres have in common: loads and areas in units of first yield, and their inversion.
+# What laws of elastic-plastic spheres have in common: loads and areas in units of first yield, and
+# their inversion.
 
 
 class ElasticPlasticSphere(Theory):
-    """Base of laws of load and area of a sphere against its interference ω, in units of first yield, x = ω/ω_c.
+    """Base of laws of load and area of a sphere against its interference ω, in units of first
+    yield, x = ω/ω_c.
 
     ``breaks`` are the x at which the law changes its form; below the first of them it is Hertz's.
     """
@@ -81,8 +84,8 @@ class ElasticPlasticSphere(Theory):
     def at_interference(self, interference: ArrayLike) -> ContactAnswer:
         """The contact at ``interference`` ω in m, >= 0, of any shape.
 
-        The largest pressure is Hertz's below first yield and NaN beyond, where these laws give the mean pressure only; the
-        stiffness is a central difference within the branch of the law.
+        The largest pressure is Hertz's below first yield and NaN beyond, where these laws give the
+        mean pressure only; the stiffness is a central difference within the branch of the law.
         """
         omega = checked(interference, "interference (m)")
         unit = at_first_yield(self)
@@ -103,7 +106,8 @@ class ElasticPlasticSphere(Theory):
         )
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N, >= 0, of any shape; within a jump of the law the interference of the jump."""
+        """The contact under ``load`` in N, >= 0, of any shape; within a jump of the law the
+        interference of the jump."""
         P = checked(load, "load (N)")
         ratio = P / at_first_yield(self).load
         highest = np.full_like(ratio, np.log(np.max(ratio, initial=1.0)) + 10.0)
@@ -122,10 +126,11 @@ _SIGMAS = 9.0
 
 @dataclass(frozen=True)
 class ElasticPlasticSummits(SeparationTheory):
-    """Sums over summits, p = η ∫ P(z - d) φ(z) dz and A_r/A_a = η ∫ A(z - d) φ(z) dz, with the law P, A of one summit.
+    """Sums over summits, p = η ∫ P(z - d) φ(z) dz and A_r/A_a = η ∫ A(z - d) φ(z) dz, with the law
+    P, A of one summit.
 
-    ``summits`` have Gaussian heights and are what holds if none of them yields; the ``law`` of one summit has the same
-    modulus and radius.
+    ``summits`` have Gaussian heights and are what holds if none of them yields; the ``law`` of one
+    summit has the same modulus and radius.
     """
 
     summits: GreenwoodWilliamson
@@ -141,7 +146,8 @@ class ElasticPlasticSummits(SeparationTheory):
         return self.law.critical_interference / self.summits.height_deviation
 
     def _law(self, h: RealArray) -> tuple[RealArray, RealArray]:
-        """Pressure and stiffness: -d/dD of φ(D + u) is (D + u) φ, so that jumps of the law need no care."""
+        """Pressure and stiffness: -d/dD of φ(D + u) is (D + u) φ, so that jumps of the law need no
+        care."""
         D = self.summits.standardised(h)
         u, weight = self._depths(D)
         scale = self.summits.density * float(at_first_yield(self.law).load)
@@ -158,10 +164,11 @@ class ElasticPlasticSummits(SeparationTheory):
         return unit * area, self.summits.density * gaussian.tail_moment(D, 0.0)
 
     def _depths(self, D: RealArray) -> tuple[RealArray, RealArray]:
-        """Nodes u = s - D > 0 and weights between the breaks of the law and where the density of heights is nothing.
+        """Nodes u = s - D > 0 and weights between the breaks of the law and where the density of
+        heights is nothing.
 
-        Over sqrt(u), in which half-integer powers are smooth. For D > 0 the density falls like exp(-Du), so the panels
-        end where it has fallen by exp(-40).
+        Over sqrt(u), in which half-integer powers are smooth. For D > 0 the density falls like
+        exp(-Du), so the panels end where it has fallen by exp(-40).
         """
         first = np.maximum(0.0, -_SIGMAS - D)
         last = np.where(D > 0.0, 80.0 / (np.sqrt(D * D + 80.0) + np.abs(D)), _SIGMAS - D)
@@ -173,7 +180,8 @@ class ElasticPlasticSummits(SeparationTheory):
 
 
 class _ElasticPlastic(OnSummits):
-    """Base of theories of rough surfaces that differ by the law of one ``summit`` only; Gaussian heights."""
+    """Base of theories of rough surfaces that differ by the law of one ``summit`` only; Gaussian
+    heights."""
 
     limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS)
 
@@ -266,7 +274,8 @@ class ChangEtsionBogySphere(_SphereOfHardness):
 
 @dataclass(frozen=True)
 class ChangEtsionBogy(_OfHardness):
-    """Greenwood and Williamson's summits, each with the law of ``ChangEtsionBogySphere``; Gaussian heights.
+    """Greenwood and Williamson's summits, each with the law of ``ChangEtsionBogySphere``; Gaussian
+    heights.
 
         A_r/A_a = η ∫_h^∞ A(z - h) φ(z) dz,  p = η ∫_h^∞ P(z - h) φ(z) dz.
 
@@ -284,14 +293,15 @@ class ChangEtsionBogy(_OfHardness):
 
 @dataclass(frozen=True)
 class KogutEtsionSphere(_SphereOfHardness):
-    """Sphere with fitted powers of x = ω/ω_c between first yield and x = 110, fully plastic beyond; Hertz below.
+    """Sphere with fitted powers of x = ω/ω_c between first yield and x = 110, fully plastic beyond;
+    Hertz below.
 
         P/P_c = 1.03 x^(1.425),  A/A_c = 0.93 x^(1.136)  (1 < x ≤ 6),
         P/P_c = 1.40 x^(1.263),  A/A_c = 0.94 x^(1.146)  (6 < x ≤ 110),
         P/P_c = (3/K) x,  A/A_c = 2 x  (x > 110).
 
-    The fits were made at ν = 0.3 and do not join: load and area step by +3 % and -7 % at 1, +1.7 % and +2.9 % at 6, +7.9 %
-    and +7.1 % at 110.
+    The fits were made at ν = 0.3 and do not join: load and area step by +3 % and -7 % at 1, +1.7 %
+    and +2.9 % at 6, +7.9 % and +7.1 % at 110.
 
     Examples
     --------
@@ -318,7 +328,8 @@ class KogutEtsionSphere(_SphereOfHardness):
 
 @dataclass(frozen=True)
 class KogutEtsion(_OfHardness):
-    """Greenwood and Williamson's summits, each with the law of ``KogutEtsionSphere``; Gaussian heights.
+    """Greenwood and Williamson's summits, each with the law of ``KogutEtsionSphere``; Gaussian
+    heights.
 
         A_r/A_a = η ∫_h^∞ A(z - h) φ(z) dz,  p = η ∫_h^∞ P(z - h) φ(z) dz.
 
@@ -367,8 +378,9 @@ class JacksonGreenSphere(ElasticPlasticSphere):
         super().__post_init__()
         if self.yield_strain > _LARGEST_STRAIN:
             raise InputError(
-                f"yield stress (Pa) must be at most {_LARGEST_STRAIN:g} times the contact modulus of {self.E_star:g} Pa, for exp(23 Y/E*) to be a number, "
-                f"but is {self.yield_stress:g} Pa. The laws were fitted to yield strains up to about 0.01."
+                f"yield stress (Pa) must be at most {_LARGEST_STRAIN:g} times the contact modulus of "
+                f"{self.E_star:g} Pa, for exp(23 Y/E*) to be a number, but is {self.yield_stress:g} Pa. The "
+                "laws were fitted to yield strains up to about 0.01."
             )
 
     @property
@@ -382,7 +394,8 @@ class JacksonGreenSphere(ElasticPlasticSphere):
         return self.yield_stress / self.E_star
 
     def load_ratio(self, x: RealArray) -> RealArray:
-        """P/P_c: x^1.5 up to 1.9, then exp(-x^(5/12)/4) x^1.5 + (4H_G/CY)(1 - exp(-x^(5/9)/25)) x."""
+        """P/P_c: x^1.5 up to 1.9, then exp(-x^(5/12)/4) x^1.5 + (4H_G/CY)(1 - exp(-x^(5/9)/25))
+        x."""
         C = yield_coefficient(self.nu)
         flow = 4.0 / C * self.hardness_ratio(x) * -np.expm1(-(x ** (5.0 / 9.0)) / 25.0) * x
         return np.where(x <= self.breaks[0], x**1.5, np.exp(-0.25 * x ** (5.0 / 12.0)) * x**1.5 + flow)
@@ -393,7 +406,8 @@ class JacksonGreenSphere(ElasticPlasticSphere):
         return np.asarray(x * np.maximum(x / self.breaks[0], 1.0) ** B)
 
     def hardness_ratio(self, x: RealArray) -> RealArray:
-        """H_G/Y = 2.84 [1 - exp(-0.82 (a/R)^(-0.7))] at ``x`` of any shape, with a/R = (πCe_y/2) sqrt(A/A_c)."""
+        """H_G/Y = 2.84 [1 - exp(-0.82 (a/R)^(-0.7))] at ``x`` of any shape, with a/R = (πCe_y/2)
+        sqrt(A/A_c)."""
         slope = 0.5 * math.pi * yield_coefficient(self.nu) * self.yield_strain * np.sqrt(self.area_ratio(x))
         with np.errstate(divide="ignore"):
             return np.asarray(-2.84 * np.expm1(-0.82 * slope**-0.7))
@@ -408,7 +422,8 @@ def _mean_slope(theory: JacksonGreen, answer: Prediction) -> RealArray:
 
 @dataclass(frozen=True)
 class JacksonGreen(_ElasticPlastic):
-    """Greenwood and Williamson's summits, each with the law of ``JacksonGreenSphere``; Gaussian heights.
+    """Greenwood and Williamson's summits, each with the law of ``JacksonGreenSphere``; Gaussian
+    heights.
 
         A_r/A_a = η ∫_h^∞ A(z - h) φ(z) dz,  p = η ∫_h^∞ P(z - h) φ(z) dz.
 

@@ -1,4 +1,5 @@
-"""Summits of random heights and curvatures: McCool, Bush, Gibson and Thomas, and anisotropic ones."""
+"""Summits of random heights and curvatures: McCool, Bush, Gibson and Thomas, and anisotropic
+ones."""
 
 from __future__ import annotations
 
@@ -76,19 +77,21 @@ class _OfMoments(SeparationTheory):
         return math.sqrt(2.0 * self.m2)
 
 
-# McCool (1986): the theory of Greenwood & Williamson with the summits of a Gaussian surface of given moments.
+# McCool (1986): the theory of Greenwood & Williamson with the summits of a Gaussian surface of
+# given moments.
 
 
 @dataclass(frozen=True)
 class McCool(_OfMoments):
-    """Greenwood and Williamson with η, R, σ_s and z̄_s of Nayak's summits and Gaussian heights (McCool 1986).
+    """Greenwood and Williamson with η, R, σ_s and z̄_s of Nayak's summits and Gaussian heights
+    (McCool 1986).
 
         η = m_4/(6 π √3 m_2),  R = (3/8) sqrt(π/m_4),
         σ_s² = (1 - 0.8968/α) m_0,  z̄_s = 4 sqrt(m_0/(π α)),  α = m_0 m_4/m_2².
 
-    Every summit has the mean curvature, although the highest are the sharpest: for narrow spectra the area at light load
-    is too large (α = 2: by 38 % at a separation of three standard deviations), and it has no linear limit. InputError if
-    m0 m4/m2² < 1.5.
+    Every summit has the mean curvature, although the highest are the sharpest: for narrow spectra
+    the area at light load is too large (α = 2: by 38 % at a separation of three standard
+    deviations), and it has no linear limit. InputError if m0 m4/m2² < 1.5.
     """
 
     name: ClassVar[str] = "mccool"
@@ -115,7 +118,8 @@ class McCool(_OfMoments):
         return self.equivalent().at_pressure(pressure)
 
 
-# Contacts on all summits of an isotropic Gaussian surface, with the two curvatures of each (Nayak 1971); see BushGibsonThomas.
+# Contacts on all summits of an isotropic Gaussian surface, with the two curvatures of each (Nayak
+# 1971); see BushGibsonThomas.
 
 
 _LOWEST, _HIGHEST = -12.0, 35.0  # separations in sqrt(m0) between which pressures are inverted
@@ -136,7 +140,8 @@ class SummitShapes:
 
 
 class _OnSummits(_OfMoments):
-    """Base of theories of contacts on all summits, which differ by the shape of a contact: ``circles`` or ellipses.
+    """Base of theories of contacts on all summits, which differ by the shape of a contact:
+    ``circles`` or ellipses.
 
     Circles have the curvature sqrt(κ1 κ2): f_A = (1 - r²)^(-1/2), f_P = (1 - r²)^(-1/4).
     """
@@ -178,7 +183,8 @@ class _OnSummits(_OfMoments):
 
     @property
     def _rest(self) -> float:
-        """sqrt(1 - ρ²), the deviation of the height of a summit about its regression on the curvature."""
+        """sqrt(1 - ρ²), the deviation of the height of a summit about its regression on the
+        curvature."""
         return math.sqrt(max(1.0 - self._nayak.correlation**2, _FEWEST))
 
     def _heights(self, h: RealArray, t: RealArray, k: float) -> RealArray:
@@ -193,8 +199,8 @@ class _OnSummits(_OfMoments):
     def _curvatures(self, h: RealArray) -> tuple[RealArray, RealArray]:
         """Nodes t (n, nodes) where the touching summits lie, with weights that hold φ(t).
 
-        About t = D/ρ the heights H change within sqrt(1 - ρ²)/ρ, as a half-integer power beyond it for narrow spectra:
-        there panels are fine, and above it they run over sqrt(t - D/ρ).
+        About t = D/ρ the heights H change within sqrt(1 - ρ²)/ρ, as a half-integer power beyond it
+        for narrow spectra: there panels are fine, and above it they run over sqrt(t - D/ρ).
         """
         D = h[:, None] / math.sqrt(self.m0)
         edge, spread = D / self._nayak.correlation, self._rest / self._nayak.correlation
@@ -211,7 +217,8 @@ class _OnSummits(_OfMoments):
         return t, weight * np.exp(-0.5 * t * t) / math.sqrt(2.0 * math.pi)
 
 
-# Bush, Gibson & Thomas (1975): all summits of an isotropic Gaussian surface, each an elliptical Hertz contact.
+# Bush, Gibson & Thomas (1975): all summits of an isotropic Gaussian surface, each an elliptical
+# Hertz contact.
 
 
 ASYMPTOTE = math.sqrt(2.0 * math.pi)
@@ -222,8 +229,8 @@ ASYMPTOTE = math.sqrt(2.0 * math.pi)
 class BushGibsonThomas(_OnSummits):
     """Elliptical contacts on all summits of an isotropic Gaussian surface.
 
-    With α = m0 m4/m2², ρ² = 3/(2α), D = h/sqrt(m0), the mean curvature t of a summit in sqrt(2 m4/3) and the relative
-    difference r of its curvatures,
+    With α = m0 m4/m2², ρ² = 3/(2α), D = h/sqrt(m0), the mean curvature t of a summit in sqrt(2
+    m4/3) and the relative difference r of its curvatures,
 
         A_r/A_a = sqrt(α/6) ∫ (φ(t)/t) G_A(t) H_1(t) dt,
         p = (4/(9 π)) (3/2)^(1/4) α^(3/4) E* sqrt(m_2) ∫ (φ(t)/sqrt(t)) G_P(t) H_(3/2)(t) dt,
@@ -231,8 +238,8 @@ class BushGibsonThomas(_OnSummits):
         G(t) = 2 ∫_0^1 t⁴ (1 - r²) r exp(-t² r²) f(r) dr,
         H_k(t) = (1 - ρ²)^(k/2) F_k[(D - ρ t)/sqrt(1 - ρ²)],
 
-    f_A and f_P of Hertz's ellipse. The area tends to sqrt(2π) p/(E* h'_rms) at vanishing load, very slowly for wide
-    spectra (Carbone & Bottiglione 2008). InputError if m0 m4/m2² < 1.5.
+    f_A and f_P of Hertz's ellipse. The area tends to sqrt(2π) p/(E* h'_rms) at vanishing load, very
+    slowly for wide spectra (Carbone & Bottiglione 2008). InputError if m0 m4/m2² < 1.5.
     """
 
     name: ClassVar[str] = "bush-gibson-thomas"
@@ -243,14 +250,15 @@ class BushGibsonThomas(_OnSummits):
 
 @dataclass(frozen=True)
 class GreenwoodElliptic(_OnSummits):
-    """Greenwood's simplified elliptic model: on every summit a circle of the geometric mean curvature sqrt(κ1 κ2).
+    """Greenwood's simplified elliptic model: on every summit a circle of the geometric mean
+    curvature sqrt(κ1 κ2).
 
     The formulas of ``BushGibsonThomas`` with
 
         f_A(r) = (1 - r²)^(-1/2),  f_P(r) = (1 - r²)^(-1/4).
 
-    Area and load are within 2 % and 3 % of ``BushGibsonThomas`` at the same separation, and the limit at vanishing load
-    is the same. InputError if m0 m4/m2² < 1.5.
+    Area and load are within 2 % and 3 % of ``BushGibsonThomas`` at the same separation, and the
+    limit at vanishing load is the same. InputError if m0 m4/m2² < 1.5.
     """
 
     name: ClassVar[str] = "greenwood-elliptic"
@@ -259,26 +267,30 @@ class GreenwoodElliptic(_OnSummits):
     circles: ClassVar[bool] = True
 
 
-# High summits of an anisotropic Gaussian surface: the limit of Bush, Gibson & Keogh (1979) at large separation.
+# High summits of an anisotropic Gaussian surface: the limit of Bush, Gibson & Keogh (1979) at large
+# separation.
 
 
 HIGH = 3.0
-"""Separation in sqrt(m0) above which the limit is meant to hold; for an isotropic surface of α = 2 it then is 3 % off."""
+"""Separation in sqrt(m0) above which the limit is meant to hold; for an isotropic surface of α = 2
+it then is 3 % off."""
 
 _CLOSEST, _FARTHEST = 0.0, 36.0  # separations in sqrt(m0) between which its pressures are inverted
 
 
 @dataclass(frozen=True)
 class AnisotropicSummits(SeparationTheory):
-    """High summits are alike: their curvatures are (z/m0)(m20, m02), whatever the rest of the spectrum.
+    """High summits are alike: their curvatures are (z/m0)(m20, m02), whatever the rest of the
+    spectrum.
 
-    With g = m20/m02, D = h/sqrt(m0), f_A and f_P of the Hertz contact of curvatures in the ratio g, and
-    r = (g - 1)/(g + 1),
+    With g = m20/m02, D = h/sqrt(m0), f_A and f_P of the Hertz contact of curvatures in the ratio g,
+    and r = (g - 1)/(g + 1),
 
-        A_r/A_a = (1/2) f_A sqrt(1 - r²) Q(D) = sqrt(2π) (f_A/f_P) p/(E* h'_rms),  (h'_rms)² = m_(20) + m_(02),
+        A_r/A_a = (1/2) f_A sqrt(1 - r²) Q(D) = sqrt(2π) (f_A/f_P) p/(E* h'_rms),
+        (h'_rms)² = m_(20) + m_(02),
 
-    Q the bearing area, and n = sqrt(m20 m02)/(2π m0) D φ(D) contacts per area. At constant gradient anisotropy raises
-    the area slightly: by 1.3 % at g = 2, 12 % at g = 10.
+    Q the bearing area, and n = sqrt(m20 m02)/(2π m0) D φ(D) contacts per area. At constant gradient
+    anisotropy raises the area slightly: by 1.3 % at g = 2, 12 % at g = 10.
     """
 
     E_star: Modulus
@@ -303,7 +315,8 @@ class AnisotropicSummits(SeparationTheory):
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for the principal slopes of ``roughness``; InputError without moments by direction, or if it is a grating."""
+        """Theory for the principal slopes of ``roughness``; InputError without moments by
+        direction, or if it is a grating."""
         moments = roughness.known(roughness.moments, "moments by direction", cls.name)
         return cls(E_star, roughness.m0, *moments.principal_slopes)
 
@@ -347,10 +360,11 @@ class AnisotropicSummits(SeparationTheory):
 
 
 def equivalent_isotropic(moments: MomentTensor) -> tuple[float, float]:
-    """m2 = sqrt(m20 m02) and m4 = sqrt(m40 m04) (1/m²), McCool's (1986) isotropic substitute of an anisotropic surface.
+    """m2 = sqrt(m20 m02) and m4 = sqrt(m40 m04) (1/m²), McCool's (1986) isotropic substitute of an
+    anisotropic surface.
 
-    In the limit of large separation it makes the area 1.7 % too large at m20/m02 = 2 and 18 % at 10; the mean
-    (m20 + m02)/2, which ``Roughness`` holds, makes it 1.3 % and 11 % too small.
+    In the limit of large separation it makes the area 1.7 % too large at m20/m02 = 2 and 18 % at
+    10; the mean (m20 + m02)/2, which ``Roughness`` holds, makes it 1.3 % and 11 % too small.
 
     ``moments``: moments in the principal axes of the texture: ``m11`` is left out.
     """

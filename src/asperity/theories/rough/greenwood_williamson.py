@@ -1,4 +1,5 @@
-"""Spherical summits of random heights: Greenwood and Williamson, Kotwal and Bhushan, fits, plastic share, two rough surfaces."""
+"""Spherical summits of random heights: Greenwood and Williamson, Kotwal and Bhushan, fits, plastic
+share, two rough surfaces."""
 
 from __future__ import annotations
 
@@ -39,7 +40,8 @@ from ..statistics.nayak import NayakSummits
 from ..statistics.roughness import Roughness
 
 LOWEST, HIGHEST = -40.0, 37.0
-"""Separations in standard deviations between which pressures are inverted; at 37 a Gaussian has 1e-300 left."""
+"""Separations in standard deviations between which pressures are inverted; at 37 a Gaussian has
+1e-300 left."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,8 @@ class _RandomHeights(SeparationTheory):
 
 @dataclass(frozen=True)
 class SphericalSummits(_RandomHeights):
-    """Base of theories of independent summits of one radius: equations of ``GreenwoodWilliamson``."""
+    """Base of theories of independent summits of one radius: equations of
+    ``GreenwoodWilliamson``."""
 
     limits: ClassVar[tuple[Bound, ...]] = (FEW_CONTACTS, BLUNT_SUMMITS)
 
@@ -101,7 +104,8 @@ class SphericalSummits(_RandomHeights):
 class GreenwoodWilliamson(SphericalSummits):
     """Independent spherical summits on a rough surface against a rigid plane, each a Hertz contact.
 
-    With the density p(s) of the standardised summit heights (Greenwood & Williamson 1966; Bhushan 1998, eq. 12-16)
+    With the density p(s) of the standardised summit heights (Greenwood & Williamson 1966; Bhushan
+    1998, eq. 12-16)
 
         D = (h - z̄_s)/σ_s,  F_m(D) = ∫_D^∞ (s - D)^m p(s) ds,
         n = η F_0,  A_r/A_a = π η R σ_s F_1,  p = (4/3) η E* R^(1/2) σ_s^(3/2) F_(3/2).
@@ -114,10 +118,11 @@ class GreenwoodWilliamson(SphericalSummits):
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float, *, bins: int | None = None) -> Self:
-        """Theory for the summits of a map: their density, 1/<κ>, and the mean and deviation of their heights.
+        """Theory for the summits of a map: their density, 1/<κ>, and the mean and deviation of
+        their heights.
 
-        ``bins`` None: Gaussian heights; a number: their histogram with so many bins. InputError without summits, or if their
-        heights are all equal.
+        ``bins`` None: Gaussian heights; a number: their histogram with so many bins. InputError
+        without summits, or if their heights are all equal.
         """
         summits = roughness.known(roughness.summits, "its summits", cls.name)
         return cls(
@@ -131,7 +136,8 @@ class GreenwoodWilliamson(SphericalSummits):
 
 
 class OnSummits(Theory):
-    """Base of theories that put another law on each of Greenwood and Williamson's summits, or fits in place of integrals."""
+    """Base of theories that put another law on each of Greenwood and Williamson's summits, or fits
+    in place of integrals."""
 
     E_star: float
     density: float
@@ -154,19 +160,23 @@ class OnSummits(Theory):
 class KotwalBhushan(SphericalSummits):
     """Greenwood and Williamson's summits with heights of Pearson's system (Kotwal & Bhushan 1996).
 
-    With D, n, A_r and p as in ``GreenwoodWilliamson`` and Pearson's density p(s) of the standardised heights,
+    With D, n, A_r and p as in ``GreenwoodWilliamson`` and Pearson's density p(s) of the
+    standardised heights,
 
         dp/ds = -(s + b) p(s)/(c_0 + c_1 s + c_2 s²),  F_m(D) = ∫_D^∞ (s - D)^m p(s) ds.
 
-    b and c_i follow from skewness and kurtosis.
-    Types I and II end: there is no contact above the highest summit. InputError if kurtosis <= 1 + skewness².
+    b and c_i follow from skewness and kurtosis. Types I and II end: there is no contact above the
+    highest summit. InputError if kurtosis <= 1 + skewness².
 
     Examples
     --------
     Few high summits touch on a smaller area than those of Gaussian heights:
 
     >>> shapes = (0, 3), (0.5, 5)
-    >>> loads = [KotwalBhushan(1e11, 3e12, 2e-7, 5e-9, skewness=s, kurtosis=k).at_pressure(1e5) for s, k in shapes]
+    >>> loads = [
+    ...     KotwalBhushan(1e11, 3e12, 2e-7, 5e-9, skewness=s, kurtosis=k).at_pressure(1e5)
+    ...     for s, k in shapes
+    ... ]
     >>> [f"{load.area_fraction[0]:.2e}" for load in loads]
     ['2.03e-05', '1.11e-05']
     """
@@ -183,7 +193,8 @@ class KotwalBhushan(SphericalSummits):
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for the summits of a map: density, 1/<κ>, and mean, deviation, skewness and kurtosis of their heights.
+        """Theory for the summits of a map: density, 1/<κ>, and mean, deviation, skewness and
+        kurtosis of their heights.
 
         InputError without summits, or if their heights are all equal.
         """
@@ -211,15 +222,17 @@ LARGEST = 0.57
 """P_a at D = 0, where the fit of the separation ends."""
 
 FORMS = {"power": (1e-6, 0.1), "linear": (1e-4, 1e-2)}
-"""Forms of the laws and the P_a between which they are within a fifth (power) or a half (linear) of the integrals."""
+"""Forms of the laws and the P_a between which they are within a fifth (power) or a half (linear) of
+the integrals."""
 
 
 @dataclass(frozen=True)
 class FittedLaws:
     """Quantities of the Gaussian theory as fitted functions of P_a; logarithms are decimal.
 
-    ``"power"``: D = 1.40 [log(0.57/P_a)]^0.65, p_r = 0.42 P_a^0.04, A_r = 2.40 P_a^0.96, n = 1.21 P_a^0.88,
-    A_r/n = 2.00 P_a^0.08; ``"linear"``: p_r = 0.32, A_r = 3.20 P_a, n = 2.64 P_a, A_r/n = 1.21, no separation.
+    ``"power"``: D = 1.40 [log(0.57/P_a)]^0.65, p_r = 0.42 P_a^0.04, A_r = 2.40 P_a^0.96, n = 1.21
+    P_a^0.88, A_r/n = 2.00 P_a^0.08; ``"linear"``: p_r = 0.32, A_r = 3.20 P_a, n = 2.64 P_a, A_r/n =
+    1.21, no separation.
     """
 
     form: str = "power"
@@ -263,7 +276,8 @@ def _range_of_fits(form: str, share: str) -> Bound:
 
 @dataclass(frozen=True)
 class FittedGreenwoodWilliamson(OnSummits):
-    """Greenwood and Williamson with the fits of table 1 in place of the integrals; for comparison with the literature.
+    """Greenwood and Williamson with the fits of table 1 in place of the integrals; for comparison
+    with the literature.
 
     The laws of the ``form`` ``"power"`` are
 
@@ -271,7 +285,8 @@ class FittedGreenwoodWilliamson(OnSummits):
         h = z̄_s + 1.40 σ_s [log_(10)(0.57/P_a)]^(0.65),  n = 1.21 η P_a^(0.88),
         p_r = 0.42 E* (σ_s/R)^(1/2) P_a^(0.04),  A_r/A_a = 2.40 η R σ_s P_a^(0.96).
 
-    Real area and real pressure are fits of their own: their product is the load within a few per cent only.
+    Real area and real pressure are fits of their own: their product is the load within a few per
+    cent only.
     """
 
     E_star: Modulus
@@ -309,9 +324,11 @@ class FittedGreenwoodWilliamson(OnSummits):
         )
 
 
-# Onset of plastic flow in the theory of Greenwood & Williamson (1966): the plastic share of the contact.
+# Onset of plastic flow in the theory of Greenwood & Williamson (1966): the plastic share of the
+# contact.
 #
-# With the plasticity index ψ = (E*/H)(σ_s/R)^(1/2), summits pressed deeper than δ_p = R (H/E*)² flow; w = δ_p/σ_s = 1/ψ².
+# With the plasticity index ψ = (E*/H)(σ_s/R)^(1/2), summits pressed deeper than δ_p = R (H/E*)²
+# flow; w = δ_p/σ_s = 1/ψ².
 
 
 NOTICEABLE = 0.02
@@ -323,7 +340,8 @@ _LOWEST, _HIGHEST = -35.0, 35.0  # D between which the onset is sought
 def plastic_area_share(D: ArrayLike, psi: float, heights: SummitHeights = GaussianHeights()) -> RealArray:
     """Share of the elastic contact area on summits that flow: ∫_(D + w)^∞ (s - D) p ds/F_1(D).
 
-    ``D`` standardised separations of any shape, ``psi`` plasticity index ψ > 0, ``heights`` distribution of the summits.
+    ``D`` standardised separations of any shape, ``psi`` plasticity index ψ > 0, ``heights``
+    distribution of the summits.
     """
     D, w = np.asarray(D, dtype=float), _depth(psi)
     deep = heights.tail_moment(D + w, 1.0) + w * heights.tail_moment(D + w, 0.0)
@@ -331,7 +349,8 @@ def plastic_area_share(D: ArrayLike, psi: float, heights: SummitHeights = Gaussi
 
 
 def plastic_area_share_beyond(D: ArrayLike, psi: float, heights: SummitHeights = GaussianHeights()) -> RealArray:
-    """F_1(D + w)/F_1(D), the share if only the depth beyond δ_p counts; a definition that is also in use."""
+    """F_1(D + w)/F_1(D), the share if only the depth beyond δ_p counts; a definition that is also
+    in use."""
     D = np.asarray(D, dtype=float)
     return np.asarray(heights.tail_moment(D + _depth(psi), 1.0) / heights.tail_moment(D, 1.0))
 
@@ -350,8 +369,9 @@ def _depth(psi: float) -> float:
 def separation_at_plastic_onset(psi: float, share: float = NOTICEABLE, *, beyond: bool = False) -> float:
     """D below which the plastic share of the area exceeds ``share``, for Gaussian heights.
 
-    ``psi`` plasticity index, ``share`` between 0 and 1, with ``beyond`` that of ``plastic_area_share_beyond``.
-    NoSolutionError if the share is exceeded, or not reached, at every separation between -35 and 35 standard deviations.
+    ``psi`` plasticity index, ``share`` between 0 and 1, with ``beyond`` that of
+    ``plastic_area_share_beyond``. NoSolutionError if the share is exceeded, or not reached, at
+    every separation between -35 and 35 standard deviations.
     """
     from scipy.optimize import brentq
 
@@ -375,15 +395,17 @@ def separation_at_plastic_onset(psi: float, share: float = NOTICEABLE, *, beyond
 
 @dataclass(frozen=True)
 class GreenwoodTripp(_RandomHeights):
-    """Two surfaces, each with paraboloidal summits of the same radius and density, at random relative positions.
+    """Two surfaces, each with paraboloidal summits of the same radius and density, at random
+    relative positions.
 
-    With the sum of two summit heights of standard deviation σ_s and D = (h - z̄_s)/σ_s, averaged over the misalignment
-    of a pair,
+    With the sum of two summit heights of standard deviation σ_s and D = (h - z̄_s)/σ_s, averaged
+    over the misalignment of a pair,
 
         n = 4π η² β σ_s F_1,  A_r/A_a = π² (η β σ_s)² F_2,
         p = (16√2 π/15) (η β σ_s)² E* (σ_s/β)^(1/2) F_(5/2).
 
-    The second power of the density stands for pairs: doubling the summits of both surfaces quadruples the contacts.
+    The second power of the density stands for pairs: doubling the summits of both surfaces
+    quadruples the contacts.
     """
 
     E_star: Modulus
@@ -399,9 +421,11 @@ class GreenwoodTripp(_RandomHeights):
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for two independent surfaces, each with half of the moments m0, m2, m4 of ``roughness``.
+        """Theory for two independent surfaces, each with half of the moments m0, m2, m4 of
+        ``roughness``.
 
-        Such a pair has the same gap as one surface of ``roughness`` against a plane; summits are those of McCool.
+        Such a pair has the same gap as one surface of ``roughness`` against a plane; summits are
+        those of McCool.
         """
         half = NayakSummits(0.5 * roughness.m0, 0.5 * roughness.m2, 0.5 * roughness.m4)
         deviation = math.sqrt(2.0) * half.height_deviation

@@ -23,11 +23,13 @@ from .discrete_summits import DiscreteSummits
 
 # Interacting sinusoidal crests: complementarity problem and least squares.
 #
-# With w_i = a_i² of the contact radii and the far-field approach δ_i = δ - (z_M - z_i) of each crest,
+# With w_i = a_i² of the contact radii and the far-field approach δ_i = δ - (z_M - z_i) of each
+# crest,
 #
 # r_i(w) = ω_i(w_i) + Σ_j≠i F_j(w_j)/(π E* r_ij) - δ_i,   w_i >= 0,  r_i >= 0,  w_i r_i = 0:
 #
-# a crest touches, or the others have pressed it below the plane. Displacements between crests are those of point forces.
+# a crest touches, or the others have pressed it below the plane. Displacements between crests are
+# those of point forces.
 
 
 _STEPS = 200
@@ -62,7 +64,8 @@ class CrestSystem:
         return self.own_approach(w) + self.coupling @ self.loads(w) - delta
 
     def own_approach(self, w: RealArray) -> RealArray:
-        """ω_i in m; the approach of a punch is the displacement of its centre by its own load, too."""
+        """ω_i in m; the approach of a punch is the displacement of its centre by its own load,
+        too."""
         return two_term_approach(np.sqrt(w), self.A1, self.A2)
 
     def own_slope(self, w: RealArray) -> RealArray:
@@ -106,10 +109,11 @@ class CrestSystem:
 
 
 def solve_complementarity(system: CrestSystem, delta: RealArray, start: RealArray) -> RealArray:
-    """w (n,) by Newton steps on the touching crests, which crests leave and enter as the conditions say.
+    """w (n,) by Newton steps on the touching crests, which crests leave and enter as the conditions
+    say.
 
-    InputError if a crest is pressed beyond the range of its two terms; ConvergenceError if the iteration does not
-    converge.
+    InputError if a crest is pressed beyond the range of its two terms; ConvergenceError if the
+    iteration does not converge.
     """
     w, scale = start.copy(), float(delta.max())
     for _ in range(_STEPS):
@@ -127,8 +131,8 @@ def solve_load(
 ) -> tuple[float, RealArray]:
     """Approach δ in m, and w (n,), at which the loads F_i/E* of the crests sum to ``total`` in m².
 
-    Newton steps in δ and all w at once; crests lie ``depth`` (n,) in m below the highest, and ``delta`` and ``start``
-    are first values of δ and w.
+    Newton steps in δ and all w at once; crests lie ``depth`` (n,) in m below the highest, and
+    ``delta`` and ``start`` are first values of δ and w.
 
     Raises
     ------
@@ -153,9 +157,11 @@ def solve_load(
 
 
 def solve_least_squares(system: CrestSystem, delta: RealArray, start: RealArray) -> RealArray:
-    """w (n,) by minimising |r|²/2 over the contact radii a >= 0 of the touching crests, with scipy's optimiser.
+    """w (n,) by minimising |r|²/2 over the contact radii a >= 0 of the touching crests, with
+    scipy's optimiser.
 
-    A crest that ends with a positive residual is pressed below the plane and leaves; one with a negative residual enters.
+    A crest that ends with a positive residual is pressed below the plane and leaves; one with a
+    negative residual enters.
 
     Raises
     ------
@@ -168,7 +174,8 @@ def solve_least_squares(system: CrestSystem, delta: RealArray, start: RealArray)
     for _ in range(_STEPS):
         w = _least_squares(system, delta, w, touching, unit=unit)
         r = system.residual(w, delta)
-        # a crest that cannot reach the plane holds a positive residual, and the others a negative one
+        # a crest that cannot reach the plane holds a positive residual, and the others a negative
+        # one
         pressed, missed = touching & (r > _LIFTED * scale), ~touching & (r < 0.0)
         if not pressed.any() and not missed.any():
             return w
@@ -180,7 +187,8 @@ def solve_least_squares(system: CrestSystem, delta: RealArray, start: RealArray)
 def _least_squares(
     system: CrestSystem, delta: RealArray, start: RealArray, among: BoolArray, *, unit: RealArray
 ) -> RealArray:
-    """w of the crests ``among`` with the least sum of squared residuals, the others zero; unknowns are a over ``unit``."""
+    """w of the crests ``among`` with the least sum of squared residuals, the others zero; unknowns
+    are a over ``unit``."""
     from scipy.optimize import least_squares
 
     def squares(x: RealArray) -> RealArray:
@@ -210,8 +218,8 @@ def _least_squares(
 def _not_solved(system: CrestSystem, w: RealArray) -> InputError | ConvergenceError:
     if np.any(w >= 0.99 * system.largest):
         return InputError(
-            f"contact radii must stay below {TWO_TERMS:.3f} wavelengths, where the two terms of the sine end, but a crest "
-            "is pressed deeper. Lower the pressure or the approach."
+            f"contact radii must stay below {TWO_TERMS:.3f} wavelengths, where the two terms of the sine end, "
+            "but a crest is pressed deeper. Lower the pressure or the approach."
         )
     return ConvergenceError(
         f"interacting crests did not converge in {_STEPS} steps; the crests may be too close.",
@@ -265,7 +273,8 @@ State: TypeAlias = tuple[CrestSystem, RealArray]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class _Touching(Prediction):
-    """A prediction with the largest contact radius over wavelength, and over the distance to the next contact, (n,)."""
+    """A prediction with the largest contact radius over wavelength, and over the distance to the
+    next contact, (n,)."""
 
     slender: RealArray
     near: RealArray
@@ -273,21 +282,24 @@ class _Touching(Prediction):
 
 @dataclass(frozen=True, eq=False)
 class InteractingCrests(Theory):
-    """Crests of depth h_i and wavelength λ_i at their places, each pressed down by the forces on the others.
+    """Crests of depth h_i and wavelength λ_i at their places, each pressed down by the forces on
+    the others.
 
-    With A_1 = π² h/λ², A_2 = -π⁴ h/(3 λ⁴) and r_ij the distance of two crests, every touching crest obeys
+    With A_1 = π² h/λ², A_2 = -π⁴ h/(3 λ⁴) and r_ij the distance of two crests, every touching crest
+    obeys
 
         δ_i = 2 A_1 a_i² + (8/3) A_2 a_i⁴ + Σ_j F_j/(π E* r_(ij)),
         F_i = E* [(8/3) A_1 a_i³ + (64/15) A_2 a_i⁵],
 
-    δ_i the approach of the plane less the depth of the crest below the highest.
-    ``interaction``: displacements of point forces between crests (``far field``), or none (``off``). ``method``: Newton steps
-    on the touching crests (``complementarity``), or the published form by a library optimiser (``least squares``); both solve
-    the same equations. ``shape``: two terms of the ``sine``, for approaches up to about the depth, or a ``paraboloid`` of the
-    same radius λ²/(2π² h), for any approach.
+    δ_i the approach of the plane less the depth of the crest below the highest. ``interaction``:
+    displacements of point forces between crests (``far field``), or none (``off``). ``method``:
+    Newton steps on the touching crests (``complementarity``), or the published form by a library
+    optimiser (``least squares``); both solve the same equations. ``shape``: two terms of the
+    ``sine``, for approaches up to about the depth, or a ``paraboloid`` of the same radius λ²/(2π²
+    h), for any approach.
 
-    InputError if the arrays differ in length, a size is not positive, two crests lie at one place, or a choice is
-    unknown.
+    InputError if the arrays differ in length, a size is not positive, two crests lie at one place,
+    or a choice is unknown.
     """
 
     E_star: Modulus
@@ -350,8 +362,9 @@ class InteractingCrests(Theory):
     ) -> Self:
         """Theory for the summits of a map.
 
-        A map gives the curvatures of crests, not their depth: paraboloids need no more. Sines all take the depth
-        2 sqrt(2) m2/sqrt(m4) of a wave with the mean square slope and curvature of the profiles.
+        A map gives the curvatures of crests, not their depth: paraboloids need no more. Sines all
+        take the depth 2 sqrt(2) m2/sqrt(m4) of a wave with the mean square slope and curvature of
+        the profiles.
         """
         summits = roughness.known(roughness.summits, "its summits", cls.name)
         depth = np.full(summits.count, math.sqrt(8.0 / roughness.m4) * roughness.m2)
@@ -365,33 +378,37 @@ class InteractingCrests(Theory):
         return float(np.asarray(self.height)[0])
 
     def squared_radii(self, approach: float) -> RealArray:
-        """Squares of the contact radii in m² of the crests that may touch, the highest first; 0 for those lifted off.
+        """Squares of the contact radii in m² of the crests that may touch, the highest first; 0 for
+        those lifted off.
 
         ``approach``: Far-field approach δ > 0 in m from first touch.
 
-        InputError if a crest is pressed beyond the range of its two terms; ConvergenceError if the iteration does not
-        converge.
+        InputError if a crest is pressed beyond the range of its two terms; ConvergenceError if the
+        iteration does not converge.
         """
         (_, squares), *_ = self._states(np.array([require.positive(approach, "approach (m)")]))
         return squares
 
     def at_separation(self, separation: ArrayLike) -> Prediction:
-        """Prediction at separations (n,) in m from the mean plane: the far-field approach is ``highest`` less them."""
+        """Prediction at separations (n,) in m from the mean plane: the far-field approach is
+        ``highest`` less them."""
         h = curve(separation, "separations (m)")
         return self._predicted(h, self._states(self.highest - h))
 
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa; the time is that of solving for all touching crests at each.
+        """Prediction at nominal pressures (n,) in Pa; the time is that of solving for all touching
+        crests at each.
 
         Two hundred points take 0.2 s with 240 contacts at the highest pressure, 5 s with 960.
 
-        InputError if a pressure is not positive, or presses a crest beyond the range of its two terms;
-        ConvergenceError if the iteration does not converge.
+        InputError if a pressure is not positive, or presses a crest beyond the range of its two
+        terms; ConvergenceError if the iteration does not converge.
         """
         wanted = curve(pressure, "pressures (Pa)", positive=True)
-        # spheres without interaction carry the load at a smaller approach; what is lacking grows slowly with the load, so that
-        # the last one starts the next. With the method of least squares the radii are solved for once more
-        # lighter loads to begin with, and others between those that are too far apart
+        # spheres without interaction carry the load at a smaller approach; what is lacking grows
+        # slowly with the load, so that the last one starts the next. With the method of least
+        # squares the radii are solved for once more lighter loads to begin with, and others between
+        # those that are too far apart
         path = _graded(np.append(wanted, _FIRST_SHARE * wanted.min()), _LOAD_STEP)
         depths = self.highest - np.asarray(self.height)
         radius = np.asarray(self.wavelength) ** 2 / (2.0 * math.pi**2 * np.asarray(self.depth))
@@ -425,8 +442,8 @@ class InteractingCrests(Theory):
         return super().validity(_Touching(**vars(answer), slender=np.array(slender), near=np.array(near)), roughness)
 
     def _states(self, deltas: RealArray) -> list[State]:
-        """The crests that may touch at each approach in m, and the squares of their radii, each from those at the one
-        before.
+        """The crests that may touch at each approach in m, and the squares of their radii, each
+        from those at the one before.
         """
         z, path = np.asarray(self.height), _graded(deltas, _APPROACH_STEP)
         counts = np.searchsorted(-z, path - z[0], side="left")
@@ -443,7 +460,8 @@ class InteractingCrests(Theory):
         return [states[n] for n in np.searchsorted(path, deltas)]
 
     def _system(self, count: int, *, alone: bool = False) -> CrestSystem:
-        """Equations of the ``count`` highest crests, ``alone`` without what they do to each other."""
+        """Equations of the ``count`` highest crests, ``alone`` without what they do to each
+        other."""
         x, y, depth, wavelength = (
             np.asarray(column)[:count] for column in (self.x, self.y, self.depth, self.wavelength)
         )

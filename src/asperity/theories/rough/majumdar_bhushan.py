@@ -17,12 +17,14 @@ from ...core.values import HardnessValue, Length, Number
 from ..protocol import FEW_CONTACTS, ISOTROPY, MEASURED_SLOPES, Bound, Modulus, Prediction, Theory, curve, prediction
 from ..statistics.roughness import Roughness
 
-# Sizes of the contact spots of a fractal surface: Korcak's law of islands (Mandelbrot 1982; Majumdar & Bhushan 1991).
+# Sizes of the contact spots of a fractal surface: Korcak's law of islands (Mandelbrot 1982;
+# Majumdar & Bhushan 1991).
 
 
 @dataclass(frozen=True)
 class SpotSizes:
-    """N(A > a) = (a_l/a)^(D/2) spots larger than a, none larger than a_l; without bound towards small ones.
+    """N(A > a) = (a_l/a)^(D/2) spots larger than a, none larger than a_l; without bound towards
+    small ones.
 
     InputError if the dimension is out of its range.
 
@@ -39,7 +41,8 @@ class SpotSizes:
         require.between(self.dimension, 1.0, 2.0, "fractal dimension of a profile")
 
     def larger_than(self, spot: ArrayLike, largest: ArrayLike) -> RealArray:
-        """Number of spots with more than the area ``spot`` in m² (any shape), ``largest`` a_l in m²."""
+        """Number of spots with more than the area ``spot`` in m² (any shape), ``largest`` a_l in
+        m²."""
         a, limit = spot_areas(spot), spot_areas(largest)
         return np.asarray(np.where(a <= limit, (limit / a) ** (0.5 * self.dimension), 0.0))
 
@@ -61,7 +64,8 @@ class SpotSizes:
 
 
 def spot_areas(value: ArrayLike) -> RealArray:
-    """Return ``value`` in m² as an array, any shape, if all are positive and finite. InputError if they are not."""
+    """Return ``value`` in m² as an array, any shape, if all are positive and finite. InputError if
+    they are not."""
     areas = np.asarray(value, dtype=float)
     if not (np.isfinite(areas).all() and (areas > 0.0).all()):
         raise InputError(
@@ -84,25 +88,29 @@ def _self_affine_range(theory: MajumdarBhushan, roughness: Roughness) -> float |
 
 @dataclass(frozen=True)
 class MajumdarBhushan(Theory):
-    """Contact of a surface of fractal profiles with a rigid plane, spots of all sizes up to the largest one, a_l.
+    """Contact of a surface of fractal profiles with a rigid plane, spots of all sizes up to the
+    largest one, a_l.
 
-    A spot of area a is carried by an asperity of the shape z = G^(D-1) a^((2-D)/2) cos(πx/√a); spots obey Korcak's law.
+    A spot of area a is carried by an asperity of the shape z = G^(D-1) a^((2-D)/2) cos(πx/√a);
+    spots obey Korcak's law.
 
         N(A > a) = (a_l/a)^(D/2),  A_r = D a_l/(2 - D),  a_c = G²/(H/(2 E*))^(2/(D-1)),
-        W = (4 sqrt(π)/3) E* G^(D-1) ∫_(a_c)^(a_l) a^((3-D)/2) n(a) da + H (D/(2 - D)) a_l^(D/2) a_c^(1-D/2).
+        W_e = (4 sqrt(π)/3) E* G^(D-1) ∫_(a_c)^(a_l) a^((3-D)/2) n(a) da,
+        W_p = H (D/(2 - D)) a_l^(D/2) a_c^(1-D/2),  W = W_e + W_p.
 
-    n(a) = -dN/da. Spots smaller than the critical area are plastic and carry the hardness, larger ones
-    are elastic: the reverse of a single asperity that is pressed harder and harder.
+    n(a) = -dN/da. Spots smaller than the critical area are plastic and carry the hardness, larger
+    ones are elastic: the reverse of a single asperity that is pressed harder and harder.
 
-    Not a consistent Hertz contact: with this shape the Hertzian area would be a/π; consistent forms change factors by
-    powers of π, no exponents. Spots do not influence each other. The critical area can be smaller than an atom
-    (1e-19 m²); every real spot is then elastic.
+    Not a consistent Hertz contact: with this shape the Hertzian area would be a/π; consistent forms
+    change factors by powers of π, no exponents. Spots do not influence each other. The critical
+    area can be smaller than an atom (1e-19 m²); every real spot is then elastic.
 
     Notes
     -----
-    On generated surfaces that are self-affine from 4 to 49 pixels (Hurst exponents 0.3 to 0.8), the area is 1.0 to 1.4 times
-    that of the solved contact with the same hardness at 0.1 % of the nominal area, 1.1 to 2 times at 1.4 %, 1.3 to 2.4 times
-    at 5 %. Measured maps are often self-affine over less than a decade: the fitted D and G are then those of a bend.
+    On generated surfaces that are self-affine from 4 to 49 pixels (Hurst exponents 0.3 to 0.8), the
+    area is 1.0 to 1.4 times that of the solved contact with the same hardness at 0.1 % of the
+    nominal area, 1.1 to 2 times at 1.4 %, 1.3 to 2.4 times at 5 %. Measured maps are often
+    self-affine over less than a decade: the fitted D and G are then those of a bend.
     """
 
     dimension: Annotated[
@@ -122,7 +130,8 @@ class MajumdarBhushan(Theory):
             FEW_CONTACTS,
             high=0.02,
             citation="Majumdar1991",
-            message="Spots are cut from the undeformed surface and stand alone; the area is about twice too large or more.",
+            message="Spots are cut from the undeformed surface and stand alone; the area is about twice too "
+            "large or more.",
         ),
         Bound(
             "longest over shortest length of self-affine profiles",
@@ -147,12 +156,14 @@ class MajumdarBhushan(Theory):
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float) -> Self:
-        """Theory for ``roughness``, which must be self-affine, and the ``hardness`` in Pa of the softer solid."""
+        """Theory for ``roughness``, which must be self-affine, and the ``hardness`` in Pa of the
+        softer solid."""
         found = roughness.known(roughness.fractal, "fractal dimension and roughness of self-affine profiles", cls.name)
         return cls(found.dimension, found.roughness, E_star, hardness, roughness.area)
 
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Area and mean real pressure at ``pressure`` (n,) in Pa, > 0; the number of spots has no limit.
+        """Area and mean real pressure at ``pressure`` (n,) in Pa, > 0; the number of spots has no
+        limit.
 
         NoSolutionError if even full contact carries less.
         """
@@ -167,11 +178,13 @@ class MajumdarBhushan(Theory):
 
     @property
     def critical_area(self) -> float:
-        """a_c = G²/(H/2E*)^(2/(D-1)) in m²: smaller spots are plastic. Infinite or zero where floats end."""
+        """a_c = G²/(H/2E*)^(2/(D-1)) in m²: smaller spots are plastic. Infinite or zero where
+        floats end."""
         return math.inf if self._log_critical > _LARGEST else math.exp(self._log_critical)
 
     def radius(self, spot: ArrayLike) -> RealArray:
-        """Radius of curvature in m of the asperity under a spot of area ``spot`` in m²: a^(D/2)/(π² G^(D-1))."""
+        """Radius of curvature in m of the asperity under a spot of area ``spot`` in m²: a^(D/2)/(π²
+        G^(D-1))."""
         a = spot_areas(spot)
         return np.asarray(a ** (0.5 * self.dimension) / (math.pi**2 * self.roughness ** (self.dimension - 1.0)))
 

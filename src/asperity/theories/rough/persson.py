@@ -1,4 +1,5 @@
-"""Persson's theory of rough contact: area and distribution of pressure; mean gap and stiffness from ``persson_gap``."""
+"""Persson's theory of rough contact: area and distribution of pressure; mean gap and stiffness from
+``persson_gap``."""
 
 from __future__ import annotations
 
@@ -45,11 +46,12 @@ if TYPE_CHECKING:
 class IsotropicSpectrum:
     """C(q) of an isotropic surface from the first to the last wavenumber of a table, zero outside.
 
-    Between neighbours of the table C is a power law, so that self-affine spectra need no more points than they have
-    bends. Convention of Jacobs, Junge & Pastewka (2017), as everywhere here: <h²> = (1/2π) ∫ q C dq; papers with
-    <h²> = 2π ∫ q C dq have C smaller by (2π)².
+    Between neighbours of the table C is a power law, so that self-affine spectra need no more
+    points than they have bends. Convention of Jacobs, Junge & Pastewka (2017), as everywhere here:
+    <h²> = (1/2π) ∫ q C dq; papers with <h²> = 2π ∫ q C dq have C smaller by (2π)².
 
-    InputError if the tables differ in length, are too short, not positive, or the wavenumbers do not ascend.
+    InputError if the tables differ in length, are too short, not positive, or the wavenumbers do
+    not ascend.
 
     Parameters
     ----------
@@ -95,14 +97,16 @@ class IsotropicSpectrum:
     def partial_moment(self, order: int, span: RealArray) -> RealArray:
         """∫ q^order C dq from q_L to q_L exp(``span``), any shape, exact for the table.
 
-        In the logarithm of q the integral keeps its digits next to q_L, where the upper limit differs little from it.
+        In the logarithm of q the integral keeps its digits next to q_L, where the upper limit
+        differs little from it.
         """
         from scipy.special import exprel
 
         q, level = np.asarray(self.wavenumber), np.asarray(self.psd)
         starts = level[:-1] * q[:-1] ** (order + 1.0)
         powers = self.exponents + order + 1.0
-        # the integral of exp(power t) up to a length is length * exprel(power * length), also for power zero
+        # the integral of exp(power t) up to a length is length * exprel(power * length), also for
+        # power zero
         lengths = np.diff(self.span)
         whole = starts * (lengths * exprel(powers * lengths))
         below = np.concatenate([[0.0], np.cumsum(whole)])
@@ -111,11 +115,13 @@ class IsotropicSpectrum:
         return np.asarray(below[piece] + starts[piece] * (inside * exprel(powers[piece] * inside)))
 
     def graded(self, first: float, *, growth: float = 1.0) -> RealArray:
-        """Ends of panels in ln(q/q_L) from zero to the end of the table, its points among them, for functions of ∫ q^n C dq from q_L.
+        """Ends of panels in ln(q/q_L) from zero to the end of the table, its points among them, for
+        functions of ∫ q^n C dq from q_L.
 
-        Such a function may change within any distance from q_L, and with it at all later ones in proportion to the distance: past
-        the ``first`` panel (width > 0) none is wider than ``growth`` times its distance from q_L, an eighth of a decade, or
-        half of the span in which C changes e-fold.
+        Such a function may change within any distance from q_L, and with it at all later ones in
+        proportion to the distance: past the ``first`` panel (width > 0) none is wider than
+        ``growth`` times its distance from q_L, an eighth of a decade, or half of the span in which
+        C changes e-fold.
         """
         ends, t = [0.0], 0.0
         for last, power in zip(self.span[1:].tolist(), self.exponents.tolist(), strict=True):
@@ -137,7 +143,8 @@ class IsotropicSpectrum:
 
     @property
     def rms_slope(self) -> float:
-        """Root mean square gradient h'_rms of the surface: <|∇h|²> = (1/2π) ∫ q³ C dq, twice m2 of a profile."""
+        """Root mean square gradient h'_rms of the surface: <|∇h|²> = (1/2π) ∫ q³ C dq, twice m2 of
+        a profile."""
         return math.sqrt(self.moment(3) / (2.0 * math.pi))
 
     @property
@@ -151,7 +158,8 @@ class IsotropicSpectrum:
 
 
 CALIBRATED = 0.45
-"""γ for which the gap agrees with boundary-element solutions within 7 % for 0.01 <= p/(E* h'_rms) <= 0.2."""
+"""γ for which the gap agrees with boundary-element solutions within 7 % for 0.01 <= p/(E*
+h'_rms) <= 0.2."""
 
 _NODES = 12  # Gauss points of a panel
 _WIDEST = 0.25  # of a panel in ln q
@@ -163,9 +171,9 @@ _GONE = 6.0  # exp(-x²) beyond it is below the rounding of one
 class PerssonGap:
     """Mean gap and stiffness of an elastic half-space on a randomly rough rigid surface.
 
-    The elastic energy U = (E* A_n/16π) ∫ q² S C dq of full contact is reduced by S = a [γ + (1 - γ) a²], a the area
-    fraction at the wavenumber q, and dū = -dU/(A_n p) (Persson 2007; Yang & Persson 2008). At low load
-    p = β E* exp(-ū/u0).
+    The elastic energy U = (E* A_n/16π) ∫ q² S C dq of full contact is reduced by S = a [γ + (1 - γ)
+    a²], a the area fraction at the wavenumber q, and dū = -dU/(A_n p) (Persson 2007; Yang & Persson
+    2008). At low load p = β E* exp(-ū/u0).
 
     InputError if a number is out of its range.
 
@@ -176,7 +184,8 @@ class PerssonGap:
     spectrum
         Spectrum of the composite surface.
     gamma
-        0 < γ <= 1: 1 in the original form, whose gap is half too large at low load; 0.45 calibrated.
+        0 < γ <= 1: 1 in the original form, whose gap is half too large at low load; 0.45
+        calibrated.
     """
 
     E_star: float
@@ -191,7 +200,8 @@ class PerssonGap:
 
     @property
     def decay_length(self) -> float:
-        """u0 = γ sqrt(π) ∫ q² C w dq in m (C of <h²> = 2π ∫ q C dq), by which the gap grows when p falls e-fold."""
+        """u0 = γ sqrt(π) ∫ q² C w dq in m (C of <h²> = 2π ∫ q C dq), by which the gap grows when p
+        falls e-fold."""
         return self.gamma * float(self._weights.sum())
 
     @property
@@ -241,7 +251,8 @@ class PerssonGap:
 
         if not difference(low) > 0.0 > difference(high):
             raise NoSolutionError(
-                f"mean gap (m) must be between about zero and 300 decay lengths of {self.decay_length:.3g} m, but is {gap:g}."
+                f"mean gap (m) must be between about zero and 300 decay lengths of {self.decay_length:.3g} m, "
+                f"but is {gap:g}."
             )
         return self.E_star * math.exp(brentq(difference, low, high, xtol=1e-12, rtol=1e-12))
 
@@ -253,17 +264,20 @@ class PerssonGap:
 
     @cached_property
     def _nodes(self) -> tuple[RealArray, RealArray]:
-        """Gauss points in ln q/q_L and weights between the points of the table, ever finer panels towards the first."""
+        """Gauss points in ln q/q_L and weights between the points of the table, ever finer panels
+        towards the first."""
         return gauss(self.spectrum.graded(_FIRST, growth=3.0), _NODES)
 
     @cached_property
     def _sharpness(self) -> RealArray:
-        """w(q) at the nodes: A/A_n = erf(w p/E*) with the waves from q_L to q; w² ∫ q³ C dq = 4π here."""
+        """w(q) at the nodes: A/A_n = erf(w p/E*) with the waves from q_L to q; w² ∫ q³ C dq = 4π
+        here."""
         return np.asarray(np.sqrt(4.0 * math.pi / self.spectrum.partial_moment(3, self._nodes[0])))
 
     @cached_property
     def _weights(self) -> RealArray:
-        """sqrt(π) q² C w dq in m, in the convention <h²> = 2π ∫ q C dq of the theory, at the nodes."""
+        """sqrt(π) q² C w dq in m, in the convention <h²> = 2π ∫ q C dq of the theory, at the
+        nodes."""
         spans, steps = self._nodes
         q = np.asarray(self.spectrum.wavenumber)[0] * np.exp(spans)
         level = self.spectrum.at(spans) / (2.0 * math.pi) ** 2
@@ -271,7 +285,8 @@ class PerssonGap:
 
 
 def _squared_erf_integral() -> CubicHermiteSpline:
-    """∫_x^∞ erf²(t) exp(-t²)/t dt for 0 <= x <= 6 within 1e-13: a Hermite spline through Gauss sums; 0.407125 at zero."""
+    """∫_x^∞ erf²(t) exp(-t²)/t dt for 0 <= x <= 6 within 1e-13: a Hermite spline through Gauss
+    sums; 0.407125 at zero."""
     from scipy.interpolate import CubicHermiteSpline
     from scipy.special import erf
 
@@ -285,10 +300,12 @@ def _squared_erf_integral() -> CubicHermiteSpline:
 
 
 APART = 2.0
-"""Factor between the rms gradient of a surface and that of its spectrum beyond which the two are not of one surface.
+"""Factor between the rms gradient of a surface and that of its spectrum beyond which the two are
+not of one surface.
 
-Differences of neighbouring points leave out up to 2/π of the shortest waves, and a radial spectrum the waves in the corners of the
-grid: of random maps and of waves with noise the spectrum has 0.56 to 1.04 times the gradient that is measured.
+Differences of neighbouring points leave out up to 2/π of the shortest waves, and a radial spectrum
+the waves in the corners of the grid: of random maps and of waves with noise the spectrum has 0.56
+to 1.04 times the gradient that is measured.
 """
 
 LOW_LOAD_SLOPE = math.sqrt(8.0 / math.pi)
@@ -297,7 +314,8 @@ LOW_LOAD_SLOPE = math.sqrt(8.0 / math.pi)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LocalPressures(Tabled):
-    """Distribution at local pressures (n,): probability ``density`` in 1/Pa, ``area_above`` the share with more."""
+    """Distribution at local pressures (n,): probability ``density`` in 1/Pa, ``area_above`` the
+    share with more."""
 
     density: RealArray
     area_above: RealArray
@@ -307,10 +325,10 @@ class LocalPressures(Tabled):
 class Persson(Theory):
     """Area and pressure of an elastic half-space on a randomly rough rigid surface.
 
-    Roughness of ever shorter waves is taken in turn; with each the density P of the pressure spreads as by diffusion,
-    ∂P/∂ζ = f(ζ) ∂²P/∂p², and what reaches zero pressure is out of contact (Persson 2001; Persson et al. 2002). With
-    the standard deviation s = E* h'_rms/2 of the pressure in full contact the solution is a Gaussian about the mean
-    pressure p̄ less its image,
+    Roughness of ever shorter waves is taken in turn; with each the density P of the pressure
+    spreads as by diffusion, ∂P/∂ζ = f(ζ) ∂²P/∂p², and what reaches zero pressure is out of contact
+    (Persson 2001; Persson et al. 2002). With the standard deviation s = E* h'_rms/2 of the pressure
+    in full contact the solution is a Gaussian about the mean pressure p̄ less its image,
 
         P(p) = (1/(s sqrt(2 π))) [exp(-(p - p̄)²/(2 s²)) - exp(-(p + p̄)²/(2 s²))],
         A/A_a = erf[sqrt(2) p̄/(E* h'_rms)].
@@ -370,14 +388,16 @@ class Persson(Theory):
             held = self.gap.spectrum.rms_slope
             if not self.rms_gradient / APART <= held <= self.rms_gradient * APART:
                 raise InputError(
-                    f"rms gradient and spectrum must be those of one surface, but are {self.rms_gradient:.4g} and, by the spectrum, {held:.4g}: "
-                    "the area would follow the one and the gap the other. Give IsotropicSpectrum(q, psd).rms_slope, q as 2π over the "
-                    "wavelength up to the shortest wave, and psd in the convention m0 = (1/2π) ∫ q C dq."
+                    f"rms gradient and spectrum must be those of one surface, but are {self.rms_gradient:.4g} "
+                    f"and, by the spectrum, {held:.4g}: the area would follow the one and the gap the other. "
+                    "Give IsotropicSpectrum(q, psd).rms_slope, q as 2π over the wavelength up to the shortest "
+                    "wave, and psd in the convention m0 = (1/2π) ∫ q C dq."
                 )
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float, *, gamma: float = CALIBRATED) -> Self:
-        """Theory for ``roughness``: its m2, and its spectrum, less the bands without power, where it has one that holds these slopes."""
+        """Theory for ``roughness``: its m2, and its spectrum, less the bands without power, where
+        it has one that holds these slopes."""
         found, slope = roughness.spectrum, roughness.rms_gradient
         if found is not None and np.count_nonzero(found.psd > 0.0) > 1:
             q, psd = found.q[found.psd > 0.0], found.psd[found.psd > 0.0]
@@ -395,7 +415,8 @@ class Persson(Theory):
         return PerssonGap(self.E_star, IsotropicSpectrum(self.q, self.psd), self.gamma)
 
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Area, mean real pressure and, with a spectrum, mean gap and stiffness at ``pressure`` (n,) in Pa, > 0."""
+        """Area, mean real pressure and, with a spectrum, mean gap and stiffness at ``pressure``
+        (n,) in Pa, > 0."""
         p = curve(pressure, "pressures (Pa)", positive=True)
         known = {"area_fraction": self.area_fraction(p)}
         if self._has_spectrum:
@@ -425,22 +446,27 @@ class Persson(Theory):
         return math.sqrt(2.0) * self.spread * float(erfinv(area))
 
     def pressure_density(self, local: ArrayLike, pressure: float) -> RealArray:
-        """Density P in 1/Pa of the pressure ``local`` in Pa (>= 0, any shape) at the mean ``pressure`` in Pa.
+        """Density P in 1/Pa of the pressure ``local`` in Pa (>= 0, any shape) at the mean
+        ``pressure`` in Pa.
 
-        The integral over all pressures is the area fraction, that of p P the mean pressure; P ∝ p near zero.
+        The integral over all pressures is the area fraction, that of p P the mean pressure; P ∝ p
+        near zero.
         """
         nominal = require.not_negative(pressure, "mean pressure (Pa)")
         p, s = checked(local, "pressure (Pa)"), self.spread
-        # a difference of Gaussians as one Gaussian times 1 - exp, which keeps its digits near zero pressure
+        # a difference of Gaussians as one Gaussian times 1 - exp, which keeps its digits near zero
+        # pressure
         front = np.exp(-((p - nominal) ** 2) / (2.0 * s**2)) / (math.sqrt(2.0 * math.pi) * s)
         return np.asarray(front * -np.expm1(-2.0 * p * nominal / s**2))
 
     def at_local(self, local: ArrayLike, pressure: float) -> LocalPressures:
-        """Distribution of the pressure at ``local`` pressures in Pa (>= 0, any shape) under the mean ``pressure`` in Pa."""
+        """Distribution of the pressure at ``local`` pressures in Pa (>= 0, any shape) under the
+        mean ``pressure`` in Pa."""
         return LocalPressures(self.pressure_density(local, pressure), self.area_fraction_above(local, pressure))
 
     def area_fraction_above(self, local: ArrayLike, pressure: float) -> RealArray:
-        """Share of the nominal area on which the pressure exceeds ``local`` in Pa (>= 0, any shape)."""
+        """Share of the nominal area on which the pressure exceeds ``local`` in Pa (>= 0, any
+        shape)."""
         from scipy.special import erfc
 
         nominal = require.not_negative(pressure, "mean pressure (Pa)")
@@ -448,7 +474,8 @@ class Persson(Theory):
         return np.asarray(0.5 * (erfc((p - nominal) / width) - erfc((p + nominal) / width)))
 
 
-# Persson's diffusion of the pressure, solved by finite differences from one magnification to the next.
+# Persson's diffusion of the pressure, solved by finite differences from one magnification to the
+# next.
 
 
 _REACH = 8.0  # standard deviations of the pressure beyond the mean at which the density is zero: exp(-32)
@@ -493,15 +520,18 @@ def diffused_pressure(
     points: int = 1000,
     steps: int = 200,
 ) -> PressureHistory:
-    """Solve ∂P/∂ζ = f(ζ) ∂²P/∂p², P = 0 at p = 0, from P = δ(p - p_a) without roughness, along the spectrum.
+    """Solve ∂P/∂ζ = f(ζ) ∂²P/∂p², P = 0 at p = 0, from P = δ(p - p_a) without roughness, along the
+    spectrum.
 
-    f dζ = (E*²/16π) q³ C dq is half the growth of the variance of the pressure in full contact, so equal steps of the
-    integral of q³ C are equal steps of time. Crank-Nicolson on ``points`` pressures after a damped start; the error
-    falls with the square of both numbers. It needs no image source, and so checks the closed form of ``Persson``.
+    f dζ = (E*²/16π) q³ C dq is half the growth of the variance of the pressure in full contact, so
+    equal steps of the integral of q³ C are equal steps of time. Crank-Nicolson on ``points``
+    pressures after a damped start; the error falls with the square of both numbers. It needs no
+    image source, and so checks the closed form of ``Persson``.
 
-    ``spectrum``: spectrum of the composite surface; ``E_star``: contact modulus E* in Pa, > 0; ``pressure``: nominal
-    pressure p_a in Pa, > 0; ``points``: number of intervals of pressure, at least 20, between zero and beyond the last
-    pressure that occurs; ``steps``: number of steps of equal variance, at least 4.
+    ``spectrum``: spectrum of the composite surface; ``E_star``: contact modulus E* in Pa, > 0;
+    ``pressure``: nominal pressure p_a in Pa, > 0; ``points``: number of intervals of pressure, at
+    least 20, between zero and beyond the last pressure that occurs; ``steps``: number of steps of
+    equal variance, at least 4.
 
     InputError if a number is out of its range.
     """

@@ -27,14 +27,17 @@ from ..protocol import (
 from ..statistics.heights import GaussianHeights
 from ..statistics.roughness import Roughness
 
-# Onions & Archard (1973): summits of a Gaussian surface with exponential autocorrelation, radii varying with height.
+# Onions & Archard (1973): summits of a Gaussian surface with exponential autocorrelation, radii
+# varying with height.
 
 
 SAMPLING = 2.3
-"""Interval ℓ of independent ordinates over the correlation length β* (1/e): the autocorrelation has fallen to 1/10."""
+"""Interval ℓ of independent ordinates over the correlation length β* (1/e): the autocorrelation has
+fallen to 1/10."""
 
 UNLIKELY, CERTAIN = 0.25, 0.45
-"""(E*/H)(σ/β*) below which plastic flow is most unlikely, and above which it occurs at the lightest load."""
+"""(E*/H)(σ/β*) below which plastic flow is most unlikely, and above which it occurs at the lightest
+load."""
 
 _LOWEST, _HIGHEST = -30.0, 35.0  # separations in σ between which pressures are inverted
 _NODES = 16  # in each panel over the square root of the curvature
@@ -45,12 +48,14 @@ _NORM = 3.0 / (2.0**1.5 * math.pi) * math.sqrt(2.0 * math.pi / 3.0)  # of f* aft
 
 @dataclass(frozen=True)
 class OnionsArchard(SeparationTheory):
-    """Peaks among independent ordinates at the interval ℓ = 2.3 β*, one in five of a square grid being a summit.
+    """Peaks among independent ordinates at the interval ℓ = 2.3 β*, one in five of a square grid
+    being a summit.
 
-    With the joint density f*(s, C) of height s (in σ) and curvature C (in σ/ℓ²) of three-point peaks (Whitehouse &
-    Archard 1970), summits of radius ℓ²/(σC), 1/(5ℓ²) of them per area, D = h/σ:
+    With the joint density f*(s, C) of height s (in σ) and curvature C (in σ/ℓ²) of three-point
+    peaks (Whitehouse & Archard 1970), summits of radius ℓ²/(σC), 1/(5ℓ²) of them per area, D = h/σ:
 
-        A_r/A_a = (π/5) ∫_D^∞ (s - D) ∫ f*/C dC ds,  p = (4 E* σ/15ℓ) ∫_D^∞ (s - D)^(3/2) ∫ f*/C^(1/2) dC ds.
+        A_r/A_a = (π/5) ∫_D^∞ (s - D) ∫ f*/C dC ds,
+        p = (4 E* σ/15ℓ) ∫_D^∞ (s - D)^(3/2) ∫ f*/C^(1/2) dC ds.
 
     The area is nearly proportional to the load, A_r/A_a ≈ 3.1 p/(E* σ/β*).
     """
@@ -77,8 +82,8 @@ class OnionsArchard(SeparationTheory):
             0.0,
             2.0,  # the area is about 0.7 times this that of elasticity
             "Whitehouse1970",
-            "Waves shorter than 2.3 correlation lengths, which the theory leaves out, hold most of the slope; its area is "
-            "too large by their share.",
+            "Waves shorter than 2.3 correlation lengths, which the theory leaves out, hold most of the slope; "
+            "its area is too large by their share.",
             measured=True,
         ),
         MEASURED_SLOPES,
@@ -87,7 +92,8 @@ class OnionsArchard(SeparationTheory):
 
     @classmethod
     def from_roughness(cls, roughness: Roughness, E_star: float) -> Self:
-        """Theory for the rms height and correlation length of ``roughness``; InputError without the latter."""
+        """Theory for the rms height and correlation length of ``roughness``; InputError without the
+        latter."""
         if math.isnan(roughness.correlation_length):
             raise InputError(
                 "roughness for the theory onions-archard must hold a correlation length (m), but does not. Give it to "
@@ -112,8 +118,9 @@ class OnionsArchard(SeparationTheory):
 def peak_integral(D: ArrayLike, m: float, k: float) -> RealArray:
     """∫_D^∞ (s - D)^m ∫₀^∞ f*(s, C) C^(-k) dC ds over three-point peaks of independent ordinates.
 
-    f* = 3/(2^(3/2) π) exp[-s²/2 - (s - C/2)²] erf(C/2) is a normal density of s about C/3 with variance 1/3, times
-    exp(-C²/12) erf(C/2): the integral over s is a one-sided moment of a Gaussian.
+    f* = 3/(2^(3/2) π) exp[-s²/2 - (s - C/2)²] erf(C/2) is a normal density of s about C/3 with
+    variance 1/3, times exp(-C²/12) erf(C/2): the integral over s is a one-sided moment of a
+    Gaussian.
     """
     D = np.asarray(D, dtype=float)
     C, weight = _curvatures(D, k)
@@ -123,8 +130,9 @@ def peak_integral(D: ArrayLike, m: float, k: float) -> RealArray:
 def plastic_area_share(D: ArrayLike, psi: float) -> RealArray:
     """Share of the elastic area on summits deeper than δ_p = R (H/E*)², for ψ = (E*/H)(σ/β*) > 0.
 
-    In σ, δ_p is w = (2.3/ψ)²/C. Onions and Archard's bounds ``UNLIKELY`` and ``CERTAIN`` are on the safe side: the
-    share is below 1e-3 at 0.45 and reaches 2 % at about 0.65, almost whatever the load.
+    In σ, δ_p is w = (2.3/ψ)²/C. Onions and Archard's bounds ``UNLIKELY`` and ``CERTAIN`` are on the
+    safe side: the share is below 1e-3 at 0.45 and reaches 2 % at about 0.65, almost whatever the
+    load.
     """
     D = np.asarray(D, dtype=float)
     unit = (SAMPLING / require.positive(psi, "plasticity index psi")) ** 2
@@ -141,10 +149,12 @@ def _above(x: RealArray, m: float) -> RealArray:
 
 
 def _curvatures(D: RealArray, k: float, depth: float = 0.0) -> tuple[RealArray, RealArray]:
-    """Nodes C (…, n) where peaks above D + depth/C lie, and weights with erf(C/2) exp(-C²/12) C^(-k)."""
+    """Nodes C (…, n) where peaks above D + depth/C lie, and weights with erf(C/2) exp(-C²/12)
+    C^(-k)."""
     from scipy.special import erf
 
-    # peaks at height s have C about 2s with deviation √2; those deeper than depth/C lie about s = D + depth/C
+    # peaks at height s have C about 2s with deviation √2; those deeper than depth/C lie about s =
+    # D + depth/C
     panels = _DEEP_PANELS if depth > 0.0 else _PANELS
     above = np.maximum(D, 0.0)
     ends = np.stack([np.maximum(0.0, 2.0 * D - 13.0), above + np.sqrt(above**2 + 2.0 * depth) + _REACH], axis=-1)
@@ -154,15 +164,18 @@ def _curvatures(D: RealArray, k: float, depth: float = 0.0) -> tuple[RealArray, 
     return C, _NORM * weight * 2.0 * root * erf(0.5 * C) * np.exp(-C * C / 12.0) * C ** (-k)
 
 
-# Three-point peaks of sampled Gaussian profiles (Whitehouse & Archard 1970; Whitehouse & Phillips 1978).
+# Three-point peaks of sampled Gaussian profiles (Whitehouse & Archard 1970; Whitehouse & Phillips
+# 1978).
 
 
 @dataclass(frozen=True)
 class SampledPeaks(Theory):
-    """Peaks of a Gaussian profile sampled at an interval ℓ, from the correlations ρ1 = ρ(ℓ) and ρ2 = ρ(2ℓ).
+    """Peaks of a Gaussian profile sampled at an interval ℓ, from the correlations ρ1 = ρ(ℓ) and
+    ρ2 = ρ(2ℓ).
 
-    A peak is a point above both neighbours. Heights are in standard deviations of the profile, curvatures
-    C = (2 z2 - z1 - z3)/σ in σ/ℓ². At given height s curvature and slope z1 - z3 are independently normal,
+    A peak is a point above both neighbours. Heights are in standard deviations of the profile,
+    curvatures C = (2 z2 - z1 - z3)/σ in σ/ℓ². At given height s curvature and slope z1 - z3 are
+    independently normal,
 
         E(C) = 2 s (1 - ρ_1),  Var(C) = 2 (1 + ρ_2 - 2 ρ_1²),  Var(z_1 - z_3) = 2 (1 - ρ_2) σ².
 
@@ -188,7 +201,8 @@ class SampledPeaks(Theory):
         super().__post_init__()
         if not 1.0 + self.rho_2 - 2.0 * self.rho_1**2 > 0.0:
             raise InputError(
-                f"correlations of a profile must have 1 + rho_2 - 2 rho_1^2 > 0, but are {self.rho_1:g}, {self.rho_2:g}."
+                f"correlations of a profile must have 1 + rho_2 - 2 rho_1^2 > 0, but are {self.rho_1:g}, "
+                f"{self.rho_2:g}."
             )
 
     @property
@@ -210,8 +224,9 @@ class SampledPeaks(Theory):
     def curvature_deviation(self) -> float:
         """Standard deviation of the curvature of the peaks in σ/ℓ².
 
-        <C²> over the peaks is ∫₀^∞ C² n(C) erf(C/2sqrt(1 - ρ2)) dC/N with n the normal density of C; with a² = Var C and b² the
-        variance of the slope, the integral is (a²/π) [arctan(a/b) + ab/(a² + b²)].
+        <C²> over the peaks is ∫₀^∞ C² n(C) erf(C/2sqrt(1 - ρ2)) dC/N with n the normal density of
+        C; with a² = Var C and b² the variance of the slope, the integral is (a²/π) [arctan(a/b) +
+        ab/(a² + b²)].
         """
         a, b = math.sqrt(self._curvature_variance), math.sqrt(2.0 * (1.0 - self.rho_2))
         mean_square = a**2 / math.pi * (math.atan(a / b) + a * b / (a**2 + b**2)) / self.fraction

@@ -1,4 +1,5 @@
-"""Hysteretic friction of rubber on a rough surface by Persson's theory (2001), from the power spectrum and the complex modulus."""
+"""Hysteretic friction of rubber on a rough surface by Persson's theory (2001), from the power
+spectrum and the complex modulus."""
 
 from __future__ import annotations
 
@@ -23,13 +24,15 @@ from ..statistics.roughness import Roughness
 from .persson import IsotropicSpectrum
 
 ORIGINAL = 1.0
-"""gamma of the theory as it was published: the rubber follows in partial contact as in full contact. About 1/2 is usual for less."""
+"""gamma of the theory as it was published: the rubber follows in partial contact as in full
+contact. About 1/2 is usual for less."""
 
 _NODES, _SMALL = 13, 5e-3
 """Wavenumbers in a panel, and G below which P is one within rounding: erf(7)."""
 
 _ANGLES, _DECAY = 24, 46.0
-"""Panels of the angle from the direction across the motion, and the e-folds over which they shrink towards it."""
+"""Panels of the angle from the direction across the motion, and the e-folds over which they shrink
+towards it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,30 +68,33 @@ def rubber_friction(
     pressure: float,
     reduction: float = ORIGINAL,
 ) -> RubberFriction:
-    """Friction coefficient by Persson (2001), eqs. 58-60, of a hard rough surface that slides over a viscoelastic half-space.
+    """Friction coefficient by Persson (2001), eqs. 58-60, of a hard rough surface that slides over
+    a viscoelastic half-space.
 
     .. math::
 
         \\mu = \\tfrac12\\int dq\\,q^3 C(q) S(q) P(q) \\int_0^{2\\pi} d\\phi\\,\\cos\\phi\\,
         \\frac{\\mathrm{Im}\\,E(qv\\cos\\phi)}{\\sigma_0}
 
-    with P = erf(1/2√G) and G = 1/8 ∫ dq q³ C ∫ dφ |E(qv cos φ)/σ0|², C here being that of <h²> = ∫ C d²q. All waves up to the largest
-    of the spectrum count; the shortest dominate, so that where the spectrum ends must be stated with the result.
+    with P = erf(1/2√G) and G = 1/8 ∫ dq q³ C ∫ dφ |E(qv cos φ)/σ0|², C here being that of <h²> = ∫
+    C d²q. All waves up to the largest of the spectrum count; the shortest dominate, so that where
+    the spectrum ends must be stated with the result.
 
     Parameters
     ----------
     spectrum
         Of the rough surface.
     modulus
-        Complex plane-strain modulus E/(1 - nu²) in Pa at angular frequencies (any shape) in rad/s, for the time dependence exp(+i omega t);
+        Complex plane-strain modulus E/(1 - nu²) in Pa at angular frequencies (any shape) in rad/s,
+        for the time dependence exp(+i omega t);
         ``Viscoelastic.contact_relaxation.complex_modulus``.
     speed
         v in m/s, > 0.
     pressure
         Nominal pressure in Pa, > 0.
     reduction
-        gamma in S = gamma + (1 - gamma) P², 0 < gamma <= 1: how much less the rubber follows in partial contact; 1 leaves it out, about
-        1/2 is usual.
+        gamma in S = gamma + (1 - gamma) P², 0 < gamma <= 1: how much less the rubber follows in
+        partial contact; 1 leaves it out, about 1/2 is usual.
 
     Raises
     ------
@@ -99,7 +105,8 @@ def rubber_friction(
     gamma = require.at_most(reduction, 1.0, "reduction factor gamma of the deformation")
     from scipy.special import erf
 
-    # a quarter turn of φ, dense where the motion is along the wave's crests and the frequency goes to zero
+    # a quarter turn of φ, dense where the motion is along the wave's crests and the frequency goes
+    # to zero
     w, share = gauss(np.linspace(0.0, _DECAY, _ANGLES + 1), 8)
     angle = 0.5 * np.pi * np.exp(-w)
     cosine, weight = np.sin(angle), share * angle
@@ -111,7 +118,8 @@ def rubber_friction(
         density = q**4 * spectrum.at(span) / (2.0 * np.pi) ** 2  # q³ C dq = q⁴ C d ln q
         return 0.5 * density * (np.abs(E) ** 2 @ weight), 2.0 * density * ((cosine * E.imag) @ weight)
 
-    # P falls from one within d ln q = 1/G' of the first wavenumber, which is 1e-20 for stiff solids under small pressures
+    # P falls from one within d ln q = 1/G' of the first wavenumber, which is 1e-20 for stiff solids
+    # under small pressures
     steepest = float(losses(np.zeros(1))[0][0])
     ends = spectrum.graded(_SMALL / max(steepest, _SMALL))
     x, sums = running(_NODES)
@@ -156,13 +164,17 @@ _SPEED = asked("speed", "m/s", "sliding speed")
 
 @dataclass(frozen=True, eq=False)
 class PerssonFriction(Theory):
-    """Hysteretic friction and contact area of a hard rough surface that slides over a viscoelastic half-space (Persson 2001).
+    """Hysteretic friction and contact area of a hard rough surface that slides over a viscoelastic
+    half-space (Persson 2001).
 
-    The same theory as ``rubber_friction``, for a plane-strain modulus ``relaxed`` + sum of ``moduli`` exp(-t/``times``).
+    The same theory as ``rubber_friction``, for a plane-strain modulus ``relaxed`` + sum of
+    ``moduli`` exp(-t/``times``).
 
-        μ = ½ ∫ q³ C S P ∫ cos φ Im E(qv cos φ)/p̄ dφ dq,  P = erf(1/2√G),  G = ⅛ ∫ q³ C ∫ |E(qv cos φ)/p̄|² dφ dq.
+        μ = ½ ∫ q³ C S P ∫ cos φ Im E(qv cos φ)/p̄ dφ dq,  P = erf(1/2√G),
+        G = ⅛ ∫ q³ C ∫ |E(qv cos φ)/p̄|² dφ dq.
 
-    InputError if a parameter is outside its range, moduli and times differ in number, or the spectrum cannot be used.
+    InputError if a parameter is outside its range, moduli and times differ in number, or the
+    spectrum cannot be used.
     """
 
     relaxed: Annotated[float, Number("pressure", above=0.0), "plane-strain modulus E/(1 - nu²) after relaxation"]
@@ -201,7 +213,8 @@ class PerssonFriction(Theory):
         super().__post_init__()
         if np.size(self.moduli) != np.size(self.times):
             raise InputError(
-                f"times of a relaxation must be as many as its moduli, but are {np.size(self.times)} for {np.size(self.moduli)}."
+                f"times of a relaxation must be as many as its moduli, but are {np.size(self.times)} for "
+                f"{np.size(self.moduli)}."
             )
         IsotropicSpectrum(self.q, self.psd)  # checks them
 

@@ -39,21 +39,25 @@ class _InHole(Theory):
         super().__post_init__()
         if not self.outer > self.inner:
             raise InputError(
-                f"radius of the hole (m) must be larger than that of the body in it, {self.inner:g} m, but is {self.outer:g} m."
+                f"radius of the hole (m) must be larger than that of the body in it, {self.inner:g} m, but is "
+                f"{self.outer:g} m."
             )
 
 
-# Exact circular profiles on half-planes (Steuermann 1939; Johnson 1985, secs. 5.3 and 2.7): the gap is
-# [R1 - sqrt(R1² - x²)] - [R2 - sqrt(R2² - x²)], and the contact a sum of flat punches of growing width.
+# Exact circular profiles on half-planes (Steuermann 1939; Johnson 1985, secs. 5.3 and 2.7): the gap
+# is [R1 - sqrt(R1² - x²)] - [R2 - sqrt(R2² - x²)], and the contact a sum of flat punches of growing
+# width.
 
 
 @dataclass(frozen=True)
 class CylinderInHole(_InHole):
-    """Cylinder in a hole, both as half-planes, with the elliptic integrals K and E of the moduli k = a/R:
+    """Cylinder in a hole, both as half-planes, with the elliptic integrals K and E of the moduli
+    k = a/R:
 
         P = E* (R_1 (K(k_1) - E(k_1)) - R_2 (K(k_2) - E(k_2))),  k_1 = a/R_1,  k_2 = a/R_2.
 
-    What Hertz's parabolas leave out of the profile; what the half-planes leave out of the compliance is in ``PinInHole``.
+    What Hertz's parabolas leave out of the profile; what the half-planes leave out of the
+    compliance is in ``PinInHole``.
     """
 
     name: ClassVar[str] = "cylinder-in-hole"
@@ -72,23 +76,27 @@ class CylinderInHole(_InHole):
         largest = float(self._load(np.array(widest)))
         if np.any(largest < P):
             raise InputError(
-                f"load of a cylinder in a hole must be at most {largest:.4g} N/m, where half of it is in contact, but is {float(P.max()):.4g} N/m."
+                f"load of a cylinder in a hole must be at most {largest:.4g} N/m, where half of it is in "
+                f"contact, but is {float(P.max()):.4g} N/m."
             )
         a = bisected(lambda a: self._load(a) - P, np.zeros_like(P), np.full_like(P, widest))
         return self.at_half_width(a)
 
     def at_half_width(self, half_width: ArrayLike) -> ContactAnswer:
-        """The contact of the ``half_width`` a in m, 0 <= a < R1, of any shape; approach and stiffness as for ``HertzLine``."""
+        """The contact of the ``half_width`` a in m, 0 <= a < R1, of any shape; approach and
+        stiffness as for ``HertzLine``."""
         a = checked(half_width, "half-width (m)")
         if np.any(a >= self.inner):
             raise InputError(
-                f"half-width must be less than the radius of the cylinder, {self.inner:g} m, but is {float(a.max()):g} m."
+                f"half-width must be less than the radius of the cylinder, {self.inner:g} m, but is "
+                f"{float(a.max()):g} m."
             )
         unknown = np.full_like(a, np.nan)
         return ContactAnswer(self._load(a), unknown, a, 2.0 * a, self._pressure(np.zeros_like(a), a), unknown)
 
     def pressure(self, x: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in N/m, > 0.
+        """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in
+        N/m, > 0.
 
         (1/π) ∫ P'(t)/sqrt(t² - x²) dt over x < t < a, P' = E* Σ ± k E(k)/(1 - k²).
         """
@@ -96,7 +104,8 @@ class CylinderInHole(_InHole):
         return self._pressure(np.minimum(np.abs(np.asarray(x, dtype=float)), a), a)
 
     def _load(self, a: RealArray) -> RealArray:
-        """The sum written as one integral, E* ∫ x f'(x)/sqrt(a² - x²) dx with x = a sin t, in which nothing cancels."""
+        """The sum written as one integral, E* ∫ x f'(x)/sqrt(a² - x²) dx with x = a sin t, in which
+        nothing cancels."""
         t, weight = gauss(np.array([0.0, 0.5 * math.pi]), 2 * _NODES)
         square = (a[..., None] * np.sin(t)) ** 2
         s1, s2 = np.sqrt(self.inner**2 - square), np.sqrt(self.outer**2 - square)
@@ -115,7 +124,8 @@ class CylinderInHole(_InHole):
 
 @dataclass(frozen=True)
 class SphereInCavity(_InHole):
-    """Sphere in a spherical cavity with the exact profiles of both, as half-spaces: the difference of two ``SphericalIndenter``.
+    """Sphere in a spherical cavity with the exact profiles of both, as half-spaces: the difference
+    of two ``SphericalIndenter``.
 
         δ = a (artanh(a/R_1) - artanh(a/R_2)).
 
@@ -128,13 +138,15 @@ class SphereInCavity(_InHole):
     limits: ClassVar[tuple[Bound, ...]] = (_ARC,)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N, >= 0, of any shape. InputError if it needs more than 0.999 of the inner radius."""
+        """The contact under ``load`` in N, >= 0, of any shape. InputError if it needs more than
+        0.999 of the inner radius."""
         P = checked(load, "load (N)")
         widest = 0.999 * self.inner
         largest = float(self.at_radius(widest).load)
         if np.any(largest < P):
             raise InputError(
-                f"load of a sphere in a cavity must be at most {largest:.4g} N, where half of it is in contact, but is {float(P.max()):.4g} N."
+                f"load of a sphere in a cavity must be at most {largest:.4g} N, where half of it is in "
+                f"contact, but is {float(P.max()):.4g} N."
             )
         a = bisected(lambda a: self.at_radius(a).load - P, np.zeros_like(P), np.full_like(P, widest))
         return self.at_radius(a)
@@ -152,8 +164,8 @@ class SphereInCavity(_InHole):
         )
 
 
-# Disc in the hole of an infinite plane, exactly, for elastically similar bodies (Persson 1964; Ciavarella & Decuzzi
-# 2001): with b = tan(ε/2) for the half-angle ε of contact and y = tan(θ/2),
+# Disc in the hole of an infinite plane, exactly, for elastically similar bodies (Persson 1964;
+# Ciavarella & Decuzzi 2001): with b = tan(ε/2) for the half-angle ε of contact and y = tan(θ/2),
 # E'ΔR/P = [2 - ln(1 + b²) - 2b⁴]/[πb²(1 + b²)].
 
 
@@ -163,8 +175,9 @@ class PinInHole(_InHole):
 
         2 E* ΔR/P = (2 - ln(1 + b²) - 2 b⁴)/(π b² (1 + b²)),  b = tan(ε/2).
 
-    ε is the half-angle of the contact, ΔR the clearance. The force is held at the centre of the disc and
-    far away in the plate. Without clearance the arc is 84.9° wide to each side whatever the load.
+    ε is the half-angle of the contact, ΔR the clearance. The force is held at the centre of the
+    disc and far away in the plate. Without clearance the arc is 84.9° wide to each side whatever
+    the load.
     """
 
     name: ClassVar[str] = "pin-in-hole"
@@ -182,7 +195,8 @@ class PinInHole(_InHole):
         return float(2.0 * np.arctan(b))
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N/m, >= 0, of any shape; area and radius along the arc; approach not known (NaN)."""
+        """The contact under ``load`` in N/m, >= 0, of any shape; area and radius along the arc;
+        approach not known (NaN)."""
         P = checked(load, "load per length (N/m)")
         b = self._width(P)
         arc = 2.0 * np.arctan(b) * self.inner
@@ -196,7 +210,8 @@ class PinInHole(_InHole):
         return 2.0 * np.arctan(self._width(checked(load, "load per length (N/m)")))
 
     def pressure(self, angle: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the ``angle`` θ in rad (any shape) from the line of the force under ``load`` in N/m, > 0."""
+        """Pressure in Pa at the ``angle`` θ in rad (any shape) from the line of the force under
+        ``load`` in N/m, > 0."""
         P = require.positive(load, "load per length (N/m)")
         b = self._width(np.asarray(P))
         y = np.tan(0.5 * np.clip(np.abs(np.asarray(angle, dtype=float)), 0.0, 0.5 * math.pi))

@@ -34,7 +34,8 @@ class HertzPoint(Theory):
     --------
     >>> ball = HertzPoint(E_star=115e9, radius=5e-3)
     >>> answer = ball.at_load(10.0)
-    >>> f"{answer.radius * 1e6:.1f} µm, {answer.max_pressure / 1e9:.3f} GPa, {answer.approach * 1e9:.0f} nm"
+    >>> radius, peak, approach = answer.radius, answer.max_pressure, answer.approach
+    >>> f"{radius * 1e6:.1f} µm, {peak / 1e9:.3f} GPa, {approach * 1e9:.0f} nm"
     '68.8 µm, 1.008 GPa, 948 nm'
     """
 
@@ -51,7 +52,8 @@ class HertzPoint(Theory):
         return self.at_radius(np.cbrt(0.75 * P * self.radius / self.E_star))
 
     def at_approach(self, approach: ArrayLike) -> ContactAnswer:
-        """The contact at the ``approach`` δ in m, >= 0, of any shape: P = (4/3) E* sqrt(R) δ^(3/2)."""
+        """The contact at the ``approach`` δ in m, >= 0, of any shape: P = (4/3) E* sqrt(R)
+        δ^(3/2)."""
         return self.at_radius(np.sqrt(self.radius * checked(approach, "approach (m)")))
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
@@ -72,12 +74,14 @@ class HertzPoint(Theory):
         return self.at_radius(0.5 * np.pi * p0 * self.radius / self.E_star)
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in N, > 0."""
+        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in
+        N, > 0."""
         answer = self.at_load(require.positive(load, "load (N)"))
         return hertz_profile(np.asarray(r, dtype=float), answer)
 
     def displacement(self, r: ArrayLike, load: float) -> RealArray:
-        """Sum of the normal displacements of both surfaces in m at the distance ``r`` in m (any shape).
+        """Sum of the normal displacements of both surfaces in m at the distance ``r`` in m (any
+        shape).
 
         Inside p0 π (2a² - r²)/(4aE*), which is δ - r²/2R; outside
         p0/(2E*a) [(2a² - r²) arcsin(a/r) + r a sqrt(1 - a²/r²)].
@@ -90,7 +94,8 @@ class HertzPoint(Theory):
         return np.asarray(scale * ((2.0 * a**2 - distance**2) * np.arcsin(sine) + outside))
 
     def gap(self, r: ArrayLike, load: float) -> RealArray:
-        """Distance of the deformed surfaces in m at the distance ``r`` in m (any shape) from the axis, zero inside."""
+        """Distance of the deformed surfaces in m at the distance ``r`` in m (any shape) from the
+        axis, zero inside."""
         answer = self.at_load(require.positive(load, "load (N)"))
         distance = np.abs(np.asarray(r, dtype=float))
         opened = self.displacement(distance, load) - answer.approach + distance**2 / (2.0 * self.radius)
@@ -98,11 +103,13 @@ class HertzPoint(Theory):
 
 
 def hertz_profile(r: RealArray, answer: ContactAnswer) -> RealArray:
-    """p0 sqrt(1 - r²/a²), zero outside, in Pa; also the pressure of a line contact at the distance ``r`` in m."""
+    """p0 sqrt(1 - r²/a²), zero outside, in Pa; also the pressure of a line contact at the distance
+    ``r`` in m."""
     return answer.max_pressure * np.sqrt(np.maximum(1.0 - (r / answer.radius) ** 2, 0.0))
 
 
-# Hertz's line contact of two parallel cylinders in plane strain (Hertz 1882; Johnson 1985, sec. 4.2c).
+# Hertz's line contact of two parallel cylinders in plane strain (Hertz 1882; Johnson 1985, sec.
+# 4.2c).
 
 
 @dataclass(frozen=True)
@@ -111,8 +118,8 @@ class HertzLine(Theory):
 
         a² = 4 P R/(π E*),  p_0 = E* a/(2 R),  p = p_0 sqrt(1 - x²/a²).
 
-    The approach of distant points depends on how the bodies are held (it grows with the logarithm of their size), so
-    approach and stiffness are NaN.
+    The approach of distant points depends on how the bodies are held (it grows with the logarithm
+    of their size), so approach and stiffness are NaN.
     """
 
     E_star: Modulus
@@ -147,12 +154,14 @@ class HertzLine(Theory):
         return self.at_half_width(2.0 * p0 * self.radius / self.E_star)
 
     def pressure(self, x: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in N/m, > 0."""
+        """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in
+        N/m, > 0."""
         answer = self.at_load(require.positive(load, "load per length (N/m)"))
         return hertz_profile(np.asarray(x, dtype=float), answer)
 
     def gap(self, x: ArrayLike, load: float) -> RealArray:
-        """Distance of the deformed surfaces in m at ``x`` in m (any shape) from the middle, zero inside.
+        """Distance of the deformed surfaces in m at ``x`` in m (any shape) from the middle, zero
+        inside.
 
         (1/2R) [x sqrt(x² - a²) - a² arcosh(x/a)].
         """
@@ -170,10 +179,11 @@ def root_gap(x: RealArray, a: RealArray) -> RealArray:
 
 
 def axis_ratio(curvature_ratio: ArrayLike) -> RealArray:
-    """Minor over major semi-axis of the contact ellipse for B/A = larger over smaller curvature, >= 1, of any shape.
+    """Minor over major semi-axis of the contact ellipse for B/A = larger over smaller curvature, >=
+    1, of any shape.
 
-    B/A = [(a/b)² E - K]/(K - E) with complete elliptic integrals, written as a ratio of Carlson's symmetric integrals,
-    R_D(0, 1, b²/a²)/R_D(0, b²/a², 1), which loses no digits near the circle.
+    B/A = [(a/b)² E - K]/(K - E) with complete elliptic integrals, written as a ratio of Carlson's
+    symmetric integrals, R_D(0, 1, b²/a²)/R_D(0, b²/a², 1), which loses no digits near the circle.
     """
     from scipy.special import elliprd
 
@@ -206,8 +216,8 @@ class HertzEllipse(Theory):
 
         p = p_0 sqrt(1 - x²/a² - y²/b²),  p_0 = 3 P/(2 π a b),  δ = p_0 b K(e)/E*,  e² = 1 - b²/a².
 
-    a is the larger semi-axis, which lies along the axis of the larger radius, K the complete elliptic integral.
-    ``HertzBodies`` makes it from the principal radii of both bodies.
+    a is the larger semi-axis, which lies along the axis of the larger radius, K the complete
+    elliptic integral. ``HertzBodies`` makes it from the principal radii of both bodies.
     """
 
     E_star: Modulus
@@ -248,12 +258,14 @@ class HertzEllipse(Theory):
         return (major, minor) if self.radius_x >= self.radius_y else (minor, major)
 
     def steepest(self, load: ArrayLike) -> RealArray:
-        """Largest semi-axis over radius of curvature along the same axis under ``load`` in N, >= 0, of any shape."""
+        """Largest semi-axis over radius of curvature along the same axis under ``load`` in N, >= 0,
+        of any shape."""
         along_x, along_y = self.semi_axes(load)
         return np.asarray(np.maximum(along_x / self.radius_x, along_y / self.radius_y))
 
     def pressure(self, x: ArrayLike, y: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at ``x``, ``y`` in m (broadcast) from the centre under ``load`` in N, > 0."""
+        """Pressure in Pa at ``x``, ``y`` in m (broadcast) from the centre under ``load`` in N, >
+        0."""
         along_x, along_y = self.semi_axes(require.positive(load, "load (N)"))
         inside = 1.0 - (np.asarray(x) / along_x) ** 2 - (np.asarray(y) / along_y) ** 2
         return self.at_load(load).max_pressure * np.sqrt(np.maximum(inside, 0.0))
@@ -264,7 +276,8 @@ class HertzEllipse(Theory):
         return float(axis_ratio(radii[1] / radii[0]))
 
     def _major_and_minor(self, P: RealArray) -> tuple[RealArray, RealArray]:
-        """Semi-axes a >= b from 1/2R = (p0/E*)(b/a²)(K - E)/e², R the larger radius and (K - E)/e² = R_D(0, b²/a², 1)/3."""
+        """Semi-axes a >= b from 1/2R = (p0/E*)(b/a²)(K - E)/e², R the larger radius and (K -
+        E)/e² = R_D(0, b²/a², 1)/3."""
         from scipy.special import elliprd
 
         ratio, flattest = self._axis_ratio, max(self.radius_x, self.radius_y)
@@ -274,20 +287,26 @@ class HertzEllipse(Theory):
 
 @dataclass(frozen=True)
 class HertzBodies(Theory):
-    """Frictionless elastic contact of two bodies by their four principal radii, whose planes x are turned by the angle α.
+    """Frictionless elastic contact of two bodies by their four principal radii, whose planes x are
+    turned by the angle α.
 
     A relative radius R of the gap is that of the curvatures 1/R = 1/2 (S ± D) with
 
-        S = 1/R_1x + 1/R_1y + 1/R_2x + 1/R_2y,  D² = d_1² + d_2² + 2 d_1 d_2 cos 2α,  d_i = 1/R_ix - 1/R_iy,
+        S = 1/R_1x + 1/R_1y + 1/R_2x + 1/R_2y,  D² = d_1² + d_2² + 2 d_1 d_2 cos 2α,
+        d_i = 1/R_ix - 1/R_iy,
 
-    and the contact is that of ``HertzEllipse``. Radii are positive where a body is convex, negative where it is hollow and infinite
-    where it is straight.
+    and the contact is that of ``HertzEllipse``. Radii are positive where a body is convex, negative
+    where it is hollow and infinite where it is straight.
 
     Examples
     --------
     Two crossed cylinders of equal radii touch in a circle:
 
-    >>> rods = HertzBodies(100e9, radius_1x=math.inf, radius_1y=0.01, radius_2x=math.inf, radius_2y=0.01, angle=math.pi / 2)
+    >>> rods = HertzBodies(
+    ...     100e9,
+    ...     radius_1x=math.inf, radius_1y=0.01, radius_2x=math.inf, radius_2y=0.01,
+    ...     angle=math.pi / 2,
+    ... )
     >>> f"{rods.radius_x:.4f} m, {rods.radius_y:.4f} m"
     '0.0100 m, 0.0100 m'
     """
@@ -337,7 +356,8 @@ class HertzBodies(Theory):
         if not flat > 1e-12 * sum(abs(1.0 / radius) for radius in radii):
             raise InputError(
                 "principal radii (m) must leave a gap that opens in all directions, but its curvatures are "
-                f"{flat:.4g} and {steep:.4g} 1/m. A line contact is that of HertzLine; a hollow body must be wider than the one in it."
+                f"{flat:.4g} and {steep:.4g} 1/m. A line contact is that of HertzLine; a hollow body must be "
+                "wider than the one in it."
             )
         made = {"radius_x": 1.0 / flat, "radius_y": 1.0 / steep, "turn": 0.5 * math.atan2(0.0 - across, -along)}
         for name, value in made.items():
@@ -349,22 +369,25 @@ class HertzBodies(Theory):
         return HertzEllipse(self.E_star, self.radius_x, self.radius_y)
 
     def at_load(self, load: ArrayLike) -> EllipseAnswer:
-        """The contact under ``load`` in N, >= 0, of any shape; ``semi_x`` is the larger semi-axis."""
+        """The contact under ``load`` in N, >= 0, of any shape; ``semi_x`` is the larger
+        semi-axis."""
         return self.ellipse.at_load(load)
 
 
-# Hertz contact of a summit with two curvatures (Johnson 1985, eq. 4.26-4.30), without solving for the ellipse.
+# Hertz contact of a summit with two curvatures (Johnson 1985, eq. 4.26-4.30), without solving for
+# the ellipse.
 #
-# Curvatures κ_m(1 ± r), 0 <= r < 1. With the approach δ, A = π δ/κ_m f_A and P = (4/3) E* δ^(3/2)/κ_m^(1/2) f_P. The axis
-# ratio k = b/a of the ellipse is the natural parameter: r and both factors are closed forms in it.
+# Curvatures κ_m(1 ± r), 0 <= r < 1. With the approach δ, A = π δ/κ_m f_A and P = (4/3) E*
+# δ^(3/2)/κ_m^(1/2) f_P. The axis ratio k = b/a of the ellipse is the natural parameter: r and both
+# factors are closed forms in it.
 
 
 @dataclass(frozen=True, eq=False)
 class Ellipse:
     """Contact ellipses of axis ratio ``k`` = b/a, 0 < k <= 1, any shape.
 
-    ``r`` relative difference of the curvatures; ``area`` f_A and ``load`` f_P, which are 1 for a sphere; ``slope`` is
-    dr/d(ln k), not positive.
+    ``r`` relative difference of the curvatures; ``area`` f_A and ``load`` f_P, which are 1 for a
+    sphere; ``slope`` is dr/d(ln k), not positive.
     """
 
     k: RealArray
@@ -377,8 +400,9 @@ class Ellipse:
 def ellipse(k: RealArray) -> Ellipse:
     """Factors of ellipses with axis ratio ``k`` = b/a.
 
-    With complete elliptic integrals K, E of the parameter m = 1 - k² and D = (K - E)/m, B = K - D, which lose no digits
-    at small m: (1 + r)/(1 - r) = B/(k² D), f_A = (B + k² D)/(k K), f_P = (π/2K) sqrt[(B + k² D)/(k² K)].
+    With complete elliptic integrals K, E of the parameter m = 1 - k² and D = (K - E)/m, B = K - D,
+    which lose no digits at small m: (1 + r)/(1 - r) = B/(k² D), f_A = (B + k² D)/(k K), f_P =
+    (π/2K) sqrt[(B + k² D)/(k² K)].
     """
     from scipy.special import ellipkm1, elliprd
 

@@ -1,4 +1,5 @@
-"""Indenters of any profile pressed into a half-space: flat, spherical, conical, by a power of the radius, round or long."""
+"""Indenters of any profile pressed into a half-space: flat, spherical, conical, by a power of the
+radius, round or long."""
 
 from __future__ import annotations
 
@@ -20,10 +21,12 @@ from ..protocol import CONTACT_RADIUS, Bound, ContactAnswer, Modulus, Theory, bi
 Exponent: TypeAlias = Annotated[float, Number(least=1.0, fix="Concave tips have no closed form."), "n of the profile"]
 Slope: TypeAlias = Annotated[Positive, "slope of the flanks against the surface, cotangent of the half-angle"]
 
-# Rigid axisymmetric indenters: power laws (cone, paraboloid, …), flat punch, exact sphere (Galin 1946; Sneddon 1965).
+# Rigid axisymmetric indenters: power laws (cone, paraboloid, …), flat punch, exact sphere (Galin
+# 1946; Sneddon 1965).
 #
-# For a profile f(r) and g(x) = x ∫ f'(r)/sqrt(x² - r²) dr over 0 < r < x: δ = g(a), P = 2E* ∫ [δ - g] dx over 0 < x < a,
-# p(r) = (E*/π) ∫ g'(x)/sqrt(x² - r²) dx over r < x < a, and dP/dδ = 2E*a for all of them.
+# For a profile f(r) and g(x) = x ∫ f'(r)/sqrt(x² - r²) dr over 0 < r < x: δ = g(a), P = 2E* ∫ [δ -
+# g] dx over 0 < x < a, p(r) = (E*/π) ∫ g'(x)/sqrt(x² - r²) dx over r < x < a, and dP/dδ = 2E*a for
+# all of them.
 
 
 _NODES = 48  # 16 leave 1e-9 at exponent 8, 48 rounding
@@ -39,9 +42,11 @@ def convex(exponent: float) -> float:
 
 
 def power_integral(rho: ArrayLike, exponent: float) -> RealArray:
-    """∫ t^(n-1)/sqrt(t² - ρ²) dt over ρ < t < 1, n = ``exponent``, at ``rho`` in 0 < ρ <= 1 of any shape.
+    """∫ t^(n-1)/sqrt(t² - ρ²) dt over ρ < t < 1, n = ``exponent``, at ``rho`` in 0 < ρ <= 1 of any
+    shape.
 
-    With t = ρ cosh s it is ρ^(n-1) ∫ cosh^(n-1) s ds up to arcosh(1/ρ), smooth; for n = 1 it is arcosh(1/ρ) itself.
+    With t = ρ cosh s it is ρ^(n-1) ∫ cosh^(n-1) s ds up to arcosh(1/ρ), smooth; for n = 1 it is
+    arcosh(1/ρ) itself.
     """
     inside = np.asarray(rho, dtype=float)
     end = np.arccosh(1.0 / inside)
@@ -95,7 +100,8 @@ class PowerLawIndenter(Theory):
         n, a = self.exponent, checked(contact_radius, "contact radius (m)")
         approach = self.approach_factor * self.coefficient * a**n
         load = 2.0 * n / (n + 1.0) * self.E_star * a * approach
-        # the largest pressure is at the centre for n <= 2; for larger n on a ring inside, found on a fine grid of radii and refined
+        # the largest pressure is at the centre for n <= 2; for larger n on a ring inside, found on
+        # a fine grid of radii and refined
         with np.errstate(invalid="ignore"):
             scale = np.where(a > 0.0, n * self.E_star * approach / (np.pi * a), 0.0)
         if n == 1.0:
@@ -114,7 +120,8 @@ class PowerLawIndenter(Theory):
         return ContactAnswer(load, approach, a, np.pi * a**2, np.asarray(peak), 2.0 * self.E_star * a)
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in N, > 0.
+        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in
+        N, > 0.
 
         n E* δ/(πa) ∫ t^(n-1)/sqrt(t² - ρ²) dt over ρ = r/a < t < 1; infinite at the apex of a cone.
         """
@@ -161,7 +168,8 @@ class FlatPunch(Theory):
         return self.at_load(2.0 * self.E_star * self.radius * checked(approach, "approach (m)"))
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in N; infinite at the edge."""
+        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in N;
+        infinite at the edge."""
         inside = np.maximum(1.0 - (np.asarray(r, dtype=float) / self.radius) ** 2, 0.0)
         outside = np.abs(np.asarray(r)) > self.radius
         mean = require.positive(load, "load (N)") / (np.pi * self.radius**2)
@@ -170,7 +178,8 @@ class FlatPunch(Theory):
         return profile
 
     def displacement(self, r: ArrayLike, load: float) -> RealArray:
-        """Normal displacement in m at the distance ``r`` in m (any shape): δ inside, (2δ/π) arcsin(a/r) outside."""
+        """Normal displacement in m at the distance ``r`` in m (any shape): δ inside, (2δ/π)
+        arcsin(a/r) outside."""
         distance = np.maximum(np.abs(np.asarray(r, dtype=float)), self.radius)
         approach = self.at_load(require.positive(load, "load (N)")).approach
         return np.asarray(2.0 / np.pi * approach * np.arcsin(self.radius / distance))
@@ -182,7 +191,8 @@ class EllipticPunch(Theory):
 
         p = P/(2 π a b sqrt(1 - x²/a² - y²/b²)),  δ = P K(e)/(π E* a).
 
-    K is the complete elliptic integral of the eccentricity e; either half-axis may be the longer one.
+    K is the complete elliptic integral of the eccentricity e; either half-axis may be the longer
+    one.
     """
 
     E_star: Modulus
@@ -224,7 +234,8 @@ class EllipticPunch(Theory):
         return self.at_load(self.stiffness * checked(approach, "approach (m)"))
 
     def pressure(self, x: ArrayLike, y: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at ``x``, ``y`` in m (broadcast) from the axis under ``load`` in N, > 0; infinite at the edge."""
+        """Pressure in Pa at ``x``, ``y`` in m (broadcast) from the axis under ``load`` in N, > 0;
+        infinite at the edge."""
         mean = require.positive(load, "load (N)") / (math.pi * self.half_axis_x * self.half_axis_y)
         place = (np.asarray(x) / self.half_axis_x) ** 2 + (np.asarray(y) / self.half_axis_y) ** 2
         with np.errstate(divide="ignore"):
@@ -238,7 +249,8 @@ class SphericalIndenter(Theory):
 
         δ = a artanh(a/R),  P = E* [(R² + a²) artanh(a/R) - a R].
 
-    The body is still a half-space with small slopes, so this shows what the paraboloid of ``HertzPoint`` leaves out.
+    The body is still a half-space with small slopes, so this shows what the paraboloid of
+    ``HertzPoint`` leaves out.
     """
 
     E_star: Modulus
@@ -272,7 +284,8 @@ class SphericalIndenter(Theory):
         from scipy.special import spence
 
         s = a / self.radius
-        # ∫ artanh(x)/x dx over 0 < x < s: the Legendre chi function of order two, by its series where the difference loses digits
+        # ∫ artanh(x)/x dx over 0 < x < s: the Legendre chi function of order two, by its series
+        # where the difference loses digits
         series = sum(s ** (2 * n + 1) / (2 * n + 1) ** 2 for n in range(9))
         chi = np.where(s < 0.1, series, 0.5 * (spence(1.0 - s) - spence(1.0 + s)))
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -288,7 +301,8 @@ class SphericalIndenter(Theory):
         )
 
     def pressure(self, r: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in N, > 0."""
+        """Pressure in Pa at the distance ``r`` in m (any shape) from the axis under ``load`` in
+        N, > 0."""
         a = self.at_load(require.positive(load, "load (N)")).radius
         inside = np.minimum(np.abs(np.asarray(r, dtype=float)), a)
         # x² = r² + v² removes the root: p = (E*/π) ∫ g'(x)/x dv
@@ -299,13 +313,15 @@ class SphericalIndenter(Theory):
         return np.asarray(self.E_star / np.pi * np.sum(weight * rise, axis=-1))
 
     def _load(self, s: RealArray) -> RealArray:
-        """P of s = a/R; for small s the two terms cancel to (4/3) s³, so the series of artanh is used there."""
+        """P of s = a/R; for small s the two terms cancel to (4/3) s³, so the series of artanh is
+        used there."""
         exact = (1.0 + s**2) * np.arctanh(s) - s
         terms = [(1.0 / (2 * n + 1) + 1.0 / (2 * n - 1)) * s ** (2 * n + 1) for n in range(1, 9)]
         return self.E_star * self.radius**2 * np.where(s < 0.1, sum(terms), exact)
 
 
-# Rigid symmetric indenters in plane strain: power laws (wedge, cylinder, …) and flat punch (Galin 1946; Johnson 1985, ch. 2).
+# Rigid symmetric indenters in plane strain: power laws (wedge, cylinder, …) and flat punch (Galin
+# 1946; Johnson 1985, ch. 2).
 
 
 @dataclass(frozen=True)
@@ -314,8 +330,8 @@ class LinePowerLawIndenter(Theory):
 
         P = E* n B c a^n,  c = (sqrt(π)/2) Γ((n + 1)/2)/Γ(n/2 + 1).
 
-    The wedge has n = 1 and slope B, the cylinder n = 2 and B = 1/2R. Approach and stiffness depend on how the body is
-    held and are NaN.
+    The wedge has n = 1 and slope B, the cylinder n = 2 and B = 1/2R. Approach and stiffness depend
+    on how the body is held and are NaN.
     """
 
     E_star: Modulus
@@ -354,9 +370,11 @@ class LinePowerLawIndenter(Theory):
         return ContactAnswer(load, unknown, a, 2.0 * a, np.asarray(peak, dtype=float), unknown)
 
     def pressure(self, x: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in N/m, > 0.
+        """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in
+        N/m, > 0.
 
-        (n P/πa) ∫ t^(n-1)/sqrt(t² - ξ²) dt over ξ = x/a < t < 1; infinite under the edge of a wedge.
+        (n P/πa) ∫ t^(n-1)/sqrt(t² - ξ²) dt over ξ = x/a < t < 1; infinite under the edge of a
+        wedge.
         """
         answer = self.at_load(require.positive(load, "load per length (N/m)"))
         xi = np.abs(np.asarray(x, dtype=float)) / answer.radius
@@ -383,14 +401,16 @@ class LineFlatPunch(Theory):
     ways: ClassVar[tuple[Way, ...]] = (LINE_LOAD,)
 
     def at_load(self, load: ArrayLike) -> ContactAnswer:
-        """The contact under ``load`` in N/m, >= 0, of any shape; approach and stiffness depend on the supports."""
+        """The contact under ``load`` in N/m, >= 0, of any shape; approach and stiffness depend on
+        the supports."""
         P = checked(load, "load per length (N/m)")
         ones, unknown = np.ones_like(P), np.full_like(P, np.nan)
         peak = np.where(P > 0.0, np.inf, 0.0)
         return ContactAnswer(P, unknown, self.half_width * ones, 2.0 * self.half_width * ones, peak, unknown)
 
     def pressure(self, x: ArrayLike, load: float) -> RealArray:
-        """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in N/m; infinite at the edge."""
+        """Pressure in Pa at the distance ``x`` in m (any shape) from the middle under ``load`` in
+        N/m; infinite at the edge."""
         distance = np.abs(np.asarray(x, dtype=float))
         P = require.positive(load, "load per length (N/m)")
         root = np.sqrt(np.maximum(self.half_width**2 - distance**2, 0.0))
@@ -399,7 +419,8 @@ class LineFlatPunch(Theory):
         return profile
 
 
-# Cone and wedge: the power-law indenters of exponent one by their slope (Sneddon 1965; Johnson 1985, secs. 5.1, 5.2).
+# Cone and wedge: the power-law indenters of exponent one by their slope (Sneddon 1965; Johnson
+# 1985, secs. 5.1, 5.2).
 
 
 @dataclass(frozen=True)
@@ -439,7 +460,8 @@ class Cone(Theory):
 
 @dataclass(frozen=True)
 class Wedge(Theory):
-    """Wedge against an elastic half-space in plane strain, its flanks at the slope m to the surface; P per length.
+    """Wedge against an elastic half-space in plane strain, its flanks at the slope m to the
+    surface; P per length.
 
     P = E* m a.
     """

@@ -37,7 +37,8 @@ Wavelength: TypeAlias = Annotated[Length, "wavelength λ"]
 
 @dataclass(frozen=True)
 class Westergaard(Theory):
-    """Gap Δ(1 - cos 2πx/λ) before loading, pressed by the mean pressure p̄; p* just closes it everywhere.
+    """Gap Δ(1 - cos 2πx/λ) before loading, pressed by the mean pressure p̄; p* just closes it
+    everywhere.
 
         p* = π E* Δ/λ,  A/A_a = (2/π) arcsin sqrt(p̄/p*),  max p = 2 sqrt(p̄ p*),
         δ = Δ (p̄/p*) [1 - ln(p̄/p*)].
@@ -70,7 +71,8 @@ class Westergaard(Theory):
         return np.pi * self.E_star * self.amplitude / self.wavelength
 
     def area_fraction(self, mean_pressure: ArrayLike) -> RealArray:
-        """2a/λ = (2/π) arcsin sqrt(p̄/p*), 1 from p* on; ``mean_pressure`` p̄ in Pa, >= 0, of any shape."""
+        """2a/λ = (2/π) arcsin sqrt(p̄/p*), 1 from p* on; ``mean_pressure`` p̄ in Pa, >= 0, of any
+        shape."""
         return 2.0 / np.pi * np.arcsin(np.sqrt(np.minimum(self._share(mean_pressure), 1.0)))
 
     def max_pressure(self, mean_pressure: ArrayLike) -> RealArray:
@@ -79,7 +81,8 @@ class Westergaard(Theory):
         return self.full_contact_pressure * np.where(share < 1.0, 2.0 * np.sqrt(share), 1.0 + share)
 
     def approach(self, mean_pressure: ArrayLike) -> RealArray:
-        """Approach δ of the mean planes since first touch in m: Δω(1 - ln ω), ω = p̄/p*; Δ from p* on."""
+        """Approach δ of the mean planes since first touch in m: Δω(1 - ln ω), ω = p̄/p*; Δ from p*
+        on."""
         share = np.minimum(self._share(mean_pressure), 1.0)
         return self.amplitude * share * (1.0 - np.log(np.maximum(share, 1e-300)))
 
@@ -107,7 +110,8 @@ class Westergaard(Theory):
         return np.asarray(2.0 * full * np.abs(np.cos(psi)) * np.sqrt(open_))
 
     def gap(self, x: ArrayLike, mean_pressure: float) -> RealArray:
-        """Distance of the deformed surfaces in m at ``x`` in m (any shape) from a crest, zero in contact.
+        """Distance of the deformed surfaces in m at ``x`` in m (any shape) from a crest, zero in
+        contact.
 
         2Δ [S sqrt(S² - s²) - s² arcosh(S/s)], S = |sin ψ|, s = sin ψa.
         """
@@ -116,7 +120,8 @@ class Westergaard(Theory):
         return 2.0 * self.amplitude * root_gap(sine, np.asarray(math.sqrt(share)))
 
     def at_pressure(self, pressure: ArrayLike) -> Prediction:
-        """Prediction at nominal pressures (n,) in Pa, positive; the gap is also the separation of the mean planes."""
+        """Prediction at nominal pressures (n,) in Pa, positive; the gap is also the separation of
+        the mean planes."""
         p = curve(pressure, "mean pressures (Pa)", positive=True)
         gap = self.mean_gap(p)
         return prediction(
@@ -127,11 +132,13 @@ class Westergaard(Theory):
         return checked(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure
 
 
-# Crossed waves (Johnson, Greenwood & Higginson 1985): asymptotes of light load and full contact, a table between them.
+# Crossed waves (Johnson, Greenwood & Higginson 1985): asymptotes of light load and full contact, a
+# table between them.
 #
-# The table was computed with asperity's solver on one period at 160² to 256² points: areas corrected for the perimeter, mean
-# over seven grids, of which the standard error is up to 1.5e-4; cubic interpolation between the rows adds up to 3e-4, and
-# at p̄/p* = 0.21 to 0.24, where the separate contacts join, up to 8e-4.
+# The table was computed with asperity's solver on one period at 160² to 256² points: areas
+# corrected for the perimeter, mean over seven grids, of which the standard error is up to 1.5e-4;
+# cubic interpolation between the rows adds up to 3e-4, and at p̄/p* = 0.21 to 0.24, where the
+# separate contacts join, up to 8e-4.
 
 
 AREA_ERROR = 1e-3
@@ -187,8 +194,9 @@ class CrossedWaves(Theory):
         A/A_a ≈ π (3 p̄/(8 π p*))^(2/3)  (p̄ ≤ 0.02 p*),
         A/A_a ≈ 1 - (3/(2 π)) (1 - p̄/p*)  (p̄ ≥ 0.95 p*).
 
-    Both are asymptotes; at any load the area is that of a table computed with asperity's solver, within 1e-3. The product
-    form Δ' cos(2πx'/λ') cos(2πy'/λ') of the paper is the same surface turned by 45°, Δ = Δ'/2, λ = λ'/√2.
+    Both are asymptotes; at any load the area is that of a table computed with asperity's solver,
+    within 1e-3. The product form Δ' cos(2πx'/λ') cos(2πy'/λ') of the paper is the same surface
+    turned by 45°, Δ = Δ'/2, λ = λ'/√2.
     """
 
     E_star: Modulus
@@ -218,7 +226,8 @@ class CrossedWaves(Theory):
         return HertzPoint(self.E_star, self.wavelength**2 / (4.0 * np.pi**2 * self.amplitude))
 
     def area_fraction(self, mean_pressure: ArrayLike) -> RealArray:
-        """Area fraction at any load from the table, within 1e-3, 1 from p* on; ``mean_pressure`` in Pa, >= 0, of any shape.
+        """Area fraction at any load from the table, within 1e-3, 1 from p* on; ``mean_pressure`` in
+        Pa, >= 0, of any shape.
 
         Monotone cubics in (p̄/p*)^(2/3) of the area over that of light load, exact at both ends.
         """
@@ -242,12 +251,14 @@ class CrossedWaves(Theory):
         return self.crest.at_load(checked(mean_pressure, "mean pressure (Pa)") * self.wavelength**2).max_pressure
 
     def area_fraction_at_high_load(self, mean_pressure: ArrayLike) -> RealArray:
-        """1 - (3/2π)(1 - p̄/p*): round gaps that the pressure around them just holds open; 1 from p* on."""
+        """1 - (3/2π)(1 - p̄/p*): round gaps that the pressure around them just holds open; 1 from
+        p* on."""
         share = np.minimum(checked(mean_pressure, "mean pressure (Pa)") / self.full_contact_pressure, 1.0)
         return np.asarray(1.0 - 1.5 / np.pi * (1.0 - share))
 
     def full_contact(self, x: ArrayLike, y: ArrayLike, mean_pressure: float) -> RealArray:
-        """Pressure in Pa at ``x``, ``y`` in m (broadcast) from a crest in full contact, p̄ >= p*."""
+        """Pressure in Pa at ``x``, ``y`` in m (broadcast) from a crest in full contact, p̄ >=
+        p*."""
         p = require.positive(mean_pressure, "mean pressure (Pa)")
         full = self.full_contact_pressure
         if p < full * (1.0 - 1e-12):
@@ -264,11 +275,13 @@ class CrossedWaves(Theory):
         return prediction(p, area_fraction=self.area_fraction(p))
 
 
-# Axisymmetric cosine cap pressed by a plane, exactly and to two terms of its profile (Sneddon 1965; Johnson 1985).
+# Axisymmetric cosine cap pressed by a plane, exactly and to two terms of its profile (Sneddon 1965;
+# Johnson 1985).
 
 
 TWO_TERMS = math.sqrt(9.0 / 8.0) / math.pi
-"""a/λ = 0.3376 at which load and approach of the two-term profile have their maximum: the end of its use."""
+"""a/λ = 0.3376 at which load and approach of the two-term profile have their maximum: the end of
+its use."""
 
 _NODES = 24  # the integrand is entire; 24 leave rounding up to a = λ/2
 
@@ -316,14 +329,16 @@ class SinusoidalAsperity(Theory):
         widest = self.at_radius(_WIDEST_CAP * self.wavelength)
         if np.any(widest.load < P):
             raise InputError(
-                f"load of a cap must be at most that of a contact radius of {_WIDEST_CAP:g} wavelengths, {float(widest.load):.6g} N, "
-                f"but is {float(P.max()):.6g} N. At larger loads the valley around the cap is in contact: solve the contact numerically."
+                f"load of a cap must be at most that of a contact radius of {_WIDEST_CAP:g} wavelengths, "
+                f"{float(widest.load):.6g} N, but is {float(P.max()):.6g} N. At larger loads the valley around "
+                "the cap is in contact: solve the contact numerically."
             )
         a = bisected(lambda a: self.at_radius(a).load - P, np.zeros_like(P), np.full_like(P, widest.radius))
         return self.at_radius(a)
 
     def at_radius(self, contact_radius: ArrayLike) -> ContactAnswer:
-        """The contact of the ``contact_radius`` a in m, 0 to 0.35 λ, of any shape; the largest pressure is not known (NaN).
+        """The contact of the ``contact_radius`` a in m, 0 to 0.35 λ, of any shape; the largest
+        pressure is not known (NaN).
 
         InputError if a radius is larger: the contact would include the valley around the cap.
         """
@@ -333,8 +348,9 @@ class SinusoidalAsperity(Theory):
         widest = _WIDEST_CAP * self.wavelength
         if np.any(a > widest):
             raise InputError(
-                f"contact radius (m) of a cap must be at most {_WIDEST_CAP:g} wavelengths, {widest:.6g} m, but is {float(a.max()):.6g} m. "
-                "A larger contact includes the valley around the cap: solve it numerically."
+                f"contact radius (m) of a cap must be at most {_WIDEST_CAP:g} wavelengths, {widest:.6g} m, but "
+                f"is {float(a.max()):.6g} m. A larger contact includes the valley around the cap: solve it "
+                "numerically."
             )
         q = 2.0 * math.pi / self.wavelength
         t, weight = gauss(np.array([0.0, 0.5 * math.pi]), _NODES)
@@ -350,13 +366,15 @@ class SinusoidalAsperity(Theory):
 
 
 def two_term_load(contact_radius: ArrayLike, E_star: float, A1: ArrayLike, A2: ArrayLike) -> RealArray:
-    """P in N for the profile A1 r² + A2 r⁴: (8/3) A1 E* a³ + (64/15) A2 E* a⁵; ``contact_radius`` a in m, any shape."""
+    """P in N for the profile A1 r² + A2 r⁴: (8/3) A1 E* a³ + (64/15) A2 E* a⁵; ``contact_radius`` a
+    in m, any shape."""
     a = np.asarray(contact_radius, dtype=float)
     return np.asarray(E_star * a**3 * (8.0 / 3.0 * np.asarray(A1) + 64.0 / 15.0 * np.asarray(A2) * a**2))
 
 
 def two_term_approach(contact_radius: ArrayLike, A1: ArrayLike, A2: ArrayLike) -> RealArray:
-    """δ in m for the profile A1 r² + A2 r⁴: 2A1 a² + (8/3) A2 a⁴; ``contact_radius`` a in m, any shape."""
+    """δ in m for the profile A1 r² + A2 r⁴: 2A1 a² + (8/3) A2 a⁴; ``contact_radius`` a in m, any
+    shape."""
     a = np.asarray(contact_radius, dtype=float)
     return np.asarray(a**2 * (2.0 * np.asarray(A1) + 8.0 / 3.0 * np.asarray(A2) * a**2))
 

@@ -19,8 +19,8 @@ from ...core.quadrature import gauss
 
 # Distributions of summit heights and their one-sided moments F_m(D) = ∫_D^∞ (s - D)^m p(s) ds.
 #
-# Heights s are standardised: standard deviation one, mean zero (the exponential one excepted, which starts at s = 0).
-# Greenwood & Williamson (1966); closed forms in Bhushan (1998, eq. 17-20).
+# Heights s are standardised: standard deviation one, mean zero (the exponential one excepted, which
+# starts at s = 0). Greenwood & Williamson (1966); closed forms in Bhushan (1998, eq. 17-20).
 
 
 _NODES = 48  # of the rule over sqrt(s - D); they leave 1e-14
@@ -29,7 +29,8 @@ _DECAY = 80.0  # twice the exponent at which the tail is cut
 
 
 class SummitHeights(Protocol):
-    """Distribution of standardised summit heights; ``mean`` of s, zero but for heights that count from the lowest."""
+    """Distribution of standardised summit heights; ``mean`` of s, zero but for heights that count
+    from the lowest."""
 
     name: ClassVar[str]
     mean: ClassVar[float]
@@ -61,9 +62,11 @@ class GaussianHeights:
         return np.exp(-0.5 * np.square(s)) / math.sqrt(2.0 * math.pi)
 
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
-        """F_m by a Gauss rule over q = sqrt(s - D), in which half-integer powers are smooth; relative error 1e-13.
+        """F_m by a Gauss rule over q = sqrt(s - D), in which half-integer powers are smooth;
+        relative error 1e-13.
 
-        The closed form with a parabolic cylinder function loses digits in the libraries at hand (2e-9).
+        The closed form with a parabolic cylinder function loses digits in the libraries at hand
+        (2e-9).
         """
         from scipy.special import ndtr
 
@@ -82,7 +85,8 @@ class GaussianHeights:
 
 @dataclass(frozen=True)
 class ExponentialHeights:
-    """p = exp(-s), s >= 0: heights count from the lowest summit, one standard deviation below the mean."""
+    """p = exp(-s), s >= 0: heights count from the lowest summit, one standard deviation below the
+    mean."""
 
     name: ClassVar[str] = "exponential"
     mean: ClassVar[float] = 1.0
@@ -110,7 +114,8 @@ class LaplaceHeights:
         return np.exp(-math.sqrt(2.0) * np.abs(s)) / math.sqrt(2.0)
 
     def tail_moment(self, D: RealArray, m: float) -> RealArray:
-        """Closed form: the part above s = 0 as for the exponential, the part below by Kummer's function."""
+        """Closed form: the part above s = 0 as for the exponential, the part below by Kummer's
+        function."""
         from scipy.special import hyp1f1
 
         D = np.asarray(D, dtype=float)
@@ -160,7 +165,8 @@ class TriangularHeights:
 
 @dataclass(frozen=True)
 class PearsonHeights:
-    """The density of Pearson's system that has this ``skewness`` and ``kurtosis``; InputError if kurtosis <= 1 + skewness²."""
+    """The density of Pearson's system that has this ``skewness`` and ``kurtosis``; InputError if
+    kurtosis <= 1 + skewness²."""
 
     skewness: float
     kurtosis: float
@@ -214,7 +220,8 @@ _PANEL_NODES = 24  # in each panel of a user's density
 
 @dataclass(frozen=True, eq=False)
 class HistogramHeights:
-    """Heights spread evenly within the bins of a histogram; they are standardised with their own mean and deviation.
+    """Heights spread evenly within the bins of a histogram; they are standardised with their own
+    mean and deviation.
 
     InputError if the edges do not rise, or counts are negative or all zero.
 
@@ -280,15 +287,17 @@ class HistogramHeights:
 class AnyHeights:
     """Heights with a density of your own, mean zero and standard deviation one.
 
-    InputError if the breaks do not rise, or the density does not have integral 1, mean 0 and variance 1 to 1e-6.
+    InputError if the breaks do not rise, or the density does not have integral 1, mean 0 and
+    variance 1 to 1e-6.
 
     Parameters
     ----------
     function
         Density p(s), array in, array out; smooth between the breaks.
     breaks
-        Two or more rising, finite numbers: ends of the support (or heights beyond which the density is negligible) and
-        all places where the density is not smooth. More breaks make the Gauss rules between them more accurate.
+        Two or more rising, finite numbers: ends of the support (or heights beyond which the density
+        is negligible) and all places where the density is not smooth. More breaks make the Gauss
+        rules between them more accurate.
     """
 
     function: Callable[[RealArray], RealArray]

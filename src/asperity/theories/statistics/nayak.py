@@ -32,7 +32,8 @@ _NODES, _SIGMAS = 96, 9.5  # Gauss points, and the standard deviations that matt
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SummitsAt(Tabled):
-    """Summits at heights (n,): ``probability`` density in 1/m, ``curvature`` the mean of κ in 1/m."""
+    """Summits at heights (n,): ``probability`` density in 1/m, ``curvature`` the mean of κ in
+    1/m."""
 
     probability: RealArray
     curvature: RealArray
@@ -40,10 +41,11 @@ class SummitsAt(Tabled):
 
 @dataclass(frozen=True)
 class NayakSummits(Theory):
-    """Statistics of the summits of an isotropic Gaussian surface with the profile moments m0, m2, m4.
+    """Statistics of the summits of an isotropic Gaussian surface with the profile moments m0, m2,
+    m4.
 
-    With ξ = z/sqrt(m0) and the mean curvature κ = -∇²z/2 = t sqrt(2 m4/3) of a summit, the summits have the density η
-    and the joint distribution of height and curvature
+    With ξ = z/sqrt(m0) and the mean curvature κ = -∇²z/2 = t sqrt(2 m4/3) of a summit, the summits
+    have the density η and the joint distribution of height and curvature
 
         η = m_4/(6 π √3 m_2),  α = m_0 m_4/m_2²,
         p(ξ, t) = 2 √3 (t² - 1 + e^(-t²)) φ_2(ξ, t; ρ),  t > 0,  ρ = sqrt(3/(2 α)).
@@ -162,7 +164,8 @@ class NayakSummits(Theory):
         return np.exp(scale) * moments[0] / math.sqrt(self.m0)
 
     def mean_curvature_at(self, height: ArrayLike) -> RealArray:
-        """Mean of κ in 1/m over the summits at ``height`` in m (any shape): higher summits are sharper."""
+        """Mean of κ in 1/m over the summits at ``height`` in m (any shape): higher summits are
+        sharper."""
         xi = real_numbers(height, "heights (m)") / math.sqrt(self.m0)
         moments = self._partial_moments(xi)[1]
         with np.errstate(invalid="ignore"):  # no summits below the mean plane where there is a single wavelength
@@ -173,15 +176,18 @@ class NayakSummits(Theory):
         return SummitsAt(self.height_density(height), self.mean_curvature_at(height))
 
     def _height_cumulants(self) -> tuple[float, float, float]:
-        """Second to fourth cumulant of ξ = ρ t + sqrt(1 - ρ²) n, n standard normal and independent of t."""
+        """Second to fourth cumulant of ξ = ρ t + sqrt(1 - ρ²) n, n standard normal and independent
+        of t."""
         rho, (second, third, fourth) = self.correlation, _curvature_cumulants()
         return rho**2 * second + 1.0 - rho**2, rho**3 * third, rho**4 * fourth
 
     def _partial_moments(self, xi: RealArray) -> tuple[RealArray, tuple[RealArray, RealArray]]:
-        """∫₀^∞ p(ξ, t) dt and ∫₀^∞ t p(ξ, t) dt for ξ = ``xi``, without the factor whose logarithm comes first.
+        """∫₀^∞ p(ξ, t) dt and ∫₀^∞ t p(ξ, t) dt for ξ = ``xi``, without the factor whose logarithm
+        comes first.
 
-        p = 2√3 (t² - 1 + e^(-t²)) φ(ξ) times the normal density of t of mean ρξ and variance 1 - ρ². Nothing is subtracted,
-        so the moments keep their digits far below the mean plane, where only the flattest summits are left.
+        p = 2√3 (t² - 1 + e^(-t²)) φ(ξ) times the normal density of t of mean ρξ and variance 1 -
+        ρ². Nothing is subtracted, so the moments keep their digits far below the mean plane, where
+        only the flattest summits are left.
         """
         variance, mean = 1.0 - self.correlation**2, self.correlation * xi
         plain = -0.5 * xi**2 + math.log(2.0 * math.sqrt(3.0) / math.sqrt(2.0 * math.pi))

@@ -23,8 +23,9 @@ T = TypeVar("T")
 class MomentTensor:
     """Mean products of derivatives of the height, m_ab = (1/4π²) ∫ q_x^a q_y^b C d²q.
 
-    ``m20`` <h_x²>, ``m11`` <h_x h_y>, ``m02`` <h_y²>, dimensionless; ``m40`` <h_xx²>, ``m31``, ``m22`` <h_xx h_yy>,
-    ``m13``, ``m04`` <h_yy²> in 1/m². The fourth moments are NaN where they are not known.
+    ``m20`` <h_x²>, ``m11`` <h_x h_y>, ``m02`` <h_y²>, dimensionless; ``m40`` <h_xx²>, ``m31``,
+    ``m22`` <h_xx h_yy>, ``m13``, ``m04`` <h_yy²> in 1/m². The fourth moments are NaN where they are
+    not known.
     """
 
     m20: float
@@ -48,8 +49,8 @@ class MomentTensor:
 class Spectrum:
     """Radial power spectrum: ``psd`` (n,) in m⁴ at the wavenumbers ``q`` (n,), rising, in rad/m.
 
-    In the convention of the library, m0 = (1/4π²) ∫ C d²q = (1/2π) ∫ q C dq (Jacobs, Junge & Pastewka 2017); spectra
-    with m0 = ∫ C d²q are 4π² times smaller.
+    In the convention of the library, m0 = (1/4π²) ∫ C d²q = (1/2π) ∫ q C dq (Jacobs, Junge &
+    Pastewka 2017); spectra with m0 = ∫ C d²q are 4π² times smaller.
     """
 
     q: RealArray
@@ -69,8 +70,9 @@ class Spectrum:
 class SummitList:
     """The summits of one map.
 
-    ``x``, ``y`` (n,) positions in m; ``height`` (n,) above the mean plane of the surface in m; ``curvature`` (n,) mean
-    curvature in 1/m, positive; ``area`` of the map in m²; ``period`` (Lx, Ly) of a periodic map in m or None.
+    ``x``, ``y`` (n,) positions in m; ``height`` (n,) above the mean plane of the surface in m;
+    ``curvature`` (n,) mean curvature in 1/m, positive; ``area`` of the map in m²; ``period`` (Lx,
+    Ly) of a periodic map in m or None.
     """
 
     x: RealArray
@@ -136,9 +138,11 @@ class SummitList:
 
 @dataclass(frozen=True)
 class Fractal:
-    """``dimension`` D of self-affine profiles, between 1 and 2, and their fractal ``roughness`` G in m.
+    """``dimension`` D of self-affine profiles, between 1 and 2, and their fractal ``roughness`` G
+    in m.
 
-    ``shortest`` and ``longest``: lengths in m between which the profiles were found to be so; NaN where not known.
+    ``shortest`` and ``longest``: lengths in m between which the profiles were found to be so; NaN
+    where not known.
     """
 
     dimension: float
@@ -149,15 +153,16 @@ class Fractal:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Roughness(Tabled):
-    """The numbers of a surface that theories of rough contact are built from. None stands for what is not known.
+    """The numbers of a surface that theories of rough contact are built from. None stands for what
+    is not known.
 
     InputError if a moment or the area is not positive.
 
     Parameters
     ----------
     m0, m2, m4
-        Mean square height (m²), slope (dimensionless) and second derivative (1/m²) of a profile, averaged over all
-        directions; positive. The rms gradient of the surface is sqrt(2 m2).
+        Mean square height (m²), slope (dimensionless) and second derivative (1/m²) of a profile,
+        averaged over all directions; positive. The rms gradient of the surface is sqrt(2 m2).
     area
         Nominal area in m².
     moments
@@ -171,8 +176,8 @@ class Roughness(Tabled):
     fractal
         Fractal dimension and roughness, where the profiles are self-affine.
     correlation_length
-        Lag in m at which the autocorrelation has fallen to 1/e; NaN where it does not. The lag of 1/10 is longer, for an
-        exponential autocorrelation by ln 10.
+        Lag in m at which the autocorrelation has fallen to 1/e; NaN where it does not. The lag of
+        1/10 is longer, for an exponential autocorrelation by ln 10.
     skewness, kurtosis
         Of the surface heights; 0 and 3 for a Gaussian surface.
     """
@@ -215,7 +220,8 @@ class Roughness(Tabled):
 
     @property
     def anisotropy(self) -> float | None:
-        """Ratio of the principal mean square slopes, from 1 on; None if moments by direction are not known."""
+        """Ratio of the principal mean square slopes, from 1 on; None if moments by direction are
+        not known."""
         if self.moments is None:
             return None
         steep, gentle = self.moments.principal_slopes

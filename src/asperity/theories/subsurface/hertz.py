@@ -21,19 +21,21 @@ from ..single.hertz import HertzEllipse, HertzLine, HertzPoint, RadiusX, RadiusY
 
 # Circular Hertz contact, pressed and sliding: displacement and stress in closed form.
 #
-# The semi-ellipsoidal traction is a row of point sources on an imaginary axis: ∫ sqrt(1 - s²/a²)/ρ dA equals
-# (π/2a) ∫ (a² - t²)/sqrt(r² + (z + it)²) dt over -a < t < a. The integrals of Boussinesq and Cerruti (Johnson 1985,
-# sec. 3.2) are then elementary functions of one complex root; they are Hamilton's (1983), in a form without 0/0 on the
-# axis.
+# The semi-ellipsoidal traction is a row of point sources on an imaginary axis: ∫ sqrt(1 - s²/a²)/ρ
+# dA equals (π/2a) ∫ (a² - t²)/sqrt(r² + (z + it)²) dt over -a < t < a. The integrals of Boussinesq
+# and Cerruti (Johnson 1985, sec. 3.2) are then elementary functions of one complex root; they are
+# Hamilton's (1983), in a form without 0/0 on the axis.
 
 
 def hertz_normal(
     x: RealArray, y: RealArray, z: RealArray | float, contact_radius: float, *, shear: float, nu: float
 ) -> ElasticFields:
-    """Displacement (m/Pa) and stress under the pressure sqrt(1 - r²/a²) per unit peak on r < a = ``contact_radius``.
+    """Displacement (m/Pa) and stress under the pressure sqrt(1 - r²/a²) per unit peak on r < a =
+    ``contact_radius``.
 
-    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; ``contact_radius``: a in m;
-    ``shear``, ``nu``: shear modulus G in Pa and Poisson's ratio, up to 0.5.
+    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0;
+    ``contact_radius``: a in m; ``shear``, ``nu``: shear modulus G in Pa and Poisson's ratio, up to
+    0.5.
     """
     x, y, z = np.broadcast_arrays(x, y, z)
     f = _Potentials.of(x, y, z, contact_radius)
@@ -58,9 +60,9 @@ def hertz_shear(
 ) -> ElasticFields:
     """Displacement (m/Pa) and stress under the shear traction sqrt(1 - r²/a²) along +x on r < a.
 
-    Parameters and units as for ``hertz_normal``. With friction μ and peak pressure p0 the sliding contact has
-    ``hertz_normal(...) * p0 + hertz_shear(...) * (μ * p0)``: the counter-body moves toward +x, the trailing edge is at
-    -a.
+    Parameters and units as for ``hertz_normal``. With friction μ and peak pressure p0 the sliding
+    contact has ``hertz_normal(...) * p0 + hertz_shear(...) * (μ * p0)``: the counter-body moves
+    toward +x, the trailing edge is at -a.
     """
     x, y, z = np.broadcast_arrays(x, y, z)
     f = _Potentials.of(x, y, z, contact_radius)
@@ -84,7 +86,8 @@ def hertz_shear(
 
 @dataclass(frozen=True, eq=False)
 class _Potentials:
-    """V = ∫ p/ρ dA, χ and Ξ with ∂χ/∂z = V, ∂Ξ/∂z = χ; the digit is the number of applications of D = (1/r) ∂/∂r."""
+    """V = ∫ p/ρ dA, χ and Ξ with ∂χ/∂z = V, ∂Ξ/∂z = χ; the digit is the number of applications of
+    D = (1/r) ∂/∂r."""
 
     V: RealArray
     V_z: RealArray
@@ -103,9 +106,9 @@ class _Potentials:
     def of(cls, x: RealArray, y: RealArray, z: RealArray, a: float) -> _Potentials:
         """At the points ``x``, ``y``, ``z`` in m, z >= 0.
 
-        For a kernel f(r, z) of the point source, two integrations by parts leave (2π/a) Im[f⁻³ - i a f⁻²] at
-        ζ = z + ia, f⁻ⁿ being the n-th antiderivative by ζ. Those of 1/R, R² = r² + ζ², and what D makes of them, hold
-        R, L = ln(ζ + R) and k = 1/(ζ + R) alone.
+        For a kernel f(r, z) of the point source, two integrations by parts leave (2π/a) Im[f⁻³ - i
+        a f⁻²] at ζ = z + ia, f⁻ⁿ being the n-th antiderivative by ζ. Those of 1/R, R² = r² + ζ²,
+        and what D makes of them, hold R, L = ln(ζ + R) and k = 1/(ζ + R) alone.
         """
         r2 = x**2 + y**2
         zeta: ComplexArray = np.asarray(z + 1j * a)
@@ -141,21 +144,22 @@ class _Potentials:
         )
 
 
-# Displacement and stress below a Hertz line contact, pressed and sliding, in plane strain (McEwen 1949; Johnson 1985,
-# sec. 4.2c).
+# Displacement and stress below a Hertz line contact, pressed and sliding, in plane strain (McEwen
+# 1949; Johnson 1985, sec. 4.2c).
 #
-# With w = x + iz the row of line forces sums to S(w) = ∫ p(s) ds/(w - s) = (π/a)(w - sqrt(w² - a²)) for
-# p = sqrt(1 - s²/a²); every component is a combination of S, its derivative and its integral.
+# With w = x + iz the row of line forces sums to S(w) = ∫ p(s) ds/(w - s) = (π/a)(w - sqrt(w² - a²))
+# for p = sqrt(1 - s²/a²); every component is a combination of S, its derivative and its integral.
 
 
 def hertz_line_normal(
     x: RealArray, z: RealArray | float, half_width: float, *, shear: float, nu: float
 ) -> ElasticFields:
-    """Displacement (m/Pa) and stress under the pressure sqrt(1 - x²/a²) per unit peak on |x| < a = ``half_width`` (m).
+    """Displacement (m/Pa) and stress under the pressure sqrt(1 - x²/a²) per unit peak on |x| < a =
+    ``half_width`` (m).
 
-    ``x``, ``z``: field points in m, broadcast against each other, z >= 0; ``half_width``: a in m; ``shear``, ``nu``:
-    Shear modulus G in Pa and Poisson's ratio, up to 0.5. Displacements along the force are multiples of ln r far away,
-    as those of a line force at the origin.
+    ``x``, ``z``: field points in m, broadcast against each other, z >= 0; ``half_width``: a in m;
+    ``shear``, ``nu``: Shear modulus G in Pa and Poisson's ratio, up to 0.5. Displacements along the
+    force are multiples of ln r far away, as those of a line force at the origin.
     """
     x, z = np.broadcast_arrays(x, z)
     S, slope, T = _sums(x, z, half_width)
@@ -200,10 +204,12 @@ def _plane_strain(xx: RealArray, zz: RealArray, xz: RealArray, nu: float) -> Str
     return StressTensor(xx=xx, yy=nu * (xx + zz), zz=zz, xy=0.0 * xx, xz=xz, yz=0.0 * xx)
 
 
-# Stress below an elliptical Hertz contact, on and off axis (Hertz 1882; Johnson 1985, secs. 3.4, 4.2).
+# Stress below an elliptical Hertz contact, on and off axis (Hertz 1882; Johnson 1985, secs. 3.4,
+# 4.2).
 #
-# The potential of the semi-ellipsoidal pressure and its derivatives are Carlson's symmetric integrals. What compressible
-# bodies need besides, the second derivatives of ∫ V dz, is one more integral, along z, of elementary functions of these.
+# The potential of the semi-ellipsoidal pressure and its derivatives are Carlson's symmetric
+# integrals. What compressible bodies need besides, the second derivatives of ∫ V dz, is one more
+# integral, along z, of elementary functions of these.
 
 
 _BREAKS = (0.0, 0.002, 0.01, 0.04, 0.15, 0.5, 1.5, 4.0)
@@ -219,8 +225,9 @@ def hertz_ellipse_normal(
 
     On the very edge of the contact, where stresses have a kink, the error is 5e-4.
 
-    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; ``semi_axes``: (a, b) along x and y
-    in m, in any order of size, see ``HertzEllipse.semi_axes``; ``nu``: Poisson's ratio, up to 0.5.
+    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; ``semi_axes``:
+    (a, b) along x and y in m, in any order of size, see ``HertzEllipse.semi_axes``; ``nu``:
+    Poisson's ratio, up to 0.5.
     """
     x, y, z = (np.asarray(values, dtype=float) for values in np.broadcast_arrays(x, y, z))
     f = _Potential.of(x, y, z, semi_axes)
@@ -239,9 +246,11 @@ def hertz_ellipse_normal(
 
 @dataclass(frozen=True, eq=False)
 class _Potential:
-    """Derivatives of V = ∫ p/ρ dA = (πab/2) ∫ [1 - x²/(a² + s) - y²/(b² + s) - z²/s]/Δ ds over s > λ.
+    """Derivatives of V = ∫ p/ρ dA = (πab/2) ∫ [1 - x²/(a² + s) - y²/(b² + s) - z²/s]/Δ ds over s >
+    λ.
 
-    Δ² = (a² + s)(b² + s)s, and λ is the confocal ellipsoid through the point, x²/(a² + λ) + y²/(b² + λ) + z²/λ = 1.
+    Δ² = (a² + s)(b² + s)s, and λ is the confocal ellipsoid through the point, x²/(a² + λ) +
+    y²/(b² + λ) + z²/λ = 1.
     """
 
     V_z: RealArray
@@ -256,7 +265,8 @@ class _Potential:
         from scipy.special import elliprd
 
         a, b = semi_axes
-        # λ >= 0 in m², the largest root of a cubic, by Newton's method from above, where the cubic is convex
+        # λ >= 0 in m², the largest root of a cubic, by Newton's method from above, where the cubic
+        # is convex
         a2, b2 = a**2, b**2
         s = x**2 + y**2 + z**2
         for _ in range(60):
@@ -327,7 +337,8 @@ SOME_SHEAR = 1.0
 
 @dataclass(frozen=True)
 class HertzStress(Theory):
-    """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983; Johnson 1985, secs. 3.4, 7.1).
+    """Stresses below a sphere that is pressed, and slides with the traction μp (Hamilton 1983;
+    Johnson 1985, secs. 3.4, 7.1).
 
     On the axis, without friction,
 
@@ -345,7 +356,8 @@ class HertzStress(Theory):
     ways: ClassVar[tuple[Way, ...]] = (Way(DEPTH, "at_depth", STRESS, (LOAD, ALONG_X, ALONG_Y)),)
 
     def at_depth(self, depth: ArrayLike, load: float, x: float = 0.0, y: float = 0.0) -> StressAnswer:
-        """Stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface under ``load`` in N, > 0."""
+        """Stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface under
+        ``load`` in N, > 0."""
         contact = HertzPoint(self.E_star, self.radius).at_load(require.positive(load, "load (N)"))
         a, peak = float(contact.radius), float(contact.max_pressure)
         X, Y, Z = places(depth, x, y)
@@ -356,7 +368,8 @@ class HertzStress(Theory):
 
 @dataclass(frozen=True)
 class HertzLineStress(Theory):
-    """Stresses below a cylinder in plane strain that is pressed and slides (McEwen 1949; Johnson 1985, secs. 4.2c, 7.1).
+    """Stresses below a cylinder in plane strain that is pressed and slides (McEwen 1949; Johnson
+    1985, secs. 4.2c, 7.1).
 
     On the axis, without friction,
 
@@ -377,7 +390,8 @@ class HertzLineStress(Theory):
     )
 
     def at_depth(self, depth: ArrayLike, load: float, x: float = 0.0) -> StressAnswer:
-        """Stress at ``depth`` (n,) in m below the place ``x`` in m of the surface under ``load`` in N/m, > 0."""
+        """Stress at ``depth`` (n,) in m below the place ``x`` in m of the surface under ``load`` in
+        N/m, > 0."""
         contact = HertzLine(self.E_star, self.radius).at_load(require.positive(load, "load per length (N/m)"))
         (X, Z), a = places(depth, x), float(contact.radius)
         pressed = hertz_line_normal(X, Z, a, shear=SOME_SHEAR, nu=self.nu).stress
@@ -404,7 +418,8 @@ class HertzEllipseStress(Theory):
     ways: ClassVar[tuple[Way, ...]] = (Way(DEPTH, "at_depth", STRESS, (LOAD, ALONG_X, ALONG_Y)),)
 
     def at_depth(self, depth: ArrayLike, load: float, x: float = 0.0, y: float = 0.0) -> StressAnswer:
-        """Stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface under ``load`` in N, > 0."""
+        """Stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface under
+        ``load`` in N, > 0."""
         contact = HertzEllipse(self.E_star, self.radius_x, self.radius_y)
         first, second = (float(np.squeeze(axis)) for axis in contact.semi_axes(require.positive(load, "load (N)")))
         peak = float(contact.at_load(load).max_pressure)

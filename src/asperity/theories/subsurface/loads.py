@@ -20,10 +20,11 @@ from ..protocol import PoissonOfSolid, Theory
 
 
 def boussinesq(x: RealArray, y: RealArray, z: RealArray | float, *, shear: float, nu: float) -> ElasticFields:
-    """Displacement (m/N) and stress (Pa/N) of a unit normal force at the origin, pushing along +z into the body.
+    """Displacement (m/N) and stress (Pa/N) of a unit normal force at the origin, pushing along +z
+    into the body.
 
-    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; singular at the origin; ``shear``,
-    ``nu``: shear modulus G in Pa and Poisson's ratio, up to 0.5.
+    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; singular at the
+    origin; ``shear``, ``nu``: shear modulus G in Pa and Poisson's ratio, up to 0.5.
     """
     x, y, z = np.broadcast_arrays(x, y, z)
     r = np.sqrt(x**2 + y**2 + z**2)
@@ -46,7 +47,8 @@ def boussinesq(x: RealArray, y: RealArray, z: RealArray | float, *, shear: float
 def cerruti(x: RealArray, y: RealArray, z: RealArray | float, *, shear: float, nu: float) -> ElasticFields:
     """Displacement (m/N) and stress (Pa/N) of a unit tangential force at the origin along +x.
 
-    Parameters and units as for ``boussinesq``; the force along +y follows by ``exchanged`` coordinates and fields.
+    Parameters and units as for ``boussinesq``; the force along +y follows by ``exchanged``
+    coordinates and fields.
     """
     x, y, z = np.broadcast_arrays(x, y, z)
     r = np.sqrt(x**2 + y**2 + z**2)
@@ -69,16 +71,19 @@ def cerruti(x: RealArray, y: RealArray, z: RealArray | float, *, shear: float, n
     return ElasticFields(displacement * (0.25 / (np.pi * shear)), stress * (0.5 / np.pi))
 
 
-# Line forces and uniform strips on a half-space in plane strain (Flamant 1892; Johnson 1985, ch. 2).
+# Line forces and uniform strips on a half-space in plane strain (Flamant 1892; Johnson 1985, ch.
+# 2).
 #
-# Displacements are defined up to a constant; here surface displacements along the force are multiples of ln r.
+# Displacements are defined up to a constant; here surface displacements along the force are
+# multiples of ln r.
 
 
 def flamant_normal(x: RealArray, z: RealArray | float, *, shear: float, nu: float) -> ElasticFields:
-    """Displacement and stress per unit normal force per length (N/m) along +z on the line x = z = 0.
+    """Displacement and stress per unit normal force per length (N/m) along +z on the line x =
+    z = 0.
 
-    ``x``, ``z``: field points in m, broadcast against each other, z >= 0; singular at the origin; ``shear``, ``nu``:
-    Shear modulus G in Pa and Poisson's ratio, up to 0.5.
+    ``x``, ``z``: field points in m, broadcast against each other, z >= 0; singular at the origin;
+    ``shear``, ``nu``: Shear modulus G in Pa and Poisson's ratio, up to 0.5.
     """
     x, z = np.broadcast_arrays(x, z)
     r2 = x**2 + z**2
@@ -89,7 +94,8 @@ def flamant_normal(x: RealArray, z: RealArray | float, *, shear: float, nu: floa
 
 
 def flamant_tangential(x: RealArray, z: RealArray | float, *, shear: float, nu: float) -> ElasticFields:
-    """Displacement and stress per unit tangential force per length (N/m) along +x on the line x = z = 0.
+    """Displacement and stress per unit tangential force per length (N/m) along +x on the line x =
+    z = 0.
 
     Parameters and units as for ``flamant_normal``.
     """
@@ -102,9 +108,11 @@ def flamant_tangential(x: RealArray, z: RealArray | float, *, shear: float, nu: 
 
 
 def flamant_out_of_plane(x: RealArray, z: RealArray | float, *, shear: float, nu: float) -> ElasticFields:
-    """Displacement and stress per unit force per length (N/m) along +y on the line x = z = 0 (antiplane strain).
+    """Displacement and stress per unit force per length (N/m) along +y on the line x = z = 0
+    (antiplane strain).
 
-    u_y = -ln(r)/πG, whatever Poisson's ratio ``nu``. Parameters and units as for ``flamant_normal``.
+    u_y = -ln(r)/πG, whatever Poisson's ratio ``nu``. Parameters and units as for
+    ``flamant_normal``.
     """
     x, z = np.broadcast_arrays(x, z)
     r2, zero = x**2 + z**2, 0.0 * x * nu
@@ -113,7 +121,8 @@ def flamant_out_of_plane(x: RealArray, z: RealArray | float, *, shear: float, nu
 
 
 def strip_pressure(x: RealArray, z: RealArray | float, half_width: float, *, shear: float, nu: float) -> ElasticFields:
-    """Displacement (m/Pa) and stress under unit pressure on |x| < half_width (m); elsewhere as ``flamant_normal``.
+    """Displacement (m/Pa) and stress under unit pressure on |x| < half_width (m); elsewhere as
+    ``flamant_normal``.
 
     At z = 0 the edges get the mean of both sides.
     """
@@ -153,8 +162,8 @@ def strip_shear(x: RealArray, z: RealArray | float, half_width: float, *, shear:
 def strip_out_of_plane(
     x: RealArray, z: RealArray | float, half_width: float, *, shear: float, nu: float
 ) -> ElasticFields:
-    """Displacement (m/Pa) and stress under unit shear traction along +y on |x| < half_width (m); see
-    ``strip_pressure``.
+    """Displacement (m/Pa) and stress under unit shear traction along +y on |x| < half_width (m);
+    see ``strip_pressure``.
     """
     fields = []
     for X, z_, angle, log, _ in (_end(x, z, half_width), _end(x, z, -half_width)):
@@ -166,7 +175,8 @@ def strip_out_of_plane(
 
 
 def _end(x: RealArray, z: RealArray | float, shift: float) -> tuple[RealArray, ...]:
-    """X = x + shift, z, arctan(X/z), ln(X² + z²) and X² + z², kept finite at the end of the strip."""
+    """X = x + shift, z, arctan(X/z), ln(X² + z²) and X² + z², kept finite at the end of the
+    strip."""
     X, z = np.broadcast_arrays(x + shift, z)
     r2 = np.maximum(X**2 + z**2, 1e-290)
     return X, z, np.arctan2(X, z), np.log(r2), r2
@@ -188,7 +198,8 @@ PLANE: tuple[Way, ...] = (Way(DEPTH, "at_depth", FIELDS, (ALONG_X,)),)
 
 @dataclass(frozen=True)
 class Boussinesq(Theory):
-    """A normal force at the origin of the surface, pushing into the body (Boussinesq 1885; Johnson 1985, sec. 3.2).
+    """A normal force at the origin of the surface, pushing into the body (Boussinesq 1885; Johnson
+    1985, sec. 3.2).
 
     σ_z = -3 P z³/(2 π ρ⁵),  τ_(xz) = -3 P x z²/(2 π ρ⁵),
     u_z = (P/(4 π G)) [z²/ρ³ + 2 (1 - ν)/ρ],  ρ² = x² + y² + z².
@@ -203,14 +214,16 @@ class Boussinesq(Theory):
     ways: ClassVar[tuple[Way, ...]] = SPACE
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0, y: float = 0.0) -> FieldAnswer:
-        """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface."""
+        """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the
+        surface."""
         X, Y, Z = _away(depth, x, y)
         return _fields(boussinesq(X, Y, Z, shear=self.shear, nu=self.nu) * self.load)
 
 
 @dataclass(frozen=True)
 class Cerruti(Theory):
-    """A tangential force along +x at the origin of the surface (Cerruti 1882; Johnson 1985, sec. 3.6).
+    """A tangential force along +x at the origin of the surface (Cerruti 1882; Johnson 1985, sec.
+    3.6).
 
     σ_z = -3 Q x z²/(2 π ρ⁵),  τ_(xz) = -3 Q x² z/(2 π ρ⁵),
     u_z = (Q/(4 π G)) [x z/ρ³ + (1 - 2 ν) x/(ρ (ρ + z))],  ρ² = x² + y² + z².
@@ -225,14 +238,16 @@ class Cerruti(Theory):
     ways: ClassVar[tuple[Way, ...]] = SPACE
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0, y: float = 0.0) -> FieldAnswer:
-        """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the surface."""
+        """Displacement and stress at ``depth`` (n,) in m below the point ``x``, ``y`` in m of the
+        surface."""
         X, Y, Z = _away(depth, x, y)
         return _fields(cerruti(X, Y, Z, shear=self.shear, nu=self.nu) * self.tangential)
 
 
 @dataclass(frozen=True)
 class Flamant(Theory):
-    """Forces on the line x = 0 of the surface in plane strain (Flamant 1892; Johnson 1985, secs. 2.2, 2.3).
+    """Forces on the line x = 0 of the surface in plane strain (Flamant 1892; Johnson 1985, secs.
+    2.2, 2.3).
 
     With the forces P along z and Q along x per length, and r² = x² + z²,
 
@@ -251,7 +266,8 @@ class Flamant(Theory):
     ways: ClassVar[tuple[Way, ...]] = PLANE
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0) -> FieldAnswer:
-        """Displacement and stress at ``depth`` (n,) in m below the place ``x`` in m of the surface."""
+        """Displacement and stress at ``depth`` (n,) in m below the place ``x`` in m of the
+        surface."""
         X, Z = _away(depth, x)
         pressed = flamant_normal(X, Z, shear=self.shear, nu=self.nu) * self.normal
         return _fields(pressed + flamant_tangential(X, Z, shear=self.shear, nu=self.nu) * self.tangential)
@@ -259,13 +275,15 @@ class Flamant(Theory):
 
 @dataclass(frozen=True)
 class Strip(Theory):
-    """Uniform pressure and shear traction on |x| < b of the surface in plane strain (Johnson 1985, sec. 2.5).
+    """Uniform pressure and shear traction on |x| < b of the surface in plane strain (Johnson 1985,
+    sec. 2.5).
 
-    With θ_1 and θ_2 = arctan((x ± b)/z) and r_1, r_2 the distances from the ends -b and b, under the pressure p and the shear
-    traction q,
+    With θ_1 and θ_2 = arctan((x ± b)/z) and r_1, r_2 the distances from the ends -b and b, under
+    the pressure p and the shear traction q,
 
         σ_z = -(p/(2 π)) [2 (θ_1 - θ_2) + sin 2θ_1 - sin 2θ_2] + (q/π) (z²/r_1² - z²/r_2²),
-        σ_x = -(p/(2 π)) [2 (θ_1 - θ_2) - sin 2θ_1 + sin 2θ_2] - (q/π) [2 ln(r_1/r_2) + z²/r_1² - z²/r_2²].
+        σ_x = -(p/(2 π)) [2 (θ_1 - θ_2) - sin 2θ_1 + sin 2θ_2] - (q/π) Λ,
+        Λ = 2 ln(r_1/r_2) + z²/r_1² - z²/r_2².
     """
 
     half_width: Annotated[Length, Help("half the width of the strip b", of="bodies")]
@@ -279,7 +297,8 @@ class Strip(Theory):
     ways: ClassVar[tuple[Way, ...]] = PLANE
 
     def at_depth(self, depth: ArrayLike, x: float = 0.0) -> FieldAnswer:
-        """Displacement and stress at ``depth`` (n,) in m below the place ``x`` in m of the surface."""
+        """Displacement and stress at ``depth`` (n,) in m below the place ``x`` in m of the
+        surface."""
         X, Z = places(depth, x)
         pressed = strip_pressure(X, Z, self.half_width, shear=self.shear, nu=self.nu) * self.pressure
         return _fields(pressed + strip_shear(X, Z, self.half_width, shear=self.shear, nu=self.nu) * self.traction)

@@ -1,4 +1,5 @@
-"""Elastic shakedown of rolling and sliding point contacts: bounds from both sides on the load at which plastic flow ceases (Melan 1938)."""
+"""Elastic shakedown of rolling and sliding point contacts: bounds from both sides on the load at
+which plastic flow ceases (Melan 1938)."""
 
 from __future__ import annotations
 
@@ -20,22 +21,26 @@ from .shakedown import GOLDEN
 
 Index: TypeAlias = NDArray[np.integer[Any]]
 
-# Von Mises' criterion in five orthonormal components of the deviator, whose sum of squares is J2. A pass along x is a loop
-# of states at every (y, z); a residual stress shifts it. Residual stresses that a steady pass leaves do not depend on x, so
-# that ρ_xx(y, z) and ρ_yy(z) are in equilibrium by themselves: they give a load that certainly shakes down. Whatever the
-# residual stress is, it is constant in time, so that a loop that fits into no sphere of radius k never shakes down.
+# Von Mises' criterion in five orthonormal components of the deviator, whose sum of squares is J2. A
+# pass along x is a loop of states at every (y, z); a residual stress shifts it. Residual stresses
+# that a steady pass leaves do not depend on x, so that ρ_xx(y, z) and ρ_yy(z) are in equilibrium by
+# themselves: they give a load that certainly shakes down. Whatever the residual stress is, it is
+# constant in time, so that a loop that fits into no sphere of radius k never shakes down.
 
 
 @dataclass(frozen=True, eq=False)
 class PointShakedown:
-    """Bounds at depths (n,) under a load that passes along x, over the yield stress in shear k there.
+    """Bounds at depths (n,) under a load that passes along x, over the yield stress in shear k
+    there.
 
     Attributes
     ----------
     radius
-        Largest sqrt(J2)/k of a pass with the best residual stresses ρ_xx(y, z) and ρ_yy(z). Loads may be larger by its inverse.
+        Largest sqrt(J2)/k of a pass with the best residual stresses ρ_xx(y, z) and ρ_yy(z). Loads
+        may be larger by its inverse.
     least
-        Largest sqrt(J2)/k of a pass that no residual stress can lower: half the range of stress that alternates.
+        Largest sqrt(J2)/k of a pass that no residual stress can lower: half the range of stress
+        that alternates.
     residual_along
         Those σ_xx over k, (n, m) at the places across the pass.
     residual_across
@@ -55,20 +60,24 @@ class PointShakedown:
 
     @property
     def bound(self) -> float:
-        """Factor on the load from which on some point yields in every pass, whatever the residual stress."""
+        """Factor on the load from which on some point yields in every pass, whatever the residual
+        stress."""
         return 1.0 / float(self.least.max())
 
 
 def point_shakedown(
     stress: StressTensor, shear_strength: float | RealArray, *, surface: bool | BoolArray = False
 ) -> PointShakedown:
-    """Bounds on elastic shakedown from the ``stress`` (n, m_x, m_y) on n planes under a load that passes along x.
+    """Bounds on elastic shakedown from the ``stress`` (n, m_x, m_y) on n planes under a load that
+    passes along x.
 
-    ``least`` is that of the smallest spheres about the loops of states with free centres, by pairwise exchange of weights between the
-    farthest and the nearest state; the value of the dual problem is a lower bound of the radius whatever the number of exchanges.
+    ``least`` is that of the smallest spheres about the loops of states with free centres, by
+    pairwise exchange of weights between the farthest and the nearest state; the value of the dual
+    problem is a lower bound of the radius whatever the number of exchanges.
 
-    Homogeneous or layered: each plane has its own ``shear_strength`` k in Pa, a number or (n,). ``surface``, a truth value or
-    (n,), tells which planes are the surface of the body, on which residual stresses have no σ_xz and σ_yz.
+    Homogeneous or layered: each plane has its own ``shear_strength`` k in Pa, a number or (n,).
+    ``surface``, a truth value or (n,), tells which planes are the surface of the body, on which
+    residual stresses have no σ_xz and σ_yz.
 
     Raises
     ------
@@ -79,11 +88,13 @@ def point_shakedown(
     shape = np.shape(stress.xx)
     if len(shape) != 3 or np.any(~(k > 0.0)) or k.shape not in ((), shape[:1]):
         raise InputError(
-            f"stress must be (planes, places along the pass, places across) and the shear strength above zero, a number or one for each plane, but they have the shapes {shape} and {k.shape}."
+            "stress must be (planes, places along the pass, places across) and the shear strength above zero, "
+            f"a number or one for each plane, but they have the shapes {shape} and {k.shape}."
         )
     scale = np.broadcast_to(k, shape[:1])[:, None, None]
     s = stress.map(lambda component: np.swapaxes(np.asarray(component), 1, 2) / scale)
-    # components whose squares sum to J2; a shift of σ_xx changes the first alone, one of σ_yy the first two
+    # components whose squares sum to J2; a shift of σ_xx changes the first alone, one of σ_yy the
+    # first two
     first = (2.0 * s.xx - s.yy - s.zz) / math.sqrt(12.0)
     states = np.stack([first, 0.5 * (s.yy - s.zz), s.xz, s.xy, s.yz])
     along, across, radius = _best_normal_stresses(states)
@@ -95,11 +106,13 @@ def point_shakedown(
 
 
 _ROUNDS = 32
-"""Steps of the golden section over ρ_yy: 0.618^32 = 2e-7 of its range; the radius is convex in it, and errs by less."""
+"""Steps of the golden section over ρ_yy: 0.618^32 = 2e-7 of its range; the radius is convex in it,
+and errs by less."""
 
 
 def _best_normal_stresses(states: RealArray) -> tuple[RealArray, RealArray, RealArray]:
-    """ρ_xx (n, m), ρ_yy (n,) and the largest radius (n,) with them, for ``states`` (5, n, m across, m along)."""
+    """ρ_xx (n, m), ρ_yy (n,) and the largest radius (n,) with them, for ``states`` (5, n, m across,
+    m along)."""
     rest = (states[2:] ** 2).sum(axis=0)
 
     def radii(centre: RealArray) -> tuple[RealArray, RealArray]:
@@ -123,9 +136,11 @@ def _best_normal_stresses(states: RealArray) -> tuple[RealArray, RealArray, Real
 
 
 def _best_centres(at: RealArray, height: RealArray) -> tuple[RealArray, RealArray]:
-    """Centre c with the least max_i (a_i - c)² + b_i along the last axis, and that least: parabolas ``at`` a with ``height`` b.
+    """Centre c with the least max_i (a_i - c)² + b_i along the last axis, and that least: parabolas
+    ``at`` a with ``height`` b.
 
-    All have one curvature, so that each pair meets once: the least lies at the vertex of one or where two meet.
+    All have one curvature, so that each pair meets once: the least lies at the vertex of one or
+    where two meet.
     """
     offset, twice = at**2 + height, 2.0 * at
     begin = at.shape[-1] * np.arange(at[..., 0].size).reshape(at.shape[:-1])
@@ -159,7 +174,8 @@ _EXCHANGES = 150
 
 
 def _largest_sphere(points: RealArray, free: BoolArray) -> float:
-    """Largest of the squared radii of smallest spheres about ``points`` (loops, 5, m), their centres zero but where ``free``."""
+    """Largest of the squared radii of smallest spheres about ``points`` (loops, 5, m), their
+    centres zero but where ``free``."""
     size = (points**2).sum(axis=1)
     weight = np.zeros_like(size)
     weight[np.arange(size.shape[0]), np.argmax(size, axis=1)] = 1.0
@@ -194,7 +210,8 @@ class SphereShakedown:
     bound_over_k
         The same from which on it certainly does not.
     depth
-        Depth in contact radii (semi-axes along the pass) where the former is reached; 0 at the surface.
+        Depth in contact radii (semi-axes along the pass) where the former is reached; 0 at the
+        surface.
     """
 
     peak_over_k: float
@@ -204,9 +221,11 @@ class SphereShakedown:
 
 
 def sphere_shakedown(friction: float = 0.0, nu: float = 0.3) -> SphereShakedown:
-    """Bounds for a sphere with the traction q = ``friction`` p everywhere, friction >= 0, by von Mises' criterion.
+    """Bounds for a sphere with the traction q = ``friction`` p everywhere, friction >= 0, by von
+    Mises' criterion.
 
-    Pure rolling: 4.68 k (Hearle, Ponter and Johnson 1985), one over the largest σ_xz; k/μ at the surface under high friction.
+    Pure rolling: 4.68 k (Hearle, Ponter and Johnson 1985), one over the largest σ_xz; k/μ at the
+    surface under high friction.
 
     Raises
     ------
@@ -223,7 +242,8 @@ def sphere_shakedown(friction: float = 0.0, nu: float = 0.3) -> SphereShakedown:
 
 
 def ellipse_shakedown(ratio: float, nu: float = 0.3) -> SphereShakedown:
-    """Bounds in pure rolling of an elliptical contact, ``ratio`` of the semi-axis across to that along the pass, 0.05 to 20.
+    """Bounds in pure rolling of an elliptical contact, ``ratio`` of the semi-axis across to that
+    along the pass, 0.05 to 20.
 
     The limit is that of a line contact for long ellipses across.
 
@@ -254,9 +274,11 @@ _Stress: TypeAlias = Callable[[RealArray, RealArray, RealArray], StressTensor]
 def _searched(
     stress: _Stress, depth: float, b: float, *, along: int = 81, across: int = 15, down: int = 13
 ) -> SphereShakedown:
-    """Bounds of a homogeneous contact, semi-axes 1 along the pass and ``b`` across, on ever finer depths of the order of ``depth``.
+    """Bounds of a homogeneous contact, semi-axes 1 along the pass and ``b`` across, on ever finer
+    depths of the order of ``depth``.
 
-    ``along`` and ``across`` are numbers of places along half a pass and across the half contact, ``down`` of depths in each round.
+    ``along`` and ``across`` are numbers of places along half a pass and across the half contact,
+    ``down`` of depths in each round.
     """
     # dense at the contact, and with its edges
     half = np.unique([*np.sinh(np.linspace(0.0, math.asinh(15.0), along)) / 5.0, 1.0])

@@ -1,4 +1,5 @@
-"""Elastic shakedown of rolling and sliding line contacts: the largest load at which plastic flow ceases after some passes (Melan 1938)."""
+"""Elastic shakedown of rolling and sliding line contacts: the largest load at which plastic flow
+ceases after some passes (Melan 1938)."""
 
 from __future__ import annotations
 
@@ -17,13 +18,15 @@ from .hertz import hertz_line_normal, hertz_line_shear
 
 @dataclass(frozen=True, eq=False)
 class LineShakedown:
-    """Limits at depths (n,) under a load that passes along x; stresses over the yield stress in shear k there.
+    """Limits at depths (n,) under a load that passes along x; stresses over the yield stress in
+    shear k there.
 
     Attributes
     ----------
     radius
-        Radius of the smallest circle about the stress states of a pass, centred on the axis of (σ_xx - σ_zz)/2, over k. Loads may be larger by its
-        inverse before plastic flow goes on at every pass.
+        Radius of the smallest circle about the stress states of a pass, centred on the axis of
+        (σ_xx - σ_zz)/2, over k. Loads may be larger by its inverse before plastic flow goes on at
+        every pass.
     residual
         Residual stress σ_xx over k that protects the depth: minus twice the centre of that circle.
     """
@@ -44,10 +47,12 @@ ROUNDS = 40
 
 
 def line_shakedown(stress: StressTensor, shear_strength: float | RealArray) -> LineShakedown:
-    """Smallest circles about the ``stress`` (n, m) at n depths and m places along a pass, in plane strain along y.
+    """Smallest circles about the ``stress`` (n, m) at n depths and m places along a pass, in plane
+    strain along y.
 
-    Residual stresses σ_xx and σ_yy that depend on the depth alone are free in a pass (Melan); the second makes σ_yy the intermediate one.
-    Homogeneous or layered: each depth has its own ``shear_strength`` k in Pa, a number or (n,).
+    Residual stresses σ_xx and σ_yy that depend on the depth alone are free in a pass (Melan); the
+    second makes σ_yy the intermediate one. Homogeneous or layered: each depth has its own
+    ``shear_strength`` k in Pa, a number or (n,).
 
         p^s = min_z 1/min_c max_x sqrt(((σ_xx - σ_zz)/2 - c)² + σ_xz²)   (Johnson 1962).
 
@@ -60,7 +65,8 @@ def line_shakedown(stress: StressTensor, shear_strength: float | RealArray) -> L
     half, across = 0.5 * (np.asarray(stress.xx) - np.asarray(stress.zz)), np.asarray(stress.xz)
     if half.ndim != 2 or np.any(~(k > 0.0)) or k.shape not in ((), half.shape[:1]):
         raise InputError(
-            f"stress must be (depths, places) and the shear strength above zero, a number or one for each depth, but they have the shapes {half.shape} and {k.shape}."
+            "stress must be (depths, places) and the shear strength above zero, a number or one for each "
+            f"depth, but they have the shapes {half.shape} and {k.shape}."
         )
     scale = np.broadcast_to(k, half.shape[:1])[:, None]
     half, across = half / scale, across / scale
@@ -105,7 +111,8 @@ PLACES = 4001
 
 
 def cylinder_shakedown(friction: float = 0.0) -> CylinderShakedown:
-    """Limit of a rolling and sliding cylinder with the traction q = ``friction`` p everywhere, friction >= 0; any Poisson's ratio.
+    """Limit of a rolling and sliding cylinder with the traction q = ``friction`` p everywhere,
+    friction >= 0; any Poisson's ratio.
 
     4 k at 0.5 a in pure rolling (Johnson 1962), k/μ at the surface from a friction of 0.367 on.
 
@@ -119,7 +126,8 @@ def cylinder_shakedown(friction: float = 0.0) -> CylinderShakedown:
 
 @functools.cache
 def _cylinder(mu: float) -> CylinderShakedown:
-    """The limit at one friction; it takes a second, and studies of loads and thicknesses ask for it again and again."""
+    """The limit at one friction; it takes a second, and studies of loads and thicknesses ask for it
+    again and again."""
     x = np.linspace(-4.0, 4.0, PLACES)[None, :]  # in half-widths, as the depths; the peak pressure is one
     low, high = 0.0, 1.2
     for _ in range(6):

@@ -1,4 +1,5 @@
-"""Shakedown limits of homogeneous rolling and sliding contacts as theories of the catalogue: the numbers of ``cylinder_shakedown`` and ``sphere_shakedown``."""
+"""Shakedown limits of homogeneous rolling and sliding contacts as theories of the catalogue: the
+numbers of ``cylinder_shakedown`` and ``sphere_shakedown``."""
 
 from __future__ import annotations
 
@@ -45,7 +46,8 @@ class _Limit:
 
 @dataclass(frozen=True)
 class ShakedownLine(_Limit, Theory):
-    """Elastic shakedown of a cylinder that rolls and slides: the largest peak pressure under which flow ceases after some passes.
+    """Elastic shakedown of a cylinder that rolls and slides: the largest peak pressure under which
+    flow ceases after some passes.
 
         p^s = min_z 1/min_c max_x sqrt(((σ_xx - σ_zz)/2 - c)² + σ_xz²).
 
@@ -77,7 +79,8 @@ class ShakedownLine(_Limit, Theory):
 
 @dataclass(frozen=True)
 class ShakedownPoint(_Limit, Theory):
-    """Elastic shakedown of a sphere that rolls and slides: peak pressures under which flow certainly ceases, and above which it certainly does not.
+    """Elastic shakedown of a sphere that rolls and slides: peak pressures under which flow
+    certainly ceases, and above which it certainly does not.
 
     J_2(σ + ρ) ≤ k²
     """

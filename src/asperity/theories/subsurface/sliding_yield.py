@@ -1,7 +1,9 @@
-"""First yield of a Hertz contact with and without friction (Hamilton 1983; Johnson 1985, secs. 4.2, 7.1; Bhushan 1998, fig. 8).
+"""First yield of a Hertz contact with and without friction (Hamilton 1983; Johnson 1985, secs. 4.2,
+7.1; Bhushan 1998, fig. 8).
 
-Von Mises' criterion: yield starts where the largest sqrt(J2) reaches the yield stress in pure shear k = Y/√3. With friction
-that place moves forward and up, and from some friction coefficient on (0.30 for a sphere at ν = 0.3) it lies on the surface.
+Von Mises' criterion: yield starts where the largest sqrt(J2) reaches the yield stress in pure shear
+k = Y/√3. With friction that place moves forward and up, and from some friction coefficient on (0.30
+for a sphere at ν = 0.3) it lies on the surface.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ _ROUNDS = 14  # of refinement by 5 each: past the square root of the rounding, w
 
 @dataclass(frozen=True)
 class YieldOnset:
-    """Largest sqrt(J2) in a contact of peak pressure 1 and contact radius (half-width) 1, and where it is.
+    """Largest sqrt(J2) in a contact of peak pressure 1 and contact radius (half-width) 1, and where
+    it is.
 
     Parameters
     ----------
@@ -133,7 +136,8 @@ class CylinderYield(Theory):
 
 
 def sphere_yield_onset(nu: float, friction: float = 0.0) -> YieldOnset:
-    """First yield of a point contact of revolution, Poisson's ratio ``nu`` (0 to 0.5), ``friction`` coefficient >= 0.
+    """First yield of a point contact of revolution, Poisson's ratio ``nu`` (0 to 0.5), ``friction``
+    coefficient >= 0.
 
     InputError if Poisson's ratio or the friction coefficient is out of range.
     """
@@ -157,7 +161,8 @@ def _cylinder(nu: float, x: RealArray, z: RealArray) -> tuple[StressTensor, Stre
 
 
 _Fields: TypeAlias = Callable[[float, RealArray, RealArray], tuple[StressTensor, StressTensor]]
-"""Stress under the pressure, and under a shear traction equal to it, at (x, z) for a Poisson's ratio."""
+"""Stress under the pressure, and under a shear traction equal to it, at (x, z) for a Poisson's
+ratio."""
 
 
 def _onsets(fields: _Fields, nu: float, friction: RealArray) -> list[YieldOnset]:
@@ -167,7 +172,8 @@ def _onsets(fields: _Fields, nu: float, friction: RealArray) -> list[YieldOnset]
         require.not_negative(float(coefficient), "friction coefficient")
     at_surface, x_surface, _ = _largest(fields, nu, friction, (0.0, 0.0))
     inside, x, z = _largest(fields, nu, friction, (0.05, 1.5))
-    # without friction all is symmetric, and the place of a maximum is known to the root of the rounding only
+    # without friction all is symmetric, and the place of a maximum is known to the root of the
+    # rounding only
     x[friction == 0.0] = 0.0
     deeper = inside > at_surface
     columns = np.maximum(inside, at_surface), np.where(deeper, x, x_surface), np.where(deeper, z, 0.0), at_surface

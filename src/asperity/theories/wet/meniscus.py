@@ -1,8 +1,9 @@
-"""One liquid meniscus: Laplace and Kelvin equations, the adsorbed film, and the force between a sphere and a flat.
+"""One liquid meniscus: Laplace and Kelvin equations, the adsorbed film, and the force between a
+sphere and a flat.
 
-Circular arcs, no gravity, menisci much lower than the sphere; the line force of the surface tension, of relative order
-(height/radius)^(1/2), is left out. Sources: McFarlane & Tabor (1950), Gao, Tian & Bhushan (1995), Bhushan (1998, eq.
-55-67).
+Circular arcs, no gravity, menisci much lower than the sphere; the line force of the surface
+tension, of relative order (height/radius)^(1/2), is left out. Sources: McFarlane & Tabor (1950),
+Gao, Tian & Bhushan (1995), Bhushan (1998, eq. 55-67).
 """
 
 from __future__ import annotations
@@ -26,9 +27,11 @@ ROOM_TEMPERATURE = 293.15
 
 
 def wetting_factor(angle: float, other_angle: float = 0.0) -> float:
-    """cos θ1 + cos θ2 of two contact angles in rad, 0 on the side that carries a film of the liquid.
+    """cos θ1 + cos θ2 of two contact angles in rad, 0 on the side that carries a film of the
+    liquid.
 
-    InputError if an angle is not between 0 and π, or the sum is not positive: such a liquid is pushed out of the gap.
+    InputError if an angle is not between 0 and π, or the sum is not positive: such a liquid is
+    pushed out of the gap.
     """
     for value in (angle, other_angle):
         if not 0.0 <= require.finite(value, "contact angle (rad)") <= math.pi:
@@ -43,7 +46,8 @@ def wetting_factor(angle: float, other_angle: float = 0.0) -> float:
 
 
 def laplace_pressure(surface_tension: float, height: float, wetting: float = 2.0) -> float:
-    """Pressure deficit γ (cos θ1 + cos θ2)/s in Pa in a meniscus of ``height`` s in m, ``wetting`` the sum of cosines."""
+    """Pressure deficit γ (cos θ1 + cos θ2)/s in Pa in a meniscus of ``height`` s in m, ``wetting``
+    the sum of cosines."""
     gamma = require.positive(surface_tension, "surface tension (N/m)")
     return gamma * wetting / require.positive(height, "meniscus height (m)")
 
@@ -51,11 +55,12 @@ def laplace_pressure(surface_tension: float, height: float, wetting: float = 2.0
 def kelvin_radius(
     humidity: float, surface_tension: float, molar_volume: float, temperature: float = ROOM_TEMPERATURE
 ) -> float:
-    """r_K = γ V/(R T ln(1/RH)) in m: radius of a meniscus in equilibrium with vapour, as a positive number.
+    """r_K = γ V/(R T ln(1/RH)) in m: radius of a meniscus in equilibrium with vapour, as a positive
+    number.
 
-    ``humidity``: relative humidity as a fraction, 0 < RH < 1. Below about 0.5 the radius of water is that of a few
-    molecules and the continuum a formality; ``surface_tension``: γ in N/m; ``molar_volume``: of the liquid, m³/mol;
-    ``temperature``: in K.
+    ``humidity``: relative humidity as a fraction, 0 < RH < 1. Below about 0.5 the radius of water
+    is that of a few molecules and the continuum a formality; ``surface_tension``: γ in N/m;
+    ``molar_volume``: of the liquid, m³/mol; ``temperature``: in K.
 
     InputError if a number is out of its range.
     """
@@ -68,7 +73,8 @@ def kelvin_radius(
 
 
 def adsorbed_water_film(humidity: float) -> float:
-    """Thickness in m of the water on a carbon-coated disk: 0.3 nm RH + 0.5 nm exp[20(RH - 1)] (Bhushan 1998, eq. 67).
+    """Thickness in m of the water on a carbon-coated disk: 0.3 nm RH + 0.5 nm exp[20(RH - 1)]
+    (Bhushan 1998, eq. 67).
 
     An empirical law of one surface; 0.8 nm at saturation, 0.15 nm at 50 %.
     """
@@ -79,11 +85,11 @@ def adsorbed_water_film(humidity: float) -> float:
 def droplet_force(
     radius: float, surface_tension: float, wetting: float, *, gap: float = 0.0, immersion: float = math.inf
 ) -> float:
-    """Attraction in N of a sphere to a flat by a ring of liquid around the nearest point: 2πRγ(cos θ1 + cos θ2)/(1 +
-    D/d).
+    """Attraction in N of a sphere to a flat by a ring of liquid around the nearest point: 2πRγ(cos
+    θ1 + cos θ2)/(1 + D/d).
 
-    Independent of the amount of liquid where sphere and flat touch (case A); with a ``gap`` D in m between them the
-    sphere is immersed by d in m (case B, Bhushan 1998, fig. 35).
+    Independent of the amount of liquid where sphere and flat touch (case A); with a ``gap`` D in m
+    between them the sphere is immersed by d in m (case B, Bhushan 1998, fig. 35).
     """
     apart = require.not_negative(gap, "gap of sphere and flat (m)")
     gamma = require.positive(surface_tension, "surface tension (N/m)")
@@ -94,28 +100,33 @@ def droplet_force(
 def film_force(
     radius: float, surface_tension: float, angle: float, *, gap: float = 0.0, height: float = math.inf
 ) -> float:
-    """Attraction in N of a sphere to a flat with a continuous film: 2πRγ(1 + cos θ)(1 - D/s), zero for D > s.
+    """Attraction in N of a sphere to a flat with a continuous film: 2πRγ(1 + cos θ)(1 - D/s), zero
+    for D > s.
 
-    ``angle`` θ in rad on the sphere, ``gap`` D and meniscus ``height`` s in m (case C, Bhushan 1998, fig. 35).
+    ``angle`` θ in rad on the sphere, ``gap`` D and meniscus ``height`` s in m (case C, Bhushan
+    1998, fig. 35).
     """
     apart = require.not_negative(gap, "gap of sphere and flat (m)")
     return droplet_force(radius, surface_tension, wetting_factor(angle)) * max(0.0, 1.0 - apart / height)
 
 
-# Growth of a meniscus that draws liquid from the surrounding film, up to equilibrium with the disjoining pressure.
+# Growth of a meniscus that draws liquid from the surrounding film, up to equilibrium with the
+# disjoining pressure.
 #
-# A compact model of the kinetic meniscus of Bhushan, Kotwal & Chilamakuri (1998) with all of its trends, not a
-# transcription.
+# A compact model of the kinetic meniscus of Bhushan, Kotwal & Chilamakuri (1998) with all of its
+# trends, not a transcription.
 
 
 @dataclass(frozen=True)
 class MeniscusGrowth:
     """Height of the meniscus around a sphere that touches a film, against time.
 
-    The suction γ(1 + cos θ)/s drives lubrication flow through the film towards the meniscus of volume πRs²; it ends when
-    the suction equals the disjoining pressure A_H/(6πh³) of the film. With y = s/s_eq and τ = t/t0, dy/dτ = (1 - y)/y².
+    The suction γ(1 + cos θ)/s drives lubrication flow through the film towards the meniscus of
+    volume πRs²; it ends when the suction equals the disjoining pressure A_H/(6πh³) of the film.
+    With y = s/s_eq and τ = t/t0, dy/dτ = (1 - y)/y².
 
-    InputError if a number is out of its range, or the film is so thin that it holds its liquid back (h >= s_eq).
+    InputError if a number is out of its range, or the film is so thin that it holds its liquid back
+    (h >= s_eq).
 
     Parameters
     ----------
@@ -186,7 +197,8 @@ class MeniscusGrowth:
         return np.asarray(self.equilibrium_height * grown(tau, self.start))
 
     def time_to(self, share: float) -> float:
-        """Time in s until the meniscus has ``share`` of its equilibrium height; 0.99 is customary."""
+        """Time in s until the meniscus has ``share`` of its equilibrium height; 0.99 is
+        customary."""
         y = require.between(share, 0.0, 1.0, "share of the equilibrium height")
         return self.time_scale * max(0.0, float(_time(np.array(-math.log1p(-y)), self.start)))
 

@@ -1,4 +1,5 @@
-"""One meniscus as a theory of the catalogue: a sphere in a droplet or a film, and a meniscus in equilibrium with vapour."""
+"""One meniscus as a theory of the catalogue: a sphere in a droplet or a film, and a meniscus in
+equilibrium with vapour."""
 
 from __future__ import annotations
 
@@ -40,15 +41,19 @@ class PullAnswer(Tabled):
 
 @dataclass(frozen=True)
 class DropletMeniscus(Theory):
-    """Sphere and flat with a ring of liquid around the nearest point: touching (case A) or with a gap D (case B).
+    """Sphere and flat with a ring of liquid around the nearest point: touching (case A) or with a
+    gap D (case B).
 
         F = 2 π R γ (cos θ_1 + cos θ_2)/(1 + D/d).
 
-    d is the depth to which the liquid immerses the sphere. Case A has D = 0 and does not depend on the amount of liquid.
+    d is the depth to which the liquid immerses the sphere. Case A has D = 0 and does not depend on
+    the amount of liquid.
 
     Examples
     --------
-    >>> water = DropletMeniscus(radius=1e-6, surface_tension=0.073, contact_angle=0.0, immersion=5e-9)
+    >>> water = DropletMeniscus(
+    ...     radius=1e-6, surface_tension=0.073, contact_angle=0.0, immersion=5e-9
+    ... )
     >>> print([f"{force:.3g}" for force in water.at_gap([0.0, 5e-9]).force])
     ['9.17e-07', '4.59e-07']
     """
@@ -115,7 +120,8 @@ class VapourAnswer(Tabled):
 
 @dataclass(frozen=True)
 class VapourMeniscus(Theory):
-    """Meniscus in equilibrium with vapour of the relative humidity φ, and the water adsorbed on a carbon-coated disk.
+    """Meniscus in equilibrium with vapour of the relative humidity φ, and the water adsorbed on a
+    carbon-coated disk.
 
         r_K = γ V/(R T ln(1/φ)),  Δp = γ/r_K.
 

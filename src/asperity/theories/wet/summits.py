@@ -42,11 +42,13 @@ SurfaceTension: TypeAlias = Annotated[
 FilmThickness: TypeAlias = Annotated[Length, Help("thickness of the film", of="bodies")]
 ContactAngle: TypeAlias = Annotated[float, Number("angle"), Help("contact angle on the summits", of="bodies")]
 
-# Menisci of Greenwood-Williamson summits in a liquid film (Gao, Tian & Bhushan 1995; Bhushan 1998, eq. 56-58).
+# Menisci of Greenwood-Williamson summits in a liquid film (Gao, Tian & Bhushan 1995; Bhushan 1998,
+# eq. 56-58).
 
 
 Pull: TypeAlias = Callable[[RealArray], RealArray]
-"""Meniscus force per nominal area in Pa at separations in m, (1, m) for all loads or (n, 1), one for each."""
+"""Meniscus force per nominal area in Pa at separations in m, (1, m) for all loads or (n, 1), one
+for each."""
 
 _STEPS = 100  # ten are the rule
 _CLOSE = 1e-14  # standard deviations; the error is less than the last step
@@ -59,8 +61,8 @@ _FAR_STEP = 1.0
 class WetPrediction(Tabled):
     """Balance of load, menisci and summits along a curve; arrays (n,).
 
-    ``pressure`` external load per nominal area in Pa, ``meniscus_pressure`` meniscus force per nominal area in Pa,
-    ``contact`` what the summits do under the sum of both.
+    ``pressure`` external load per nominal area in Pa, ``meniscus_pressure`` meniscus force per
+    nominal area in Pa, ``contact`` what the summits do under the sum of both.
     """
 
     pressure: RealArray
@@ -68,7 +70,8 @@ class WetPrediction(Tabled):
     contact: Prediction
 
     def static_friction(self, coefficient: float) -> RealArray:
-        """μ_s = μ_r (1 + F_m/W) for the dry ``coefficient`` μ_r, without viscous part (Bhushan 1998, eq. 59)."""
+        """μ_s = μ_r (1 + F_m/W) for the dry ``coefficient`` μ_r, without viscous part (Bhushan
+        1998, eq. 59)."""
         mu = require.not_negative(coefficient, "friction coefficient")
         return np.asarray(mu * (1.0 + self.meniscus_pressure / self.pressure))
 
@@ -77,8 +80,9 @@ class WetPrediction(Tabled):
 class StatisticalMeniscus:
     """A smooth surface with a film of liquid against rough summits of ``contact``.
 
-    Every summit that reaches the film, touching the solid or not, is pulled by the full force of a sphere that touches
-    it, 2πRγ(1 + cos θ): true for menisci much higher than the film. Below about one molecular layer there is none.
+    Every summit that reaches the film, touching the solid or not, is pulled by the full force of a
+    sphere that touches it, 2πRγ(1 + cos θ): true for menisci much higher than the film. Below about
+    one molecular layer there is none.
 
     InputError if a number is out of its range, or the liquid does not wet.
 
@@ -110,13 +114,15 @@ class StatisticalMeniscus:
 
     @property
     def largest(self) -> float:
-        """Meniscus force per nominal area in Pa when every summit reaches the film; zero for less than a layer."""
+        """Meniscus force per nominal area in Pa when every summit reaches the film; zero for less
+        than a layer."""
         if self.film_thickness < self.molecular_layer:
             return 0.0
         return self.contact.density * film_force(self.contact.radius, self.surface_tension, self.contact_angle)
 
     def meniscus_pressure(self, separation: ArrayLike) -> RealArray:
-        """Meniscus force per nominal area in Pa at separations (n,) in m from the mean plane of the surface."""
+        """Meniscus force per nominal area in Pa at separations (n,) in m from the mean plane of the
+        surface."""
         return self._pull(curve(separation, "separations (m)"))
 
     def _pull(self, separation: RealArray) -> RealArray:
@@ -128,7 +134,8 @@ class StatisticalMeniscus:
         return balance(self.contact, self._pull, curve(pressure, "pressures (Pa)", positive=True))
 
     def feedback(self, separation: ArrayLike) -> RealArray:
-        """dF_m/dL at separations (n,) in m: repeated solution converges only where this is below one."""
+        """dF_m/dL at separations (n,) in m: repeated solution converges only where this is below
+        one."""
         h = curve(separation, "separations (m)")
         reached = self.contact.standardised(h - self.film_thickness)
         slope = self.largest * self.contact.heights.density(reached) / self.contact.height_deviation
@@ -136,7 +143,8 @@ class StatisticalMeniscus:
 
     @property
     def pull_off(self) -> float:
-        """Largest tension per nominal area in Pa that the menisci hold against the summits, >= 0."""
+        """Largest tension per nominal area in Pa that the menisci hold against the summits, >=
+        0."""
         h = _separations(self.contact)
         rest = self.contact.borne(h) - self.meniscus_pressure(h)
         lowest = int(np.argmin(rest))
@@ -153,8 +161,8 @@ class StatisticalMeniscus:
 
 
 def balance(contact: GreenwoodWilliamson, pull: Pull, pressure: RealArray) -> WetPrediction:
-    """Equilibrium of the summits under ``pressure`` (n,) in Pa and the ``pull`` of the menisci, at the smallest
-    separation.
+    """Equilibrium of the summits under ``pressure`` (n,) in Pa and the ``pull`` of the menisci, at
+    the smallest separation.
 
     NoSolutionError if the summits do not carry load and menisci at any separation.
     """
@@ -190,7 +198,8 @@ def balance(contact: GreenwoodWilliamson, pull: Pull, pressure: RealArray) -> We
 
 
 def _separations(contact: GreenwoodWilliamson) -> RealArray:
-    """Separations in m, from the smallest up, spaced closely enough to bracket every equilibrium."""
+    """Separations in m, from the smallest up, spaced closely enough to bracket every
+    equilibrium."""
     end = min(HIGHEST, contact.heights.support[1])
     dense = np.arange(LOWEST, -_NEAR, _FAR_STEP)
     near = np.arange(-_NEAR, min(end, _NEAR) + _STEP, _STEP)
@@ -205,8 +214,9 @@ def _separations(contact: GreenwoodWilliamson) -> RealArray:
 class KineticMeniscus:
     """Statistical meniscus force at a time after contact.
 
-    The force of a sphere that touches does not depend on the height of its meniscus; that of a summit at the distance
-    d - z from the solid grows as 1 - (d - z)/s. So the force rises from that of the film to that of ``statistical``.
+    The force of a sphere that touches does not depend on the height of its meniscus; that of a
+    summit at the distance d - z from the solid grows as 1 - (d - z)/s. So the force rises from that
+    of the film to that of ``statistical``.
 
     Parameters
     ----------
@@ -221,7 +231,8 @@ class KineticMeniscus:
     citation_keys: ClassVar[tuple[str, ...]] = ("BhushanKotwal1998", "Gao1995")
 
     def at(self, time: ArrayLike, pressure: ArrayLike) -> WetPrediction:
-        """Balance at ``time`` in s (>= 0) under external pressures in Pa, > 0; numbers or (n,), broadcast."""
+        """Balance at ``time`` in s (>= 0) under external pressures in Pa, > 0; numbers or (n,),
+        broadcast."""
         times, loads = np.broadcast_arrays(curve(time, "times (s)"), curve(pressure, "pressures (Pa)", positive=True))
         height = self.growth.height(times)[:, None]
         contact, film = self.statistical.contact, self.statistical.film_thickness
@@ -235,9 +246,11 @@ class KineticMeniscus:
 
 
 def caught(heights: SummitHeights, D: RealArray, film: float, height: ArrayLike) -> RealArray:
-    """∫_D^∞ p ds + ∫_(D-H)^D [1 - (D - s)/S] p ds: mean force of a summit over that of one that touches.
+    """∫_D^∞ p ds + ∫_(D-H)^D [1 - (D - s)/S] p ds: mean force of a summit over that of one that
+    touches.
 
-    ``D`` separation, ``film`` H and meniscus ``height`` S >= H, all in standard deviations; D and S broadcast.
+    ``D`` separation, ``film`` H and meniscus ``height`` S >= H, all in standard deviations; D and S
+    broadcast.
     """
     lowest = np.asarray(D, dtype=float) - film
     reached = heights.tail_moment(lowest, 0.0)
@@ -246,7 +259,8 @@ def caught(heights: SummitHeights, D: RealArray, film: float, height: ArrayLike)
     return np.asarray(reached - gaps / np.asarray(height))
 
 
-# Menisci of Greenwood-Williamson summits from plain numbers: heights of any skewness and kurtosis, at rest and growing.
+# Menisci of Greenwood-Williamson summits from plain numbers: heights of any skewness and kurtosis,
+# at rest and growing.
 
 
 WET = (
@@ -262,9 +276,11 @@ WET = (
 
 @dataclass(frozen=True)
 class WetSummits(Theory):
-    """Summits in a film of liquid, each pulled by the force of a sphere that touches it, against a smooth plane.
+    """Summits in a film of liquid, each pulled by the force of a sphere that touches it, against a
+    smooth plane.
 
-    With the load of the summits in ``GreenwoodWilliamson`` at the separation d, the film thickness h and F_0 of the heights,
+    With the load of the summits in ``GreenwoodWilliamson`` at the separation d, the film thickness
+    h and F_0 of the heights,
 
         p_m = 2 π R γ (1 + cos θ) η F_0((d - h - z̄_s)/σ_s),  p + p_m = p_(solid)(d).
 
@@ -335,7 +351,8 @@ class WetSummits(Theory):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class GrownMenisci(Tabled):
-    """Wet summits at times (n,): ``height`` of the menisci in m, ``meniscus_pressure`` and ``area_fraction``."""
+    """Wet summits at times (n,): ``height`` of the menisci in m, ``meniscus_pressure`` and
+    ``area_fraction``."""
 
     height: RealArray
     meniscus_pressure: RealArray
@@ -346,12 +363,14 @@ class GrownMenisci(Tabled):
 class GrowingMenisci(Theory):
     """Wet summits whose menisci grow with time; Gaussian heights.
 
-    With the disjoining pressure Π = A_H/(6πh³) of the film, y = s/s_eq and τ = t/t_0 the height s of a meniscus obeys
+    With the disjoining pressure Π = A_H/(6πh³) of the film, y = s/s_eq and τ = t/t_0 the height s
+    of a meniscus obeys
 
         dy/dτ = (1 - y)/y²,  s_(eq) = γ (1 + cos θ)/Π,  t_0 = 3 μ R ln(r_o/r_i) s_(eq)²/(h³ Π),
 
-    and a summit at the distance g from the plane, within the film, is pulled by 1 - g/s of the force of one that touches.
-    ``theory`` is the ``asperity.theories.KineticMeniscus`` of these numbers.
+    and a summit at the distance g from the plane, within the film, is pulled by 1 - g/s of the
+    force of one that touches. ``theory`` is the ``asperity.theories.KineticMeniscus`` of these
+    numbers.
     """
 
     E_star: Modulus

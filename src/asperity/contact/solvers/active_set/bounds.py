@@ -1,4 +1,5 @@
-"""(1, 3, 4) Points at the bounds of the pressure: which the next step may change, and how its pressures are kept within; constants and cases as in ``solver``."""
+"""(1, 3, 4) Points at the bounds of the pressure: which the next step may change, and how its
+pressures are kept within; constants and cases as in ``solver``."""
 
 from __future__ import annotations
 
@@ -20,42 +21,50 @@ def plane_level(qp: ContactQP, totals: Totals) -> float:
 
 
 _PRIOR = 4.0
-"""Loaded points as which the mean over the wider square counts in that of a square, so that few points do not decide alone.
-Pairs for 2: free 18.6; for 1, 8, 16: the same."""
+"""Loaded points as which the mean over the wider square counts in that of a square, so that few
+points do not decide alone. Pairs for 2: free 18.6; for 1, 8, 16: the same."""
 
 _SCATTER_SHARE = 0.5
-"""Share of the scatter by which a point must stand out to enter. Pairs for 0: tight 12.9; for 0.3, 0.7: the same; for 1: film 5.9, cap 6.2, tight 11.9. It is for stiffer films and points of noise that it is not 0."""
+"""Share of the scatter by which a point must stand out to enter. Pairs for 0: tight 12.9; for 0.3,
+0.7: the same; for 1: film 5.9, cap 6.2, tight 11.9. It is for stiffer films and points of noise
+that it is not 0."""
 
 _SCATTER_SHARE_WIDE = -0.5
-"""The same for a ``wide`` set: points enter that do not stand out. Before a set is ``narrowed``, for the model finds nearly all that will not touch among them, but none of those that are missing;
-and for the last step, after which points that do not touch are cleared, but one that is missing would be too deep for the tolerance.
-Pairs for 0.5: elastic 5.8, film 6.2; for 0: free 20.1; for -0.3: free 18.6; for -0.75, -1: the same."""
+"""The same for a ``wide`` set: points enter that do not stand out. Before a set is ``narrowed``,
+for the model finds nearly all that will not touch among them, but none of those that are missing;
+and for the last step, after which points that do not touch are cleared, but one that is missing
+would be too deep for the tolerance. Pairs for 0.5: elastic 5.8, film 6.2; for 0: free 20.1; for
+-0.3: free 18.6; for -0.75, -1: the same."""
 
 _RESOLVED = 1e-14
 """Scatter² over mean square below which it is lost in the rounding of sums of squares."""
 
 
 def free_set(survey: Survey, level: float, scale: float, dtype: str, *, wide: bool = False) -> FreeSet:
-    """Free set of an iterate at the plane ``level``, with the residual (level - r) / ``scale``; a larger one if ``wide``.
+    """Free set of an iterate at the plane ``level``, with the residual (level - r) / ``scale``; a
+    larger one if ``wide``.
 
-    Points at a bound enter by the mean residual of the loaded points near them: while an iterate is not yet solved for,
-    its residual is smooth, whole regions being too high or too low. Judged by the plane level, too many points would enter
-    in the one and too few in the other, and the set would follow the error instead of the surface. At the solution all
-    means are the plane level.
+    Points at a bound enter by the mean residual of the loaded points near them: while an iterate is
+    not yet solved for, its residual is smooth, whole regions being too high or too low. Judged by
+    the plane level, too many points would enter in the one and too few in the other, and the set
+    would follow the error instead of the surface. At the solution all means are the plane level.
 
-    What the residual scatters about that mean from point to point is error as well: a step on points that enter by less
-    than it is mostly undone by the next, and a stiff film, whose pressures change sign within a few pixels, may never
-    settle. Points enter that are beyond the mean by half of the scatter, which vanishes at the solution.
+    What the residual scatters about that mean from point to point is error as well: a step on
+    points that enter by less than it is mostly undone by the next, and a stiff film, whose
+    pressures change sign within a few pixels, may never settle. Points enter that are beyond the
+    mean by half of the scatter, which vanishes at the solution.
     """
     share = _SCATTER_SHARE_WIDE if wide else _SCATTER_SHARE
     return survey.free_set(entering_levels(survey.squares, level, share), level, scale, dtype)
 
 
 def entering_levels(squares: RealArray, level: float, share: float) -> RealArray:
-    """Levels of r for each square (..., 2): unloaded points enter below the first, points at their cap above the second; ``share`` of the scatter beyond the mean.
+    """Levels of r for each square (..., 2): unloaded points enter below the first, points at their
+    cap above the second; ``share`` of the scatter beyond the mean.
 
-    ``squares`` holds the number of its points strictly between the bounds, their sum of r and of r². Where there are few, the square of twice
-    the side counts as well, and so on; where there are none at all the levels are ``level``.
+    ``squares`` holds the number of its points strictly between the bounds, their sum of r and of
+    r². Where there are few, the square of twice the side counts as well, and so on; where there are
+    none at all the levels are ``level``.
     """
     from ....core.engine import kernels
 
@@ -68,18 +77,21 @@ def entering_levels(squares: RealArray, level: float, share: float) -> RealArray
 # (3, 4) Tension cleared, steps on the model alone, steps clipped.
 
 LEAST_SHARE = 0.1
-"""Share of a clipped step below which it is replaced by one along the projected gradient: what little would be left of it shows
-that the set was wrong. No case of the sweep gets there (0.01 to 0.3: the same pairs); random small problems with caps do."""
+"""Share of a clipped step below which it is replaced by one along the projected gradient: what
+little would be left of it shows that the set was wrong. No case of the sweep gets there (0.01 to
+0.3: the same pairs); random small problems with caps do."""
 
 _PARTS = 4
-"""Parts of a step at most that are clipped, one product each, before it is shortened. Bending films show what it is for: moduli of
-100 and 1000, 2 pixels thick, white noise of 24² and 64² points under caps of 1.01, 2 and 10 mean pressures take 170 pairs on
-average; with one part they took 1770, and 9 of 24 did not converge in 300 steps. Two to eight parts differ by 1 %. No case of
-the sweep needs a second one."""
+"""Parts of a step at most that are clipped, one product each, before it is shortened. Bending films
+show what it is for: moduli of 100 and 1000, 2 pixels thick, white noise of 24² and 64² points under
+caps of 1.01, 2 and 10 mean pressures take 170 pairs on average; with one part they took 1770, and 9
+of 24 did not converge in 300 steps. Two to eight parts differ by 1 %. No case of the sweep needs a
+second one."""
 
 
 class _Clipping(NamedTuple):
-    """Number of points ``clipped`` by a step, the ``share`` of the step that was taken, and the ``products`` it needed."""
+    """Number of points ``clipped`` by a step, the ``share`` of the step that was taken, and the
+    ``products`` it needed."""
 
     clipped: int
     share: float
@@ -87,13 +99,15 @@ class _Clipping(NamedTuple):
 
 
 def clear_tension(work: Workspace, free: FreeSet, total: float) -> PressureChange:
-    """Clear the tensile points of ``free`` and scale the others, of the sum ``total``, to the load; the change."""
+    """Clear the tensile points of ``free`` and scale the others, of the sum ``total``, to the load;
+    the change."""
     factor = work.load / total if work.load is not None and total > 0.0 else 1.0
     return PressureChange(free, free.clear_tension(work.pressure, factor, work.unit))
 
 
 class Narrowed(NamedTuple):
-    """A ``free`` set without the points that a step on the model alone made tensile, the residual ``r`` on it before that step, and the ``change`` by it."""
+    """A ``free`` set without the points that a step on the model alone made tensile, the residual
+    ``r`` on it before that step, and the ``change`` by it."""
 
     free: FreeSet
     r: Any
@@ -101,9 +115,11 @@ class Narrowed(NamedTuple):
 
 
 def narrowed(work: Workspace, free: FreeSet, r: Any, *, rounds: int = 1) -> Narrowed:
-    """Steps for the residual ``r`` on ``free`` by the model of the compliance alone; after each the points that have become tensile are cleared and leave the set.
+    """Steps for the residual ``r`` on ``free`` by the model of the compliance alone; after each the
+    points that have become tensile are cleared and leave the set.
 
-    They cost no product: whoever computes the deflection by ``change`` does so together with that by a step on what is left.
+    They cost no product: whoever computes the deflection by ``change`` does so together with that
+    by a step on what is left.
     """
     splines = work.scaled.splines
     before, _ = free.gather(work.pressure)
@@ -126,9 +142,10 @@ def narrowed(work: Workspace, free: FreeSet, r: Any, *, rounds: int = 1) -> Narr
 def clipped_update(work: Workspace, free: FreeSet, d: Any, r: Any, total: float) -> _Clipping:
     """Add ``d``, clipped and scaled to the load, to the pressure of sum ``total``.
 
-    The deflection by the whole step is left in the response of the scaled operator. The energy falls: it changes by
-    -r·step + step·K step / 2, ``r`` being the residual on the set. Where it would rise, a part of d is clipped instead, so
-    that points still reach their bounds; after some attempts the step is shortened to its minimum.
+    The deflection by the whole step is left in the response of the scaled operator. The energy
+    falls: it changes by -r·step + step·K step / 2, ``r`` being the residual on the set. Where it
+    would rise, a part of d is clipped instead, so that points still reach their bounds; after some
+    attempts the step is shortened to its minimum.
     """
     qp, scaled, p = work.qp, work.scaled, work.pressure
     old, load = free.gather(p)
@@ -152,7 +169,8 @@ def clipped_update(work: Workspace, free: FreeSet, d: Any, r: Any, total: float)
 
 
 def add_clipped(work: Workspace, free: FreeSet, d: Any, part: float, elsewhere: float) -> int:
-    """Add ``part`` of ``d``, clipped and scaled to the load, of which ``elsewhere`` is outside ``free``; the number of points clipped."""
+    """Add ``part`` of ``d``, clipped and scaled to the load, of which ``elsewhere`` is outside
+    ``free``; the number of points clipped."""
     found, clipped = free.add_clipped(work.pressure, d, part * work.unit, work.cap)
     if work.load is not None:
         target = max(work.load - elsewhere, 0.0)

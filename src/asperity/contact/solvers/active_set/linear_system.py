@@ -1,7 +1,8 @@
-"""Preconditioned conjugate gradients on the free set, and the arrays of a problem that they correct.
+"""Preconditioned conjugate gradients on the free set, and the arrays of a problem that they
+correct.
 
-The linear system of a step is K d = r on the free set; at prescribed load it holds up to a constant (the multiplier of the
-load), with d summing to zero.
+The linear system of a step is K d = r on the free set; at prescribed load it holds up to a constant
+(the multiplier of the load), with d summing to zero.
 """
 
 from __future__ import annotations
@@ -24,10 +25,11 @@ from .spline_model import SplineCompliance, spline_compliance
 
 @dataclass(frozen=True, eq=False)
 class ScaledOperator:
-    """The compliance over ``scale`` (m/Pa) in the precision ``dtype``, with its preconditioners and two work arrays.
+    """The compliance over ``scale`` (m/Pa) in the precision ``dtype``, with its preconditioners and
+    two work arrays.
 
-    ``product`` is the product with it, from ``field`` to ``response``. Nothing in the work arrays outlasts a step but zeros
-    in ``field``.
+    ``product`` is the product with it, from ``field`` to ``response``. Nothing in the work arrays
+    outlasts a step but zeros in ``field``.
     """
 
     operator: Operator
@@ -60,9 +62,10 @@ class ScaledOperator:
 class Workspace:
     """Arrays of one problem and the scaled operator for its corrections.
 
-    ``pressure`` and ``deflection`` (Pa, m; in the precision ``dtype``) are the iterate, changed in place; ``exact`` is
-    the convolution that makes the one from the other. A deflection over ``scaled.scale`` is a pressure in units of ``unit`` (Pa).
-    ``load`` is the sum of the pressure (Pa) that is prescribed, so that corrections must sum to zero; None at a prescribed position.
+    ``pressure`` and ``deflection`` (Pa, m; in the precision ``dtype``) are the iterate, changed in
+    place; ``exact`` is the convolution that makes the one from the other. A deflection over
+    ``scaled.scale`` is a pressure in units of ``unit`` (Pa). ``load`` is the sum of the pressure
+    (Pa) that is prescribed, so that corrections must sum to zero; None at a prescribed position.
     """
 
     qp: ContactQP
@@ -79,9 +82,11 @@ class Workspace:
 
     @classmethod
     def of(cls, qp: ContactQP, precision: str, start: RealArray, deflection: RealArray | None = None) -> Workspace:
-        """Workspace of ``qp`` with the pressure ``start`` (Pa) and its ``deflection`` (m), if it is known, both of which it may take over.
+        """Workspace of ``qp`` with the pressure ``start`` (Pa) and its ``deflection`` (m), if it is
+        known, both of which it may take over.
 
-        ``precision`` is ``"double"``, ``"single"``, or ``"mixed"`` for corrections in single and the rest in double.
+        ``precision`` is ``"double"``, ``"single"``, or ``"mixed"`` for corrections in single and
+        the rest in double.
         """
         operator, engine, shape = qp.operator, qp.operator.engine, qp.operator.grid.shape
         dtype = "float32" if precision == "single" else "float64"
@@ -117,7 +122,8 @@ class Workspace:
         return self.engine.survey(self.pressure, self.deflection, self.heights, self.cap)
 
     def copy(self) -> Workspace:
-        """Workspace with arrays of its own for the iterate; the work arrays of corrections are shared."""
+        """Workspace with arrays of its own for the iterate; the work arrays of corrections are
+        shared."""
         pressure, deflection = self.engine.copy(self.pressure), self.engine.copy(self.deflection)
         return replace(self, pressure=pressure, deflection=deflection)
 
@@ -126,24 +132,28 @@ class Workspace:
 
 
 _MODEL_STEPS = 3
-"""Steps on the model of a compliance whose inverse is refined, each as dear as two uses of its inverse. Pairs for 1, 4: stiff 90.4, 25.3, the
-last in more time on films of E 100 and 300 on one and two pixels."""
+"""Steps on the model of a compliance whose inverse is refined, each as dear as two uses of its
+inverse. Pairs for 1, 4: stiff 90.4, 25.3, the last in more time on films of E 100 and 300 on one
+and two pixels."""
 
 _FIRST_STEPS = 1
-"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 7.7, film 8.5, free 23.8, cap 7.7, tight 14.2, monotone
-10.6; for 2: free 17.8, tight 11.7."""
+"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 7.7, film
+8.5, free 23.8, cap 7.7, tight 14.2, monotone 10.6; for 2: free 17.8, tight 11.7."""
 
 _LAST_LENGTH = 0.85
-"""Length of the last of these steps over that of the one before, which spares a product with the model. Pairs for 0.7: the same; for 1: film 5.9."""
+"""Length of the last of these steps over that of the one before, which spares a product with the
+model. Pairs for 0.7: the same; for 1: film 5.9."""
 
 _STEP_LENGTH = 1.0
-"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8, 0.9, 1.1, 1.2: elastic 9.2, 7.7, 6.7, 8.5; film
-9.2, 7.4, 8.2, 8.7; free 26.8, 23.1, 24.6, 27.6; cap 9.4, 8.0, 8.0, 9.2; tight 15.4, 13.7, 12.7, 14.4; monotone 11.6, 9.9, 8.9, 11.0."""
+"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8,
+0.9, 1.1, 1.2: elastic 9.2, 7.7, 6.7, 8.5; film 9.2, 7.4, 8.2, 8.7; free 26.8, 23.1, 24.6, 27.6; cap
+9.4, 8.0, 8.0, 9.2; tight 15.4, 13.7, 12.7, 14.4; monotone 11.6, 9.9, 8.9, 11.0."""
 
 
 @dataclass(frozen=True, eq=False)
 class LinearSystem:
-    """Equations K d = r on the set ``free``; if ``zero_sum`` up to a constant, d summing to zero. If ``modelled``, K is the compliance of nested splines."""
+    """Equations K d = r on the set ``free``; if ``zero_sum`` up to a constant, d summing to zero.
+    If ``modelled``, K is the compliance of nested splines."""
 
     scaled: ScaledOperator
     free: FreeSet
@@ -155,7 +165,8 @@ class LinearSystem:
         return total / self.free.size if self.zero_sum and self.free.size else 0.0
 
     def preconditioned(self, r: Any, other: Any, out: Any, *, more: int = 0) -> Products:
-        """Approximate inverse of K times ``r``, better by some ``more`` steps on the model, and its products with ``r`` and ``other``."""
+        """Approximate inverse of K times ``r``, better by some ``more`` steps on the model, and its
+        products with ``r`` and ``other``."""
         scaled = self.scaled
         steps = (_MODEL_STEPS if scaled.modelled.refined else 1) + more  # one is the approximate inverse of the model
         if self.modelled or steps == 1:
@@ -169,13 +180,17 @@ class LinearSystem:
 
 
 class Stopping(NamedTuple):
-    """When to stop: at this ``reduction`` of the residual, or after ``max_steps``; if there are none, a single direction without a product is taken.
+    """When to stop: at this ``reduction`` of the residual, or after ``max_steps``; if there are
+    none, a single direction without a product is taken.
 
-    It counts in the norm of the preconditioner, or in the plain one if that is the first to be reduced: it is known before
-    the next use of the preconditioner, a quarter of which are not needed then.
+    It counts in the norm of the preconditioner, or in the plain one if that is the first to be
+    reduced: it is known before the next use of the preconditioner, a quarter of which are not
+    needed then.
 
-    ``ending``, if given: conjugate gradients stop at this reduction of the largest residual instead, and a last step follows whose length
-    is not measured and whose deflection is not computed, but estimated (see ``Correction.open``). A single direction takes so many ``more`` steps on the model.
+    ``ending``, if given: conjugate gradients stop at this reduction of the largest residual
+    instead, and a last step follows whose length is not measured and whose deflection is not
+    computed, but estimated (see ``Correction.open``). A single direction takes so many ``more``
+    steps on the model.
     """
 
     reduction: float
@@ -185,14 +200,16 @@ class Stopping(NamedTuple):
 
 
 class PressureChange(NamedTuple):
-    """``values`` by which the pressure on the set ``free`` has changed, in the units of a correction."""
+    """``values`` by which the pressure on the set ``free`` has changed, in the units of a
+    correction."""
 
     free: FreeSet
     values: Any
 
 
 class Correction(NamedTuple):
-    """Vector ``d``, None where no step was possible; FFT ``pairs`` it took; whether the reduction was ``reached``.
+    """Vector ``d``, None where no step was possible; FFT ``pairs`` it took; whether the reduction
+    was ``reached``.
 
     ``open``: d holds a last step that ``on_step`` was not told of.
     """
@@ -223,9 +240,10 @@ def conjugate_gradients(
 ) -> Correction:
     """Solve the ``system`` for the residual ``r``, which may be overwritten.
 
-    ``pending`` is a change whose deflection is not in the residual yet: the first product with the compliance includes it.
-    ``on_step`` receives the length of every step while its product with the compliance is in ``response``.
-    ``further``: length of one more step without a product, over that before; for changes whose deflection is computed anyway. None if zero.
+    ``pending`` is a change whose deflection is not in the residual yet: the first product with the
+    compliance includes it. ``on_step`` receives the length of every step while its product with the
+    compliance is in ``response``. ``further``: length of one more step without a product, over that
+    before; for changes whose deflection is computed anyway. None if zero.
     """
     free, scaled = system.free, system.scaled
     pairs = 0.0 if system.modelled else scaled.operator.pairs_per_application
@@ -241,8 +259,9 @@ def conjugate_gradients(
     enough = stopping.reduction**2 * free.square(predicted) if stopping.reduction and stopping.max_steps > 1 else 0.0
     d, z, first, left = free.zeros(), free.empty(), 0.0, 0.0
     if pending is not None:
-        # a step by one product with the compliance, which gives the deflection by the pending change as well: its direction t is
-        # the preconditioned residual that the change will leave, and the field holds t + change / length
+        # a step by one product with the compliance, which gives the deflection by the pending
+        # change as well: its direction t is the preconditioned residual that the change will leave,
+        # and the field holds t + change / length
         begun = system.preconditioned(predicted, predicted, z, more=_FIRST_STEPS)
         t, _ = _next_direction(system, r, begun, None)
         pending.free.scatter_add(pending.values, 1.0 / _STEP_LENGTH, scaled.field)
@@ -285,7 +304,9 @@ def conjugate_gradients(
 def _unmeasured(
     system: LinearSystem, r: Any, last: _Direction | None, length: float, found: Correction, more: int = 0
 ) -> Correction:
-    """``found`` and one more step of this ``length``, without a product, with so many ``more`` steps on the model if it is the first; no step where rounding leaves no direction that goes down."""
+    """``found`` and one more step of this ``length``, without a product, with so many ``more``
+    steps on the model if it is the first; no step where rounding leaves no direction that goes
+    down."""
     other, steps = (r, _FIRST_STEPS + more) if last is None else (last.kt, 0)
     t, slope = _next_direction(system, r, system.preconditioned(r, other, system.free.empty(), more=steps), last)
     if not slope > 0.0:  # not a number either
@@ -294,9 +315,11 @@ def _unmeasured(
 
 
 def _next_direction(system: LinearSystem, r: Any, z: Products, last: _Direction | None) -> tuple[Any, float]:
-    """Search direction, set in the field unless for the model, which needs none, and its product with ``r``.
+    """Search direction, set in the field unless for the model, which needs none, and its product
+    with ``r``.
 
-    ``z`` is the preconditioned residual; its second product is that with K ``last``, to which the direction is conjugate.
+    ``z`` is the preconditioned residual; its second product is that with K ``last``, to which the
+    direction is conjugate.
     """
     mean, ratio = system.mean(z.total), 0.0
     if last is not None:

@@ -1,13 +1,16 @@
 """Inexact active set with preconditioned conjugate gradients on nested grids: the fast solver.
 
-Read it beside docs/theory/contact.md: numbers in parentheses, such as (4), are the steps of the algorithm there.
+Read it beside docs/theory/contact.md: numbers in parentheses, such as (4), are the steps of the
+algorithm there.
 
-The constants are not delicate. Behind each stand FFT pairs for other values, by ``benchmarks/constants.py``: means over
-self-affine surfaces of two seeds, tolerance 1e-6. *Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and
-20 pixels, 512²; *free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10; *monotone*:
-elastic, 256², every iterate within its bounds. The constants as they are take 5.7, 5.7, 19.3, 6.0, 12.4 and 7.9 pairs; cases that
-are not named differ from these by 0.3 at most (*free*: 0.8). *Stiff*: films of E 300 and 1000, 1 and 2 pixels thick, 128² and 256², for the constants that bear on
-them alone; 30.6 pairs.
+The constants are not delicate. Behind each stand FFT pairs for other values, by
+``benchmarks/constants.py``: means over self-affine surfaces of two seeds, tolerance 1e-6.
+*Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and 20 pixels, 512²;
+*free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10;
+*monotone*: elastic, 256², every iterate within its bounds. The constants as they are take 5.7, 5.7,
+19.3, 6.0, 12.4 and 7.9 pairs; cases that are not named differ from these by 0.3 at most (*free*:
+0.8). *Stiff*: films of E 300 and 1000, 1 and 2 pixels thick, 128² and 256², for the constants that
+bear on them alone; 30.6 pairs.
 """
 
 from __future__ import annotations
@@ -40,7 +43,8 @@ from .linear_system import LinearSystem, Stopping, Workspace, conjugate_gradient
 
 
 def relative_error(work: Workspace, totals: Totals) -> float:
-    """``protocol.relative_error`` from the sums over the iterate; infinite where a step has let go of every point of a load."""
+    """``protocol.relative_error`` from the sums over the iterate; infinite where a step has let go
+    of every point of a load."""
     qp, total, energy = work.qp, totals.pressure, 0.5 * totals.deflected
     if work.load is not None and total <= 0.0:
         return math.inf
@@ -62,61 +66,77 @@ def relative_error(work: Workspace, totals: Totals) -> float:
 
 
 _SETTLED = 0.003
-"""Points entering or beyond their bounds, over the free set, below which the set counts as nearly settled. Pairs for 0:
-elastic 6.5, film 6.7, free 20.8, tight 13.2; for 0.001, 0.01 and 0.03 none differs."""
+"""Points entering or beyond their bounds, over the free set, below which the set counts as nearly
+settled. Pairs for 0: elastic 6.5, film 6.7, free 20.8, tight 13.2; for 0.001, 0.01 and 0.03 none
+differs."""
 
 _REDUCTION = 0.3
-"""Reduction of the residual while the set changes; conjugate gradients gain a factor of 9 a step, so mostly one step. Pairs for
-0.1, 0.2 and 0.5: none differs."""
+"""Reduction of the residual while the set changes; conjugate gradients gain a factor of 9 a step,
+so mostly one step. Pairs for 0.1, 0.2 and 0.5: none differs."""
 
 _UNSETTLED_STEPS = 3
-"""Most steps while the set changes, doubled with every fallback, and twice with every failure of unclipped ones. Two would do on these surfaces (2, 4, 6: the same pairs), the third is for harder ones."""
+"""Most steps while the set changes, doubled with every fallback, and twice with every failure of
+unclipped ones. Two would do on these surfaces (2, 4, 6: the same pairs), the third is for harder
+ones."""
 
 _UNMEASURED, _LAST, _LAST_CLOSELY = Stopping(0.0, 0), Stopping(0.0, 0, ending=1.0), Stopping(0.0, 0, ending=1.0, more=1)
-"""Effort on a correction that is clipped afterwards, and on the last one: a single direction of the model of the compliance, whose deflection the product with what is
-left of it after clipping, or that which ends the solve, shows."""
+"""Effort on a correction that is clipped afterwards, and on the last one: a single direction of the
+model of the compliance, whose deflection the product with what is left of it after clipping, or
+that which ends the solve, shows."""
 
 _SINGLE = 0.015
-"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.01, 0.02: the same; for 0.06, 0.3: elastic 5.8, 6.7; film 6.2, 6.7; free 20.1, 20.1; cap 6.0, 7.0."""
+"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.01, 0.02: the
+same; for 0.06, 0.3: elastic 5.8, 6.7; film 6.2, 6.7; free 20.1, 20.1; cap 6.0, 7.0."""
 
 _CLOSELY = 0.05
-"""Reduction of the error below which such a direction takes a step more on the model. Pairs for 0 and 1: the same; 1024², four surfaces: half-spaces at 0.02 to 0.2 E* 5.9 for 5.9 with 0 and 5.8 with 0.1, films of E 10 on 4 pixels at 0.05 to 0.5 5.7 for 5.8 and 5.7. The step takes a tenth of the time of one more product with all that belongs to it."""
+"""Reduction of the error below which such a direction takes a step more on the model. Pairs for 0
+and 1: the same; 1024², four surfaces: half-spaces at 0.02 to 0.2 E* 5.9 for 5.9 with 0 and 5.8 with
+0.1, films of E 10 on 4 pixels at 0.05 to 0.5 5.7 for 5.8 and 5.7. The step takes a tenth of the
+time of one more product with all that belongs to it."""
 
 _MOST_DOUBLINGS = 4
-"""Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No case here needs one."""
+"""Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No
+case here needs one."""
 
 _CLOSER, _CLOSER_DOUBLINGS = 0.1, 2
-"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed. Pairs for a factor of 0.03 and 0.3: stiff 32.7, 31.6; for 1 and 3 doublings: the same."""
+"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed.
+Pairs for a factor of 0.03 and 0.3: stiff 32.7, 31.6; for 1 and 3 doublings: the same."""
 
 _NEARLY_SETTLED = Stopping(reduction=0.1, max_steps=8)
-"""Effort on a nearly settled set. Pairs for a reduction of 0.03: elastic 6.7, film 6.2; for 0.2 and 0.3: tight 13.2; for 3, 5, 12 steps the same."""
+"""Effort on a nearly settled set. Pairs for a reduction of 0.03: elastic 6.7, film 6.2; for 0.2 and
+0.3: tight 13.2; for 3, 5, 12 steps the same."""
 
 _SETTLED_SET = Stopping(reduction=1e-4, max_steps=14)
-"""Effort at most on a set that did not change; more than single precision holds is wasted. Pairs for a reduction of 1e-6, 1e-3,
-1e-2: tight 11.9, 12.2, 11.9, all others the same; for 8, 20, 40 steps the same."""
+"""Effort at most on a set that did not change; more than single precision holds is wasted. Pairs
+for a reduction of 1e-6, 1e-3, 1e-2: tight 11.9, 12.2, 11.9, all others the same; for 8, 20, 40
+steps the same."""
 
 _LAST_STEP = 0.07
-"""Reduction of the error expected of a last step whose length is not measured. Then the product that computes the deflection from scratch, which
-ends every solve, serves it too. Pairs for 0.03, 0.15, 0.3: the same."""
+"""Reduction of the error expected of a last step whose length is not measured. Then the product
+that computes the deflection from scratch, which ends every solve, serves it too. Pairs for 0.03,
+0.15, 0.3: the same."""
 
 _LAST_REDUCTION = 0.01
-"""Reduction down to which a step on a set that is nearly settled is taken for the last one and ends so. Pairs for 0.02, 0.05: the same."""
+"""Reduction down to which a step on a set that is nearly settled is taken for the last one and ends
+so. Pairs for 0.02, 0.05: the same."""
 
 _FURTHER = 0.75
-"""Length, over that of the last step of conjugate gradients, of one more step of a correction that is clipped afterwards. The product with what is
-left of it after clipping shows its deflection, so that it takes none of its own. Only after a fallback, which no case of the sweep has, are there other
-steps of such corrections."""
+"""Length, over that of the last step of conjugate gradients, of one more step of a correction that
+is clipped afterwards. The product with what is left of it after clipping shows its deflection, so
+that it takes none of its own. Only after a fallback, which no case of the sweep has, are there
+other steps of such corrections."""
 
 _MARGIN = 0.8
-"""Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3: film 6.2,
-free 20.8; for 0.5 and 1 the same."""
+"""Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3:
+film 6.2, free 20.8; for 0.5 and 1 the same."""
 
 
 # The solver.
 
 
 class Loaded(NamedTuple):
-    """A solution: its ``pressure`` (nx, ny) in Pa and, where it is at hand, the ``deflection`` (nx, ny) in m by it."""
+    """A solution: its ``pressure`` (nx, ny) in Pa and, where it is at hand, the ``deflection`` (nx,
+    ny) in m by it."""
 
     pressure: RealArray
     deflection: RealArray | None
@@ -131,34 +151,43 @@ class Loaded(NamedTuple):
 
 
 _POOR = 0.5
-"""Error of a start above which one from coarser grids is better: 20 loads from 0.01 to 0.2, each started from the one before,
-take 0.74 of the pairs of cold solves at 512² (``benchmarks/overheads.py``); a start from another surface, whose
-error is about 1, takes more than a cold one."""
+"""Error of a start above which one from coarser grids is better: 20 loads from 0.01 to 0.2, each
+started from the one before, take 0.74 of the pairs of cold solves at 512²
+(``benchmarks/overheads.py``); a start from another surface, whose error is about 1, takes more than
+a cold one."""
 
 _MOST_UNSUCCESSFUL = 2
-"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 34.7, 33.3, 29.5."""
+"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 34.7,
+33.3, 29.5."""
 
 _MOST_REFINEMENTS = 3
-"""How often they may fail before steps are clipped. A set that follows the errors of loosely solved systems goes in circles on films so stiff that pressures change sign within
-a few pixels; solved closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs for 0, 1, 2, 4: stiff 191, 43.4, 32.0, 29.5."""
+"""How often they may fail before steps are clipped. A set that follows the errors of loosely solved
+systems goes in circles on films so stiff that pressures change sign within a few pixels; solved
+closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs
+for 0, 1, 2, 4: stiff 191, 43.4, 32.0, 29.5."""
 
 _REFRESH = 1e-5
-"""Fall of the error since the deflection was computed from scratch after which it is again: updates are rounded to single
-precision, 6e-8 of the largest. Pairs for 1e-3, 1e-4, 1e-7: elastic 6.7, 6.2, 5.7; film 6.7, 5.7, 5.7; free 22.3, 20.8, 19.3; cap 7.0, 6.0, 6.0; tight 11.6, 11.4, 13.4; monotone 8.9, 8.4, 7.9."""
+"""Fall of the error since the deflection was computed from scratch after which it is again: updates
+are rounded to single precision, 6e-8 of the largest. Pairs for 1e-3, 1e-4, 1e-7: elastic 6.7, 6.2,
+5.7; film 6.7, 5.7, 5.7; free 22.3, 20.8, 19.3; cap 7.0, 6.0, 6.0; tight 11.6, 11.4, 13.4; monotone
+8.9, 8.4, 7.9."""
 
 
 @dataclass(eq=False)
 class _Memory:
-    """What is carried from step to step, besides the iterate in the arrays of ``work`` and the ``survey`` of it.
+    """What is carried from step to step, besides the iterate in the arrays of ``work`` and the
+    ``survey`` of it.
 
-    ``computed_at`` is the error when the deflection was last computed from scratch (as opposed to updated); ``clipped`` the
-    number of points that the last step took beyond their bounds; ``fallbacks`` how many steps had to be replaced so far, one at least where
-    a direction of the model alone had to be shortened.
-    ``unsuccessful`` counts the unclipped steps in a row that have not made the ``lowest`` error smaller, None where steps
-    are clipped; ``refinements`` how often there were too many, after which systems are solved more closely; ``tensile`` is the free set of the last unclipped step, as long as it may hold tensile points, and
-    ``tension`` the sum of theirs (Pa). ``from_scratch``: the deflection has
-    just been computed so; ``narrowed``: how often the set of a start is to be (``Start``).
-    ``superseded``: a later step has changed the arrays. The work so far is that of ``SolverState``.
+    ``computed_at`` is the error when the deflection was last computed from scratch (as opposed to
+    updated); ``clipped`` the number of points that the last step took beyond their bounds;
+    ``fallbacks`` how many steps had to be replaced so far, one at least where a direction of the
+    model alone had to be shortened. ``unsuccessful`` counts the unclipped steps in a row that have
+    not made the ``lowest`` error smaller, None where steps are clipped; ``refinements`` how often
+    there were too many, after which systems are solved more closely; ``tensile`` is the free set of
+    the last unclipped step, as long as it may hold tensile points, and ``tension`` the sum of
+    theirs (Pa). ``from_scratch``: the deflection has just been computed so; ``narrowed``: how often
+    the set of a start is to be (``Start``). ``superseded``: a later step has changed the arrays.
+    The work so far is that of ``SolverState``.
     """
 
     work: Workspace
@@ -201,23 +230,29 @@ def _require_latest(memory: _Memory) -> None:
 
 @dataclass(frozen=True)
 class ActiveSet(Iterative):
-    """Newton's method on the contact set, each linear system solved loosely by preconditioned conjugate gradients.
+    """Newton's method on the contact set, each linear system solved loosely by preconditioned
+    conjugate gradients.
 
-    A step chooses the free set, solves K p = h + level on it to a modest accuracy (preconditioner: the inverse of a
-    compliance of nested splines), and clips the pressure to its bounds. Points enter the set by the mean level of the loaded
-    points near them, so that it does not follow errors of long wavelength. The first guess comes from coarser grids, and a step on the model
-    of the compliance alone takes most points that will not touch out of its set before the first product.
-    Corrections are computed in single precision, the gap they must close in double (``precision="mixed"``), so the answer
-    has double precision at nearly the cost of single.
+    A step chooses the free set, solves K p = h + level on it to a modest accuracy (preconditioner:
+    the inverse of a compliance of nested splines), and clips the pressure to its bounds. Points
+    enter the set by the mean level of the loaded points near them, so that it does not follow
+    errors of long wavelength. The first guess comes from coarser grids, and a step on the model of
+    the compliance alone takes most points that will not touch out of its set before the first
+    product. Corrections are computed in single precision, the gap they must close in double
+    (``precision="mixed"``), so the answer has double precision at nearly the cost of single.
 
-    Without a cap steps are *unclipped*: tensile points stay until the next step, whose first product with the compliance
-    serves both, which saves a product a step. Three unclipped steps in a row that do not lower the error make the following ones more accurate; the fourth
-    such failure ends them. From then on, as with a cap or if ``monotone``, every iterate keeps its bounds and the energy never rises: a direction found by the
-    model is clipped and then multiplied, and a step that would raise the energy is shortened to the minimum on its way, or replaced by one along the projected gradient. The product that computes the
-    final deflection from scratch serves the last step too, whose length is estimated unless ``monotone``.
+    Without a cap steps are *unclipped*: tensile points stay until the next step, whose first
+    product with the compliance serves both, which saves a product a step. Three unclipped steps in
+    a row that do not lower the error make the following ones more accurate; the fourth such failure
+    ends them. From then on, as with a cap or if ``monotone``, every iterate keeps its bounds and
+    the energy never rises: a direction found by the model is clipped and then multiplied, and a
+    step that would raise the energy is shortened to the minimum on its way, or replaced by one
+    along the projected gradient. The product that computes the final deflection from scratch serves
+    the last step too, whose length is estimated unless ``monotone``.
 
-    Iterates share their arrays: a step changes the arrays of the state it is given, which cannot be used afterwards.
-    ``state.copy()`` is independent of it; the same steps follow from the copy, to the bit.
+    Iterates share their arrays: a step changes the arrays of the state it is given, which cannot be
+    used afterwards. ``state.copy()`` is independent of it; the same steps follow from the copy, to
+    the bit.
 
     Parameters
     ----------
@@ -226,11 +261,11 @@ class ActiveSet(Iterative):
     max_iterations
         Largest number of steps.
     precision
-        ``"mixed"``, ``"double"``, or ``"single"`` for everything in single precision: half the memory, for tolerances
-        down to about 1e-5.
+        ``"mixed"``, ``"double"``, or ``"single"`` for everything in single precision: half the
+        memory, for tolerances down to about 1e-5.
     monotone
-        Whether every iterate has to keep its bounds and to be no higher in energy than the one before. The answer keeps
-        its bounds in any case.
+        Whether every iterate has to keep its bounds and to be no higher in energy than the one
+        before. The answer keeps its bounds in any case.
     """
 
     tolerance: float = 1e-7
@@ -246,7 +281,8 @@ class ActiveSet(Iterative):
         require.one_of(self.precision, ("mixed", "double", "single"), "precision of the solver active_set")
 
     def init(self, qp: ContactQP, start: RealArray | None) -> SolverState:
-        """State at ``start``, or at the solution on coarser grids where there is no start or a worse one."""
+        """State at ``start``, or at the solution on coarser grids where there is no start or a
+        worse one."""
         qp = qp.resident
         if start is not None and start.any():
             state = self._started(qp, Start(feasible_start(qp, start)), 1)
@@ -269,10 +305,12 @@ class ActiveSet(Iterative):
         return self._state(memory)
 
     def extrapolated(self, qp: ContactQP, last: Loaded, earlier: Loaded, ratio: float) -> SolverState | None:
-        """State beyond the ``last`` of two loads by ``ratio`` times the step between them, without a product where their deflections are known.
+        """State beyond the ``last`` of two loads by ``ratio`` times the step between them, without
+        a product where their deflections are known.
 
-        Pressure and deflection are extrapolated alike, K p being linear; points that become tensile are left to the first step. None where steps
-        are clipped, and for other machines than the CPU.
+        Pressure and deflection are extrapolated alike, K p being linear; points that become tensile
+        are left to the first step. None where steps are clipped, and for other machines than the
+        CPU.
         """
         engine = qp.operator.engine
         if not (qp.elastic and isinstance(engine, CpuEngine)) or self.monotone or self.precision == "single":
@@ -300,7 +338,8 @@ class ActiveSet(Iterative):
         return self._state(memory)
 
     def loosened(self, tolerance: float) -> ActiveSet:
-        """Same solver for a first guess: to ``tolerance``, not for long, and without the deflection of what it finds."""
+        """Same solver for a first guess: to ``tolerance``, not for long, and without the deflection
+        of what it finds."""
         most = min(COARSE_ITERATIONS, self.max_iterations)
         return _Guess(tolerance, most, self.precision, self.monotone)
 
@@ -322,7 +361,9 @@ class ActiveSet(Iterative):
         clips = memory.unsuccessful is None
         if clips:
             wide = False
-        elif memory.narrowed:  # prolonged starts only: the coarsest grid begins with the highest points, not with pressures of 2 x 2 points
+        # prolonged starts only: the coarsest grid begins with the highest points, not with
+        # pressures of 2 x 2 points
+        elif memory.narrowed:
             wide = min(qp.profile.shape) > COARSEST
         else:  # a last step, if the one before made few points tensile
             few = memory.tensile is not None and memory.clipped <= _SETTLED * memory.tensile.size
@@ -345,9 +386,10 @@ class ActiveSet(Iterative):
     def _unclipped_step(self, memory: _Memory, free: FreeSet, error: float) -> _Memory:
         """(3) Step after which points may be tensile.
 
-        The deflection by clearing those of the step before is part of the first product of this one, and each product is
-        added to the deflection as it is found: nothing else needs a transform. After a step that is to be the last one the deflection is
-        computed from scratch instead.
+        The deflection by clearing those of the step before is part of the first product of this
+        one, and each product is added to the deflection as it is found: nothing else needs a
+        transform. After a step that is to be the last one the deflection is computed from scratch
+        instead.
         """
         work = memory.work
         stopping, r = self._stopping(memory, free, error), free.residual(centred=work.load is not None)
@@ -397,7 +439,8 @@ class ActiveSet(Iterative):
         return memory
 
     def _ended(self, memory: _Memory, free: FreeSet, d: Any) -> bool:
-        """Whether the clipped step ``d``, whose deflection is computed from scratch, reaches the tolerance; if not, it is taken back."""
+        """Whether the clipped step ``d``, whose deflection is computed from scratch, reaches the
+        tolerance; if not, it is taken back."""
         work, total = memory.work, memory.survey.totals.pressure
         deflection, (old, load) = work.engine.copy(work.deflection), free.gather(work.pressure)
         memory.clipped = add_clipped(work, free, d, 1.0, total - load)
@@ -410,7 +453,8 @@ class ActiveSet(Iterative):
         return False
 
     def _gradient_step(self, memory: _Memory) -> _Memory:
-        """(4) Step along the projected gradient from the iterate in the arrays; exhausted if not even that goes down."""
+        """(4) Step along the projected gradient from the iterate in the arrays; exhausted if not
+        even that goes down."""
         work = memory.work
         engine = work.engine
         qp = replace(work.qp, profile=engine.numpy(work.qp.profile))
@@ -427,9 +471,10 @@ class ActiveSet(Iterative):
     def _state(self, memory: _Memory) -> SolverState:
         """(5) State at the iterate of ``memory``.
 
-        Its error is ``protocol.relative_error``, plus the tension over the load. Updates of the deflection leave the
-        rounding of corrections in it. Once the error has fallen so far that this might show, at the end, and where steps
-        are clipped from now on, tensile points are cleared and the deflection is computed from scratch.
+        Its error is ``protocol.relative_error``, plus the tension over the load. Updates of the
+        deflection leave the rounding of corrections in it. Once the error has fallen so far that
+        this might show, at the end, and where steps are clipped from now on, tensile points are
+        cleared and the deflection is computed from scratch.
         """
         work = memory.work
         error = relative_error(work, memory.survey.totals)
@@ -474,8 +519,8 @@ class ActiveSet(Iterative):
     def _stopping(self, memory: _Memory, free: FreeSet, error: float) -> Stopping:
         """(2) When to stop a correction.
 
-        Accuracy is wasted on a set that will change: only once few points enter or leave is it worth having, and only
-        once none does is the system solved to what the tolerance needs.
+        Accuracy is wasted on a set that will change: only once few points enter or leave is it
+        worth having, and only once none does is the system solved to what the tolerance needs.
         """
         changed, settled = free.entering + memory.clipped, memory.settled(free)
         wanted = (
@@ -499,13 +544,15 @@ class ActiveSet(Iterative):
 
 
 class _Guess(ActiveSet):
-    """Solver of which only the pressure is wanted, as a first guess: its last deflection is not computed from scratch."""
+    """Solver of which only the pressure is wanted, as a first guess: its last deflection is not
+    computed from scratch."""
 
     _guess: ClassVar[bool] = True
 
 
 def _compute_from_scratch(memory: _Memory, total: float | None = None) -> None:
-    """Compute the deflection anew instead of from its updates, tensile points cleared and the others, of the sum ``total`` (by default that of the survey), scaled to the load."""
+    """Compute the deflection anew instead of from its updates, tensile points cleared and the
+    others, of the sum ``total`` (by default that of the survey), scaled to the load."""
     work = memory.work
     if memory.tensile is not None:
         clear_tension(work, memory.tensile, memory.survey.totals.pressure if total is None else total)

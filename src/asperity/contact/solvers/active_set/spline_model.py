@@ -1,25 +1,35 @@
-"""Compliance of nested B-splines: a model of a body whose products, and an approximate inverse on any set of points, cost no transform.
+"""Compliance of nested B-splines: a model of a body whose products, and an approximate inverse on
+any set of points, cost no transform.
 
-Points merge in pairs to cells, these to larger ones, and so on; the cells of level l carry quadratic B-splines P_l, twice as wide as those below. The compliance
+Points merge in pairs to cells, these to larger ones, and so on; the cells of level l carry
+quadratic B-splines P_l, twice as wide as those below. The compliance
 
     B = own + sum over levels l of w_l P_l C_l P_l^T
 
-is fitted to that of the body at all wavelengths, to 2 % on average and 8 % at most, on films of E 10 as on half-spaces. C_l averages over neighbouring cells (half of
-the own load and a quarter of that beside it on either side, along the axes that merge; not on slender pixels), so that it hardly matters where cells begin. As a model of the operator, not of its inverse, B holds on
-any set of points: the eigenvalues of B^-1 K lie within a factor of 1.13 on self-affine surfaces, of 1.2 with films of E 10 from 4 pixels on.
+is fitted to that of the body at all wavelengths, to 2 % on average and 8 % at most, on films of E
+10 as on half-spaces. C_l averages over neighbouring cells (half of the own load and a quarter of
+that beside it on either side, along the axes that merge; not on slender pixels), so that it hardly
+matters where cells begin. As a model of the operator, not of its inverse, B holds on any set of
+points: the eigenvalues of B^-1 K lie within a factor of 1.13 on self-affine surfaces, of 1.2 with
+films of E 10 from 4 pixels on.
 
-Its inverse on a set is approximated by the recursion of Sherman and Morrison from level to level, with row sums T instead of the products of B-splines:
-g = 1 / (1 + w T), S = P^T g S and T = P^T g T on the way up, d = g (w S + P d) on the way down, from S = r and T = 1 at the points of the set. In full contact
-that is
+Its inverse on a set is approximated by the recursion of Sherman and Morrison from level to level,
+with row sums T instead of the products of B-splines: g = 1 / (1 + w T), S = P^T g S and T = P^T g T
+on the way up, d = g (w S + P d) on the way down, from S = r and T = 1 at the points of the set. In
+full contact that is
 
     M = sum over levels l of (f_l - f_l+1) / s_l
 
-with f_l the spectrum of the B-splines of level l and s_l = 1 + sum of w N up to it (N points a cell). Row sums are not less than the products, so that M
-is positive definite on any set. Differences between neighbours in the set, and curvatures, add a local stiffness. The eigenvalues of M K lie within a factor
-of 1.5 on half-spaces, whatever the set.
+with f_l the spectrum of the B-splines of level l and s_l = 1 + sum of w N up to it (N points a
+cell). Row sums are not less than the products, so that M is positive definite on any set.
+Differences between neighbours in the set, and curvatures, add a local stiffness. The eigenvalues of
+M K lie within a factor of 1.5 on half-spaces, whatever the set.
 
-Where c(q) q rises, as that of stiff films does at waves longer than they are thick, what row sums leave of such waves counts for too much. There d is corrected at each level by c H d / T, H being
-what the row sums T exceed the products by, a Laplacian between neighbouring cells, and the deflection P d of the points counts by the row sums of their local stiffness. M is not quite symmetric then.
+Where c(q) q rises, as that of stiff films does at waves longer than they are thick, what row sums
+leave of such waves counts for too much. There d is corrected at each level by c H d / T, H being
+what the row sums T exceed the products by, a Laplacian between neighbouring cells, and the
+deflection P d of the points counts by the row sums of their local stiffness. M is not quite
+symmetric then.
 """
 
 from __future__ import annotations
@@ -48,8 +58,8 @@ class Spectral(Protocol):
 
 
 _SQUARE = 1.5
-"""Ratio of sides up to which cells merge along both axes; beyond, only along the shorter side, so that ratios stay below 2.
-It does not matter for square pixels."""
+"""Ratio of sides up to which cells merge along both axes; beyond, only along the shorter side, so
+that ratios stay below 2. It does not matter for square pixels."""
 
 
 def merges_of(grid: Grid) -> list[tuple[bool, bool]]:
@@ -67,17 +77,21 @@ def merges_of(grid: Grid) -> list[tuple[bool, bool]]:
 
 
 _SLENDER = 3.5
-"""Ratio of the sides of a pixel from which on levels do not average. Eigenvalues of B^-1 K in full contact: 0.61 to 1.31 with averages at 3, 0.13 to 1.29 at 5; without, 0.60 to 1.48 and 0.27 to 1.40."""
+"""Ratio of the sides of a pixel from which on levels do not average. Eigenvalues of B^-1 K in full
+contact: 0.61 to 1.31 with averages at 3, 0.13 to 1.29 at 5; without, 0.60 to 1.48 and 0.27 to
+1.40."""
 
 
 def averages_of(grid: Grid) -> tuple[tuple[bool, bool], ...]:
-    """Axes along which each level of the model averages on ``grid``: those that merge, none where pixels are slender."""
+    """Axes along which each level of the model averages on ``grid``: those that merge, none where
+    pixels are slender."""
     merges, sides = octaves(grid).merges, grid.pixels
     return merges if max(sides) < _SLENDER * min(sides) else ((False, False),) * len(merges)
 
 
 class OctavesOfCells(NamedTuple):
-    """Of every level of cells, from single points up: the axes along which they merge, their ``sides`` (m), and number of ``points``."""
+    """Of every level of cells, from single points up: the axes along which they merge, their
+    ``sides`` (m), and number of ``points``."""
 
     merges: tuple[tuple[bool, bool], ...]
     sides: RealArray
@@ -114,14 +128,16 @@ _ANGLES = np.pi / 8.0 * np.arange(5)
 """Directions in which they are."""
 
 _ALIASES = 3
-"""Multiples of the wavenumber of the grid whose waves count in the deflection at the centres of uniformly loaded patches."""
+"""Multiples of the wavenumber of the grid whose waves count in the deflection at the centres of
+uniformly loaded patches."""
 
 
 class _Waves(NamedTuple):
     """Waves at which the compliance of an operator is looked at.
 
-    ``wavenumbers`` (m,) in rad/m are those for which ``which`` (n,) says which a wave has. At the centres of uniformly loaded pixels a wave deflects by
-    ``direct`` times the compliance, and by ``aliases`` (both (n,)) times c(q) q of the shortest waves.
+    ``wavenumbers`` (m,) in rad/m are those for which ``which`` (n,) says which a wave has. At the
+    centres of uniformly loaded pixels a wave deflects by ``direct`` times the compliance, and by
+    ``aliases`` (both (n,)) times c(q) q of the shortest waves.
     """
 
     wavenumbers: RealArray
@@ -141,7 +157,8 @@ class _Waves(NamedTuple):
         return cls(wavenumbers, which, own, (shares / q).sum(axis=(1, 2)))
 
     def compliance(self, octaves: Octaves, boundary: Boundary, shortest: float) -> RealArray:
-        """Compliance (n,) in m/Pa of the operator of these ``octaves`` and this ``boundary``, whose ``shortest`` waves have this c(q) q."""
+        """Compliance (n,) in m/Pa of the operator of these ``octaves`` and this ``boundary``, whose
+        ``shortest`` waves have this c(q) q."""
         found: RealArray = np.asarray(octaves.spectral(self.wavenumbers), dtype=float)[self.which]
         if not all(boundary.wraps):
             found = found * self.direct + shortest * self.aliases
@@ -149,9 +166,11 @@ class _Waves(NamedTuple):
 
 
 class _Samples(NamedTuple):
-    """``waves`` at which the model on a grid is compared with a body, and its ``parts`` (parts, n) there; those along an axis that have ``octaves``, the shortest first.
+    """``waves`` at which the model on a grid is compared with a body, and its ``parts`` (parts, n)
+    there; those along an axis that have ``octaves``, the shortest first.
 
-    Parts are those of a point, its nearest along x and y and its diagonal ones (0 where there are none), and of each level.
+    Parts are those of a point, its nearest along x and y and its diagonal ones (0 where there are
+    none), and of each level.
     """
 
     waves: _Waves
@@ -195,45 +214,58 @@ def _samples(grid: Grid) -> _Samples:
 
 
 _TRUST = 0.001
-"""Weight of the guess, an octave of the compliance for each level, in the fit of a level: where no wave tells it, it is as guessed. Pairs for 1e-4: the same;
-for 0.01, 0.05: film 7.7, 23.8 (constants and cases as in ``solver``)."""
+"""Weight of the guess, an octave of the compliance for each level, in the fit of a level: where no
+wave tells it, it is as guessed. Pairs for 1e-4: the same; for 0.01, 0.05: film 7.7, 23.8 (constants
+and cases as in ``solver``)."""
 
 _RELATIVE = 1.0, 1.8, 1.9, 1.6, 1.66, 2.6
-"""Compliance of a level in the inverse over that of the body at pi over the side of its cells, relative to single points; the last holds for all further levels. Of stiff
-bodies, whose inverse is corrected, it is that of the model."""
+"""Compliance of a level in the inverse over that of the body at pi over the side of its cells,
+relative to single points; the last holds for all further levels. Of stiff bodies, whose inverse is
+corrected, it is that of the model."""
 
 _MIDDLE, _FALL, _BEND = 2.02, 0.34, 0.24
-"""Middle of the eigenvalues of M K, in the compliance of a point at the shortest wavelength (they are 1.6 to 2.4 on half-spaces), and shares of the local
-stiffness: for differences from the neighbours in the set, and for the curvature along each axis. Pairs for a fall of 0, 0.2, 0.5: free 19.3, 19.3, 18.6;
-tight 13.7, 11.4, 12.7; for a bend of 0, 0.12, 0.4: elastic 5.8, 5.8, 5.7; free 19.3, 19.3, 18.6; tight 13.2, 12.7, 12.7."""
+"""Middle of the eigenvalues of M K, in the compliance of a point at the shortest wavelength (they
+are 1.6 to 2.4 on half-spaces), and shares of the local stiffness: for differences from the
+neighbours in the set, and for the curvature along each axis. Pairs for a fall of 0, 0.2, 0.5: free
+19.3, 19.3, 18.6; tight 13.7, 11.4, 12.7; for a bend of 0, 0.12, 0.4: elastic 5.8, 5.8, 5.7; free
+19.3, 19.3, 18.6; tight 13.2, 12.7, 12.7."""
 
 _STIFF = 1.5
-"""Rise of c(q) q over that of the shortest waves, at any wavelength, from which on a body counts as stiff: a film on a softer base. Pairs for 1.1, 3: the same; for 1e9 (never): film 11.9."""
+"""Rise of c(q) q over that of the shortest waves, at any wavelength, from which on a body counts as
+stiff: a film on a softer base. Pairs for 1.1, 3: the same; for 1e9 (never): film 11.9."""
 
 _STIFF_MIDDLE, _STIFF_FALL, _STIFF_BEND = 2.4, -0.1, 0.7
-"""The same for stiff bodies. There the cells count by the row sums of the local stiffness, which are larger at the rim of a contact: without, a uniform displacement of a point with neighbours
-missing leaves a pressure, which is a large one where c(q) rises steeply. Pairs for a middle of 2, 2.8 and a fall of -0.3, 0.1: the same, and for a bend of 0.4, 1."""
+"""The same for stiff bodies. There the cells count by the row sums of the local stiffness, which
+are larger at the rim of a contact: without, a uniform displacement of a point with neighbours
+missing leaves a pressure, which is a large one where c(q) rises steeply. Pairs for a middle of 2,
+2.8 and a fall of -0.3, 0.1: the same, and for a bend of 0.4, 1."""
 
 _CORRECTION = 0.75
-"""Share in which row sums are corrected on stiff bodies, from the level on that lies ``_AHEAD`` below the first where c(q) q has risen by ``_RISEN``. Pairs for 0, 0.5, 1: film 19.8, 5.9, 5.7."""
+"""Share in which row sums are corrected on stiff bodies, from the level on that lies ``_AHEAD``
+below the first where c(q) q has risen by ``_RISEN``. Pairs for 0, 0.5, 1: film 19.8, 5.9, 5.7."""
 
 _AHEAD, _RISEN = 3, 1.2
-"""Levels, and the rise. Pairs for 1, 2, 9 levels: the same; at 1024² 1.0 more for 1 on films of E 10 on 4 pixels, 0.5 more for 2 on those of E 30 on 8. A wave of eight points is reproduced to three fifths by the row sums of points that form cells, one of 16 to nine tenths:
-what is left of it counts as if it deflected like single points."""
+"""Levels, and the rise. Pairs for 1, 2, 9 levels: the same; at 1024² 1.0 more for 1 on films of E
+10 on 4 pixels, 0.5 more for 2 on those of E 30 on 8. A wave of eight points is reproduced to three
+fifths by the row sums of points that form cells, one of 16 to nine tenths: what is left of it
+counts as if it deflected like single points."""
 
 _OBLONG = 1.7
 """Share of the local stiffness along the longer side of a pixel, times the ratio of the sides."""
 
 _NEAR = 3
-"""Level of cells, of eight points, up to which a compliance is looked at for the number of steps on the model."""
+"""Level of cells, of eight points, up to which a compliance is looked at for the number of steps on
+the model."""
 
 _STEEP = 10.0
-"""Steepness from which on the inverse of nested splines is not good enough by itself, where points form cells along both axes. Pairs for 2: the same; for 1e9 (never): stiff 90.4."""
+"""Steepness from which on the inverse of nested splines is not good enough by itself, where points
+form cells along both axes. Pairs for 2: the same; for 1e9 (never): stiff 90.4."""
 
 
 class SplineCompliance(NamedTuple):
-    """``model`` of a compliance, its steepness, by which factor c(q) q exceeds that of the shortest waves at waves of 16 points, more than 1 for stiff films thinner than that, and
-    whether its inverse is ``refined`` by steps on the model, being not good enough by itself."""
+    """``model`` of a compliance, its steepness, by which factor c(q) q exceeds that of the shortest
+    waves at waves of 16 points, more than 1 for stiff films thinner than that, and whether its
+    inverse is ``refined`` by steps on the model, being not good enough by itself."""
 
     model: SplineModel
     steepness: float
@@ -241,10 +273,12 @@ class SplineCompliance(NamedTuple):
 
 
 def spline_compliance(operator: Operator, scale: float) -> SplineCompliance:
-    """Nested splines that follow the compliance of ``operator`` over ``scale``, fitted once for a body, boundary and grid.
+    """Nested splines that follow the compliance of ``operator`` over ``scale``, fitted once for a
+    body, boundary and grid.
 
-    Coefficients of the inverse were found by searches: for the smallest spread of eigenvalues on half-spaces and soft films, and for the fastest conjugate gradients on the contact sets
-    of films of E 10 to 100, 2 to 20 pixels thick.
+    Coefficients of the inverse were found by searches: for the smallest spread of eigenvalues on
+    half-spaces and soft films, and for the fastest conjugate gradients on the contact sets of films
+    of E 10 to 100, 2 to 20 pixels thick.
     """
     return _fit(operator.octaves, operator.boundary, operator.grid, scale)
 
@@ -290,14 +324,16 @@ def _fit(body: Octaves, boundary: Boundary, grid: Grid, scale: float) -> SplineC
 
 
 def steepness(operator: Operator, level: int = _NEAR) -> float:
-    """That of ``spline_compliance``, without the rest of it; or up to waves of twice the side of the cells of another ``level``."""
+    """That of ``spline_compliance``, without the rest of it; or up to waves of twice the side of
+    the cells of another ``level``."""
     steep = _levels(operator.octaves, operator.boundary, operator.grid)[2]
     return float(steep[: level + 1].max())
 
 
 @lru_cache(maxsize=64)
 def _levels(body: Octaves, boundary: Boundary, grid: Grid) -> tuple[float, RealArray, RealArray]:
-    """c(q) q of the shortest waves of an operator, c of every level (levels + 1,), and by which factor c(q) q there exceeds the first."""
+    """c(q) q of the shortest waves of an operator, c of every level (levels + 1,), and by which
+    factor c(q) q there exceeds the first."""
     sides = octaves(grid).sides
     first = float(body.spectral(np.pi / sides[:1])[0]) * np.pi / float(sides[0])
     levels = _samples(grid).octaves.compliance(body, boundary, first)
@@ -309,7 +345,8 @@ _LOCAL = 4
 
 
 def _fitted(parts: RealArray, of_body: RealArray, guess: RealArray) -> RealArray:
-    """Factors of the ``parts`` (parts, n) that make their sum that ``of_body`` (n,); those of the levels near the ``guess``."""
+    """Factors of the ``parts`` (parts, n) that make their sum that ``of_body`` (n,); those of the
+    levels near the ``guess``."""
     used = parts.any(axis=1)
     level = np.zeros((len(guess), len(parts)))
     level[:, _LOCAL:] = np.diag(

@@ -1,4 +1,5 @@
-"""Constrained conjugate gradients (Polonsky & Keer 1999; prescribed approach: Nogi & Kato 1997; pressure cap added)."""
+"""Constrained conjugate gradients (Polonsky & Keer 1999; prescribed approach: Nogi & Kato 1997;
+pressure cap added)."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ _ROUNDING = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class _Memory:
-    """Search direction, squared norm of the last residual, whether they are still good, and the levelling step."""
+    """Search direction, squared norm of the last residual, whether they are still good, and the
+    levelling step."""
 
     direction: RealArray
     norm: float
@@ -39,15 +41,17 @@ class _Memory:
 class ConjugateGradient(Iterative):
     """Conjugate gradients on the points strictly between the bounds; the field's workhorse.
 
-    The method of the sources for elastic contact. Far into plasticity its corrections of points at the bounds
-    overshoot; a step that raises the energy is therefore replaced by one along the projected gradient.
+    The method of the sources for elastic contact. Far into plasticity its corrections of points at
+    the bounds overshoot; a step that raises the energy is therefore replaced by one along the
+    projected gradient.
 
     Parameters
     ----------
     tolerance
         Relative error (see ``relative_error``) at which to stop.
     max_iterations
-        Largest number of iterations; their number grows with the square root of the points per side.
+        Largest number of iterations; their number grows with the square root of the points per
+        side.
     """
 
     tolerance: float = 1e-7
@@ -63,10 +67,12 @@ class ConjugateGradient(Iterative):
         return SolverState(begin, deflection, relative_error(qp, begin, deflection), applications=2, memory=memory)
 
     def step(self, qp: ContactQP, state: SolverState) -> SolverState:
-        """One constrained conjugate-gradient step, or one of steepest descent where that would raise the energy."""
+        """One constrained conjugate-gradient step, or one of steepest descent where that would
+        raise the energy."""
         memory = state.memory
         assert isinstance(memory, _Memory)
-        # Polonsky & Keer (1999), steps 1-8; the pressures leaving and entering the bounds treated alike at both
+        # Polonsky & Keer (1999), steps 1-8; the pressures leaving and entering the bounds treated
+        # alike at both
         p = state.pressure
         working = (p > 0.0) & (p < qp.cap)
         gap: RealArray = state.deflection - qp.profile  # under load relative to its mean over the working points

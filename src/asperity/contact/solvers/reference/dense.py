@@ -1,4 +1,5 @@
-"""Exact active set on the dense matrix (Cole & Sayles 1992; Tian & Bhushan 1996), made finite: the reference method."""
+"""Exact active set on the dense matrix (Cole & Sayles 1992; Tian & Bhushan 1996), made finite: the
+reference method."""
 
 from __future__ import annotations
 
@@ -23,11 +24,13 @@ from ..protocol import (
     scaled_to_load,
 )
 
-# The problem as a small dense quadratic programme in dimensionless numbers, and its solution on a given contact set.
+# The problem as a small dense quadratic programme in dimensionless numbers, and its solution on a
+# given contact set.
 
 
 ROUNDING = 1e-13
-"""Violations of the optimality conditions below this, relative to the largest number in them, count as rounding."""
+"""Violations of the optimality conditions below this, relative to the largest number in them, count
+as rounding."""
 
 
 def started(qp: ContactQP, start: RealArray | None) -> SolverState:
@@ -39,11 +42,13 @@ def started(qp: ContactQP, start: RealArray | None) -> SolverState:
 
 @dataclass(frozen=True, eq=False)
 class DenseQP:
-    """Minimise x·Ax/2 - x·h over 0 <= x <= cap, with the sum of x fixed to ``total`` or free; A has a unit diagonal or nearly so.
+    """Minimise x·Ax/2 - x·h over 0 <= x <= cap, with the sum of x fixed to ``total`` or free; A has
+    a unit diagonal or nearly so.
 
-    ``heights`` h (n,) count from the highest point or a level near the contact (fixed sum; the latter where the load is ``light``, with
-    deflections far smaller than the heights), or from the prescribed plane (free sum). ``singular``: A maps a uniform x to zero. ``unit`` is the
-    pressure in Pa that is 1 here, a power of two, so that no digit is lost on the way back.
+    ``heights`` h (n,) count from the highest point or a level near the contact (fixed sum; the
+    latter where the load is ``light``, with deflections far smaller than the heights), or from the
+    prescribed plane (free sum). ``singular``: A maps a uniform x to zero. ``unit`` is the pressure
+    in Pa that is 1 here, a power of two, so that no digit is lost on the way back.
     """
 
     matrix: RealArray
@@ -56,13 +61,15 @@ class DenseQP:
 
     @property
     def shift(self) -> float:
-        """Number added to every entry of A to make it definite; at fixed sum it moves nothing but the level."""
+        """Number added to every entry of A to make it definite; at fixed sum it moves nothing but
+        the level."""
         return 1.0 if self.singular or self.total is not None else 0.0
 
 
 @dataclass(frozen=True, eq=False)
 class OnSet:
-    """Solution ``x`` with the points ``free`` strictly in contact, ``capped`` at the cap, all others at zero.
+    """Solution ``x`` with the points ``free`` strictly in contact, ``capped`` at the cap, all
+    others at zero.
 
     ``level`` is what the gap Ax - h must equal on the free points: 0 for a free sum.
     """
@@ -74,7 +81,8 @@ class OnSet:
 
 
 def dense_form(qp: ContactQP, *, near_contact: bool = False) -> DenseQP:
-    """Dense form of ``qp``; with heights from a level ``near_contact`` instead of the highest point, if the load is light.
+    """Dense form of ``qp``; with heights from a level ``near_contact`` instead of the highest
+    point, if the load is light.
 
     Raises
     ------
@@ -103,7 +111,8 @@ def dense_form(qp: ContactQP, *, near_contact: bool = False) -> DenseQP:
 
 
 def solve_on(qp: DenseQP, free: BoolArray, capped: BoolArray) -> OnSet:
-    """Solve (Ax)_F = h_F + level, with the sum where it is fixed (Cole & Sayles 1992; Tian & Bhushan 1996).
+    """Solve (Ax)_F = h_F + level, with the sum where it is fixed (Cole & Sayles 1992; Tian &
+    Bhushan 1996).
 
     Without a free point x is known and the level stays 0, whatever the sum.
     """
@@ -153,10 +162,12 @@ def magnitude(qp: DenseQP, x: RealArray) -> float:
 def answered(
     qp: ContactQP, state: SolverState, x: RealArray | None, unit: float, *, iterations: int, tolerance: float
 ) -> SolverState:
-    """State after a direct method found ``x`` (n,), in units of ``unit`` Pa, in ``iterations`` steps of its own.
+    """State after a direct method found ``x`` (n,), in units of ``unit`` Pa, in ``iterations``
+    steps of its own.
 
-    ``None`` stands for no answer within the iteration limit: the pressure stays. The state is exhausted if the answer
-    misses the tolerance: a direct method cannot improve it. Work with the dense matrix counts as no application.
+    ``None`` stands for no answer within the iteration limit: the pressure stays. The state is
+    exhausted if the answer misses the tolerance: a direct method cannot improve it. Work with the
+    dense matrix counts as no application.
     """
     count = state.iterations + max(iterations, 1)
     if x is None:
@@ -173,14 +184,15 @@ def answered(
 class DenseActiveSet(Iterative):
     """Matrix inversion on the contact set, the set changed until it is right; for small grids.
 
-    All points that break a condition change sides at once (primal-dual active set, a handful of linear solves). If
-    that ever returns to an earlier set, single points change sides with the energy decreasing, which is finite.
+    All points that break a condition change sides at once (primal-dual active set, a handful of
+    linear solves). If that ever returns to an earlier set, single points change sides with the
+    energy decreasing, which is finite.
 
     Parameters
     ----------
     tolerance
-        Relative error (see ``relative_error``) that the answer must meet; rounding is about 1e-15, or with a cap
-        1e-16 times cap over mean pressure.
+        Relative error (see ``relative_error``) that the answer must meet; rounding is about 1e-15,
+        or with a cap 1e-16 times cap over mean pressure.
     max_iterations
         Largest number of linear solves.
     """
@@ -216,7 +228,8 @@ class DenseActiveSet(Iterative):
 
 
 def all_at_once(qp: DenseQP, start: RealArray, limit: int) -> tuple[OnSet | None, int]:
-    """Primal-dual active set from the set of ``start``: the solution, or None if a set came back; linear solves used."""
+    """Primal-dual active set from the set of ``start``: the solution, or None if a set came back;
+    linear solves used."""
     free, capped = (start > 0.0) & (start < qp.cap), start >= qp.cap
     seen: set[bytes] = set()
     for count in range(limit):
@@ -244,15 +257,16 @@ class Pivoted(NamedTuple):
 def one_by_one(qp: DenseQP, start: RealArray, limit: int) -> Pivoted:
     """Primal active set from the feasible ``start``, one point at a time.
 
-    The energy never increases. Among violated conditions the worst is taken, or after a step of no length the one of
-    lowest index (Bland's rule), so that no set comes back.
+    The energy never increases. Among violated conditions the worst is taken, or after a step of no
+    length the one of lowest index (Bland's rule), so that no set comes back.
     """
     x = start.copy()
     free, capped = (x > 0.0) & (x < qp.cap), x >= qp.cap
     moved = True
     for count in range(limit):
         trial = solve_on(qp, free, capped)
-        # largest fraction of the way to the free part of the trial within bounds, and the point that stops it
+        # largest fraction of the way to the free part of the trial within bounds, and the point
+        # that stops it
         target, ways = trial.x, np.full(x.shape, np.inf)
         out_low, out_high = trial.free & (target < 0.0), trial.free & (target > qp.cap)
         ways[out_low] = x[out_low] / (x - target)[out_low]
@@ -278,7 +292,8 @@ def one_by_one(qp: DenseQP, start: RealArray, limit: int) -> Pivoted:
 def _entering(qp: DenseQP, x: RealArray, trial: OnSet, *, worst_first: bool) -> list[int]:
     """Point at a bound that lowers the energy by leaving it; none at the solution.
 
-    Where the points at their cap carry the whole load the level is open, and one of them must give what another point takes.
+    Where the points at their cap carry the whole load the level is open, and one of them must give
+    what another point takes.
     """
     idle: BoolArray = ~(trial.free | trial.capped)
     r = qp.matrix @ x - qp.heights
@@ -294,30 +309,34 @@ def _entering(qp: DenseQP, x: RealArray, trial: OnSet, *, worst_first: bool) -> 
     return [int(np.argmax(excess)) if worst_first else int(np.argmax(wrong))]
 
 
-# Lemke's complementary pivoting (Cottle, Pang & Stone 1992, sec. 4.4) with a lexicographic ratio test; tiny grids.
+# Lemke's complementary pivoting (Cottle, Pang & Stone 1992, sec. 4.4) with a lexicographic ratio
+# test; tiny grids.
 
 
 IntArray: TypeAlias = NDArray[np.integer[Any]]
 
 LARGEST = 400
-"""Largest number of points: with a cap the tableau then has 801 rows and 1604 columns (10 MB, about 5 ms a pivot)."""
+"""Largest number of points: with a cap the tableau then has 801 rows and 1604 columns (10 MB, about
+5 ms a pivot)."""
 
 _ZERO = 1e-11
-"""Entries of the tableau, of order one, below which they count as rounding left by earlier pivots."""
+"""Entries of the tableau, of order one, below which they count as rounding left by earlier
+pivots."""
 
 
 @dataclass(frozen=True)
 class Lemke(Iterative):
-    """Lemke's method on the linear complementarity problem: finitely many pivots, and a proof where none solves it.
+    """Lemke's method on the linear complementarity problem: finitely many pivots, and a proof where
+    none solves it.
 
-    The start is not used. The contact set found by pivoting is solved once more by Cholesky, which removes the
-    rounding that pivots accumulate.
+    The start is not used. The contact set found by pivoting is solved once more by Cholesky, which
+    removes the rounding that pivots accumulate.
 
     Parameters
     ----------
     tolerance
-        Relative error (see ``relative_error``) that the answer must meet; rounding is about 1e-15, or with a cap
-        1e-16 times cap over mean pressure.
+        Relative error (see ``relative_error``) that the answer must meet; rounding is about 1e-15,
+        or with a cap 1e-16 times cap over mean pressure.
     max_iterations
         Largest number of pivots.
     """
@@ -351,9 +370,10 @@ class Lemke(Iterative):
             If pivoting ends on a ray, which proves that no pressure meets the conditions.
         """
         dense = dense_form(qp)
-        # M and q of: find z >= 0 with w = Mz + q >= 0 and z·w = 0; z holds x, then overlaps mu, then the level.
-        # w_x = Ax - h + mu - level, w_mu = cap - x, w_level = sum(x) - total. Fixing the sum by an inequality is exact: with
-        # all heights measured downwards from above the highest point, x > 0 needs a level > 0, and then w_level = 0.
+        # M and q of: find z >= 0 with w = Mz + q >= 0 and z·w = 0; z holds x, then overlaps mu,
+        # then the level. w_x = Ax - h + mu - level, w_mu = cap - x, w_level = sum(x) - total.
+        # Fixing the sum by an inequality is exact: with all heights measured downwards from above
+        # the highest point, x > 0 needs a level > 0, and then w_level = 0.
         n = dense.heights.size
         matrix, vector = dense.matrix, -dense.heights
         if np.isfinite(dense.cap).any():
@@ -374,18 +394,21 @@ class Lemke(Iterative):
 
 
 def solve_lcp(matrix: RealArray, vector: RealArray, limit: int) -> tuple[BoolArray | None, int]:
-    """Which z are basic in the solution, or None if not done after ``limit`` pivots; number of pivots.
+    """Which z are basic in the solution, or None if not done after ``limit`` pivots; number of
+    pivots.
 
     ``matrix`` positive semi-definite (m, m), ``vector`` (m,).
 
     Raises
     ------
     NoSolutionError
-        If the pivots end on a ray; for a positive semi-definite matrix the conditions are then contradictory.
+        If the pivots end on a ray; for a positive semi-definite matrix the conditions are then
+        contradictory.
     """
     m = vector.size
     artificial = 2 * m
-    # columns: w, z, the artificial variable, right-hand side; the first m columns always hold the inverse of the basis
+    # columns: w, z, the artificial variable, right-hand side; the first m columns always hold the
+    # inverse of the basis
     tableau = np.hstack([np.eye(m), -matrix, -np.ones((m, 1)), vector[:, None]])
     basis = np.arange(m)
     if vector.min() >= 0.0:
@@ -405,8 +428,9 @@ def solve_lcp(matrix: RealArray, vector: RealArray, limit: int) -> tuple[BoolArr
         rows = np.flatnonzero(column > _ZERO)
         if not rows.size:
             raise NoSolutionError(
-                "contact conditions must have a solution, but Lemke's pivots end on a ray: no pressure within the bounds "
-                "balances the prescribed load or position. Lower the load, raise the hardness or prescribe {mean_pressure}."
+                "contact conditions must have a solution, but Lemke's pivots end on a ray: no pressure within "
+                "the bounds balances the prescribed load or position. Lower the load, raise the hardness or "
+                "prescribe {mean_pressure}."
             )
         # row of the lexicographic minimum ratio; the artificial variable goes first where it ties
         ratios = tableau[rows, -1] / column[rows]

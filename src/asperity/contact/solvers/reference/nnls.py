@@ -1,4 +1,5 @@
-"""Contact as non-negative least squares on a Cholesky factor (Bemporad & Paggi 2015; Lawson & Hanson 1974)."""
+"""Contact as non-negative least squares on a Cholesky factor (Bemporad & Paggi 2015; Lawson &
+Hanson 1974)."""
 
 from __future__ import annotations
 
@@ -13,23 +14,27 @@ from ..protocol import ContactQP, Iterative, SolverState
 from .dense import ROUNDING, DenseQP, OnSet, answered, dense_form, gaps, solve_on, started, violation
 
 LARGEST_CAPPED = 1600
-"""Largest number of points with a cap that is reached: BVLS took 4 s for 256 points and six minutes for 6144."""
+"""Largest number of points with a cap that is reached: BVLS took 4 s for 256 points and six minutes
+for 6144."""
 
 
 @dataclass(frozen=True)
 class NonNegativeLeastSquares(Iterative):
-    """Least squares with bounds, min |Rx - c|² with RᵀR the compliance; by library routines, for small grids.
+    """Least squares with bounds, min |Rx - c|² with RᵀR the compliance; by library routines, for
+    small grids.
 
-    Lawson and Hanson's NNLS serves while the pressure cap is not reached, their extension to two bounds (BVLS) beyond. A prescribed
-    load is met exactly: the level of the plane is a Newton iteration on the piecewise linear, monotone load curve, two
-    to four least-squares problems. The library cannot start from a guess. So each problem is solved for the points near which the
-    contact on a grid of half as many points along each axis lies; points that would overlap elsewhere join, until none does.
+    Lawson and Hanson's NNLS serves while the pressure cap is not reached, their extension to two
+    bounds (BVLS) beyond. A prescribed load is met exactly: the level of the plane is a Newton
+    iteration on the piecewise linear, monotone load curve, two to four least-squares problems. The
+    library cannot start from a guess. So each problem is solved for the points near which the
+    contact on a grid of half as many points along each axis lies; points that would overlap
+    elsewhere join, until none does.
 
     Parameters
     ----------
     tolerance
-        Relative error (see ``relative_error``) that the answer must meet; rounding is about 1e-15, or with a cap
-        1e-16 times cap over mean pressure.
+        Relative error (see ``relative_error``) that the answer must meet; rounding is about 1e-15,
+        or with a cap 1e-16 times cap over mean pressure.
     max_iterations
         Largest number of least-squares problems.
     """
@@ -60,8 +65,9 @@ class NonNegativeLeastSquares(Iterative):
 def _solve(qp: DenseQP, start: RealArray, limit: int, shape: tuple[int, ...]) -> tuple[RealArray | None, int]:
     """Solution, or None if ``limit`` least-squares problems did not suffice; number of them.
 
-    Least squares needs a definite matrix: A + s·1·1ᵀ. Its level is the wanted one plus s·sum(x), which is the root of
-    an increasing function; each trial contact set gives the root of its own linear piece, bracketed by what is known.
+    Least squares needs a definite matrix: A + s·1·1ᵀ. Its level is the wanted one plus s·sum(x),
+    which is the root of an increasing function; each trial contact set gives the root of its own
+    linear piece, bracketed by what is known.
     """
     start, near = _from_coarser(qp, start, limit, shape)
     low, high = -np.inf, np.inf
@@ -102,7 +108,8 @@ SMALL = 256
 
 
 def _from_coarser(qp: DenseQP, start: RealArray, limit: int, shape: tuple[int, ...]) -> tuple[RealArray, BoolArray]:
-    """First guess from a grid of half as many points along each axis: x, and the points in contact there and beside it.
+    """First guess from a grid of half as many points along each axis: x, and the points in contact
+    there and beside it.
 
     Small or odd grids have none: ``start``, and all points.
     """
@@ -142,7 +149,8 @@ def _bounded(qp: DenseQP, heights: RealArray, near: BoolArray) -> OnSet:
 
 
 def _least_squares(qp: DenseQP, heights: RealArray, taken: BoolArray) -> RealArray:
-    """Minimise |Rx - c|² on the points ``taken``, with R the upper Cholesky factor and Rᵀc = heights."""
+    """Minimise |Rx - c|² on the points ``taken``, with R the upper Cholesky factor and Rᵀc =
+    heights."""
     from scipy.linalg import cholesky, solve_triangular
     from scipy.optimize import lsq_linear, nnls
 
@@ -152,8 +160,9 @@ def _least_squares(qp: DenseQP, heights: RealArray, taken: BoolArray) -> RealArr
     if (x > cap).any():  # BVLS is far slower, and needless where the cap is not reached
         if x.size > LARGEST_CAPPED:
             raise InputError(
-                f"grid of nnls with a pressure cap must have at most {LARGEST_CAPPED} points near the contact, but has "
-                f"{x.size}: the library's bounded least squares would take minutes. Use ConjugateGradient() or DenseActiveSet()."
+                f"grid of nnls with a pressure cap must have at most {LARGEST_CAPPED} points near the contact, "
+                f"but has {x.size}: the library's bounded least squares would take minutes. Use "
+                "ConjugateGradient() or DenseActiveSet()."
             )
         fit = lsq_linear(factor, right, bounds=(0.0, cap), method="bvls", tol=1e-14, max_iter=30 * right.size)
         x = np.where(fit.active_mask > 0, cap, np.where(fit.active_mask < 0, 0.0, fit.x))

@@ -23,15 +23,17 @@ from ..protocol import (
 from .steepest_descent import levelling_step
 
 _STALLS = 8
-"""Runs of the library without a smaller error or load error after which the method gives up: more than the two or three that the
-bracketing of the level may take without."""
+"""Runs of the library without a smaller error or load error after which the method gives up: more
+than the two or three that the bracketing of the level may take without."""
 
 _PAIRS = 20
-"""Pairs of steps and gradients from which the library builds its Hessian; its default of 10 is for smooth problems."""
+"""Pairs of steps and gradients from which the library builds its Hessian; its default of 10 is for
+smooth problems."""
 
 
 class _Minimum(NamedTuple):
-    """``pressure`` (Pa) of least energy at a level, the ``iterations`` of the library, ``applications`` of the operator."""
+    """``pressure`` (Pa) of least energy at a level, the ``iterations`` of the library,
+    ``applications`` of the operator."""
 
     pressure: RealArray
     iterations: int
@@ -42,10 +44,11 @@ class _Minimum(NamedTuple):
 class _Memory:
     """Scales, and the search for the level at which the unconstrained load is the prescribed one.
 
-    ``length`` (m) and ``unit`` (Pa) make pressures and gaps of order one; ``load_stiffness`` (m/Pa) multiplies the
-    load error; ``plane`` (m) is the current level, known to lie between ``low`` and ``high``; ``last`` holds the
-    previous level and its load error (Pa, sum over the points); ``runs`` counts the library's runs; ``best`` is the
-    smallest error so far and ``nearest`` the smallest load error, ``stalls`` the steps since either.
+    ``length`` (m) and ``unit`` (Pa) make pressures and gaps of order one; ``load_stiffness`` (m/Pa)
+    multiplies the load error; ``plane`` (m) is the current level, known to lie between ``low`` and
+    ``high``; ``last`` holds the previous level and its load error (Pa, sum over the points);
+    ``runs`` counts the library's runs; ``best`` is the smallest error so far and ``nearest`` the
+    smallest load error, ``stalls`` the steps since either.
     """
 
     length: float
@@ -63,11 +66,13 @@ class _Memory:
 
 @dataclass(frozen=True)
 class QuasiNewton(Iterative):
-    """Library L-BFGS-B in variables of order one, measured from the last iterate so that no digits cancel.
+    """Library L-BFGS-B in variables of order one, measured from the last iterate so that no digits
+    cancel.
 
-    One step of this solver is one run of the library. A prescribed load is held by an augmented Lagrangian: the level
-    follows its multiplier rule, then secants of the load curve within brackets, and the last small load error is
-    removed by scaling, so that the load is exact and the reported error that of the pressure returned.
+    One step of this solver is one run of the library. A prescribed load is held by an augmented
+    Lagrangian: the level follows its multiplier rule, then secants of the load curve within
+    brackets, and the last small load error is removed by scaling, so that the load is exact and the
+    reported error that of the pressure returned.
 
     Parameters
     ----------
@@ -107,7 +112,8 @@ class QuasiNewton(Iterative):
         nearer = False
         if isinstance(qp.constraint, FixedMean):
             load_error = float(p.sum()) - qp.constraint.mean_pressure * p.size
-            # level (m) up (or down) to which the load stays as it is when every pressure is at a bound
+            # level (m) up (or down) to which the load stays as it is when every pressure is at a
+            # bound
             kink, rising, capped = math.inf, load_error < 0.0, (p > 0.0) & (p >= qp.cap)
             candidates = (p <= 0.0) if rising else capped
             if not ((p > 0.0) & ~capped).any() and candidates.any():
@@ -116,9 +122,10 @@ class QuasiNewton(Iterative):
             applications += int(math.isfinite(kink))
             p = scaled_to_load(p, qp.cap, qp.constraint.mean_pressure)
             nearer = abs(load_error) < memory.nearest
-            # Secant of the load curve, between safe bounds. The load grows with the level by at most 1/load_stiffness, so that the
-            # multiplier rule, counted from the kink up to which the curve is flat, never goes too far: a secant is at least as
-            # long. Every third run halves the bracket, for a secant may keep one end of it.
+            # Secant of the load curve, between safe bounds. The load grows with the level by at
+            # most 1/load_stiffness, so that the multiplier rule, counted from the kink up to which
+            # the curve is flat, never goes too far: a secant is at least as long. Every third run
+            # halves the bracket, for a secant may keep one end of it.
             plane = memory.plane
             low, high = (memory.low, plane) if load_error > 0.0 else (plane, memory.high)
             base = kink if math.isfinite(kink) else plane
@@ -168,7 +175,8 @@ class QuasiNewton(Iterative):
             response = factor * (qp.operator.apply(x.reshape(shape)).ravel() + memory.load_stiffness * x.sum())
             return float(x @ gap + 0.5 * (x @ response)), gap + response
 
-        # mean over largest pressure: where a cap is far away, even small overlaps weigh in the duality gap
+        # mean over largest pressure: where a cap is far away, even small overlaps weigh in the
+        # duality gap
         leverage = 1.0
         if isinstance(qp.constraint, FixedMean) and not qp.elastic:
             leverage = min(1.0, qp.constraint.mean_pressure / float(np.mean(qp.cap)))

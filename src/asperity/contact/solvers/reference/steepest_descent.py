@@ -1,4 +1,5 @@
-"""Projected steepest descent with a load shift (Stanley & Kato 1997; steps along the projection: Bertsekas 1976)."""
+"""Projected steepest descent with a load shift (Stanley & Kato 1997; steps along the projection:
+Bertsekas 1976)."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ from ..protocol import (
 )
 
 _SUFFICIENT = 1e-4
-"""Share of the decrease that the slope promises which a step must reach (Armijo's rule with its usual constant)."""
+"""Share of the decrease that the slope promises which a step must reach (Armijo's rule with its
+usual constant)."""
 
 _HALVINGS = 40
 """Halvings of a step at most, to 1e-12 of it: any decrease is then hidden by rounding."""
@@ -28,11 +30,13 @@ _HALVINGS = 40
 
 @dataclass(frozen=True)
 class SteepestDescent(Iterative):
-    """Steepest descent of the complementary energy: clip the pressure to its bounds, shift it to carry the load.
+    """Steepest descent of the complementary energy: clip the pressure to its bounds, shift it to
+    carry the load.
 
-    The step is the exact one for the points free to move, halved until the clipped and shifted pressure lowers the
-    energy. Historic: iterations grow with the number of points per side, several times those of conjugate gradients.
-    When rounding hides any decrease it is flagged as stalled.
+    The step is the exact one for the points free to move, halved until the clipped and shifted
+    pressure lowers the energy. Historic: iterations grow with the number of points per side,
+    several times those of conjugate gradients. When rounding hides any decrease it is flagged as
+    stalled.
 
     Parameters
     ----------
@@ -61,7 +65,8 @@ class SteepestDescent(Iterative):
 
 
 def descend(qp: ContactQP, state: SolverState, pixel_step: float) -> SolverState:
-    """Next state along the projected gradient, lower in energy; exhausted if rounding hides any decrease.
+    """Next state along the projected gradient, lower in energy; exhausted if rounding hides any
+    decrease.
 
     ``pixel_step`` (Pa/m) is the step of last resort, see ``levelling_step``.
     """
@@ -111,7 +116,8 @@ def descend(qp: ContactQP, state: SolverState, pixel_step: float) -> SolverState
 
 
 def levelling_step(qp: ContactQP) -> float:
-    """Step in Pa/m that levels a single pixel: the largest that can make sense. Costs one application.
+    """Step in Pa/m that levels a single pixel: the largest that can make sense. Costs one
+    application.
 
     Zero where a pixel does not move under its own pressure (a periodic grid of one point).
     """
@@ -122,9 +128,11 @@ def levelling_step(qp: ContactQP) -> float:
 
 
 def shifted_to_load(values: RealArray, cap: float | RealArray, mean: float) -> RealArray:
-    """Clip ``values`` (Pa) plus a common shift to [0, cap], with the shift for which the mean is ``mean``.
+    """Clip ``values`` (Pa) plus a common shift to [0, cap], with the shift for which the mean is
+    ``mean``.
 
-    The load is a piecewise linear, increasing function of the shift; its root is found from the sorted kinks.
+    The load is a piecewise linear, increasing function of the shift; its root is found from the
+    sorted kinks.
     """
     flat = values.ravel()
     upper = np.broadcast_to(np.asarray(cap, dtype=float), values.shape).ravel() - flat

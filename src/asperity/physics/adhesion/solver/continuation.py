@@ -1,13 +1,18 @@
-"""Adhesive equilibria along a branch through its folds, stable or not, by pseudo-arclength continuation (Keller 1977, Feng 2000).
+"""Adhesive equilibria along a branch through its folds, stable or not, by pseudo-arclength
+continuation (Keller 1977, Feng 2000).
 
-The unknowns are the net traction t and the offset d. With the gap g = d + K t - h (of a soft core g = d + z0 + K t - h) an equilibrium has
+The unknowns are the net traction t and the offset d. With the gap g = d + K t - h (of a soft core
+g = d + z0 + K t - h) an equilibrium has
 
-    t + σ(g) = 0 where the surfaces are apart,  g = 0 where t + σ > g/K0 (contact, K0 the compliance of one point).
+    t + σ(g) = 0 where the surfaces are apart,
+    g = 0 where t + σ > g/K0 (contact, K0 the compliance of one point).
 
-Where a point leaves the wall, or the slope of the law jumps, the branch may turn back at once in all points but that one: no plane across the
-old direction meets it. The gap of such points is prescribed instead, and the branch goes on in the direction in which they do.
+Where a point leaves the wall, or the slope of the law jumps, the branch may turn back at once in
+all points but that one: no plane across the old direction meets it. The gap of such points is
+prescribed instead, and the branch goes on in the direction in which they do.
 
-The length along the branch is that of the displacements K t near the contact, as a mean, and of d, both over the range of the attraction.
+The length along the branch is that of the displacements K t near the contact, as a mean, and of d,
+both over the range of the attraction.
 """
 
 from __future__ import annotations
@@ -36,11 +41,13 @@ _NEAR = 0.05
 """Attraction over the strength above which a point counts as near the contact."""
 
 _FOLLOWS = 0.57
-"""Compliance of a single point times the steepest fall of the attraction up to which branches were followed: Dugdale's law smoothed over 0.2
-and 1 of its range, exponential law, Maugis' λ from 1 to 2. From 0.7 on one in three was lost, from 1 on nearly all."""
+"""Compliance of a single point times the steepest fall of the attraction up to which branches were
+followed: Dugdale's law smoothed over 0.2 and 1 of its range, exponential law, Maugis' λ from 1
+to 2. From 0.7 on one in three was lost, from 1 on nearly all."""
 
 _AWAY = 2.0
-"""Distance of a point from where it was expected, over the step, from which on it counts as one of another branch."""
+"""Distance of a point from where it was expected, over the step, from which on it counts as one of
+another branch."""
 
 _KINK = 0.3
 """Change of the slope of the law over its steepest that counts as a kink."""
@@ -93,7 +100,8 @@ class BranchPoint:
 
 @dataclass(frozen=True, eq=False)
 class _Tangent:
-    """Change of traction and deflection (nx, ny) and of the offset per length, and the weight (nx, ny) of the mean in that length."""
+    """Change of traction and deflection (nx, ny) and of the offset per length, and the weight (nx,
+    ny) of the mean in that length."""
 
     traction: RealArray
     deflection: RealArray
@@ -101,12 +109,14 @@ class _Tangent:
     weight: RealArray
 
     def along(self, deflection: RealArray, offset: float) -> float:
-        """Share in m of the change of ``deflection`` (nx, ny) and ``offset`` (m) in this direction."""
+        """Share in m of the change of ``deflection`` (nx, ny) and ``offset`` (m) in this
+        direction."""
         return float((self.weight * self.deflection * deflection).mean()) + self.offset * offset
 
 
 class Continuation:
-    """Branch of ``problem``, whose constraint does not matter, in steps of about ``step`` ranges of its attraction."""
+    """Branch of ``problem``, whose constraint does not matter, in steps of about ``step`` ranges of
+    its attraction."""
 
     def __init__(self, problem: AdhesiveProblem, step: float = 0.25) -> None:
         self.problem, self.operator = problem, problem.operator
@@ -117,9 +127,11 @@ class Continuation:
         self.pairs = 0.0
 
     def points(self, traction: RealArray, offset: float, *, direction: float) -> Iterator[BranchPoint]:
-        """Points of the branch from the equilibrium near ``traction`` (nx, ny) in Pa at the ``offset`` (m) on.
+        """Points of the branch from the equilibrium near ``traction`` (nx, ny) in Pa at the
+        ``offset`` (m) on.
 
-        It starts towards larger offsets (parting) where ``direction`` is positive, and goes on through folds without end.
+        It starts towards larger offsets (parting) where ``direction`` is positive, and goes on
+        through folds without end.
 
         Raises
         ------
@@ -162,18 +174,22 @@ class Continuation:
             elif found.corrections >= _SLOW:
                 step *= 0.6
         pixel = max(self.operator.grid.pixels)
-        text = f"step along the branch must not be less than {_SHORTEST:g} of the first, but is at the offset {point.offset:.6g} m. "
+        text = (
+            f"step along the branch must not be less than {_SHORTEST:g} of the first, but is at the offset "
+            f"{point.offset:.6g} m. "
+        )
         if pixel <= self.needed_pixel:
             raise NoSolutionError(text + "Take smaller steps, or a finer grid.")
         raise NoSolutionError(
-            text
-            + f"Single points snap there: the pixel is {pixel:.3g} m. Take one of at most {self.needed_pixel:.3g} m, or an attraction "
+            text + f"Single points snap there: the pixel is {pixel:.3g} m. Take one of at most "
+            f"{self.needed_pixel:.3g} m, or an attraction "
             "that falls more gently, such as {gentle_law}."
         )
 
     @property
     def needed_pixel(self) -> float:
-        """Largest pixel in m with which the branch can be followed; the compliance of a point goes about as its pixel."""
+        """Largest pixel in m with which the branch can be followed; the compliance of a point goes
+        about as its pixel."""
         return max(self.operator.grid.pixels) * _FOLLOWS / (self.single * self.problem.law.steepest)
 
     def _point(self, traction: RealArray, deflection: RealArray, offset: float) -> BranchPoint:
@@ -193,7 +209,8 @@ class Continuation:
         return residual, np.where(contact, 0.0, 1.0), np.where(contact, 1.0 / self.single, slope)
 
     def _corrected(self, point: BranchPoint, along: _Tangent) -> BranchPoint | None:
-        """The equilibrium in the plane across ``along`` through ``point``; None where Newton's method does not find it."""
+        """The equilibrium in the plane across ``along`` through ``point``; None where Newton's
+        method does not find it."""
         law = self.problem.law
         before = np.inf
         for count in range(_CORRECTIONS):
@@ -214,7 +231,8 @@ class Continuation:
         return None
 
     def _tangent(self, point: BranchPoint, along: _Tangent, crossing: _Tangent | None = None) -> _Tangent:
-        """Direction of the branch at ``point``, on from ``along``, of length one; that in which the points of a ``crossing`` go on."""
+        """Direction of the branch at ``point``, on from ``along``, of length one; that in which the
+        points of a ``crossing`` go on."""
         law = self.problem.law
         near = point.contact | (np.abs(law.attraction(np.maximum(point.gap, 0.3 * law.spacing))) > _NEAR * law.strength)
         share = float(near.mean())
@@ -226,7 +244,8 @@ class Continuation:
         return _Tangent(x / size, u / size, by / size, weight)
 
     def _of_crossing(self, point: BranchPoint, ahead: BranchPoint) -> _Tangent | None:
-        """The mean change of the gaps, in the direction of their change, that cross a kink of the law or leave the wall from ``point`` to ``ahead``."""
+        """The mean change of the gaps, in the direction of their change, that cross a kink of the
+        law or leave the wall from ``point`` to ``ahead``."""
         law = self.problem.law
         if law.spacing > 0.0:
             return None
@@ -241,7 +260,8 @@ class Continuation:
     def _solved(
         self, point: BranchPoint, along: _Tangent, right: RealArray, length: float, tolerance: float
     ) -> tuple[RealArray, RealArray, float]:
-        """Changes of traction, deflection and offset that change the residual by ``right`` and the length along by ``length``."""
+        """Changes of traction, deflection and offset that change the residual by ``right`` and the
+        length along by ``length``."""
         from scipy.sparse.linalg import LinearOperator, gmres
 
         law, shape, n = self.problem.law, right.shape, right.size

@@ -1,4 +1,5 @@
-"""Adhesive contact by a bound-constrained quasi-Newton method on the gap with a dense stiffness matrix: slow, and independent."""
+"""Adhesive contact by a bound-constrained quasi-Newton method on the gap with a dense stiffness
+matrix: slow, and independent."""
 
 from __future__ import annotations
 
@@ -11,19 +12,22 @@ from .problem import AdhesiveProblem
 
 
 def adhesive_gap(problem: AdhesiveProblem, start: RealArray, *, tolerance: float = 1e-12) -> RealArray:
-    """Gap (nx, ny) in m that minimises ½ u·K⁻¹u + Σφ(g) over g >= 0, u = g + h - d (less z0 of a core), downhill from the gap ``start`` (nx, ny) in m.
+    """Gap (nx, ny) in m that minimises ½ u·K⁻¹u + Σφ(g) over g >= 0, u = g + h - d (less z0 of a
+    core), downhill from the gap ``start`` (nx, ny) in m.
 
-    By L-BFGS-B (Byrd, Lu, Nocedal & Zhu 1995) in gaps over the range and energies over the work of adhesion.
+    By L-BFGS-B (Byrd, Lu, Nocedal & Zhu 1995) in gaps over the range and energies over the work of
+    adhesion.
 
     Raises
     ------
     InputError
-        If the load and not the offset is prescribed, or a uniform pressure moves nothing: K must have an inverse.
+        If the load and not the offset is prescribed, or a uniform pressure moves nothing: K must
+        have an inverse.
     """
     if not isinstance(problem.constraint, FixedOffset) or problem.operator.zero_mean_mode:
         raise InputError(
-            f"constraint of the dense adhesive method must be a FixedOffset on a body with a mean mode, but is {problem.constraint!r}. "
-            "Use MajoriseMinimise()."
+            "constraint of the dense adhesive method must be a FixedOffset on a body with a mean mode, but is "
+            f"{problem.constraint!r}. Use MajoriseMinimise()."
         )
     from scipy.linalg import cho_factor, cho_solve
     from scipy.optimize import Bounds, minimize

@@ -1,14 +1,18 @@
-"""Contacts with adhesion of infinitely short range: their edge moves point by point, by the energy that it releases.
+"""Contacts with adhesion of infinitely short range: their edge moves point by point, by the energy
+that it releases.
 
-The points in contact are closed whatever their traction; the others bear none. A point comes loose where its tension is above
+The points in contact are closed whatever their traction; the others bear none. A point comes loose
+where its tension is above
 
     σ_c = sqrt(2w/s),
 
-s the compliance of a point at a step of the edge while all points behind it stay closed. By the theorem of Szegő, and that of Helson &
-Lowdenslager (1958) for two dimensions, this is the geometric mean of the symbol of the discrete operator: no constant has to be
-fitted, and rectangular points, layers, lines and periodic surfaces are covered. For a square grid of spectral coefficients it is
-0.920 Δx/E*, near 2·0.4732 Δx/E* that Pohrt & Popov (2015) take from a single loaded square. A point ahead of the edge closes where half
-the product of the tension behind the edge and the gap ahead of it, the energy of closing, is below w.
+s the compliance of a point at a step of the edge while all points behind it stay closed. By the
+theorem of Szegő, and that of Helson & Lowdenslager (1958) for two dimensions, this is the geometric
+mean of the symbol of the discrete operator: no constant has to be fitted, and rectangular points,
+layers, lines and periodic surfaces are covered. For a square grid of spectral coefficients it is
+0.920 Δx/E*, near 2·0.4732 Δx/E* that Pohrt & Popov (2015) take from a single loaded square. A point
+ahead of the edge closes where half the product of the tension behind the edge and the gap ahead of
+it, the energy of closing, is below w.
 """
 
 from __future__ import annotations
@@ -40,7 +44,8 @@ _SLACK = 1e-3
 """Share by which the tension of the confirming solve may be above that of the solve before."""
 
 _AHEAD = 3.0
-"""Gap ahead of the edge, over that at which a point would close at the critical tension, beyond which it is not tried."""
+"""Gap ahead of the edge, over that at which a point would close at the critical tension, beyond
+which it is not tried."""
 
 
 def step_compliance(operator: Operator) -> float:
@@ -61,11 +66,14 @@ def step_compliance(operator: Operator) -> float:
 
 @dataclass(frozen=True)
 class MovingFront:
-    """Contact whose edge is moved until no point of it would release more than the work of adhesion, nor close for less.
+    """Contact whose edge is moved until no point of it would release more than the work of
+    adhesion, nor close for less.
 
-    First all points that bear too much come loose, again and again; this has one end, whatever the order, for at a given position the
-    others then bear more. Then points ahead of the edge close where that releases energy, except those that came loose in this solve. Both are
-    repeated until nothing moves. Only the energy of a whole step of the edge counts: straight edges along the axes hold on to more.
+    First all points that bear too much come loose, again and again; this has one end, whatever the
+    order, for at a given position the others then bear more. Then points ahead of the edge close
+    where that releases energy, except those that came loose in this solve. Both are repeated until
+    nothing moves. Only the energy of a whole step of the edge counts: straight edges along the axes
+    hold on to more.
 
     Parameters
     ----------
@@ -85,7 +93,8 @@ class MovingFront:
         return math.sqrt(2.0 * law.work / self.compliance)
 
     def solve(self, problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None = None) -> AdhesiveSolution:
-        """Equilibrium that is reached from the contact in which ``pull`` (nx, ny) is positive, started from this wall ``pressure``.
+        """Equilibrium that is reached from the contact in which ``pull`` (nx, ny) is positive,
+        started from this wall ``pressure``.
 
         Raises
         ------
@@ -138,20 +147,23 @@ class MovingFront:
         return AdhesiveSolution(shown, energy, scaled, count, 0, work.pairs, status)
 
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
-        """One where points would come loose or touch anew under this wall ``pressure`` (Pa) and ``pull``, else zero; fields (nx, ny)."""
+        """One where points would come loose or touch anew under this wall ``pressure`` (Pa) and
+        ``pull``, else zero; fields (nx, ny)."""
         most, traction = self.tension(law), pressure - pull
         loose = (pull > 0.0) & ((traction < -(1.0 + _SLACK) * most) | (pressure <= 0.0))
         touches = (pull <= 0.0) & (pressure > _SLACK * most)
         return float((loose | touches).any())
 
     def margin(self, problem: AdhesiveProblem, state: Adhered) -> float:
-        """1 less the energy that the most strained point would release over the work of adhesion."""
+        """1 less the energy that the most strained point would release over the work of
+        adhesion."""
         most = max(float(-state.traction.min()), 0.0)
         return 1.0 - (most / self.tension(problem.law)) ** 2
 
 
 def neighbouring(field: RealArray, *, wraps: tuple[bool, bool]) -> RealArray:
-    """Largest value of ``field`` (nx, ny) among the four neighbours of each point, -1 where there are none."""
+    """Largest value of ``field`` (nx, ny) among the four neighbours of each point, -1 where there
+    are none."""
     found = np.full_like(field, -1.0)
     for axis in range(2):
         if field.shape[axis] == 1:

@@ -1,7 +1,7 @@
 """The adhesive problem on a grid, its energy, and its linearisation at an equilibrium.
 
-The net traction is t = p - σ(g) with the wall pressure p >= 0, the gap g = d + K t - h >= 0 and p g = 0. Equilibria are stationary
-points of
+The net traction is t = p - σ(g) with the wall pressure p >= 0, the gap g = d + K t - h >= 0 and p
+g = 0. Equilibria are stationary points of
 
     Π = ½ t·K t + Σ φ(g)   (+ P d where the load P is prescribed).
 """
@@ -32,11 +32,13 @@ class AdhesiveProblem:
     profile
         h, composite heights (nx, ny) in m.
     law
-        The attraction; with a core that repels the gap is d + z0 + K t - h, z0 its spacing, and t = -σ(g) everywhere.
+        The attraction; with a core that repels the gap is d + z0 + K t - h, z0 its spacing, and t =
+        -σ(g) everywhere.
     constraint
         ``FixedOffset`` of d in m, or ``FixedMean`` of t in Pa, of either sign.
     cap
-        Largest wall pressure in Pa: a number, an (nx, ny) array, or infinity. Where it is reached the bodies may overlap.
+        Largest wall pressure in Pa: a number, an (nx, ny) array, or infinity. Where it is reached
+        the bodies may overlap.
     """
 
     operator: Operator
@@ -101,11 +103,12 @@ _INNER_STEPS = 60
 
 
 class Linearised:
-    """Response of the gap on the free points to a change of their traction, at fixed contact: the compliance K less what the wall takes.
+    """Response of the gap on the free points to a change of their traction, at fixed contact: the
+    compliance K less what the wall takes.
 
-    A core that repels takes the place of the wall: its points give way by the traction on them over σ' > 0.
-    With S = |σ'|^½ (K/C) |σ'|^½ the Hessian of Π on the free points is congruent to 1 - S: the number of its negative
-    eigenvalues is the number of eigenvalues of S above 1 (Sylvester).
+    A core that repels takes the place of the wall: its points give way by the traction on them over
+    σ' > 0. With S = |σ'|^½ (K/C) |σ'|^½ the Hessian of Π on the free points is congruent to 1 - S:
+    the number of its negative eigenvalues is the number of eigenvalues of S above 1 (Sylvester).
     """
 
     def __init__(self, problem: AdhesiveProblem, state: Adhered) -> None:
@@ -139,7 +142,8 @@ class Linearised:
         return self.operator.apply(traction)
 
     def response(self, traction: RealArray, tolerance: float = _INNER) -> RealArray:
-        """Change of the gap (nx, ny) in m by ``traction`` (nx, ny) in Pa on the free points, the contact staying closed."""
+        """Change of the gap (nx, ny) in m by ``traction`` (nx, ny) in Pa on the free points, the
+        contact staying closed."""
         u = self._applied(traction)
         if not self.contact.any():
             if self.problem.load_prescribed:
@@ -172,7 +176,8 @@ class Linearised:
         return u + rigid
 
     def _open(self, u: RealArray, wall: RealArray) -> tuple[float, RealArray]:
-        """Rigid displacement, and what the contact would open by under the traction ``wall``: nothing at a wall, soft·wall of a core."""
+        """Rigid displacement, and what the contact would open by under the traction ``wall``:
+        nothing at a wall, soft·wall of a core."""
         ahead = u + self.soft * wall
         rigid = -float(ahead[self.contact].mean()) if self.problem.load_prescribed else 0.0
         return rigid, np.where(self.contact, -(ahead + rigid), 0.0)
@@ -182,7 +187,8 @@ class Linearised:
         return self.root * self.response(self.root * z, tolerance)
 
     def largest(self, steps: int = 12) -> float:
-        """Largest eigenvalue of S by Lanczos' method, from below; above 1 the state is no minimum."""
+        """Largest eigenvalue of S by Lanczos' method, from below; above 1 the state is no
+        minimum."""
         from scipy.linalg import eigvalsh_tridiagonal
 
         if not self.free.any():

@@ -1,12 +1,13 @@
 """Contacts without a wall: laws of adhesion with a core that repels, such as Lennard-Jones'.
 
-All of the traction is that of the law, t = -σ(g) with g = d + z0 + K t - h, z0 the gap at which the law neither attracts nor repels.
-Equilibria are the stationary points of
+All of the traction is that of the law, t = -σ(g) with g = d + z0 + K t - h, z0 the gap at which the
+law neither attracts nor repels. Equilibria are the stationary points of
 
     Π = ½ t·K t + Σ φ(g)   (+ P d where the load P is prescribed),
 
-whose Hessian in the displacement u = K t is K⁻¹ + σ'. Newton's method solves (1 + σ'K) δt = -(t + σ) in the product a·K b, in which 1 + σ'K is
-symmetric, by conjugate gradients with one application of K each.
+whose Hessian in the displacement u = K t is K⁻¹ + σ'. Newton's method solves (1 + σ'K) δt = -(t +
+σ) in the product a·K b, in which 1 + σ'K is symmetric, by conjugate gradients with one application
+of K each.
 """
 
 from __future__ import annotations
@@ -26,10 +27,12 @@ from .problem import Adhered, AdhesiveProblem
 from .solver import AdhesiveSolution, Stepwise, Work, minimised
 
 _NEAREST = 0.65
-"""Smallest gap over z0 from which Newton's method starts, and share of its gap that a point may keep in one step."""
+"""Smallest gap over z0 from which Newton's method starts, and share of its gap that a point may
+keep in one step."""
 
 _FEWEST_PARTS = 20
-"""Parts of a change of the position into which it is divided at most; beyond, a contact with a hard wall is the start."""
+"""Parts of a change of the position into which it is divided at most; beyond, a contact with a hard
+wall is the start."""
 
 _PART = 0.25
 """Change of the position in such a part over z0."""
@@ -40,7 +43,8 @@ _HALVINGS = 40
 
 @dataclass(frozen=True, eq=False)
 class _Point:
-    """Traction t (Pa), K t (m), gap (m), fields (nx, ny); offset (m); energy over the area of a pixel (Pa·m)."""
+    """Traction t (Pa), K t (m), gap (m), fields (nx, ny); offset (m); energy over the area of a
+    pixel (Pa·m)."""
 
     t: RealArray
     u: RealArray
@@ -51,14 +55,17 @@ class _Point:
 
 @dataclass(frozen=True)
 class SoftCoreNewton(Stepwise):
-    """Newton's method for the traction, each step cut so that the energy falls and no gap changes by more than a part of itself.
+    """Newton's method for the traction, each step cut so that the energy falls and no gap changes
+    by more than a part of itself.
 
-    Where the curvature is negative a step goes along that direction (Steihaug 1983), so that a branch that ends is left downhill.
+    Where the curvature is negative a step goes along that direction (Steihaug 1983), so that a
+    branch that ends is left downhill.
 
     Parameters
     ----------
     tolerance
-        Largest difference of traction and law over the larger of the strength and that traction at which it ends.
+        Largest difference of traction and law over the larger of the strength and that traction at
+        which it ends.
     max_steps
         Steps after which it gives up.
     """
@@ -69,7 +76,8 @@ class SoftCoreNewton(Stepwise):
     citation_keys: ClassVar[tuple[str, ...]] = ("Steihaug1983", "Greenwood1997")
 
     def solve(self, problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None = None) -> AdhesiveSolution:
-        """Equilibrium that is reached downhill from the traction ``pressure`` - ``pull`` (nx, ny) in Pa.
+        """Equilibrium that is reached downhill from the traction ``pressure`` - ``pull`` (nx, ny)
+        in Pa.
 
         Raises
         ------
@@ -99,13 +107,15 @@ class SoftCoreNewton(Stepwise):
         return AdhesiveSolution(state, point.energy * pixel, scaled, count, count, work.pairs, status)
 
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
-        """Largest difference of the traction and the law at the ``gap`` over the larger of strength and traction; fields (nx, ny)."""
+        """Largest difference of the traction and the law at the ``gap`` over the larger of strength
+        and traction; fields (nx, ny)."""
         return _miss(law, pressure - pull, gap)
 
     def _starts(
         self, problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None, work: Work
     ) -> list[_Point]:
-        """Where Newton's method starts, and the offsets that it passes on the way to the one prescribed."""
+        """Where Newton's method starts, and the offsets that it passes on the way to the one
+        prescribed."""
         law, constraint = problem.law, problem.constraint
         t = -pull if pressure is None else pressure - pull
         if isinstance(constraint, FixedOffset):
@@ -130,7 +140,8 @@ class SoftCoreNewton(Stepwise):
             if miss <= self.tolerance:
                 return point, count - 1, miss, energies
             x, image, by, down = self._change(problem, point, min(0.1, max(1e-5, miss)), work)
-            # along the change until the energy is lower; no gap changes by more than a part of itself
+            # along the change until the energy is lower; no gap changes by more than a part of
+            # itself
             change = image + by
             with np.errstate(divide="ignore", invalid="ignore"):
                 opens = problem.law.range + 0.5 * point.gap
@@ -159,7 +170,8 @@ class SoftCoreNewton(Stepwise):
     def _change(
         self, problem: AdhesiveProblem, point: _Point, tolerance: float, work: Work
     ) -> tuple[RealArray, RealArray, float, bool]:
-        """Changes of traction and K t (nx, ny), of the offset, and whether the energy curves down along them."""
+        """Changes of traction and K t (nx, ny), of the offset, and whether the energy curves down
+        along them."""
 
         def applied(traction: RealArray) -> RealArray:
             work.pairs += problem.operator.pairs_per_application
@@ -195,7 +207,8 @@ class SoftCoreNewton(Stepwise):
 def conjugate(
     applied: Callable[[RealArray], RealArray], slope: RealArray, b: RealArray, tolerance: float
 ) -> tuple[RealArray, RealArray, bool]:
-    """x with (1 + slope·K) x = b and K x, by conjugate gradients in the product a·K b; and whether the curvature was negative on the way.
+    """x with (1 + slope·K) x = b and K x, by conjugate gradients in the product a·K b; and whether
+    the curvature was negative on the way.
 
     In that case x is the sum up to there, or the first direction; all fields (nx, ny).
     """

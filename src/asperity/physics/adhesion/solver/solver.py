@@ -1,4 +1,5 @@
-"""Minimum of the adhesive energy nearest downhill: majorise-minimise, then Newton's method with a trust region."""
+"""Minimum of the adhesive energy nearest downhill: majorise-minimise, then Newton's method with a
+trust region."""
 
 from __future__ import annotations
 
@@ -47,25 +48,28 @@ class AdhesiveSolution:
 
 
 class AdhesiveSolver(Protocol):
-    """Method for adhesive contacts; a frozen value holding only its settings. Fields are (nx, ny) arrays."""
+    """Method for adhesive contacts; a frozen value holding only its settings. Fields are (nx, ny)
+    arrays."""
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
         """Papers of the method."""
 
     def solve(self, problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None = None) -> AdhesiveSolution:
-        """Equilibrium that is reached from the attraction ``pull`` in Pa, started from this wall ``pressure``."""
+        """Equilibrium that is reached from the attraction ``pull`` in Pa, started from this wall
+        ``pressure``."""
 
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
-        """How far a contact of this wall ``pressure`` (Pa) and ``gap`` (m) is from asking for the ``pull`` (Pa) it was posed with."""
+        """How far a contact of this wall ``pressure`` (Pa) and ``gap`` (m) is from asking for the
+        ``pull`` (Pa) it was posed with."""
 
     def margin(self, problem: AdhesiveProblem, state: Adhered) -> float:
         """Margin of stability of ``state``, positive where it is stable."""
 
 
 _SLOW = 0.6
-"""Reduction of the miss per step of majorise-minimise above which Newton's method is tried: one of its steps costs about
-ten of the others."""
+"""Reduction of the miss per step of majorise-minimise above which Newton's method is tried: one of
+its steps costs about ten of the others."""
 
 _SAME = 1e-13
 """Share of the sum of the magnitudes of the energy by which rounding may make it rise."""
@@ -73,7 +77,8 @@ _SAME = 1e-13
 
 @dataclass(frozen=True)
 class Stepwise:
-    """Base of methods with a tolerance in (0, 1) and a largest number of steps; InputError names the wrong one."""
+    """Base of methods with a tolerance in (0, 1) and a largest number of steps; InputError names
+    the wrong one."""
 
     tolerance: float
     max_steps: int
@@ -84,18 +89,21 @@ class Stepwise:
         require.integer(self.max_steps, 1, f"largest number of steps of the solver {self.name}")
 
     def margin(self, problem: AdhesiveProblem, state: Adhered) -> float:
-        """1 less the largest eigenvalue of the response of the free points, whose attraction falls with the gap."""
+        """1 less the largest eigenvalue of the response of the free points, whose attraction falls
+        with the gap."""
         return 1.0 - Linearised(problem, state).largest()
 
 
 @dataclass(frozen=True)
 class MajoriseMinimise(Stepwise):
-    """Hard-wall contacts under a fixed pull, which bound the energy from above, until the pull is that of the gap.
+    """Hard-wall contacts under a fixed pull, which bound the energy from above, until the pull is
+    that of the gap.
 
-    For an attraction that falls with the gap φ is concave, so that its tangent bounds it from above, and every step, a hard-wall
-    problem with the pull σ(g) of the last gap, lowers the energy (Hunter & Lange 2004). Where that is slow a step of Newton's method in the
-    trust radius of one range follows, truncated where the curvature is negative (Steihaug 1983); what it proposes is kept only if
-    the step of majorise-minimise from there lowers the energy below that from here.
+    For an attraction that falls with the gap φ is concave, so that its tangent bounds it from
+    above, and every step, a hard-wall problem with the pull σ(g) of the last gap, lowers the energy
+    (Hunter & Lange 2004). Where that is slow a step of Newton's method in the trust radius of one
+    range follows, truncated where the curvature is negative (Steihaug 1983); what it proposes is
+    kept only if the step of majorise-minimise from there lowers the energy below that from here.
 
     Parameters
     ----------
@@ -114,7 +122,8 @@ class MajoriseMinimise(Stepwise):
     citation_keys: ClassVar[tuple[str, ...]] = ("Hunter2004", "Steihaug1983", "Rey2017")
 
     def solve(self, problem: AdhesiveProblem, pull: RealArray, pressure: RealArray | None = None) -> AdhesiveSolution:
-        """Equilibrium that is reached downhill from the attraction ``pull`` (nx, ny) in Pa, started from this wall ``pressure``.
+        """Equilibrium that is reached downhill from the attraction ``pull`` (nx, ny) in Pa, started
+        from this wall ``pressure``.
 
         Raises
         ------
@@ -153,11 +162,13 @@ class MajoriseMinimise(Stepwise):
         return AdhesiveSolution(state, scaled[-1], scaled, count, newton_steps, work.pairs, status)
 
     def miss(self, law: Adhesion, pull: RealArray, pressure: RealArray, gap: RealArray) -> float:
-        """Largest difference of ``pull`` and the attraction at the ``gap`` over the largest attraction; fields (nx, ny)."""
+        """Largest difference of ``pull`` and the attraction at the ``gap`` over the largest
+        attraction; fields (nx, ny)."""
         return float(np.abs(law.attraction(gap) - pull).max()) / law.strength
 
     def _newton(self, problem: AdhesiveProblem, state: Adhered, work: Work) -> Adhered | None:
-        """Step of Newton's method from ``state`` followed by one of majorise-minimise; None where there is nothing to gain."""
+        """Step of Newton's method from ``state`` followed by one of majorise-minimise; None where
+        there is nothing to gain."""
         system = Linearised(problem, state)
         if not system.free.any():
             return None
@@ -191,7 +202,8 @@ def minimised(
     work: Work | None = None,
     tolerance: float = FINEST,
 ) -> Adhered:
-    """Hard-wall contact under the fixed attraction ``pull`` (nx, ny) in Pa, started from this wall ``pressure``.
+    """Hard-wall contact under the fixed attraction ``pull`` (nx, ny) in Pa, started from this wall
+    ``pressure``.
 
     The gap is that beyond the spacing of a law with a core.
 
@@ -233,7 +245,8 @@ def minimised(
 def _steihaug(
     system: Linearised, r: RealArray, *, radius: float, tolerance: float = 0.05, steps: int = 12
 ) -> RealArray:
-    """z with (1 - S) z = r to ``tolerance``, or where the gap would change by more than the ``radius`` (m) on the way."""
+    """z with (1 - S) z = r to ``tolerance``, or where the gap would change by more than the
+    ``radius`` (m) on the way."""
     z, residual = np.zeros_like(r), r
     direction, before = residual, float((residual * residual).sum())
     first, change = before, np.zeros_like(r)

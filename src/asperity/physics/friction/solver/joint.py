@@ -1,16 +1,20 @@
-"""Newton's method on pressure and shear traction together, for bodies whose shear lifts the surfaces.
+"""Newton's method on pressure and shear traction together, for bodies whose shear lifts the
+surfaces.
 
-The sets are those of both problems: the free points of the normal contact and, of these, sticking and slipping ones. Where a point slips
-its traction follows the pressure, q = B(p) n, so that with P the projection on what of q is free of its own and N = B'(p) n on slipping
-points the step dp, dq = P d + N dp solves
+The sets are those of both problems: the free points of the normal contact and, of these, sticking
+and slipping ones. Where a point slips its traction follows the pressure, q = B(p) n, so that with P
+the projection on what of q is free of its own and N = B'(p) n on slipping points the step dp, dq =
+P d + N dp solves
 
     K dp + C_zt dq                   = level - gap      on free points,
     P (C_tz dp + C_tt dq) + |s|/B d  = P s              on those that bear shear,
 
-the second term of which is the curvature of the circle as in ``linear_system`` (Alart & Curnier 1991). It is not symmetric: the generalised
-minimal residual method (Saad & Schultz 1986), preconditioned by the nested cells of each direction. On a rough surface (512², ν = 0.3, rigid
-counter body) a product with all three components reduces the residual by 0.48; along the normal alone it would be 0.22, along the
-surface alone 0.45, where slip is in all directions at once: the coupling costs next to nothing.
+the second term of which is the curvature of the circle as in ``linear_system`` (Alart & Curnier
+1991). It is not symmetric: the generalised minimal residual method (Saad & Schultz 1986),
+preconditioned by the nested cells of each direction. On a rough surface (512², ν = 0.3, rigid
+counter body) a product with all three components reduces the residual by 0.48; along the normal
+alone it would be 0.22, along the surface alone 0.45, where slip is in all directions at once: the
+coupling costs next to nothing.
 """
 
 from __future__ import annotations
@@ -35,7 +39,8 @@ _REDUCTION = 0.3
 """Reduction of the residual in one linear system at least."""
 
 _FORCING = 0.5
-"""Reduction over that of the error by the step before (Eisenstat & Walker 1996): as sets settle, systems are solved more finely."""
+"""Reduction over that of the error by the step before (Eisenstat & Walker 1996): as sets settle,
+systems are solved more finely."""
 
 _FINEST = 1e-4
 """Reduction at most in one system, which is in single precision."""
@@ -51,7 +56,8 @@ _PATIENCE = 3
 """Newton steps at most, and in a row that may fail to lower the error."""
 
 _DIFFERENCE = 1e-6
-"""Relative change of the pressure by which the slope of the bound is found; laws are linear in pieces."""
+"""Relative change of the pressure by which the slope of the bound is found; laws are linear in
+pieces."""
 
 
 Index: TypeAlias = np.ndarray[tuple[int], np.dtype[np.int64]]
@@ -71,7 +77,8 @@ class JointProblem:
     law
         Bound of the shear traction.
     target
-        Slip (2, nx, ny) or (2, 1, 1) in m that there would be without pressure and traction, less the shift that is sought.
+        Slip (2, nx, ny) or (2, 1, 1) in m that there would be without pressure and traction, less
+        the shift that is sought.
     mean_traction
         Prescribed mean of the shear traction (2,) in Pa; None where the shift is prescribed.
     """
@@ -84,7 +91,8 @@ class JointProblem:
 
     @property
     def solvable(self) -> bool:
-        """Whether the compliances are of one form on a CPU, no cap holds, and the law can be taken point by point."""
+        """Whether the compliances are of one form on a CPU, no cap holds, and the law can be taken
+        point by point."""
         operator = self.normal.operator
         same = operator.padded == self.shear.padded and isinstance(operator.engine, CpuEngine)
         return same and self.normal.elastic and is_dataclass(self.law)
@@ -92,7 +100,8 @@ class JointProblem:
 
 @dataclass(frozen=True, eq=False)
 class JointSolution:
-    """Pressure (nx, ny) and traction (2, nx, ny) in Pa, ``slipping`` points, and the FFT pairs and steps that it took."""
+    """Pressure (nx, ny) and traction (2, nx, ny) in Pa, ``slipping`` points, and the FFT pairs and
+    steps that it took."""
 
     pressure: RealArray
     traction: RealArray
@@ -102,7 +111,8 @@ class JointSolution:
 
 
 class Place(NamedTuple):
-    """Iterate on its free points: traction (2, n) and pressure (n,), slip, residual of the gap (m), and errors over those wanted."""
+    """Iterate on its free points: traction (2, n) and pressure (n,), slip, residual of the gap (m),
+    and errors over those wanted."""
 
     free: FreeSet
     points: Points
@@ -115,7 +125,8 @@ class Place(NamedTuple):
 
 
 class JointIterate:
-    """Iterate of one joint solve of ``problem``, from a ``pressure`` (nx, ny) and ``traction`` (2, nx, ny) in Pa."""
+    """Iterate of one joint solve of ``problem``, from a ``pressure`` (nx, ny) and ``traction`` (2,
+    nx, ny) in Pa."""
 
     def __init__(self, problem: JointProblem, pressure: RealArray, traction: RealArray) -> None:
         self.problem, self.engine = problem, problem.shear.engine
@@ -156,8 +167,9 @@ class JointIterate:
     def solved(self, *, shear_error: float, normal_error: float) -> JointSolution:
         """Steps until the errors are reached by displacements computed from scratch.
 
-        Until ``Deviation.error`` is at most ``shear_error`` and the mean gap under load over the rms height at most ``normal_error``. Where
-        that is not reached the best iterate is returned: no energy falls from step to step, so that there is no promise.
+        Until ``Deviation.error`` is at most ``shear_error`` and the mean gap under load over the
+        rms height at most ``normal_error``. Where that is not reached the best iterate is returned:
+        no energy falls from step to step, so that there is no promise.
         """
         before, lowest, idle = np.inf, np.inf, 0
         while True:
@@ -224,9 +236,11 @@ class JointIterate:
         self.q.reshape(2, -1)[:, index] = q
 
     def _moved(self, place: Place, system: JointSystem, z: RealArray) -> tuple[RealArray, RealArray]:
-        """Pressure (n,) and traction (2, n) after the step ``z`` (3, n): pressed or open, turned on their circles or within their bounds.
+        """Pressure (n,) and traction (2, n) after the step ``z`` (3, n): pressed or open, turned on
+        their circles or within their bounds.
 
-        What that takes from a prescribed load or force is given back first as a uniform displacement would do it.
+        What that takes from a prescribed load or force is given back first as a uniform
+        displacement would do it.
         """
         points = place.points
         p = np.maximum(place.p + z[0], 0.0)
@@ -239,7 +253,8 @@ class JointIterate:
         bound = self._bound(points.index, p)
         q = self._turned(place, z, system.full(z)[1:], bound)
         then = Points(points.index, bound, points.target, points.largest)
-        # where a point was open all of it slips at first: at the edge of a contact there is hardly any bound to stick by
+        # where a point was open all of it slips at first: at the edge of a contact there is hardly
+        # any bound to stick by
         enters = (points.bound <= 0.0) & np.isfinite(bound)
         q[:, enters] = then.projected(place.s / self.work.pixel)[:, enters]
         return p, q if self.force is None else then.with_sum(q, self.force)
@@ -254,7 +269,8 @@ class JointIterate:
 
 
 class _Uniform(NamedTuple):
-    """Uniform residuals (m, 3, n) of load and force, what the preconditioner makes of them, and the inverse of its sums."""
+    """Uniform residuals (m, 3, n) of load and force, what the preconditioner makes of them, and the
+    inverse of its sums."""
 
     residuals: RealArray
     gram: RealArray
@@ -264,7 +280,8 @@ class _Uniform(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class JointSystem:
-    """Both linearised problems at one place, divided by the deflection of a point; vectors (3, n) of dp and the part of dq free of its own.
+    """Both linearised problems at one place, divided by the deflection of a point; vectors (3, n)
+    of dp and the part of dq free of its own.
 
     ``follows`` (2, n) is N, ``bears`` (n,) one where there is a bound.
     """
@@ -313,7 +330,8 @@ class JointSystem:
         return np.concatenate([sums[: int(joint.load is not None)], sums[1:] if joint.force is not None else []])
 
     def missing(self, p: RealArray, q: RealArray) -> RealArray:
-        """Weights of the uniform residuals whose solutions bring ``p`` and ``q`` to the prescribed sums."""
+        """Weights of the uniform residuals whose solutions bring ``p`` and ``q`` to the prescribed
+        sums."""
         assert self.uniform is not None
         load, force = self.joint.load or 0.0, self.joint.force
         wanted = np.array([load, *((0.0, 0.0) if force is None else force)])
@@ -326,7 +344,8 @@ class JointSystem:
         return out
 
     def respond(self, change: RealArray) -> None:
-        """Displacements, in the second fields of the iteration, by the ``change`` of traction and pressure, (3, n) in this order."""
+        """Displacements, in the second fields of the iteration, by the ``change`` of traction and
+        pressure, (3, n) in this order."""
         joint = self.joint
         fields, responses = joint.fields
         for component, field in zip(change, fields, strict=True):

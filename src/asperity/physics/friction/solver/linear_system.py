@@ -1,11 +1,14 @@
-"""Linear system of one Newton step on stick and slip, by conjugate gradients preconditioned with nested cells.
+"""Linear system of one Newton step on stick and slip, by conjugate gradients preconditioned with
+nested cells.
 
-Where points stick both components of the traction are free; where they slip the traction turns on its circle, so that one
-component along the tangent is free. With P the projection on what is free, the step d solves
+Where points stick both components of the traction are free; where they slip the traction turns on
+its circle, so that one component along the tangent is free. With P the projection on what is free,
+the step d solves
 
     (P C P + diag(|s| / B on slipping points)) d = P s,
 
-the curvature |s|/B >= 0 being that of the circle: slipping points are better conditioned than sticking ones.
+the curvature |s|/B >= 0 being that of the circle: slipping points are better conditioned than
+sticking ones.
 """
 
 from __future__ import annotations
@@ -34,7 +37,8 @@ class Fields(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Workspace:
-    """Arrays for products with the compliance of ``operator`` on ``points``, in the precision ``dtype``.
+    """Arrays for products with the compliance of ``operator`` on ``points``, in the precision
+    ``dtype``.
 
     Nothing but zeros is outside the points in the fields.
     """
@@ -78,10 +82,12 @@ class Workspace:
 
 @dataclass(frozen=True, eq=False)
 class NewtonSystem:
-    """System of one step with the sets of an iterate, everything divided by the deflection ``pixel`` of a point under its own load.
+    """System of one step with the sets of an iterate, everything divided by the deflection
+    ``pixel`` of a point under its own load.
 
-    ``tangent`` (2, n) is that of the circle at slipping points, ``curvature`` (n,) the diagonal there, and ``conductance`` (3, n) by how much
-    a point yields along x, along y under a load along x, and along y, over what one that sticks does.
+    ``tangent`` (2, n) is that of the circle at slipping points, ``curvature`` (n,) the diagonal
+    there, and ``conductance`` (3, n) by how much a point yields along x, along y under a load along
+    x, and along y, over what one that sticks does.
     """
 
     work: Workspace
@@ -93,7 +99,8 @@ class NewtonSystem:
 
     @classmethod
     def of(cls, work: Workspace, sets: Sets, *, zero_sum: bool) -> NewtonSystem:
-        """System at ``sets``; if ``zero_sum`` steps sum to zero, and residuals count up to a uniform shift."""
+        """System at ``sets``; if ``zero_sum`` steps sum to zero, and residuals count up to a
+        uniform shift."""
         kind, slip = work.dtype, sets.slip
         tangent = sets.tangent
         bound = np.where(slip, work.points.bound, 1.0)
@@ -132,9 +139,11 @@ class NewtonSystem:
         return z
 
     def solved(self, r: RealArray, reduction: float, most: int) -> tuple[RealArray, int]:
-        """Step (2, n) for the residual ``r`` = P s over ``pixel``, and the number of products it took.
+        """Step (2, n) for the residual ``r`` = P s over ``pixel``, and the number of products it
+        took.
 
-        The residual falls by ``reduction`` in the norm of the preconditioner, or ``most`` products are made.
+        The residual falls by ``reduction`` in the norm of the preconditioner, or ``most`` products
+        are made.
         """
         d, taken, first = np.zeros_like(r), 0, 0.0
         direction, response, curvature = r, r, 0.0
@@ -169,9 +178,11 @@ class GeneralSystem(Protocol):
 
 
 def gmres(system: GeneralSystem, r: RealArray, reduction: float, most: int) -> tuple[RealArray, int]:
-    """Solution of ``system`` for the residual ``r`` (k, n), and the number of products it took (Saad & Schultz 1986).
+    """Solution of ``system`` for the residual ``r`` (k, n), and the number of products it took
+    (Saad & Schultz 1986).
 
-    Preconditioned from the right. The residual falls by ``reduction``, or ``most`` products are made.
+    Preconditioned from the right. The residual falls by ``reduction``, or ``most`` products are
+    made.
     """
     size = math.sqrt(_dot(r, r))
     if size == 0.0:

@@ -1,13 +1,16 @@
-"""Semi-smooth Newton's method on stick and slip, inexact and on nested grids: the fast tangential solver.
+"""Semi-smooth Newton's method on stick and slip, inexact and on nested grids: the fast tangential
+solver.
 
-A step sorts the points of the contact into sticking ones (traction below its bound, or at it and pushed back inside) and
-slipping ones, solves the linear system of ``linear_system`` to a modest accuracy, turns slipping tractions on their
-circles and puts sticking ones that went beyond their bound back on it (Alart & Curnier 1991, with the active sets of the normal
-solver). The energy falls in every step: one that would raise it is halved, and at last replaced by one along the projected
+A step sorts the points of the contact into sticking ones (traction below its bound, or at it and
+pushed back inside) and slipping ones, solves the linear system of ``linear_system`` to a modest
+accuracy, turns slipping tractions on their circles and puts sticking ones that went beyond their
+bound back on it (Alart & Curnier 1991, with the active sets of the normal solver). The energy falls
+in every step: one that would raise it is halved, and at last replaced by one along the projected
 gradient. First guesses come from coarser grids.
 
-Behind some constants stand FFT pairs for other values: means on self-affine surfaces of two seeds, 256², load 0.05 E*, tolerance 1e-6. *Force*: equal
-bodies of ν = 0.3 at 0.5 and 0.9 of the limit; *shift*: a prescribed one; *coated*: both on a layer of E 4, h 4 pixels; *field*: slip in all
+Behind some constants stand FFT pairs for other values: means on self-affine surfaces of two seeds,
+256², load 0.05 E*, tolerance 1e-6. *Force*: equal bodies of ν = 0.3 at 0.5 and 0.9 of the limit;
+*shift*: a prescribed one; *coated*: both on a layer of E 4, h 4 pixels; *field*: slip in all
 directions at once. The constants as they are take 48, 58, 61 and 85 pairs.
 """
 
@@ -26,31 +29,37 @@ from .linear_system import NewtonSystem, Workspace
 from .problem import Deviation, Points, Sets, TangentialQP, TangentialSolution, best_shift, ended, size_of
 
 _SETTLED = 0.003
-"""Share of points that change between stick and slip below which the sets count as nearly settled."""
+"""Share of points that change between stick and slip below which the sets count as nearly
+settled."""
 
 _NEAR = 0.03
-"""Error of a start from which on its sets count as settled: that of an earlier round of the same step."""
+"""Error of a start from which on its sets count as settled: that of an earlier round of the same
+step."""
 
 _REDUCTION = 0.3
-"""Reduction of the residual while sets change: conjugate gradients gain a factor of 3 to 4 a step."""
+"""Reduction of the residual while sets change: conjugate gradients gain a factor of 3 to 4 a
+step."""
 
 _UNSETTLED_STEPS = 3
 _SETTLED_STEPS = 12
-"""Products with the compliance in one system, at most, while sets change, and on settled ones: doubled whenever the error does not fall to
-a half. Pairs for 2, 4, 6 while sets change the same as for 3; for 6 on settled ones force 46, shift 54, coated 57, field 79; for 24 as for 12."""
+"""Products with the compliance in one system, at most, while sets change, and on settled ones:
+doubled whenever the error does not fall to a half. Pairs for 2, 4, 6 while sets change the same as
+for 3; for 6 on settled ones force 46, shift 54, coated 57, field 79; for 24 as for 12."""
 
 _MOST_DOUBLINGS = 5
-"""Doublings of these products at most. Pairs for 0, 2, 8: the same; no case of the sweep needs one."""
+"""Doublings of these products at most. Pairs for 0, 2, 8: the same; no case of the sweep needs
+one."""
 
 _MARGIN = 0.3
-"""Share of the reduction to the tolerance aimed at on settled sets: the gap is a sum of first powers of the residual, which is
-large where bounds are."""
+"""Share of the reduction to the tolerance aimed at on settled sets: the gap is a sum of first
+powers of the residual, which is large where bounds are."""
 
 _FINEST = 1e-4
 """Reduction at most in one system, which is in single precision."""
 
 _REFRESH = 1e-4
-"""Fall of the error since the displacement was computed from scratch after which it is again: updates are in single precision."""
+"""Fall of the error since the displacement was computed from scratch after which it is again:
+updates are in single precision."""
 
 _ROUGH = 1e-4
 """Error above which updates in single precision need no check."""
@@ -59,8 +68,8 @@ _SLOW = 0.5
 """Error over the lowest so far above which rounding of the updates may be the reason."""
 
 _HALVINGS = 5
-"""Lengths of a step that are tried before one along the projected gradient takes its place. Pairs for 1, 3, 8: the same; just below the limit of
-friction steps get there."""
+"""Lengths of a step that are tried before one along the projected gradient takes its place. Pairs
+for 1, 3, 8: the same; just below the limit of friction steps get there."""
 
 _ROUNDING = 4.0 * np.finfo(float).eps
 """Rise of the energy, over the work of the slip, that is rounding of the sums."""
@@ -102,7 +111,8 @@ class StickSlipNewton(Iterative):
         require.one_of(self.precision, ("mixed", "double"), "precision of the tangential solver")
 
     def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:
-        """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa; by default from coarser grids."""
+        """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa; by default from coarser
+        grids."""
         points, pairs = Points.of(qp), 0.0
         if not len(points.index):
             nothing = np.zeros((2, 0)), np.zeros((2, 0)), np.zeros(2)
@@ -215,15 +225,18 @@ class _Iteration:
             if self._taken(self._moved(system, sets, part * d), s):
                 return
             part *= 0.5
-        # just below the limit of friction either shift may lead nowhere: 3 of 16 forces of 0.999 and 0.99999 of it did not settle by one alone
+        # just below the limit of friction either shift may lead nowhere: 3 of 16 forces of 0.999
+        # and 0.99999 of it did not settle by one alone
         self.by_few = not self.by_few
         downhill = self.points.projected(self.q + s / self.qp.operator.largest)
         self._taken(downhill if self.total is None else self.points.with_sum(downhill, self.total), s, force=True)
 
     def _moved(self, system: NewtonSystem, sets: Sets, d: RealArray) -> RealArray:
-        """Traction after the step ``d``: slipping ones turned on their circles, sticking ones put back within their bounds.
+        """Traction after the step ``d``: slipping ones turned on their circles, sticking ones put
+        back within their bounds.
 
-        What that takes from a prescribed sum is given back first as a uniform shift would do it, which costs the least energy.
+        What that takes from a prescribed sum is given back first as a uniform shift would do it,
+        which costs the least energy.
         """
         found = self._turned(sets, self.q, d)
         if self.total is None or system.uniform is None:
@@ -234,7 +247,8 @@ class _Iteration:
 
     def _turned(self, sets: Sets, traction: RealArray, d: RealArray) -> RealArray:
         bound = np.where(sets.slip, self.points.bound, 1.0)
-        # where the curvature of the circle decides, the step is the tangent of the angle between traction and slip
+        # where the curvature of the circle decides, the step is the tangent of the angle between
+        # traction and slip
         towards = traction / bound + sets.tangent * (np.einsum("ij,ij->j", d, sets.tangent) / bound)
         turned = towards * (bound / np.where(sets.slip, size_of(towards), 1.0))
         return np.where(sets.slip, turned, self.points.projected(traction + d))

@@ -1,10 +1,12 @@
-"""The tangential problem of one step: a convex programme with a disc at every point, its multiplier and its duality gap.
+"""The tangential problem of one step: a convex programme with a disc at every point, its multiplier
+and its duality gap.
 
     min  1/2 q·C q - q·b    over |q| <= B at every point,
 
-with q the shear traction on the body, B the bound of the friction law, C the tangential compliance and b what the
-surfaces would slip without traction (Kalker 1990; Panagiotopoulos 1975). Minus the gradient, s = b - C q, is the slip of
-the step: zero where the traction is below its bound, along the traction where it is at it.
+with q the shear traction on the body, B the bound of the friction law, C the tangential compliance
+and b what the surfaces would slip without traction (Kalker 1990; Panagiotopoulos 1975). Minus the
+gradient, s = b - C q, is the slip of the step: zero where the traction is below its bound, along
+the traction where it is at it.
 """
 
 from __future__ import annotations
@@ -19,11 +21,13 @@ from ....core.status import Outcome, Status
 from ..operator import TangentialOperator
 
 AT_BOUND = 1.0 - 1e-12
-"""Share of the bound from which on a traction counts as at it: a traction put on the circle is there to a few roundings."""
+"""Share of the bound from which on a traction counts as at it: a traction put on the circle is
+there to a few roundings."""
 
 
 def size_of(vectors: RealArray) -> RealArray:
-    """Magnitudes of ``vectors`` (2, ...); a tenth of the time of NumPy's hypot, whose range is not needed."""
+    """Magnitudes of ``vectors`` (2, ...); a tenth of the time of NumPy's hypot, whose range is not
+    needed."""
     x, y = vectors
     return np.asarray(np.sqrt(x * x + y * y))
 
@@ -37,11 +41,13 @@ class TangentialQP:
     operator
         Shear traction to tangential displacement.
     bound
-        Largest shear traction (nx, ny) in Pa, >= 0: zero outside the contact, infinite where nothing slips.
+        Largest shear traction (nx, ny) in Pa, >= 0: zero outside the contact, infinite where
+        nothing slips.
     target
         b without the part that is sought, (2, nx, ny) in m.
     mean_traction
-        Prescribed mean of the traction (2,) in Pa, for which a uniform shift is sought; None where the shift is part of ``target``.
+        Prescribed mean of the traction (2,) in Pa, for which a uniform shift is sought; None where
+        the shift is part of ``target``.
     """
 
     operator: TangentialOperator
@@ -55,10 +61,12 @@ _INACTIVE = 10.0
 
 @dataclass(frozen=True)
 class Deviation:
-    """How far an iterate is from the friction law, over the sum of its elastic energy and the work of its slip.
+    """How far an iterate is from the friction law, over the sum of its elastic energy and the work
+    of its slip.
 
-    ``gap`` is the duality gap Σ (B |s| - q·s), a bound on the error of the energy; ``error`` is Σ |B s - |s| q|, which is never
-    smaller and of first order in the angle between slip and traction as well, where the gap is of second.
+    ``gap`` is the duality gap Σ (B |s| - q·s), a bound on the error of the energy; ``error`` is Σ
+    |B s - |s| q|, which is never smaller and of first order in the angle between slip and traction
+    as well, where the gap is of second.
     """
 
     gap: float
@@ -68,7 +76,8 @@ class Deviation:
     def of(cls, points: Points, traction: RealArray, displacement: RealArray, s: RealArray) -> Deviation:
         """Deviation of ``traction`` (2, n) with its ``displacement`` and slip ``s``.
 
-        Bounds count up to ten times the largest traction, beyond which none is active, and what the mean residual would still take.
+        Bounds count up to ten times the largest traction, beyond which none is active, and what the
+        mean residual would still take.
         """
         size = size_of(s)
         limit = np.minimum(points.bound, _INACTIVE * size_of(traction).max() + size.mean() / points.largest)
@@ -89,7 +98,8 @@ class TangentialSolution:
     shift
         Uniform shift (2,) in m that was sought; zero where the shift was prescribed.
     slip
-        Slip (2, nx, ny) in m of the counter body over the body in this step; zero outside the contact.
+        Slip (2, nx, ny) in m of the counter body over the body in this step; zero outside the
+        contact.
     deviation
         How far it is from the friction law.
     status
@@ -120,12 +130,14 @@ class TangentialSolver(Protocol):
         """Error to reach."""
 
     def solve(self, qp: TangentialQP, start: RealArray | None = None) -> TangentialSolution:
-        """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa, which need not be feasible; by default from none."""
+        """Solution of ``qp`` from the traction ``start`` (2, nx, ny) in Pa, which need not be
+        feasible; by default from none."""
 
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """A ``TangentialQP`` on the points of its contact: vectors (2, n) and (n,) in the order of the flat ``index``.
+    """A ``TangentialQP`` on the points of its contact: vectors (2, n) and (n,) in the order of the
+    flat ``index``.
 
     ``largest`` is the largest compliance of a wave, m/Pa.
     """
@@ -162,8 +174,8 @@ class Points:
     def with_sum(self, traction: RealArray, total: RealArray) -> RealArray:
         """Feasible ``traction`` (2, n) with the sum ``total`` (2,).
 
-        What is missing goes where the bound leaves room, so that slipping points stay at their bound; where there is not enough, the
-        nearest tractions with that sum are taken.
+        What is missing goes where the bound leaves room, so that slipping points stay at their
+        bound; where there is not enough, the nearest tractions with that sum are taken.
         """
         missing = total - traction.sum(axis=1)
         size = float(np.hypot(*missing))
@@ -185,8 +197,9 @@ class Points:
     def nearest(self, traction: RealArray, total: RealArray) -> RealArray:
         """Nearest feasible tractions (2, n) with the sum ``total`` (2,).
 
-        They are those after the same vector has been added to all and each put within its bound. That vector is the minimum of the
-        convex sum of |x|²/2, beyond the bound B|x| - B²/2, less its product with ``total``: Newton's method with halved steps.
+        They are those after the same vector has been added to all and each put within its bound.
+        That vector is the minimum of the convex sum of |x|²/2, beyond the bound B|x| - B²/2, less
+        its product with ``total``: Newton's method with halved steps.
         """
         limit = np.where(np.isfinite(self.bound), self.bound, 0.0)
         added, step, value = np.zeros(2), np.zeros(2), np.inf
@@ -211,7 +224,8 @@ class Points:
         return self.in_proportion(total)  # so near the limit of friction that the vector grows without end
 
     def in_proportion(self, total: RealArray) -> RealArray:
-        """Tractions (2, n) of the sum ``total`` (2,), each in proportion to its bound; where any is unbounded those alone, all the same."""
+        """Tractions (2, n) of the sum ``total`` (2,), each in proportion to its bound; where any is
+        unbounded those alone, all the same."""
         unbounded = np.isinf(self.bound)
         weight = unbounded.astype(float) if unbounded.any() else self.bound
         return np.asarray(total[:, None] * (weight / weight.sum()))
@@ -223,7 +237,8 @@ _ROUNDING = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class Sets:
-    """Where an iterate sticks and slips, with the unit ``normal`` (2, n) of the traction and the ``outward`` slip (n,) along it."""
+    """Where an iterate sticks and slips, with the unit ``normal`` (2, n) of the traction and the
+    ``outward`` slip (n,) along it."""
 
     slip: BoolArray
     normal: RealArray
@@ -231,7 +246,8 @@ class Sets:
 
     @classmethod
     def of(cls, points: Points, traction: RealArray, s: RealArray) -> Sets:
-        """Sets of a ``traction`` (2, n) with the slip ``s`` (2, n): slipping is what is at its bound and pushed outwards."""
+        """Sets of a ``traction`` (2, n) with the slip ``s`` (2, n): slipping is what is at its
+        bound and pushed outwards."""
         size = size_of(traction)
         at = (size >= points.bound * AT_BOUND) & (size > 0.0)
         normal = np.where(at, traction / np.where(at, size, 1.0), 0.0)
@@ -245,24 +261,29 @@ class Sets:
         return np.where(self.slip, np.stack([-self.normal[1], self.normal[0]]), 0.0)
 
     def free_part(self, values: RealArray) -> RealArray:
-        """Part of ``values`` (2, n) along which the traction may change: all where it sticks, along the tangent where it slips."""
+        """Part of ``values`` (2, n) along which the traction may change: all where it sticks, along
+        the tangent where it slips."""
         return free_part(self.slip, self.tangent, values)
 
 
 def free_part(slip: BoolArray, tangent: RealArray, values: RealArray) -> RealArray:
-    """``values`` (2, n), where points ``slip`` (n,) their part along the ``tangent`` (2, n) alone."""
+    """``values`` (2, n), where points ``slip`` (n,) their part along the ``tangent`` (2, n)
+    alone."""
     return np.where(slip, tangent * np.einsum("ij,ij->j", values, tangent), values)
 
 
 def best_shift(points: Points, traction: RealArray, residual: RealArray, *, by_few: bool = False) -> RealArray:
-    """Shift (2,) in m that fits a ``residual`` b - C q (2, n) best: minus its mean where there is room below the bound.
+    """Shift (2,) in m that fits a ``residual`` b - C q (2, n) best: minus its mean where there is
+    room below the bound.
 
-    Where hardly any point has room, the one that makes the duality gap smallest; unless it is to follow ``by_few``, if there are any.
+    Where hardly any point has room, the one that makes the duality gap smallest; unless it is to
+    follow ``by_few``, if there are any.
     """
     inside = size_of(traction) < points.bound * AT_BOUND
     if np.count_nonzero(inside) <= (0.0 if by_few else _FEW) * inside.size:
-        # Minimum over the shift d of Σ B |r + d| - d·Σ q, which is the duality gap but for a constant, by Newton's method on magnitudes
-        # smoothed by less and less of the largest residual: the minimum may lie where one of them vanishes.
+        # Minimum over the shift d of Σ B |r + d| - d·Σ q, which is the duality gap but for a
+        # constant, by Newton's method on magnitudes smoothed by less and less of the largest
+        # residual: the minimum may lie where one of them vanishes.
         total, bound = traction.sum(axis=1), points.bound
         scale = float(np.abs(residual).max()) or 1.0
         direction = total / (float(np.hypot(*total)) or 1.0)
@@ -296,7 +317,8 @@ def best_shift(points: Points, traction: RealArray, residual: RealArray, *, by_f
 
 
 _FEW = 0.03
-"""Share of sticking points up to which their mean residual may be far from the shift: they are those that slip last."""
+"""Share of sticking points up to which their mean residual may be far from the shift: they are
+those that slip last."""
 
 _SMOOTHER = 0.1
 _SMOOTHEST = 1e-12
@@ -311,7 +333,8 @@ def ended(
     tolerance: float,
     work: tuple[int, float],
 ) -> TangentialSolution:
-    """Solution at the ``iterate``: traction (2, n), slip (2, n), shift (2,); ``work`` are its iterations and FFT pairs."""
+    """Solution at the ``iterate``: traction (2, n), slip (2, n), shift (2,); ``work`` are its
+    iterations and FFT pairs."""
     (traction, s, shift), (iterations, pairs) = iterate, work
     shape = qp.bound.shape
     sets = Sets.of(points, traction, s)

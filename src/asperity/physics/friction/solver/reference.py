@@ -1,4 +1,5 @@
-"""Two independent methods for the tangential problem of a step, simple and slow, that check the fast one."""
+"""Two independent methods for the tangential problem of a step, simple and slow, that check the
+fast one."""
 
 from __future__ import annotations
 
@@ -13,7 +14,8 @@ from .problem import Deviation, Points, Sets, TangentialQP, TangentialSolution, 
 
 
 class _Iterate:
-    """Traction (2, n) with its displacement, slip and deviation from the friction law, on the points of a problem."""
+    """Traction (2, n) with its displacement, slip and deviation from the friction law, on the
+    points of a problem."""
 
     def __init__(self, qp: TangentialQP, start: RealArray | None) -> None:
         self.qp, self.points = qp, Points.of(qp)
@@ -56,7 +58,8 @@ class _Iterate:
 
 @dataclass(frozen=True)
 class AcceleratedGradient(Iterative):
-    """Projected gradient with Nesterov's momentum, restarted where it points uphill (Beck & Teboulle 2009; O'Donoghue & Candes 2015).
+    """Projected gradient with Nesterov's momentum, restarted where it points uphill (Beck &
+    Teboulle 2009; O'Donoghue & Candes 2015).
 
     Parameters
     ----------
@@ -98,9 +101,11 @@ class AcceleratedGradient(Iterative):
 
 @dataclass(frozen=True)
 class ProjectedGradients(Iterative):
-    """Conjugate gradients on what sticks, slipping points turning on their circles, begun anew whenever the sets change.
+    """Conjugate gradients on what sticks, slipping points turning on their circles, begun anew
+    whenever the sets change.
 
-    In the manner of Polonsky & Keer (1999) for the normal contact, with discs in place of half-lines.
+    In the manner of Polonsky & Keer (1999) for the normal contact, with discs in place of
+    half-lines.
 
     Parameters
     ----------

@@ -1,9 +1,11 @@
-"""Influence coefficients of pixels under uniform traction for every field on a plane in a layered body, not periodic.
+"""Influence coefficients of pixels under uniform traction for every field on a plane in a layered
+body, not periodic.
 
-A spectrum f(α) cos(mφ) or f(α) sin(mφ), φ the direction of the wavevector, belongs to a point response of angular order m
-(see ``solids.compliance.point_kernel``), and products of c = cos φ and s = sin φ in the turned fields are such functions. In
-the outermost region the field of a homogeneous body of its material is subtracted and added in closed form, so that the
-rest decays as exp(-α(2h - z)) and nothing is singular at the surface.
+A spectrum f(α) cos(mφ) or f(α) sin(mφ), φ the direction of the wavevector, belongs to a point
+response of angular order m (see ``solids.compliance.point_kernel``), and products of c = cos φ and
+s = sin φ in the turned fields are such functions. In the outermost region the field of a
+homogeneous body of its material is subtracted and added in closed form, so that the rest decays as
+exp(-α(2h - z)) and nothing is singular at the surface.
 """
 
 from __future__ import annotations
@@ -104,14 +106,16 @@ SPECTRA: dict[str, tuple[int, Callable[[Transfer, float], RealArray]]] = {
 
 @dataclass(frozen=True, eq=False)
 class PlaneCoefficients:
-    """Coefficients of all fields on ``plane`` of ``body`` (finite, positive layers only) on ``grid``."""
+    """Coefficients of all fields on ``plane`` of ``body`` (finite, positive layers only) on
+    ``grid``."""
 
     body: Layered
     plane: Plane
     grid: Grid
 
     def stress(self, load: Load) -> StressTensor:
-        """Stress (Pa/Pa) at pixel offsets (0…nx-1, 0…ny-1) from a pixel under unit traction, arrays (nx, ny).
+        """Stress (Pa/Pa) at pixel offsets (0…nx-1, 0…ny-1) from a pixel under unit traction, arrays
+        (nx, ny).
 
         The error is below 1e-8 of the largest coefficient.
         """
@@ -147,7 +151,8 @@ class PlaneCoefficients:
         return not self.body.layers
 
     def _sums(self, terms: dict[str, tuple[Term, ...]]) -> dict[str, RealArray]:
-        """Pixel averages of the point kernels in ``terms``; each kernel with each angular factor is averaged once."""
+        """Pixel averages of the point kernels in ``terms``; each kernel with each angular factor is
+        averaged once."""
         kernels = self.kernels({name for line in terms.values() for name, _, _ in line})
         averages = {
             (name, id(angular)): patch_coefficients(kernels[name], self.grid, angular)
@@ -162,7 +167,8 @@ class PlaneCoefficients:
         }
 
     def kernels(self, names: set[str]) -> dict[str, PointKernel]:
-        """Point kernels by name (see ``SPECTRA``), in the outermost region less those of a homogeneous body."""
+        """Point kernels by name (see ``SPECTRA``), in the outermost region less those of a
+        homogeneous body."""
         length = self.body.thickness
         alpha = wavenumber_grid(length)
         spectra = self.spectra(alpha)
@@ -175,7 +181,8 @@ class PlaneCoefficients:
         return kernels
 
     def spectra(self, alpha: RealArray) -> Transfer:
-        """Transfer to the plane at wavenumbers ``alpha`` (rad/m); in the outermost region less that of a homogeneous body."""
+        """Transfer to the plane at wavenumbers ``alpha`` (rad/m); in the outermost region less that
+        of a homogeneous body."""
         found = transfer(self.body, self.plane, alpha)
         if not self._outermost:
             return found
@@ -187,10 +194,13 @@ class PlaneCoefficients:
         return Transfer(**rest)
 
 
-# Influence coefficients of strips under uniform traction for every field on a plane in a layered body, plane strain.
+# Influence coefficients of strips under uniform traction for every field on a plane in a layered
+# body, plane strain.
 #
-# With the wavevector along x, c = ±1 and s = 0: fields are cosine or sine integrals of the transfer amplitudes. In the
-# outermost region the homogeneous strip is added in closed form (Johnson 1985, sec. 2.5). Displacements are zero on the surface at the distance ``datum`` from a line load, as in the contact.
+# With the wavevector along x, c = ±1 and s = 0: fields are cosine or sine integrals of the transfer
+# amplitudes. In the outermost region the homogeneous strip is added in closed form (Johnson 1985,
+# sec. 2.5). Displacements are zero on the surface at the distance ``datum`` from a line load, as in
+# the contact.
 
 
 Wave: TypeAlias = tuple[Callable[[Transfer, float], RealArray], bool, float]
@@ -230,7 +240,8 @@ LINES = {"z": flamant_normal, "x": flamant_tangential, "y": flamant_out_of_plane
 
 @dataclass(frozen=True, eq=False)
 class LineCoefficients:
-    """Coefficients of all fields on ``plane`` of ``body`` (finite, positive layers only) on ``grid`` (nx, 1)."""
+    """Coefficients of all fields on ``plane`` of ``body`` (finite, positive layers only) on
+    ``grid`` (nx, 1)."""
 
     body: Layered
     plane: Plane
@@ -238,7 +249,8 @@ class LineCoefficients:
     datum: float
 
     def stress(self, load: Load) -> StressTensor:
-        """Stress (Pa/Pa) at offsets (0…nx-1) dx from a strip of width dx under unit traction, arrays (nx, 1)."""
+        """Stress (Pa/Pa) at offsets (0…nx-1) dx from a strip of width dx under unit traction,
+        arrays (nx, 1)."""
         found = self._fields(load, STRESSES)
         total = StressTensor(*(found[name] for name in STRESSES))
         return total + self._homogeneous(load).stress if self.plane.region.index == 0 else total

@@ -1,8 +1,9 @@
 """Compiled passes over some rows of the stresses of a plane: where it may be largest.
 
-With the invariants of the deviator, r = (J3/2) / (J2/3)^(3/2) between -1 and 1, the principal stresses are
-mean + 2 √(J2/3) cos(θ/3 - 2πk/3), θ = acos r. Bounds that need no such functions, σ1 <= mean + 2 √(J2/3) and
-(σ1 - σ3)/2 <= √J2, are compared with the largest stress known so far; few points are beyond them, and only these are looked at.
+With the invariants of the deviator, r = (J3/2) / (J2/3)^(3/2) between -1 and 1, the principal
+stresses are mean + 2 √(J2/3) cos(θ/3 - 2πk/3), θ = acos r. Bounds that need no such functions,
+σ1 <= mean + 2 √(J2/3) and (σ1 - σ3)/2 <= √J2, are compared with the largest stress known so far;
+few points are beyond them, and only these are looked at.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ import numpy as np
 from numba import njit
 
 QUANTITIES = ("von_mises", "tension", "shear", "in_plane", "shear_xz", "shear_yz", "traction", "zz")
-"""What may be sought, by number: √(3 J2), σ1, (σ1 - σ3)/2, the larger principal stress parallel to the plane, |σxz|, |σyz|,
-the magnitude of both, and σzz."""
+"""What may be sought, by number: √(3 J2), σ1, (σ1 - σ3)/2, the larger principal stress parallel to
+the plane, |σxz|, |σyz|, the magnitude of both, and σzz."""
 
 CLOSE = 1e-7
-"""Part of √(J2/3) by which the principal stresses above may be wrong: near r = ±1 the rounding of r, 1e-15, becomes its root."""
+"""Part of √(J2/3) by which the principal stresses above may be wrong: near r = ±1 the rounding of
+r, 1e-15, becomes its root."""
 
 _MOST = 256  # points kept that are as close to the largest: a uniform field has more, all within ``CLOSE``
 
@@ -27,7 +29,8 @@ _compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"re
 
 @_compiled
 def overview(rows, least, interface):  # type: ignore[no-untyped-def]
-    """Which of ``QUANTITIES`` may be larger than ``least`` (8,) in ``rows`` (6, rows, ny), (8,); largest √J2 and mean stress.
+    """Which of ``QUANTITIES`` may be larger than ``least`` (8,) in ``rows`` (6, rows, ny), (8,);
+    largest √J2 and mean stress.
 
     The last two quantities are those of an ``interface`` only.
     """
@@ -99,8 +102,10 @@ def _signed(a, sign, found):  # type: ignore[no-untyped-def]
 
 
 @_compiled
-def bounds(quantity, xx, yy, zz, xy, xz, yz, found):  # type: ignore[no-untyped-def]
-    """One of ``QUANTITIES`` at points of these components, (n,) each; of the principal stresses what they are at most."""
+def bounds(quantity, points, found):  # type: ignore[no-untyped-def]
+    """One of ``QUANTITIES`` at ``points``, components xx, yy, zz, xy, xz, yz (n,) each; of the
+    principal stresses what they are at most."""
+    xx, yy, zz, xy, xz, yz = points
     if quantity == 0:
         _invariant(xx, yy, zz, xy, xz, yz, 0.0, np.sqrt(3.0), found)
     elif quantity == 1:
@@ -147,7 +152,8 @@ def _kept(count, best, values, margins, places):  # type: ignore[no-untyped-def]
 
 @_compiled
 def candidates(quantity, rows, least):  # type: ignore[no-untyped-def]
-    """Points of ``rows`` where a quantity, by its number, may be larger than ``least`` and than anywhere else in them.
+    """Points of ``rows`` where a quantity, by its number, may be larger than ``least`` and than
+    anywhere else in them.
 
     Their places (n, 2), values (n,) and what these may be wrong by.
     """
@@ -155,7 +161,8 @@ def candidates(quantity, rows, least):  # type: ignore[no-untyped-def]
     count, best, most = 0, least, np.empty(rows.shape[2])
     principal = quantity == 1 or quantity == 2
     for i in range(rows.shape[1]):
-        bounds(quantity, rows[0, i], rows[1, i], rows[2, i], rows[3, i], rows[4, i], rows[5, i], most)
+        points = (rows[0, i], rows[1, i], rows[2, i], rows[3, i], rows[4, i], rows[5, i])
+        bounds(quantity, points, most)
         for k in range(most.size):
             if most[k] > best:
                 value, margin = most[k], 0.0

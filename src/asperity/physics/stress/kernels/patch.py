@@ -1,4 +1,5 @@
-"""All fields of a uniform traction on a rectangle of a homogeneous half-space (Love 1929; Johnson 1985, sec. 3.3)."""
+"""All fields of a uniform traction on a rectangle of a homogeneous half-space (Love 1929; Johnson
+1985, sec. 3.3)."""
 
 from __future__ import annotations
 
@@ -14,11 +15,12 @@ from ....core.grid import Grid
 from ....core.tensor import Displacement, ElasticFields, StressTensor
 from ....theories.subsurface.loads import boussinesq, cerruti
 
-# Potentials of a uniformly loaded quarter plane, from which every field of a rectangular patch is a corner sum.
+# Potentials of a uniformly loaded quarter plane, from which every field of a rectangular patch is a
+# corner sum.
 #
-# Derivatives of Φ (Φ_XY = ln(R + z)) and Ψ (Ψ_Z = Φ), the Boussinesq-Cerruti potentials (Love 1929; Johnson 1985,
-# eqs 3.2-3.10); functions of X alone or Y alone cancel in the corner sum and are left out. Written without cancellation:
-# logarithms as asinh, pairs of arctangents as one angle.
+# Derivatives of Φ (Φ_XY = ln(R + z)) and Ψ (Ψ_Z = Φ), the Boussinesq-Cerruti potentials (Love 1929;
+# Johnson 1985, eqs 3.2-3.10); functions of X alone or Y alone cancel in the corner sum and are left
+# out. Written without cancellation: logarithms as asinh, pairs of arctangents as one angle.
 
 
 _TINY = 1e-290
@@ -26,7 +28,8 @@ _TINY = 1e-290
 
 @dataclass(frozen=True, eq=False)
 class Corner:
-    """Point (X, Y, z) in m relative to a corner; arrays that broadcast against each other, z >= 0."""
+    """Point (X, Y, z) in m relative to a corner; arrays that broadcast against each other, z >=
+    0."""
 
     X: RealArray
     Y: RealArray
@@ -162,7 +165,8 @@ def shear_stress(c: Corner, nu: float) -> StressTensor:
 
 
 def shear_displacement(c: Corner, shear: float, nu: float) -> Displacement:
-    """Displacement (m/Pa) of unit shear traction along +x on a body of shear modulus ``shear`` (Pa)."""
+    """Displacement (m/Pa) of unit shear traction along +x on a body of shear modulus ``shear``
+    (Pa)."""
     z = c.z
     psi_xx = -c.X * c.L_Y + z * c.XX
     psi_xy = z * c.XY - c.R
@@ -184,7 +188,8 @@ _CORNERS_AT_ONCE = 1 << 17  # so that the potentials of a block of rows stay in 
 
 @dataclass(frozen=True)
 class Patch:
-    """Unit traction in the direction ``load`` on a rectangle of full ``sides`` (m) centred at the origin."""
+    """Unit traction in the direction ``load`` on a rectangle of full ``sides`` (m) centred at the
+    origin."""
 
     sides: tuple[float, float]
     load: Load
@@ -193,14 +198,16 @@ class Patch:
 def patch_fields(x: ArrayLike, y: ArrayLike, z: ArrayLike, patch: Patch, *, shear: float, nu: float) -> ElasticFields:
     """Displacement (m/Pa) and stress (Pa/Pa) of a ``patch`` under unit traction.
 
-    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; ``patch``: rectangle and direction of
-    the traction; ``shear``, ``nu``: shear modulus G in Pa and Poisson's ratio, up to 0.5.
+    ``x``, ``y``, ``z``: field points in m, broadcast against each other, z >= 0; ``patch``:
+    rectangle and direction of the traction; ``shear``, ``nu``: shear modulus G in Pa and Poisson's
+    ratio, up to 0.5.
 
     Notes
     -----
-    Relative error of order 1e-15 on and near the patch, below 1e-9 of the field everywhere: corner differences lose
-    digits with distance; beyond 300 sides four point forces stand for the patch. On the surface an edge has half and a
-    corner a quarter of the traction; in-plane stresses that are logarithmically infinite there come out large.
+    Relative error of order 1e-15 on and near the patch, below 1e-9 of the field everywhere: corner
+    differences lose digits with distance; beyond 300 sides four point forces stand for the patch.
+    On the surface an edge has half and a corner a quarter of the traction; in-plane stresses that
+    are logarithmically infinite there come out large.
     """
     x, y, z = (np.asarray(v, dtype=np.float64) for v in np.broadcast_arrays(x, y, z))
     sides, load = patch.sides, patch.load
@@ -222,7 +229,8 @@ def patch_fields(x: ArrayLike, y: ArrayLike, z: ArrayLike, patch: Patch, *, shea
 
 
 def stress_coefficients(grid: Grid, z: float, load: Load, nu: float) -> StressTensor:
-    """Stress (Pa/Pa) at depth ``z`` (m) at pixel offsets (0…nx-1, 0…ny-1) from a pixel of ``grid`` under unit traction.
+    """Stress (Pa/Pa) at depth ``z`` (m) at pixel offsets (0…nx-1, 0…ny-1) from a pixel of ``grid``
+    under unit traction.
 
     Relative error below 1e-12 up to 100 pixels away, 1e-9 up to 1000.
     """

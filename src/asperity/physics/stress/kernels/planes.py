@@ -1,12 +1,15 @@
-"""Compiled passes from the spectra of surface tractions to the spectra of the fields on a plane at depth.
+"""Compiled passes from the spectra of surface tractions to the spectra of the fields on a plane at
+depth.
 
-A line of wavevectors along x first gets its panel polynomials (see ``panels``) where ξ >= 0. Field after field, they are
-turned from the frame of every wavevector into that of the grid and multiplied with the loads, mirrored for ξ < 0. Loops
-are short and touch few arrays, which all stay in the cache, so that compilers turn them into vector instructions.
+A line of wavevectors along x first gets its panel polynomials (see ``panels``) where ξ >= 0. Field
+after field, they are turned from the frame of every wavevector into that of the grid and multiplied
+with the loads, mirrored for ξ < 0. Loops are short and touch few arrays, which all stay in the
+cache, so that compilers turn them into vector instructions.
 
-``waves`` holds the components of the wavevectors across and along the lines (first halves, not negative), each also with
-the highest one of an even grid set to zero: there an odd function of it vanishes, c, s and c s among them, while c² and
-s² do not. ``table`` holds breaks, coefficients and the wavenumber beyond which all is zero.
+``waves`` holds the components of the wavevectors across and along the lines (first halves, not
+negative), each also with the highest one of an even grid set to zero: there an odd function of it
+vanishes, c, s and c s among them, while c² and s² do not. ``table`` holds breaks, coefficients and
+the wavenumber beyond which all is zero.
 """
 
 from __future__ import annotations
@@ -27,7 +30,8 @@ _WHOLE = (
 
 @_compiled
 def _waves_below(limit, eta, xi):  # type: ignore[no-untyped-def]
-    """Number of waves of a half line whose wavenumber is below ``limit``, give or take rounding; xi is evenly spaced."""
+    """Number of waves of a half line whose wavenumber is below ``limit``, give or take rounding; xi
+    is evenly spaced."""
     if eta >= limit:
         return 0
     if xi.size == 1 or limit == np.inf:
@@ -37,7 +41,8 @@ def _waves_below(limit, eta, xi):  # type: ignore[no-untyped-def]
 
 @_compiled
 def _amplitudes(eta, xi, table, alpha, t, values):  # type: ignore[no-untyped-def]
-    """Wavenumbers of a half line, and the functions there; the arrays are longer than the line by ``_WHOLE``."""
+    """Wavenumbers of a half line, and the functions there; the arrays are longer than the line by
+    ``_WHOLE``."""
     breaks, coefficients, limit = table
     last = breaks.size - 2
     for i in range(xi.size):
@@ -85,7 +90,8 @@ def _directions(eta, eta_odd, xi, xi_odd, alpha, d):  # type: ignore[no-untyped-
 
 @_compiled
 def _stress_along(d, v, nu, sheared, K):  # type: ignore[no-untyped-def]
-    """Coefficients of xx under p (real), q_x, q_y (imaginary); of yy with the axes exchanged in ``d`` and ``K``."""
+    """Coefficients of xx under p (real), q_x, q_y (imaginary); of yy with the axes exchanged in
+    ``d`` and ``K``."""
     c, s, cc, ss, _ = d
     p, x, y = K
     M, A = v[0], v[2]
@@ -133,7 +139,8 @@ def _stress_across(d, v, nu, sheared, K):  # type: ignore[no-untyped-def]
 
 @_compiled
 def _stress_through(d, v, sheared, K):  # type: ignore[no-untyped-def]
-    """Coefficients of xz under p (imaginary), q_x, q_y (real); of yz with the axes exchanged in ``d`` and ``K``."""
+    """Coefficients of xz under p (imaginary), q_x, q_y (real); of yz with the axes exchanged in
+    ``d`` and ``K``."""
     c, _, cc, ss, cs = d
     p, x, y = K
     m = v[1]
@@ -149,7 +156,8 @@ def _stress_through(d, v, sheared, K):  # type: ignore[no-untyped-def]
 
 @_compiled
 def _displacement_along(d, v, K):  # type: ignore[no-untyped-def]
-    """Coefficients of x under p (imaginary), q_x, q_y (real); of y with the axes exchanged in ``d`` and ``K``."""
+    """Coefficients of x under p (imaginary), q_x, q_y (real); of y with the axes exchanged in ``d``
+    and ``K``."""
     c, _, cc, ss, cs = d
     p, x, y = K
     for i in range(p.size):
@@ -186,7 +194,8 @@ def _combined(kx, x, ky, y, total, difference):  # type: ignore[no-untyped-def]
 
 @_compiled
 def _product(a, b, mirror, p, out):  # type: ignore[no-untyped-def]
-    """(a + i b) p for ξ >= 0; behind, sign (a + i b) p with the mirror images of others, ``mirror`` = sign, a, b."""
+    """(a + i b) p for ξ >= 0; behind, sign (a + i b) p with the mirror images of others,
+    ``mirror`` = sign, a, b."""
     for i in range(a.size):
         out[i] = complex(a[i] * p[i].real - b[i] * p[i].imag, a[i] * p[i].imag + b[i] * p[i].real)
     sign, a, b = mirror
@@ -199,7 +208,8 @@ def _product(a, b, mirror, p, out):  # type: ignore[no-untyped-def]
 
 @_compiled
 def _sum(real, sign, K, loads, out):  # type: ignore[no-untyped-def]
-    """If ``real``, a p + i (b x + c y), else i a p + b x + c y; behind, with mirror images times sign, -sign, sign."""
+    """If ``real``, a p + i (b x + c y), else i a p + b x + c y; behind, with mirror images times
+    sign, -sign, sign."""
     (a, b, c), (p, x, y) = K, loads
     r, i = (1.0, 0.0) if real else (0.0, 1.0)  # all times r + i i, with b and c turned back by its square
     turn = r - i
@@ -220,8 +230,9 @@ def _sum(real, sign, K, loads, out):  # type: ignore[no-untyped-def]
 def _field(parity, K, loads, lines, out):  # type: ignore[no-untyped-def]
     """One field on one line, coefficients ``K`` under p, q_x, q_y times loads.
 
-    ``parity``: whether the coefficient under p is real and whether it is odd in c, hence has another sign at -ξ.
-    That under q_y is as odd, that under q_x is not; both are imaginary where the first is real.
+    ``parity``: whether the coefficient under p is real and whether it is odd in c, hence has
+    another sign at -ξ. That under q_y is as odd, that under q_x is not; both are imaginary where
+    the first is real.
     """
     real, odd = parity
     p, kx, ky, fields, qx, qy = loads
@@ -240,14 +251,16 @@ def _field(parity, K, loads, lines, out):  # type: ignore[no-untyped-def]
 
 @_compiled
 def _line(r, traction):  # type: ignore[no-untyped-def]
-    """Line ``r`` of the loads: p, the ratios of the shear to it, whether there are shear fields besides, and these."""
+    """Line ``r`` of the loads: p, the ratios of the shear to it, whether there are shear fields
+    besides, and these."""
     p, kx, ky, fields, qx, qy = traction
     return p[r], kx, ky, fields, qx[r], qy[r]
 
 
 @_compiled
 def _room(functions, n):  # type: ignore[no-untyped-def]
-    """Arrays for a line: functions, wavenumbers, t; directions, these exchanged; coefficients, these exchanged; two more."""
+    """Arrays for a line: functions, wavenumbers, t; directions, these exchanged; coefficients,
+    these exchanged; two more."""
     v, alpha, t = np.zeros((functions, n + _WHOLE)), np.zeros(n + _WHOLE), np.empty(n + _WHOLE)
     half = np.zeros((10, n))
     c, s, cc, ss, cs, p, x, y = half[0], half[1], half[2], half[3], half[4], half[5], half[6], half[7]
@@ -256,10 +269,11 @@ def _room(functions, n):  # type: ignore[no-untyped-def]
 
 @_compiled
 def stress_spectra(span, waves, table, nu, traction, out):  # type: ignore[no-untyped-def]
-    """Spectra xx, yy, zz, xy, xz, yz; functions τ_zz, τ_Lz, LL_z, and for shear τ_zL, τ_LL, LL_L, τ_T, LT.
+    """Spectra xx, yy, zz, xy, xz, yz; functions τ_zz, τ_Lz, LL_z, and for shear τ_zL, τ_LL, LL_L,
+    τ_T, LT.
 
-    Line ``span[0]`` of the waves and loads goes to the first line of ``out``, and so on to ``span[1]``; ``out`` may have
-    more lines and longer ones.
+    Line ``span[0]`` of the waves and loads goes to the first line of ``out``, and so on to
+    ``span[1]``; ``out`` may have more lines and longer ones.
     """
     (_, kx, ky, fields, _, _), (eta, eta_odd, xi, xi_odd), nx = traction, waves, traction[0].shape[1]
     v, alpha, t, d, turned, K, exchanged, lines = _room(table[1].shape[1], xi.size)
@@ -284,7 +298,8 @@ def stress_spectra(span, waves, table, nu, traction, out):  # type: ignore[no-un
 
 @_compiled
 def displacement_spectra(span, waves, table, traction, out):  # type: ignore[no-untyped-def]
-    """Spectra x, y, z of the displacement; functions U_z, W_z, U_L, W_L, u_T. Lines as in ``stress_spectra``."""
+    """Spectra x, y, z of the displacement; functions U_z, W_z, U_L, W_L, u_T. Lines as in
+    ``stress_spectra``."""
     (eta, eta_odd, xi, xi_odd), nx = waves, traction[0].shape[1]
     v, alpha, t, d, turned, K, exchanged, lines = _room(table[1].shape[1], xi.size)
     for r in range(span[0], span[1]):

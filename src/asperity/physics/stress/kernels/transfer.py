@@ -1,8 +1,9 @@
 """From surface traction to displacement and stress on a plane at depth, wavenumber by wavenumber.
 
-In the frame (L, T, z) of a wavevector, with the real amplitudes of ``solids.compliance.hybrid``. Inside a layer the plane
-cuts it in two: the part below is added to what lies under the layer, the part above passes the traction on, so nothing
-grows with depth. In a half-space τ(z) = e^-x [[1-x, -x], [x, 1+x]] τ(0), x = αz (Johnson 1985, sec. 13.2).
+In the frame (L, T, z) of a wavevector, with the real amplitudes of ``solids.compliance.hybrid``.
+Inside a layer the plane cuts it in two: the part below is added to what lies under the layer, the
+part above passes the traction on, so nothing grows with depth. In a half-space τ(z) = e^-x [[1-x,
+-x], [x, 1+x]] τ(0), x = αz (Johnson 1985, sec. 13.2).
 """
 
 from __future__ import annotations
@@ -30,10 +31,10 @@ from ..regions import Plane
 class Transfer:
     """Amplitudes on a plane per unit amplitude of the surface traction; arrays over wavenumbers.
 
-    ``tau_ab`` is the traction τ_a under the load τ_b, ``LL_b`` the stress σ_LL; ``U_b`` and ``W_b`` (m/Pa) are the
-    displacements u_L = iU and u_z = W; ``tau_T`` and ``u_T`` (m/Pa) belong to the antiplane load τ_T = 1, and
-    ``LT`` is the amplitude Gα u_T of σ_LT = i LT. The other stresses: σ_zz = -τ_z, σ_Lz = -iτ_L, σ_Tz = -τ_T and
-    σ_TT = ν(σ_LL - τ_z).
+    ``tau_ab`` is the traction τ_a under the load τ_b, ``LL_b`` the stress σ_LL; ``U_b`` and ``W_b``
+    (m/Pa) are the displacements u_L = iU and u_z = W; ``tau_T`` and ``u_T`` (m/Pa) belong to the
+    antiplane load τ_T = 1, and ``LT`` is the amplitude Gα u_T of σ_LT = i LT. The other stresses:
+    σ_zz = -τ_z, σ_Lz = -iτ_L, σ_Tz = -τ_T and σ_TT = ν(σ_LL - τ_z).
     """
 
     tau_zz: RealArray
@@ -52,15 +53,18 @@ class Transfer:
 
 
 def transfer(body: Layered, plane: Plane, alpha: RealArray) -> Transfer:
-    """Transfer from the surface of ``body`` to ``plane`` at the wavenumbers ``alpha`` (rad/m, > 0, one-dimensional).
+    """Transfer from the surface of ``body`` to ``plane`` at the wavenumbers ``alpha`` (rad/m, > 0,
+    one-dimensional).
 
-    ``body`` has layers of finite, positive thickness only, see ``regions.stack``. Accurate to 5e-13 of the local field.
+    ``body`` has layers of finite, positive thickness only, see ``regions.stack``. Accurate to 5e-13
+    of the local field.
     """
     return Transfers(body, alpha).to(plane)
 
 
 class Transfers:
-    """Transfer to any plane of ``body`` at the wavenumbers ``alpha``; what planes have in common is computed once."""
+    """Transfer to any plane of ``body`` at the wavenumbers ``alpha``; what planes have in common is
+    computed once."""
 
     def __init__(self, body: Layered, alpha: RealArray) -> None:
         self._body = body
