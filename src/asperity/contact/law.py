@@ -1,5 +1,4 @@
-"""Interface laws: bounds on the pressure, which may change with the permanent indentation; what is
-beyond a bound stays as one."""
+"""Interface laws: bounds on the pressure, which may change with the permanent indentation."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""Names and methods that are looked up, and values that are computed, at their first use, so that
-what is not used costs no time."""
+"""Names, methods and values that are looked up or computed at their first use, so that what is not
+used costs no time."""
 
 from __future__ import annotations
 

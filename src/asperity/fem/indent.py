@@ -1,5 +1,5 @@
-"""Indentation of a layered elastic-plastic solid by a rigid or elastic indenter of any profile:
-load, unload, reload, go on."""
+"""Indentation of a layered elastic-plastic solid by a rigid or elastic indenter of any profile,
+through loading, unloading and reloading."""
 
 from __future__ import annotations
 

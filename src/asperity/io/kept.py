@@ -1,5 +1,5 @@
-"""Results beside contacts and load paths in files: which group holds each, written by the codec
-from what the fields of its type say, or by what its physics has for that."""
+"""Results beside contacts and load paths in files: the group that holds each, written by the codec
+or by its physics."""
 
 from __future__ import annotations
 

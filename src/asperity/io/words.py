@@ -1,4 +1,4 @@
-"""Surfaces, bodies, problems and results in words: rows of tables, one line, or one screen."""
+"""Surfaces, bodies, problems and results as text: rows of tables, one line, or one screen."""
 
 from __future__ import annotations
 

@@ -1,1 +1,2 @@
-"""THE place for physics of the interface: a folder each, listed in ``core/registry.py``."""
+"""Physics of the interface and analyses of a contact: a folder each, listed in
+``core/registry.py``."""

@@ -1,4 +1,4 @@
-"""The door of Python: a document of any kind, from a file or as tables, is checked and computed."""
+"""Running a document from Python: of any kind, from a file or as tables, checked and computed."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 """The verdict on what was computed: what was found, whether the bodies hold, and whether it can be
-trusted. Every door shows this one."""
+trusted; the same in every interface."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""From the cases of one load path to records: built, solved, measured. This is what workers do."""
+"""What workers of a study do: the cases of one load path are built, solved and measured, and become
+records."""
 
 from __future__ import annotations
 

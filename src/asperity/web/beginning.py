@@ -1,4 +1,4 @@
-"""With what a session begins: the demonstration, files that were named, or nothing."""
+"""The first content of a session: the demonstration, named files, or an empty document."""
 
 from __future__ import annotations
 

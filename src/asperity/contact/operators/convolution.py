@@ -1,5 +1,5 @@
-"""From pressure to deflection on a grid: prepared once, applied many times by transforms, periodic
-and free."""
+"""Pressure to deflection on a periodic or free grid by transforms: prepared once, applied many
+times."""
 
 from __future__ import annotations
 

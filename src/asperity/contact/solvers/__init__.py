@@ -1,1 +1,1 @@
-"""THE place for new numerical methods: solvers of the contact problem, all behind one protocol."""
+"""Solvers of the contact problem: numerical methods behind one protocol; new ones stand here."""

@@ -1,5 +1,5 @@
-"""Between which forces the menisci balance theirs: their force counts pixels, and the balance may
-lie in a jump of it.
+"""Bracket of the force at which menisci and contact balance: the meniscus force counts pixels, so
+that the balance may lie in a jump of it.
 
 The larger the load L the more pixels are wet, F_m(L) rises by whole pixels, and L = W + F_m(L)
 holds exactly where it does. Where contact takes the place of liquid F_m falls instead, and L - W
