@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from .compile import REORDERED, passes
 from .protocol import NEAR_CAP
 
 BLOCK = 1 << 14
@@ -20,18 +20,16 @@ BLOCK = 1 << 14
 # expressions: every function of NumPy or Python in a kernel (max, sum, slices, complex products) is
 # compiled on its own first, as is a wrapper for C.
 
-_OPTIONS: dict[str, Any] = {"nogil": True, "cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
-
 natural: Any = np.uint64
 """Type of the indices of long loops. A signed index could be negative and count from the end of the
 array, which Numba tests at every access, so that loops are not vectorised; with unsigned ones
 ``update_solution`` and ``add`` take a quarter of the time, ``scale_spectrum`` a third. Arithmetic
 of an unsigned and a signed integer gives a float: cast both."""
 
-in_order: Any = njit(**_OPTIONS)
+in_order: Any = passes(no_cfunc_wrapper=True)
 """For differences of differences, rounded one by one: equal residuals are at no distance then."""
 
-compiled: Any = njit(**_OPTIONS, fastmath={"reassoc", "contract", "nsz"})
+compiled: Any = passes(no_cfunc_wrapper=True, fastmath=REORDERED)
 
 
 @compiled

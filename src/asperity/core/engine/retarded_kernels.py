@@ -11,11 +11,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba import njit
+from .compile import REORDERED, passes
 
-_OPTIONS: dict[str, Any] = {"nogil": True, "cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
-
-_compiled: Any = njit(**_OPTIONS, fastmath={"reassoc", "contract", "nsz"})
+_compiled: Any = passes(no_cfunc_wrapper=True, fastmath=REORDERED)
 
 
 @_compiled

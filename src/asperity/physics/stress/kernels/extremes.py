@@ -11,7 +11,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from ....core.engine.compile import REORDERED, passes
 
 QUANTITIES = ("von_mises", "tension", "shear", "in_plane", "shear_xz", "shear_yz", "traction", "zz")
 """What may be sought, by number: √(3 J2), σ1, (σ1 - σ3)/2, the larger principal stress parallel to
@@ -24,7 +25,7 @@ r, 1e-15, becomes its root."""
 _MOST = 256  # points kept that are as close to the largest: a uniform field has more, all within ``CLOSE``
 
 # no stress is NaN: without that case comparisons become vector instructions
-_compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "nnan"})
+_compiled: Any = passes(fastmath=REORDERED | {"nnan"})
 
 
 @_compiled

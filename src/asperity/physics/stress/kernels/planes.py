@@ -17,11 +17,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 
+from ....core.engine.compile import REORDERED, passes
 from ....core.interpolation import TERMS
 
-_compiled: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz"})
+_compiled: Any = passes(fastmath=REORDERED)
 
 _WHOLE = (
     32  # elements by which a loop over a panel ends late: whole vectors, and the next panel puts right what is past it
