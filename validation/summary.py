@@ -36,7 +36,7 @@ writes a page of the same name:
 
 ```sh
 python validation/sphere_on_layer.py     # writes validation/sphere_on_layer.md
-make validate                 # all pages (half an hour of one core), this page, validation-pictures/
+make validate                            # all pages (half an hour of one core), this page, pictures
 ```
 
 Each page states what was computed, the source of the published values ("theirs"), whether a parameter was
