@@ -14,8 +14,9 @@ import asperity as asp
 from asperity import fem
 from asperity.solids.plasticity import LinearHardening
 
-# %% One micrometre of a nitride on steel, a tip of 10 µm radius, 300 nm deep; the load is taken off
-# at last.
+# %%
+# One micrometre of a nitride on steel, a tip of 10 µm radius, 300 nm deep; the load is taken off at
+# last.
 steel, nitride = asp.Elastic(210e9, 0.3), asp.Elastic(420e9, 0.25)
 laws = {"coated": [LinearHardening(8e9, 4e9), LinearHardening(1e9, 2e9)], "bare": [LinearHardening(1e9, 2e9)] * 2}
 steps = [*np.linspace(25e-9, 300e-9, 12), fem.Load(0.0)]

@@ -13,7 +13,8 @@ import numpy as np
 
 import asperity as asp
 
-# %% A film of 200 nm with four times the yield stress of the steel below; 48 x 48 points, 0.2 µm
+# %%
+# A film of 200 nm with four times the yield stress of the steel below; 48 x 48 points, 0.2 µm
 # apart.
 film = asp.Elastic(300e9, 0.25, asp.Strength(yield_stress=1.6e9))
 steel = asp.Elastic(200e9, 0.3, asp.Strength(hardening=asp.plasticity.Swift(400e6, 0.002, 0.2)))
@@ -23,7 +24,8 @@ spectrum = asp.generate.GaussianAutocorrelation(20e-9, 1.2e-6)
 surface = asp.generate.gaussian(grid, spectrum, seed=4)
 law = asp.PlasticFlow([asp.plasticity.plastic_solid(film), asp.plasticity.plastic_solid(steel)], cells=16)
 
-# %% Two steps to a mean pressure of 150 MPa, then the load is taken off; and the elastic contact
+# %%
+# Two steps to a mean pressure of 150 MPa, then the load is taken off; and the elastic contact
 # beside it.
 pressures = [75e6, 150e6]
 history = asp.History([*map(asp.MeanPressure, pressures), asp.Unloaded()])

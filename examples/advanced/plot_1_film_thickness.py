@@ -22,14 +22,16 @@ def pull(surface, control, thickness, boundary):
     return asp.solve(asp.ContactProblem(surface, body, film=film, boundary=boundary), control).menisci.meniscus_force
 
 
-# %% **One asperity.** A paraboloid of radius 1 µm that just touches the other body through a film
-# of thickness h: the meniscus has the area 2πRh and the suction 2γ/h, so its force is 4πRγ whatever
+# %%
+# **One asperity.** A paraboloid of radius 1 µm that just touches the other body through a film of
+# thickness h: the meniscus has the area 2πRh and the suction 2γ/h, so its force is 4πRγ whatever
 # the film.
 asperity = asp.generate.sphere(asp.Grid((128, 128), (2e-9, 2e-9)), radius=1e-6)
 single = np.array([pull(asperity, asp.Approach(1e-13), film, asp.Free()) for film in films])
 closed_form = 4 * np.pi * 1e-6 * lubricant.surface_tension
 
-# %% **Many asperities**, of three roughnesses, under 5 MPa. No film pulls harder than 2γ/h on the
+# %%
+# **Many asperities**, of three roughnesses, under 5 MPa. No film pulls harder than 2γ/h on the
 # whole area (dashed). The smoothest surface comes near that limit: it is flooded, and would stick.
 # Roughness is what keeps smooth disks apart.
 grid, load = asp.Grid((96, 96), (40e-9, 40e-9)), asp.MeanPressure(5e6)

@@ -11,7 +11,8 @@ import numpy as np
 
 import asperity as asp
 
-# %% A surface with Hurst exponent 0.7 that is rough down to its pixel of 20 nm, and what coarser
+# %%
+# A surface with Hurst exponent 0.7 that is rough down to its pixel of 20 nm, and what coarser
 # instruments see of it: every second, fourth, … point.
 H = 0.7
 spectrum = asp.generate.SelfAffine(
@@ -21,7 +22,8 @@ fine = asp.generate.gaussian(asp.Grid((512, 512), (20e-9, 20e-9)), spectrum, see
 study = asp.roughness.sampling_interval_study(fine)
 interval = study.length
 
-# %% What is expected of such a spectrum: the mean square difference of neighbours, divided by their
+# %%
+# What is expected of such a spectrum: the mean square difference of neighbours, divided by their
 # distance. Well below the roll-off it follows the power 2H - 2 of the distance: no instrument finds
 # *the* slope.
 expected = [
@@ -31,7 +33,8 @@ expected = [
     for step in interval
 ]
 
-# %% Press what each instrument has seen. The area under one load is nearly inverse to the slope, so
+# %%
+# Press what each instrument has seen. The area under one load is nearly inverse to the slope, so
 # their product stays.
 product, area = [], []
 for every in (2, 4, 8, 16):

@@ -12,7 +12,8 @@ import numpy as np
 
 import asperity as asp
 
-# %% A copper surface under a rigid rough counter surface. Where the pressure reaches the hardness,
+# %%
+# A copper surface under a rigid rough counter surface. Where the pressure reaches the hardness,
 # copper flows.
 grid, rng = asp.Grid((96, 96), (100e-9, 100e-9)), np.random.default_rng(0)
 copper = asp.Elastic(130e9, 0.34, asp.Strength(hardness=1.2e9), name="copper")

@@ -16,7 +16,8 @@ import asperity as asp
 
 folder = Path(mkdtemp())
 
-# %% **Stand-ins for the scans**, written as matrices of text like those that Gwyddion exports: a
+# %%
+# **Stand-ins for the scans**, written as matrices of text like those that Gwyddion exports: a
 # ground surface, and the same cut 10 nm above its mean plane, with 0.5 nm of fresh roughness on the
 # cuts. With files of your own begin at the next cell.
 grid = asp.Grid((160, 160), (100e-9, 100e-9))
@@ -35,8 +36,8 @@ for name, scan in scans.items():
     parameters[name] = asp.characterise(scan)
     h, f, r = parameters[name].heights, parameters[name].functional, results[name]
     print(
-        f"{name}: Sq {1e9 * h.Sq:.1f} nm, Ssk {h.Ssk:.2f}, Spk {1e9 * f.Spk:.1f} nm, "
-        f"area {100 * r.area_fraction_corrected:.1f} %, mean real pressure {r.mean_real_pressure / 1e9:.2f} GPa"
+        f"{name}: Sq {1e9 * h.Sq:.1f} nm, Ssk {h.Ssk:.2f}, Spk {1e9 * f.Spk:.1f} nm, area "
+        f"{100 * r.area_fraction_corrected:.1f} %, mean real pressure {r.mean_real_pressure / 1e9:.2f} GPa"
     )
 
 figure, axes = plt.subplots(2, 2, figsize=(9, 8), layout="constrained")

@@ -31,7 +31,8 @@ poisson_ratio = 0.38
 coating, resin = (asp.material(name, library=library) for name in ("coating A", "our resin"))
 print(coating, resin, sep="\n")
 
-# %% Press the same surface into both, over three decades of load. The areas differ by orders of
+# %%
+# Press the same surface into both, over three decades of load. The areas differ by orders of
 # magnitude, and fall on one curve when the pressure is divided by the contact modulus E*.
 grid = asp.Grid((128, 128), (50e-9, 50e-9))
 surface = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(10e-9, 1e-6), seed=1)

@@ -17,8 +17,9 @@ import asperity as asp
 from asperity import dynamics as dyn
 from asperity.physics.dynamics.figures import plot_frame, plot_stability
 
-# %% The stiffness of the interface comes from the contact of the rough surface: a power law is
-# fitted to pressure against approach.
+# %%
+# The stiffness of the interface comes from the contact of the rough surface: a power law is fitted
+# to pressure against approach.
 grid = asp.Grid((128, 128), (4e-6, 4e-6))
 surface = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(4e-6, 80e-6), seed=2)
 problem = asp.ContactProblem(surface, asp.material("cast iron"))
@@ -27,7 +28,8 @@ curve = asp.solve(problem, asp.History([asp.MeanPressure(p) for p in pressures])
 fit = dyn.fit_compliance([step.approach for step in curve.steps], pressures, offset=0.0)
 print(f"pressure grows with the power {fit.law.normal_exponent:.2f} ± {fit.exponent_error:.2f} of the approach")
 
-# %% A pad of 1 kg on 20 cm² under 0.3 MPa, with 1 % of damping. Growth rates of small motion over
+# %%
+# A pad of 1 kg on 20 cm² under 0.3 MPa, with 1 % of damping. Growth rates of small motion over
 # friction and height: the pad flutters where its normal motion and its tilt have one frequency,
 # which friction brings together.
 area, load = 20e-4, 600.0
@@ -36,7 +38,8 @@ pad = dyn.SlidingBlock(law, 1.0, 0.05, 0.04, 0.015, load, stiffness=2e7, speed=2
 print(f"steady sliding is {pad.stability.kind}: it squeals above a friction of {pad.critical_friction():.2f}")
 stable = dyn.stability_map(pad, {"friction": np.linspace(0.05, 0.8, 40), "height": np.linspace(0.005, 0.03, 40)})
 
-# %% In time: the vibration grows from nothing until the base leaves the surface for part of each
+# %%
+# In time: the vibration grows from nothing until the base leaves the surface for part of each
 # period.
 start = (0.995 * pad.steady.displacement, pad.rest, 0.0, 0.0, 0.0, 0.0)
 squeal = dyn.move_block(pad, 40e-3, start=start)
@@ -44,7 +47,8 @@ numbers = squeal.numbers(20e-3)
 print(f"it squeals at {numbers['vibration_frequency'] / 1e3:.1f} kHz")
 print(f"at 2 mm/s apparent friction {numbers['apparent_friction']:.3f} instead of {pad.friction:.3f}")
 
-# %% On a belt that is faster than the vibration of the base nothing of this is felt: the base never
+# %%
+# On a belt that is faster than the vibration of the base nothing of this is felt: the base never
 # catches up with it.
 swift = dyn.move_block(replace(pad, speed=0.02), 40e-3, start=start).numbers(20e-3)
 print(f"at 20 mm/s {swift['apparent_friction']:.3f}")

@@ -26,9 +26,10 @@ for thickness in thicknesses:
     static.append(asp.solve(wet, pressure).menisci.static_friction)
     print(f"{thickness * 1e9:.1f} nm: static friction {static[-1]:.2f}, dry {dry}")
 
-# %% The suspension (2 kN/m) holds a slider of 10 mg under 30 mN, the disk starts at 1 mm/s. While
-# the slider rests the static friction holds; once it slips the menisci break, and the kinetic
-# friction is that of the dry contacts.
+# %%
+# The suspension (2 kN/m) holds a slider of 10 mg under 30 mN, the disk starts at 1 mm/s. While the
+# slider rests the static friction holds; once it slips the menisci break, and the kinetic friction
+# is that of the dry contacts.
 mass, stiffness, load, speed = 10e-6, 2e3, 30e-3, 1e-3
 starts = [
     dyn.BeltOscillator(dyn.StaticKinetic(mu, dry), mass, stiffness, load, speed, damping=0.02).move(0.12)
@@ -38,7 +39,8 @@ for thickness, motion in zip(thicknesses, starts, strict=True):
     slips = [event.time for event in motion.events if event.kind == "slip"]
     print(f"{thickness * 1e9:.1f} nm: {len(slips)} slips, the first after {1e3 * slips[0]:.1f} ms")
 
-# %% The force on the suspension. A thick film lets the slider stick again and again; the motor must
+# %%
+# The force on the suspension. A thick film lets the slider stick again and again; the motor must
 # overcome the first peak.
 figure, axes = plt.subplots(1, 2, figsize=(11, 3.8), layout="constrained")
 axes[0].plot(1e9 * thicknesses, static, "o-")

@@ -12,8 +12,9 @@ import numpy as np
 
 import asperity as asp
 
-# %% The ground is rough and rigid, the rubber flat: only roughness that moves over the rubber
-# deforms it again and again.
+# %%
+# The ground is rough and rigid, the rubber flat: only roughness that moves over the rubber deforms
+# it again and again.
 rubber = asp.Viscoelastic.prony(3e6, ((3e6, 1e-1), (10e6, 1e-2), (30e6, 1e-3)), 0.5, name="rubber")
 spectrum = asp.generate.SelfAffine(
     amplitude=asp.generate.RmsHeight(10e-6), hurst=0.8, rolloff_wavelength=1e-3, shortest_wavelength=1.2e-4
@@ -22,8 +23,9 @@ ground = asp.generate.gaussian(asp.Grid((96, 96), (2e-5, 2e-5)), spectrum, seed=
 problem = asp.ContactProblem(ground, asp.Rigid(), counter_body=rubber)
 load = asp.MeanPressure(0.2e6)
 
-# %% Steady sliding at speeds over five decades. Friction comes from the loss in all waves, and
-# again from the slope of the ground.
+# %%
+# Steady sliding at speeds over five decades. Friction comes from the loss in all waves, and again
+# from the slope of the ground.
 speeds = np.geomspace(1e-4, 10.0, 11)
 found = [asp.slide(problem, load, float(speed)) for speed in speeds]
 friction = np.array([each.friction for each in found])

@@ -13,8 +13,9 @@ import numpy as np
 import asperity as asp
 from asperity import dynamics as dyn
 
-# %% A ground surface on steel, loaded up to 30 MPa and unloaded: once elastic, once with the
-# pressure limited by the hardness.
+# %%
+# A ground surface on steel, loaded up to 30 MPa and unloaded: once elastic, once with the pressure
+# limited by the hardness.
 grid = asp.Grid((128, 128), (4e-6, 4e-6))
 surface = asp.generate.gaussian(grid, asp.generate.GaussianAutocorrelation(0.5e-6, 40e-6), seed=4)
 up = np.geomspace(3e6, 3e7, 8)
@@ -25,8 +26,9 @@ for name, law in (("elastic", asp.plasticity.HardWall()), ("plastic", asp.Hardne
     history = asp.solve(problem, asp.History([asp.MeanPressure(p) for p in (*up, *down)]))
     curves[name] = np.array([step.approach for step in history.steps])
 
-# %% A power law is fitted to each curve, from where the surfaces first touch; after plastic flow
-# they separate earlier, and that offset is fitted.
+# %%
+# A power law is fitted to each curve, from where the surfaces first touch; after plastic flow they
+# separate earlier, and that offset is fitted.
 fits = {
     "elastic": dyn.fit_compliance(curves["elastic"][:8], up, offset=0.0),
     "plastic, loading": dyn.fit_compliance(curves["plastic"][:8], up, offset=0.0),
@@ -38,7 +40,8 @@ for name, fit in fits.items():
         f"pressures within {100.0 * fit.largest_error:.0f} %"
     )
 
-# %% A plate of 20 kg on 20 cm² vibrates on this interface. Small vibrations do not make new plastic
+# %%
+# A plate of 20 kg on 20 cm² vibrates on this interface. Small vibrations do not make new plastic
 # flow: their stiffness is that of unloading, and the slope of the loading curve would give too low
 # a frequency.
 frequencies = {}

@@ -17,8 +17,9 @@ import asperity as asp
 folder = Path(mkdtemp())
 rng = np.random.default_rng(1)
 
-# %% **A stand-in for an instrument.** These lines write what an instrument leaves behind: a rough
-# map that is tilted, with a random offset of every scan line, in an SDF file (ISO 25178-71). With a
+# %%
+# **A stand-in for an instrument.** These lines write what an instrument leaves behind: a rough map
+# that is tilted, with a random offset of every scan line, in an SDF file (ISO 25178-71). With a
 # file of your own begin at the next cell.
 grid = asp.Grid((128, 128), (50e-9, 50e-9))  # points and pixel, m
 spectrum = asp.generate.SelfAffine(
@@ -31,15 +32,17 @@ header = "aISO-1.0\nNumPoints = 128\nNumProfiles = 128\nXscale = 50e-9\nYscale =
 rows = "\n".join(" ".join(f"{height:.0f}" for height in line) for line in measured.T[::-1] / 1e-12)
 (folder / "scan.sdf").write_text(f"{header}\nCompression = 0\nDataType = 6\nCheckType = 0\n*\n{rows}\n*\n")
 
-# %% **Prepare.** Every step returns a new surface and is written into its history. The solver
-# repeats the map in both directions; ``periodised`` removes the cliffs that would stand where its
-# borders meet.
+# %%
+# **Prepare.** Every step returns a new surface and is written into its history. The solver repeats
+# the map in both directions; ``periodised`` removes the cliffs that would stand where its borders
+# meet.
 scan = asp.read(folder / "scan.sdf")
 ready = asp.periodised(asp.levelled(asp.surfaces.line_corrected(scan, "x")))
 print(*ready.origin.history, sep="\n")
 
-# %% **Press.** Diamond-like carbon, 50 MPa of nominal pressure. The real contact is a few percent
-# of the nominal area, and the certificate bounds the error of the solution.
+# %%
+# **Press.** Diamond-like carbon, 50 MPa of nominal pressure. The real contact is a few percent of
+# the nominal area, and the certificate bounds the error of the solution.
 problem = asp.ContactProblem(ready, asp.material("DLC"))
 result = asp.solve(problem, asp.MeanPressure(50e6))
 print(result)

@@ -11,8 +11,9 @@ import numpy as np
 
 import asperity as asp
 
-# %% A steel ball of radius 1 mm is pressed on glass with 1 N. The boundary is free, since there is
-# one ball and not a lattice.
+# %%
+# A steel ball of radius 1 mm is pressed on glass with 1 N. The boundary is free, since there is one
+# ball and not a lattice.
 steel, glass = asp.material("steel"), asp.material("glass")
 hertz = asp.theories.HertzPoint(E_star=asp.solids.contact_modulus(steel, glass), radius=1e-3)
 exact = hertz.at_load(1.0)
@@ -25,15 +26,14 @@ def pressed(points):
 
 
 result = pressed(128)
-for name, ours, theirs in (
-    ("radius", np.sqrt(result.contact_area / np.pi), exact.radius),
-    ("approach", result.approach, exact.approach),
-):
+for name, ours, theirs in (("radius", np.sqrt(result.contact_area / np.pi), exact.radius),
+                           ("approach", result.approach, exact.approach)):  # fmt: skip
     print(f"{name}: {1e6 * ours:.4f} µm, Hertz {1e6 * theirs:.4f} µm")
 print(f"largest pressure: {result.max_pressure / 1e9:.4f} GPa, Hertz {exact.max_pressure / 1e9:.4f} GPa")
 
-# %% The pressure on the middle row follows Hertz' half ellipse. The largest pressure has an error
-# of second order in the pixel size; the area only one of first order, because its rim is known to
+# %%
+# The pressure on the middle row follows Hertz' half ellipse. The largest pressure has an error of
+# second order in the pixel size; the area only one of first order, because its rim is known to
 # within a part of a pixel.
 counts = np.array([16, 32, 64, 128])
 results = [*(pressed(int(points)) for points in counts[:-1]), result]

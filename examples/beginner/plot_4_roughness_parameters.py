@@ -10,7 +10,8 @@ import matplotlib.pyplot as plt
 
 import asperity as asp
 
-# %% A Gaussian surface, as turned or blasted, and a plateau with valleys, as honed: both with rms
+# %%
+# A Gaussian surface, as turned or blasted, and a plateau with valleys, as honed: both with rms
 # height 50 nm, and the same correlation length of 2 µm.
 g = asp.generate
 grid = asp.Grid((256, 256), (0.125e-6, 0.125e-6))
@@ -21,15 +22,14 @@ surfaces = {
 }
 found = {name: asp.characterise(surface) for name, surface in surfaces.items()}
 
-# %% Skewness Ssk is negative where valleys are deep and peaks are cut; the reduced peak height Spk
-# is what wears off first, the reduced valley depth Svk is what holds the oil. Sq does not see the
+# %%
+# Skewness Ssk is negative where valleys are deep and peaks are cut; the reduced peak height Spk is
+# what wears off first, the reduced valley depth Svk is what holds the oil. Sq does not see the
 # difference.
 for name, values in found.items():
     h, f = values.heights, values.functional
-    print(
-        f"{name}: Sq {1e9 * h.Sq:.1f} nm, Sa {1e9 * h.Sa:.1f} nm, Ssk {h.Ssk:.2f}, Sku {h.Sku:.2f}, "
-        f"Spk {1e9 * f.Spk:.0f} nm, Svk {1e9 * f.Svk:.0f} nm"
-    )
+    print(f"{name}: Sq {1e9 * h.Sq:.1f} nm, Sa {1e9 * h.Sa:.1f} nm, Ssk {h.Ssk:.2f}, Sku {h.Sku:.2f}, "
+          f"Spk {1e9 * f.Spk:.0f} nm, Svk {1e9 * f.Svk:.0f} nm")  # fmt: skip
 
 figure, axes = plt.subplots(1, 3, figsize=(14, 4), layout="constrained")
 for ax, (name, surface) in zip(axes, surfaces.items(), strict=False):

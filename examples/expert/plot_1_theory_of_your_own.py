@@ -13,7 +13,8 @@ from scipy.special import erf
 import asperity as asp
 from asperity.theories.protocol import Limit, prediction
 
-# %% A rule of thumb: A/A₀ = erf(√π κ p/(2 E* h')) starts with the slope κ and ends at full contact.
+# %%
+# A rule of thumb: A/A₀ = erf(√π κ p/(2 E* h')) starts with the slope κ and ends at full contact.
 # Persson's theory is the case κ = √(8/π); solutions for rough surfaces start steeper, and κ = 2.2
 # is tried here.
 

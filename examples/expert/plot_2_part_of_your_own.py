@@ -18,7 +18,8 @@ from asperity.core.settings import Settings, setting
 from asperity.core.values import Number
 from asperity.parts.part import Found, Part, Solved
 
-# %% Conductance and stiffness of a contact obey the same equation (Barber 2003): between two
+# %%
+# Conductance and stiffness of a contact obey the same equation (Barber 2003): between two
 # half-spaces of resistivity ρ the conductance is dF/dδ / (E* ρ).
 
 
@@ -42,8 +43,9 @@ def conductance(surface, boundary, control):
     return Electric().compute(ElectricSettings(), solved).values["conductance"]
 
 
-# %% Try it before packing it: a ball conducts 2a/ρ through its contact circle (Holm), a rough
-# surface as much as it is loaded.
+# %%
+# Try it before packing it: a ball conducts 2a/ρ through its contact circle (Holm), a rough surface
+# as much as it is loaded.
 copper, loads = asp.material("copper"), np.geomspace(1e6, 100e6, 6)
 ball = asp.generate.sphere(asp.Grid((96, 96), (0.5e-6, 0.5e-6)), radius=1e-3)
 spectrum = asp.generate.GaussianAutocorrelation(10e-9, 0.6e-6)

@@ -32,8 +32,9 @@ study = {
     },
 }
 
-# %% A cluster of threads in this process stands for a real one, of which only the address is
-# needed: ``tcp://10.0.0.1:8786``.
+# %%
+# A cluster of threads in this process stands for a real one, of which only the address is needed:
+# ``tcp://10.0.0.1:8786``.
 folder = Path(mkdtemp()) / "results"
 try:
     from dask.distributed import LocalCluster
@@ -47,7 +48,8 @@ else:
     with LocalCluster(n_workers=1, processes=False, **own) as cluster:
         campaign = asp.studies.run_study(study, folder, dask=cluster.scheduler_address)
 
-# %% One labelled dataset in SI units. A stiff coating carries the load on less area, the more the
+# %%
+# One labelled dataset in SI units. A stiff coating carries the load on less area, the more the
 # thicker it is.
 data = campaign.dataset()
 axes = plt.subplots(figsize=(6, 4), layout="constrained")[1]

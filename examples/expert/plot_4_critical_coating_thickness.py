@@ -11,7 +11,8 @@ import numpy as np
 
 import asperity as asp
 
-# %% A ball of 100 µm on a coated half-space, under a fixed force. Without the coating, and with an
+# %%
+# A ball of 100 µm on a coated half-space, under a fixed force. Without the coating, and with an
 # endless one, Hertz holds: with the modulus of the substrate, and with that of the coating.
 substrate, force, radius = asp.Elastic(200e9, 0.3, name="substrate"), 20e-3, 100e-6
 coatings = {"four times stiffer": asp.Elastic(800e9, 0.3), "four times softer": asp.Elastic(50e9, 0.3)}
@@ -25,7 +26,8 @@ def largest_pressure(body, width):
     return asp.solve(asp.ContactProblem(ball, body, boundary=asp.Free()), asp.Force(force)).max_pressure
 
 
-# %% The floor is the thickness up to which the pressure stays within 5 % of the way from its value
+# %%
+# The floor is the thickness up to which the pressure stays within 5 % of the way from its value
 # without a coating, the ceiling that from which it is within 5 % of its value for an endless
 # coating.
 figure, ax = plt.subplots(figsize=(7, 4.5), layout="constrained")

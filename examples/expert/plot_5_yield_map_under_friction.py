@@ -13,7 +13,8 @@ import numpy as np
 
 import asperity as asp
 
-# %% A cylinder slides on steel with a coating that is twice as stiff and twice as strong (plane
+# %%
+# A cylinder slides on steel with a coating that is twice as stiff and twice as strong (plane
 # strain, per metre).
 steel = asp.Elastic(210e9, 0.3, asp.Strength(yield_stress=1e9), name="steel")
 coating = asp.Elastic(420e9, 0.3, asp.Strength(yield_stress=2e9), name="coating")
@@ -33,8 +34,9 @@ def first_yields(body, deepest):
     return [asp.first_yield(replace(none, tensor=none.tensor * (1.0 - mu) + full.tensor * mu)) for mu in friction]
 
 
-# %% The load factor multiplies the stresses. On bare steel, with peak pressure and yield stress of
-# 1 GPa, it is the ratio of the two at first yield, which is known in closed form: 1.79 without
+# %%
+# The load factor multiplies the stresses. On bare steel, with peak pressure and yield stress of 1
+# GPa, it is the ratio of the two at first yield, which is known in closed form: 1.79 without
 # friction.
 reports = [first_yields(asp.Layered([asp.Layer(coating, t * a)], steel), (t + 1.0) * a) for t in thickness]
 factor = np.array([[report.load_factor for report in row] for row in reports])

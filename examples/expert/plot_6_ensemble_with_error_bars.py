@@ -12,8 +12,9 @@ from scipy.stats import t
 
 import asperity as asp
 
-# %% Sixteen surfaces of one spectrum, sixteen points on the shortest wavelength, five loads each,
-# on one path that starts every load from the pressures of the one before.
+# %%
+# Sixteen surfaces of one spectrum, sixteen points on the shortest wavelength, five loads each, on
+# one path that starts every load from the pressures of the one before.
 spectrum = asp.generate.SelfAffine(
     amplitude=asp.generate.RmsSlope(0.1), hurst=0.8, rolloff_wavelength=1.6e-6, shortest_wavelength=0.4e-6
 )
@@ -31,7 +32,8 @@ def areas(variant):
     return np.array(found)
 
 
-# %% The mean of n samples with standard deviation s lies within t s/√n of the true mean with 95 %
+# %%
+# The mean of n samples with standard deviation s lies within t s/√n of the true mean with 95 %
 # confidence (Student's t). Surfaces with random amplitudes scatter in slope as samples of a
 # material do; with fixed amplitudes only the phases differ.
 figure, axes = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")

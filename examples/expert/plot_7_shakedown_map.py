@@ -31,7 +31,8 @@ def curve(t):
     return asp.stresses.shakedown(result, asp.stresses.depths_through(body, (t + 0.9) * a, per_region=6), friction)
 
 
-# %% Without a coating the limit is between two bounds: one with the residual stresses that a pass
+# %%
+# Without a coating the limit is between two bounds: one with the residual stresses that a pass
 # leaves, one that no residual stress can exceed.
 curves = [curve(t) for t in thickness]
 closed_form = [asp.theories.sphere_shakedown(mu) for mu in friction]
@@ -43,8 +44,9 @@ for mu, low, high, found in zip(
         f"{found.bound_over_k:.2f} k"
     )
 
-# %% The map multiplies the load that gives bare steel a peak pressure equal to its yield stress.
-# Where dots are, the steel below the coating sets the limit.
+# %%
+# The map multiplies the load that gives bare steel a peak pressure equal to its yield stress. Where
+# dots are, the steel below the coating sets the limit.
 figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), layout="constrained")
 plot_shakedown_curve(curves[0], axes[0], per=1e9 / k, label="peak pressure / k, bare steel")
 found = asp.stresses.shakedown_map(thickness, curves)

@@ -15,7 +15,8 @@ from asperity import fem
 from asperity.solids.plasticity import J2, LinearHardening
 from asperity.theories import cylinder_shakedown
 
-# %% Steel of 400 MPa with Prager's back stress, and Hertz's pressure of half-width 0.1 mm below and
+# %%
+# Steel of 400 MPa with Prager's back stress, and Hertz's pressure of half-width 0.1 mm below and
 # above the limit, on a track of eight half-widths.
 steel, half_width = asp.Elastic(200e9, 0.3), 1e-4
 law = J2(steel, LinearHardening(400e6), kinematic=20e9)
@@ -36,7 +37,8 @@ for share in (0.9, 1.15):
         f"at {share:g} of the limit the fifth pass adds {100.0 * last:.1f} % of the plastic strain that the first added"
     )
 
-# %% Plastic strain that each pass adds below the middle of the track, and the residual stress that
+# %%
+# Plastic strain that each pass adds below the middle of the track, and the residual stress that
 # stays.
 figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.0), layout="constrained")
 for (share, added), colour in zip(growth.items(), ("tab:blue", "tab:red"), strict=True):

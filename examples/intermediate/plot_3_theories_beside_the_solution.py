@@ -21,9 +21,10 @@ surface = asp.generate.gaussian(asp.Grid((256, 256), (60e-9, 60e-9)), spectrum, 
 chosen = ["persson", "bush-gibson-thomas", "greenwood-williamson"]
 found = asp.compare(surface, asp.material("silicon"), np.geomspace(100e6, 3e9, 5), theories=chosen)
 
-# %% Left the areas, right the slope κ = (A/A₀) E* h'/p, with h' the rms gradient. At light load
-# Bush, Gibson and Thomas have √(2π) = 2.51, Persson √(8/π) = 1.60; the solution lies between. Pale
-# parts are outside a theory's own limits.
+# %%
+# Left the areas, right the slope κ = (A/A₀) E* h'/p, with h' the rms gradient. At light load Bush,
+# Gibson and Thomas have √(2π) = 2.51, Persson √(8/π) = 1.60; the solution lies between. Pale parts
+# are outside a theory's own limits.
 figure, axes = plt.subplots(1, 2, figsize=(13, 4.5), layout="constrained")
 found.plot("area", axes[0])
 found.plot("kappa", axes[1])

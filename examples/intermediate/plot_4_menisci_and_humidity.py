@@ -11,7 +11,8 @@ import numpy as np
 
 import asperity as asp
 
-# %% Silicon, 3 nm rough, under 3 MPa. Film and menisci are in equilibrium with the vapour; what the
+# %%
+# Silicon, 3 nm rough, under 3 MPa. Film and menisci are in equilibrium with the vapour; what the
 # menisci pull is part of the load, so that contact and menisci are solved together.
 surface = asp.generate.gaussian(
     asp.Grid((128, 128), (40e-9, 40e-9)), asp.generate.GaussianAutocorrelation(3e-9, 0.5e-6), seed=1
@@ -24,10 +25,10 @@ for share in humidity:
     results.append(asp.solve(problem, asp.MeanPressure(3e6)))
 menisci = [result.menisci for result in results]
 
-# %% The suction follows from Kelvin's and Laplace's laws, Δp = (RT/V) ln(1/humidity), and falls
-# with the humidity, while the menisci grow. Around a single paraboloid both balance, and the force
-# does not depend on the humidity; it rises where menisci spread over the ridges between the
-# summits.
+# %%
+# The suction follows from Kelvin's and Laplace's laws, Δp = (RT/V) ln(1/humidity), and falls with
+# the humidity, while the menisci grow. Around a single paraboloid both balance, and the force does
+# not depend on the humidity; it rises where menisci spread over the ridges between the summits.
 suction = np.array([found.suction for found in menisci])
 area = np.array([found.meniscus_area_fraction for found in menisci])
 pull = np.array([found.relative_meniscus_force for found in menisci])
@@ -39,8 +40,9 @@ axes[1].set(xlabel="relative humidity (%)", ylabel="area of the menisci (% of no
 axes[2].plot(100 * humidity, pull, "o-")
 axes[2].set(xlabel="relative humidity (%)", ylabel="meniscus force / load", ylim=(0, None))
 
-# %% The menisci at 90 % humidity. Where the gap is low enough but no film reaches, no meniscus
-# forms. Below some 50 % the Kelvin radius is only a few molecules wide, and the law is stretched.
+# %%
+# The menisci at 90 % humidity. Where the gap is low enough but no film reaches, no meniscus forms.
+# Below some 50 % the Kelvin radius is only a few molecules wide, and the law is stretched.
 results[-1].plot("menisci")
 print(f"at 90 %: {menisci[-1].n_menisci} menisci, {1e9 * menisci[-1].meniscus_height:.1f} nm high")
 plt.show()

@@ -11,9 +11,10 @@ import numpy as np
 
 import asperity as asp
 
-# %% A slider of alumina-titanium carbide on a disk with 1.5 nm of lubricant. The friction of the
-# dry contact is 0.3. The bodies are unlike, so that the shear traction changes the pressure:
-# menisci, shear and pressure are solved together.
+# %%
+# A slider of alumina-titanium carbide on a disk with 1.5 nm of lubricant. The friction of the dry
+# contact is 0.3. The bodies are unlike, so that the shear traction changes the pressure: menisci,
+# shear and pressure are solved together.
 surface = asp.generate.gaussian(
     asp.Grid((96, 96), (40e-9, 40e-9)), asp.generate.GaussianAutocorrelation(2e-9, 0.5e-6), seed=3
 )
@@ -28,7 +29,8 @@ problem = asp.ContactProblem(
 loads = np.geomspace(2e6, 100e6, 6)
 path = asp.solve(problem, asp.History([asp.MeanPressure(float(load)) for load in loads]))
 
-# %% With the load W and the pull F of the menisci the friction is μ (W + F), and its coefficient μ
+# %%
+# With the load W and the pull F of the menisci the friction is μ (W + F), and its coefficient μ
 # (1 + F/W).
 pull = np.array([step.menisci.relative_meniscus_force for step in path.steps])
 static = np.array([step.menisci.static_friction for step in path.steps])
@@ -39,8 +41,6 @@ axes[0].set(xlabel="mean pressure of the load (MPa)", ylabel="static friction co
 axes[0].legend()
 path.steps[0].plot("menisci", axes[1])
 for load, step in zip(loads, path.steps, strict=True):
-    print(
-        f"{load / 1e6:6.1f} MPa: friction {step.menisci.static_friction:.3f}, {step.menisci.wetting.regime}, "
-        f"solved in {step.certificate.rounds} rounds"
-    )
+    print(f"{load / 1e6:6.1f} MPa: friction {step.menisci.static_friction:.3f}, {step.menisci.wetting.regime}, "
+          f"solved in {step.certificate.rounds} rounds")  # fmt: skip
 plt.show()

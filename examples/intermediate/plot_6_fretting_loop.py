@@ -29,7 +29,8 @@ slipping = history.steps[7].stick_slip.slipping.sum() / history.last.contact.sum
 print(f"at the end of the first shift {100 * slipping:.0f} % of the contact slips")
 print(f"a cycle takes {loop.cycle_energies[0] * 1e15:.2f} fJ")
 
-# %% Masing's rule: the way back is the first shift, twice as large in shift and force. It holds
+# %%
+# Masing's rule: the way back is the first shift, twice as large in shift and force. It holds
 # wherever shear and pressure do not couple and slip keeps its direction.
 back = loop.force[7] - loop.force[7:24:2]
 first = 2.0 * np.append(0.0, loop.force[:8])
@@ -43,8 +44,9 @@ history.plot("loop", axes[0])
 history.steps[7].plot("stick_slip", axes[1])
 history.plot("dissipation", axes[2])
 
-# %% Under one smooth spot the heat grows with the cube of a small amplitude, and in proportion to
-# one at which everything slides. A rough contact has spots of all sizes, and lies between.
+# %%
+# Under one smooth spot the heat grows with the cube of a small amplitude, and in proportion to one
+# at which everything slides. A rough contact has spots of all sizes, and lies between.
 amplitudes = np.array([0.1e-9, 0.2e-9, 0.4e-9])
 heat = []
 for amplitude in amplitudes:

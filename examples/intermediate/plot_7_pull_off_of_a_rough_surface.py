@@ -14,8 +14,9 @@ import asperity as asp
 from asperity.physics.adhesion.figures import plot_adhesion, plot_adhesion_loop
 from asperity.physics.adhesion.stickiness import stickiness
 
-# %% A work of adhesion of 50 mJ/m² and a range chosen so that the grid resolves the attracting
-# zone; what the pull-off of compliant contacts depends on is the work.
+# %%
+# A work of adhesion of 50 mJ/m² and a range chosen so that the grid resolves the attracting zone;
+# what the pull-off of compliant contacts depends on is the work.
 spectrum = asp.generate.GaussianAutocorrelation(45e-9, 1.2e-6)
 surface = asp.generate.gaussian(asp.Grid((96, 96), (0.07e-6, 0.07e-6)), spectrum, seed=3)
 law = asp.ExponentialAdhesion(work=0.05, range=45e-9)

@@ -27,14 +27,16 @@ def rollers(body):
     return asp.ContactProblem(shape, body, counter_body=body, boundary=asp.FreeLine(), friction=asp.Coulomb(mu))
 
 
-# %% Creep-force curves: plain rollers, with Carter beside them, and such with half a contact width
-# of a soft layer.
+# %%
+# Creep-force curves: plain rollers, with Carter beside them, and such with half a contact width of
+# a soft layer.
 load, creepages = asp.Force(1e5), np.linspace(0.1, 1.4, 8) * mu * a / R
 soft = asp.Layered([asp.Layer(asp.Elastic(70e9, 0.3), 0.5 * a)], base=steel)
 plain, layered = (asp.rolling.creep_curve(rollers(body), load, creepages) for body in (steel, soft))
 carter = plain.theory("carter")
 
-# %% Roughness of 0.1 µm comes again after 1.3 contact widths. Forces fluctuate; their means are the
+# %%
+# Roughness of 0.1 µm comes again after 1.3 contact widths. Forces fluctuate; their means are the
 # curve.
 n, wave = 80, np.arange(3, 20)
 phase = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, wave.size)

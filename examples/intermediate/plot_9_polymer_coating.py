@@ -12,8 +12,9 @@ import numpy as np
 
 import asperity as asp
 
-# %% The polymer relaxes to a fifth of its first modulus, with times of 0.1 s and 5 s; its
-# retardation is slower. Its bulk modulus does not relax.
+# %%
+# The polymer relaxes to a fifth of its first modulus, with times of 0.1 s and 5 s; its retardation
+# is slower. Its bulk modulus does not relax.
 polymer = asp.Viscoelastic.prony(0.5e9, ((1.2e9, 0.1), (0.8e9, 5.0)), 0.38, elastic_bulk=True, name="polymer")
 glass = asp.Elastic(70e9, 0.22, name="glass")
 coated = asp.Layered([asp.Layer(polymer, 2e-6)], glass)
