@@ -205,8 +205,8 @@ class Repelling:
 
     rescued = Coupling.rescued
     unbearable = Coupling.unbearable
-    settled = Coupling.settled
-    unsettled = Coupling.unsettled
+    settled, settled_text = Coupling.settled, Coupling.settled_text
+    unsettled, unsettled_text = Coupling.unsettled, Coupling.unsettled_text
 
     def end(self, exchange, contact):
         return {}, None

@@ -10,7 +10,6 @@ from contextlib import contextmanager, nullcontext
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -18,6 +17,7 @@ from rich.progress import BarColumn, Progress, TextColumn
 
 from ..core.words import speaking
 from ..io.schemas.study import DEFAULT_QUANTITIES
+from ..parts.registry import parts
 from ..report.study import (
     axis_rows,
     case_table,
@@ -91,12 +91,12 @@ def solve_files(document: ProblemDocument, files: Sequence[Path], out: Path | No
     with TemporaryDirectory() if out is None else nullcontext(out) as name:
         place = Path(name)
         paths = [str(file.absolute()) if out is None else os.path.relpath(file, place) for file in files]
-        parts = [quantity for part, quantity in SHOWN_OF_PARTS.items() if getattr(document, part) is not None]
+        asked = [part.headline for part in parts() if part.headline and getattr(document, part.table) is not None]
         study = {
             "version": 1,
             "title": document.title or f"{len(files)} files",
             "problem": problem_table(relocated(document, Path(), place)),
-            "quantities": [*DEFAULT_QUANTITIES, *parts],
+            "quantities": [*DEFAULT_QUANTITIES, *asked],
             "axes": [{"path": "surface.path", "name": "file", "values": paths}],
         }
         campaign = prepare_study(study, place, start=place, confirm=partial(confirmed, yes=yes))
@@ -109,10 +109,6 @@ def solve_files(document: ProblemDocument, files: Sequence[Path], out: Path | No
         _print_causes(campaign, campaign.state())
         say("Add --out DIR for the report and the table of all files.", "dim")
         return NOT_CONVERGED if campaign.state().failed else OK
-
-
-SHOWN_OF_PARTS = MappingProxyType({"film": "meniscus_force", "stress": "max_von_mises"})
-"""Quantity of a part that is shown beside the usual ones where the document asks for it."""
 
 
 def status(folder: Folder) -> None:

@@ -139,7 +139,8 @@ def declarations(declared: Any) -> tuple[Parameter, ...]:
 def part_options(*names: str, basic: Iterable[str] = ()) -> tuple[Option, ...]:
     """Options for the settings of the parts with these ``names``; of all parts if none is named.
 
-    Those of the parts of this package that are not ``basic`` are advanced.
+    Those of the parts of this package that are neither ``basic`` nor said to be so by the part are
+    advanced; none is if none is ``basic``.
     """
     found: list[Option] = []
     for part in parts():
@@ -147,7 +148,8 @@ def part_options(*names: str, basic: Iterable[str] = ()) -> tuple[Option, ...]:
             own = type(part).__module__.partition(".")[0] == "asperity"
             prefix = "" if own else f"{part.name.replace('_', '-')}-"
             made = options_of(part.settings, (part.table,), panel=part.title, prefix=prefix)
-            found += sorted_out(made, basic) if own and basic else made
+            first = {*basic, *(option.name for option in made if option.path[-1] in part.basic)}
+            found += sorted_out(made, first) if own and basic else made
     return tuple(found)
 
 
@@ -163,7 +165,8 @@ def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = 
     """``table`` of a document with what is ``given`` over it; the tables that are ``asked`` for are
     there in any case.
 
-    Friction alone, without a film, a shift or a motion, requests the stresses that it causes.
+    Friction for no part that takes it, such as a shift or a motion, requests the stresses that it
+    causes.
 
     Raises
     ------
@@ -180,7 +183,7 @@ def with_parts(table: Mapping[str, Any], given: Given, asked: tuple[str, ...] = 
         if name not in known:
             raise InputError(f"--with must be one of {', '.join(known)}, but is {name!r}.")
         made.setdefault(name, {})
-    if "friction" in chosen and not {"film", "shear", "dynamics", "rolling"} & made.keys():
+    if "friction" in chosen and not any(part.takes_friction and part.table in made for part in parts()):
         made.setdefault("stress", {})
     return made
 

@@ -39,26 +39,9 @@ COUNTER, LOAD, SOLVER, OUTPUT = "Counter surface", "Load: one of", "Solver", "Ou
 
 BASIC = (
     *("--from", "--size", "--height-unit", "--level", "--periodise", "--body", "--counter", "--hardness", "--boundary"),
-    *(
-        "--pressure",
-        "--load",
-        "--approach",
-        "--mean-gap",
-        "--path",
-        "--friction",
-        "--shift",
-        "--liquid",
-        "--humidity",
-        "--film",
-        "--adhesion",
-        "--adhesion-range",
-        "--retract",
-        "--hold",
-        "--sliding-speed",
-    ),
-    *("--section", "--depths", "--threads"),
+    *("--pressure", "--load", "--approach", "--mean-gap", "--path", "--threads"),
 )
-"""Options of `contact` that its page shows first."""
+"""Options of `contact` that its page shows first, beside those of parts."""
 
 
 def reading_options() -> tuple[Option, ...]:

@@ -9,6 +9,7 @@ import sys
 import threading
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stdout
+from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
@@ -313,19 +314,19 @@ def interruptible(progress: Progress) -> Iterator[Progress]:
         sys.unraisablehook = report
 
 
+@dataclass(eq=False)
 class _Guarded:
-    def __init__(self, progress: Progress) -> None:
-        self._progress = progress
-        self._wanted = False
+    progress: Progress
+    wanted: bool = False
 
     def interrupt(self, number: int, frame: Any) -> None:
         """Handle the signal: remember it, and raise as Python does, unless inside the compiler."""
-        self._wanted = True
+        self.wanted = True
         if not compiling():
             raise KeyboardInterrupt
 
     def update(self, iteration: int, error: float, tolerance: float) -> None:
         """Stop if asked to, else report."""
-        if self._wanted:
+        if self.wanted:
             raise KeyboardInterrupt
-        self._progress.update(iteration, error, tolerance)
+        self.progress.update(iteration, error, tolerance)

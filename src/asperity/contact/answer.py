@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
+
+from ..core.quantity import GIVEN
 
 if TYPE_CHECKING:
     from ..core.arrays import RealArray
@@ -116,7 +119,8 @@ class Answer:
     @classmethod
     def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
         """Its fields that are ``given`` by the ``problem``, by name; files do not hold them."""
-        return {}
+        by = {item.name: item.metadata.get(GIVEN) for item in fields(cast(Any, cls))}
+        return {name: getattr(problem, keyword) for name, keyword in by.items() if keyword}
 
     def remembered(self, approach: float) -> Memory:
         """What of its coupling's memory for the next step follows from it and from the ``approach``

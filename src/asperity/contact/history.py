@@ -12,7 +12,7 @@ from typing import Self, TypeAlias, overload
 import numpy as np
 
 from ..core import require
-from ..core.arrays import RealArray
+from ..core.arrays import OfSteps, RealArray
 from ..core.errors import InputError
 from ..core.late import Advised, Stored
 from ..core.registry import ENERGY_TERMS
@@ -214,45 +214,14 @@ class HistoryResult(Advised, Stored):
         good = [result for result in self.steps if result.converged]
         return good[-1].state if good else self.start
 
-    @property
-    def mean_pressure(self) -> RealArray:
-        """Mean pressure (Pa) of every step."""
-        return self.scalars("mean_pressure")
-
-    @property
-    def area_fraction_corrected(self) -> RealArray:
-        """Real over nominal contact area of every step, without pixel bias."""
-        return self.scalars("area_fraction_corrected")
-
-    @property
-    def approach(self) -> RealArray:
-        """Approach (m) from first touch of the virgin surfaces of every step."""
-        return self.scalars("approach")
-
-    @property
-    def mean_gap(self) -> RealArray:
-        """Mean gap (m) of every step."""
-        return self.scalars("mean_gap")
-
-    @property
-    def force(self) -> RealArray:
-        """Force (N) between the solids of every step."""
-        return self.scalars("force")
-
-    @property
-    def external_force(self) -> RealArray:
-        """External force (N) of every step: ``force`` less what menisci pull."""
-        return self.scalars("external_force")
-
-    @property
-    def elastic_energy(self) -> RealArray:
-        """Elastic energy (J) of every step."""
-        return self.scalars("elastic_energy")
-
-    @property
-    def plastic_work(self) -> RealArray:
-        """Plastic work (J) that every step added."""
-        return self.scalars("plastic_work")
+    mean_pressure = OfSteps("Mean pressure (Pa) of every step.")
+    area_fraction_corrected = OfSteps("Real over nominal contact area of every step, without pixel bias.")
+    approach = OfSteps("Approach (m) from first touch of the virgin surfaces of every step.")
+    mean_gap = OfSteps("Mean gap (m) of every step.")
+    force = OfSteps("Force (N) between the solids of every step.")
+    external_force = OfSteps("External force (N) of every step: ``force`` less what menisci pull.")
+    elastic_energy = OfSteps("Elastic energy (J) of every step.")
+    plastic_work = OfSteps("Plastic work (J) that every step added.")
 
     @property
     def turns(self) -> tuple[int, ...]:

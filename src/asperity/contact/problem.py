@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeAlias, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeAlias, Unpack, cast
 
 import numpy as np
 
@@ -68,16 +68,23 @@ class Physics:
     """Those of its ``works`` that are done on the bodies; the others are stored or lost."""
     pull_term: ClassVar[str] = ""
     """Name in ``EnergyBalance`` of the work that its pull does over the approach."""
+    takes: ClassVar[Any] = ()
+    """Type of what its keyword takes."""
+    types: ClassVar[tuple[type, ...]] = ()
+    """Types of what it is given, which files may name."""
 
     @property
     def given(self) -> Any:
-        """What the keyword was given."""
-        return self
+        """What the keyword was given, which is the first of its fields; itself if it takes
+        nothing."""
+        return getattr(self, fields(cast(Any, self))[0].name) if self.takes else self
 
     @classmethod
     def of(cls, given: Any) -> Self:
         """The physics of what the keyword was ``given``; a TypeError if it is none."""
-        raise NotImplementedError
+        if not isinstance(given, cls.takes):
+            raise TypeError
+        return cls(given)  # type: ignore[call-arg]
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -131,11 +138,6 @@ class Physics:
     def edges(self, problem: ContactProblem) -> Kind | None:
         """What it makes of the edges of contacts of ``problem``; None where they stay elastic."""
         return None
-
-    @classmethod
-    def types(cls) -> tuple[type, ...]:
-        """Types of what it is given, which files may name."""
-        return ()
 
     def rows(self) -> list[tuple[str, str]]:
         """Label and text of it for a problem in words."""

@@ -1,11 +1,11 @@
-"""Names for the array types used in signatures."""
+"""Names for the array types used in signatures, arrays over steps, and digests of content."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,22 @@ ComplexArray: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 
 BoolArray: TypeAlias = NDArray[np.bool_]
 """Boolean array, for masks and contact maps."""
+
+
+class OfSteps:
+    """Attribute of a history: an array (steps,) of the numbers that its ``steps`` have by the same
+    name."""
+
+    def __init__(self, text: str) -> None:
+        self.__doc__ = text
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, history: Any, kind: type | None = None) -> RealArray:
+        if history is None:
+            return cast("RealArray", self)
+        return np.array([getattr(step, self._name) for step in history.steps], dtype=float)
 
 
 # Content digests, so that a result can name its inputs exactly.

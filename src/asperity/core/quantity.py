@@ -81,10 +81,13 @@ def measured_as(quantity: Quantity) -> Any:
     return measured(quantity.unit, quantity.label, *quantity.dims)
 
 
-def given(**options: Any) -> Any:
-    """Field of a dataclass that was given with the problem, so that files take it from there;
-    ``options`` are those of ``dataclasses.field``."""
-    return field(**options, metadata={GIVEN: True})
+def given(by: str = "", **options: Any) -> Any:
+    """Field of a dataclass that was given with the problem, so that files take it from there:
+    ``by`` this attribute of the problem, if it is one.
+
+    ``options`` are those of ``dataclasses.field``.
+    """
+    return field(**options, metadata={GIVEN: by})
 
 
 def stored_quantities(kind: type) -> tuple[Quantity, ...]:

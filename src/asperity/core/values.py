@@ -11,7 +11,8 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, TypeAlias
+from types import MappingProxyType
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 from . import units
 from .errors import InputError
@@ -59,6 +60,8 @@ class Values:
     """What may stand for a parameter. This one: anything."""
 
     unit = ""
+    json_schema: ClassVar[Mapping[str, Any]] = MappingProxyType({})
+    """What may stand here in a document, for forms."""
 
     @property
     def metavar(self) -> str | None:
@@ -89,7 +92,7 @@ class Values:
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         """What may stand here in a document, for forms."""
-        return {}
+        return dict(self.json_schema)
 
 
 @dataclass(frozen=True)
@@ -241,7 +244,9 @@ class Whole(Values):
 
     def check(self, value: Any, what: str) -> int:
         """``value`` as an int within the bounds."""
-        number = value if not isinstance(value, bool) and hasattr(value, "__index__") else _whole(value)
+        number = value if not isinstance(value, bool) and hasattr(value, "__index__") else None
+        if isinstance(value, float) and value.is_integer():
+            number = int(value)  # a float such as 3.0 stands for a whole number
         if (
             number is None
             or number < self.least
@@ -353,6 +358,9 @@ class Lengths(Values):
 
     unit = "m"
     metavar = "LENGTH[xLENGTH]"
+    json_schema: ClassVar[Mapping[str, Any]] = MappingProxyType(
+        {"type": "string", "quantity": "size", "examples": ["20 um x 20 um"]}
+    )
 
     def check(self, value: Any, what: str) -> tuple[float, float]:
         """``value`` as two lengths."""
@@ -370,10 +378,6 @@ class Lengths(Values):
             Number("length", above=0.0).check(Written(length, value), what)
         return WrittenPair(found, value)
 
-    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        """Text with its kind of quantity."""
-        return {"type": "string", "quantity": "size", "examples": ["20 um x 20 um"]}
-
 
 @dataclass(frozen=True)
 class Numbers(Values):
@@ -381,6 +385,9 @@ class Numbers(Values):
     for both."""
 
     metavar = "NX[xNY]"
+    json_schema: ClassVar[Mapping[str, Any]] = MappingProxyType(
+        {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 2, "maxItems": 2}
+    )
 
     def check(self, value: Any, what: str) -> tuple[int, int]:
         """``value`` as two whole numbers."""
@@ -404,10 +411,6 @@ class Numbers(Values):
             )
         return value[0], value[1]
 
-    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        """Two whole numbers."""
-        return {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 2, "maxItems": 2}
-
 
 @dataclass(frozen=True)
 class Interval(Values):
@@ -415,6 +418,14 @@ class Interval(Values):
 
     unit = "m"
     metavar = "LENGTH:LENGTH"
+    json_schema: ClassVar[Mapping[str, Any]] = MappingProxyType(
+        {
+            "type": "array",
+            "items": {"type": "string", "quantity": "length", "examples": ["5 um"]},
+            "minItems": 2,
+            "maxItems": 2,
+        }
+    )
 
     def check(self, value: Any, what: str) -> tuple[float, float]:
         """``value`` as two ascending lengths."""
@@ -432,11 +443,6 @@ class Interval(Values):
         low, high = (Number("length").read(end, what) for end in ends)
         self.check((low, high), what)
         return low, high  # type: ignore[return-value]
-
-    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        """Two texts."""
-        length = {"type": "string", "quantity": "length", "examples": ["5 um"]}
-        return {"type": "array", "items": length, "minItems": 2, "maxItems": 2}
 
 
 @dataclass(frozen=True)
@@ -473,11 +479,6 @@ def _digits(number: int) -> str:
     """Words for an integer that is too long to be shown; Python writes none of more than 4300
     digits."""
     return f"an integer of {int(math.log10(abs(number))) + 1} digits"
-
-
-def _whole(value: Any) -> int | None:
-    """The whole number that a float such as 3.0 stands for."""
-    return int(value) if isinstance(value, float) and value.is_integer() else None
 
 
 def _text_of(value: Any) -> Any:

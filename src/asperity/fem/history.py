@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from ..core.arrays import BoolArray, RealArray
+from ..core.arrays import BoolArray, OfSteps, RealArray
 from ..core.errors import InputError
 from ..core.quantity import measured
 from ..core.status import Advice
@@ -321,43 +321,17 @@ class IndentationHistory:
         for small strains."""
         return tuple(beyond_small_strain(float(self.contact_radius.max()), self.ball))
 
-    def _of(self, name: str) -> RealArray:
-        return np.array([getattr(step, name) for step in self.steps])
-
-    @property
-    def approach(self) -> RealArray:
-        """(steps,) in m."""
-        return self._of("approach")
-
-    @property
-    def load(self) -> RealArray:
-        """(steps,) in N."""
-        return self._of("load")
-
-    @property
-    def contact_radius(self) -> RealArray:
-        """(steps,) in m."""
-        return self._of("contact_radius")
-
-    @property
-    def mean_pressure(self) -> RealArray:
-        """(steps,) in Pa."""
-        return self._of("mean_pressure")
-
-    @property
-    def work(self) -> RealArray:
-        """(steps,) done by the indenter in J."""
-        return self._of("work")
-
-    @property
-    def elastic_energy(self) -> RealArray:
-        """(steps,) recoverable, in J."""
-        return self._of("elastic_energy")
+    approach = OfSteps("(steps,) in m.")
+    load = OfSteps("(steps,) in N.")
+    contact_radius = OfSteps("(steps,) in m.")
+    mean_pressure = OfSteps("(steps,) in Pa.")
+    work = OfSteps("(steps,) done by the indenter in J.")
+    elastic_energy = OfSteps("(steps,) recoverable, in J.")
 
     @property
     def dissipated(self) -> RealArray:
         """(steps,) turned into heat, in J: plastic work less what back stresses hold."""
-        return self._of("plastic_work") - self._of("stored_energy")
+        return np.array([step.plastic_work - step.stored_energy for step in self.steps])
 
     @property
     def imprint(self) -> RealArray:

@@ -60,11 +60,11 @@ arrays, tuples and one another."""
 def known_types() -> dict[str, type]:
     """All types that can be written by name, those of a physics of one's own by qualified name;
     that must have been imported."""
-    own = (kind for known in PHYSICS.values() for kind in home(known.home).types())
+    own = (kind for known in PHYSICS.values() for kind in home(known.home).types)
     found = {kind.__name__: kind for kind in (*TYPES, *map(home, DESCRIBED), *own)}
     for physics in subclasses(Physics):
         if not physics.__module__.startswith("asperity."):
-            found |= {kind_name(kind): kind for kind in (physics, *physics.types())}
+            found |= {kind_name(kind): kind for kind in (physics, *physics.types)}
     return found
 
 

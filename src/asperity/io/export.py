@@ -75,30 +75,24 @@ def _step_table(path: HistoryResult) -> Iterator[tuple[Any, ...]]:
     balance = path.energies
     names = [f"{item.name} ({item.unit})" for item in SCALARS]
     names += [f"{item.quantity.name} ({item.quantity.unit})" for item in _numbers(path.last)]
-    columns = _columns(path)
-    names += [f"{name} ({item.unit})" for _, name, item in columns]
+    # coupling and quantity of each number of what couplings find, by its name; one that two have is
+    # that of the first
+    columns: dict[str, tuple[str, Quantity]] = {}
+    for coupling, answer in path.last.couplings.items():
+        for item in answer.quantities if isinstance(answer, Answer) else ():
+            columns[f"{coupling}_{item.name}" if item.name in columns else item.name] = coupling, item
+    names += [f"{name} ({item.unit})" for name, (_, item) in columns.items()]
     yield ("step", "converged", *names, *(f"path_{item.name} ({item.unit})" for item in ENERGIES))
     for number, result in enumerate(path.steps):
         energies = [float(getattr(balance, item.name)[number]) for item in ENERGIES]
         found: list[Any] = [item.values for item in _numbers(result)]
-        found += [getattr(result.couplings.get(coupling), item.name, "") for coupling, _, item in columns]
+        found += [getattr(result.couplings.get(coupling), item.name, "") for coupling, item in columns.values()]
         yield (number + 1, result.converged, *(getattr(result, item.name) for item in SCALARS), *found, *energies)
 
 
 def _numbers(result: ContactResult) -> list[Labelled]:
     """Numbers that follow from what the couplings of ``result`` found and from it."""
     return [item for answer in result.answers for item in answer.tabled(result)]
-
-
-def _columns(path: HistoryResult) -> list[tuple[str, str, Quantity]]:
-    """Coupling, name and quantity of each number that what couplings find has in tables; a name
-    that two have is that of the first."""
-    found: dict[str, tuple[str, str, Quantity]] = {}
-    for coupling, answer in path.last.couplings.items():
-        for item in answer.quantities if isinstance(answer, Answer) else ():
-            name = f"{coupling}_{item.name}" if item.name in found else item.name
-            found[name] = coupling, name, item
-    return list(found.values())
 
 
 def export_vtk(result: ContactResult, path: str | Path, *, overwrite: bool = False) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import fields, is_dataclass
 from itertools import groupby
 from textwrap import wrap
@@ -522,20 +522,13 @@ def text(thing: object) -> str:
     if not isinstance(thing, Surface | ContactProblem | Stored | Judged):
         return printable(f"<{_line(thing)}>")
     heading, rows = heading_and_rows(thing)
-    wide = max(len(label) for label, _ in rows)
-    lines = [
-        f"  {label if first else '':<{wide}}  {line}"
-        for label, text in rows
-        for first, line in _lines(text, whole=label in SENTENCES)
-    ]
-    return "\n".join([heading, *lines])
-
-
-def _lines(text: str, *, whole: bool) -> Iterator[tuple[bool, str]]:
-    """Lines of a screen, and whether each is the first: one that is cut, or the ``whole`` text in
-    several."""
-    for number, line in enumerate(wrap(printable(text), LINE) if whole else [_cut(text)]):
-        yield not number, line
+    wide, lines = max(len(label) for label, _ in rows), [heading]
+    for label, said in rows:
+        line = printable(" ".join(said.split()))
+        cut = line if len(line) <= LINE else f"{line[: LINE - 1]}…"
+        shown = wrap(printable(said), LINE) if label in SENTENCES else [cut]
+        lines += [f"  {'' if number else label:<{wide}}  {part}" for number, part in enumerate(shown)]
+    return "\n".join(lines)
 
 
 def _line(thing: object) -> str:
@@ -547,9 +540,3 @@ def _line(thing: object) -> str:
         return line
     heading, rows = heading_and_rows(thing)
     return f"{heading}: {', '.join(' '.join(row) for row in rows)}"
-
-
-def _cut(text: str) -> str:
-    """Text of one line of a screen."""
-    line = printable(" ".join(text.split()))
-    return line if len(line) <= LINE else f"{line[: LINE - 1]}…"

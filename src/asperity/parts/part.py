@@ -205,6 +205,9 @@ class Work:
     """What is done for a part that is asked for: check, computation, words and figures. It holds no
     state."""
 
+    citation_keys: ClassVar[tuple[str, ...]] = ()
+    """Papers that its numbers rest on, whatever is asked for."""
+
     def check(self, ask: Any, problem: ContactProblem) -> None:
         """Refuse with an ``InputError`` what ``problem`` does not have, before it is solved."""
 
@@ -244,7 +247,7 @@ class Work:
 
     def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
         """Keys of the papers that the numbers will rest on."""
-        return ()
+        return self.citation_keys
 
 
 class WithFacts(Work):
@@ -284,6 +287,14 @@ class Part(Work):
     in_every_document: ClassVar[bool] = False
     essential: ClassVar[bool] = False
     quantities: ClassVar[tuple[Quantity, ...]] = ()
+    basic: ClassVar[tuple[str, ...]] = ()
+    """Keys of its table whose options the help of a command shows first."""
+    headline: ClassVar[str] = ""
+    """Name of the quantity that the table of a study of many files shows where it is asked for;
+    empty for none."""
+    takes_friction: ClassVar[bool] = False
+    """Whether friction is given for its sake. Where it is for no part, a command with friction asks
+    for the stresses too."""
     work: ClassVar[str] = ""
     """Module and name of the ``Work`` of a part of this package, such as
     ``physics.rolling.work:RollingWork``."""

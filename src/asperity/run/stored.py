@@ -4,7 +4,7 @@ are made again."""
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -103,29 +103,17 @@ def _outcome(tree: Node, contact: ContactResult) -> Outcome:
         for part in parts()
         if "words" in groups.get(part.name, Node()).attributes
     }
-    _require_provenance(json.loads(tree.attributes["provenance"]))
-    findings = tuple(_finding(**finding) for finding in json.loads(tree.attributes["findings"]))
-    outcome = Outcome(None, replace(solved, found=found), found, findings, status_in(tree.attributes))
+    # reports name when and with what an outcome was made, and the digests of its surfaces
+    made = json.loads(tree.attributes["provenance"])
+    surfaces = [made[key]["digest"] for key in ("surface", "counter_surface") if key in made]
+    _require_texts("provenance", made["created"], *made["software"].values(), *surfaces)
+    findings = []
+    for known in json.loads(tree.attributes["findings"]):  # earlier files hold the text of one as a message
+        values = {"fact": known.pop("message", ""), **known, "concerns": tuple(known.get("concerns", ()))}
+        findings.append(item := Advice(**values))
+        _require_texts("findings", item.level, item.criterion, item.fact, item.remedy, *item.concerns)
+    outcome = Outcome(None, replace(solved, found=found), found, tuple(findings), status_in(tree.attributes))
     return replace(outcome, stored=dict(tree.attributes))
-
-
-def _finding(*, message: str = "", concerns: Sequence[str] = (), **values: Any) -> Advice:
-    """A finding of a file; earlier files hold its text as one ``message``. ValueError if texts are
-    none."""
-    found = Advice(**{"fact": message, **values}, concerns=tuple(concerns))
-    for text in (found.level, found.criterion, found.fact, found.remedy, *found.concerns):
-        if not isinstance(text, str):
-            raise ValueError(f"{text!r:.60} in the findings is no text")
-    return found
-
-
-def _require_provenance(stored: Any) -> None:
-    """That reports can name when and with what an outcome was made, and the digests of its
-    surfaces; ValueError if not."""
-    surfaces = [stored[key]["digest"] for key in ("surface", "counter_surface") if key in stored]
-    for text in (stored["created"], *stored["software"].values(), *surfaces):
-        if not isinstance(text, str):
-            raise ValueError(f"{text!r:.60} in the provenance is no text")
 
 
 def part_group(part: Part, outcome: Outcome, before: Node = Node()) -> Node:
@@ -152,6 +140,13 @@ def part_group(part: Part, outcome: Outcome, before: Node = Node()) -> Node:
         attributes={**before.attributes, **attributes},
         children={**before.children, **fields},
     )
+
+
+def _require_texts(where: str, *texts: Any) -> None:
+    """Refuse, with a ValueError, what is no text."""
+    for text in texts:
+        if not isinstance(text, str):
+            raise ValueError(f"{text!r:.60} in the {where} is no text")
 
 
 def _found(part: Part, node: Node, solved: Solved, known: Any) -> Found:

@@ -62,7 +62,10 @@ def verdict(thing: ContactResult | HistoryResult | Outcome | str | Path) -> Verd
     said = outcome.sections
     if not isinstance(outcome.result, ContactResult):
         return _of_tractions(said)
-    reached, told = outcome.solved.at(), _told(outcome)
+    reached = outcome.solved.at()
+    # all findings, each once, that on its energy first
+    own = () if "contact" in outcome.found else findings(outcome.path or outcome.result)
+    told = tuple(sorted(dict.fromkeys((*outcome.findings, *own)), key=lambda item: item.criterion != DOUBT))
     names = doubted(told, reached.result)
     grade, trust = _trust(outcome, reached.result, told)
     holds, fails = _holds(outcome, reached.result, said, names)
@@ -72,8 +75,7 @@ def verdict(thing: ContactResult | HistoryResult | Outcome | str | Path) -> Verd
             *(words.sentence for part, words in said if part.answers and words.sentence and not words.holds),
         ]
     )
-    own = [row for part, words in said for row in words.headline]
-    headline = [*headline_rows(reached.result, names), *own]
+    headline = [*headline_rows(reached.result, names), *(row for _, words in said for row in words.headline)]
     trusted = f"{GRADES[grade]}: {trust}"
     return Verdict(what, holds, trusted, grade, fails, reached.number, reached.many, headline, told, names)
 
@@ -87,12 +89,6 @@ def _of_tractions(said: Sequence[tuple[Part, Words]]) -> Verdict:
     holds = " ".join(words.holds for _, words in said if words.holds) or "Yielding not checked."
     fails = any(words.alarming for _, words in said)
     return Verdict(what, holds, trust, "good", fails, 1, 1, [row for _, words in said for row in words.headline])
-
-
-def _told(outcome: Outcome) -> tuple[Advice, ...]:
-    """All findings on an ``outcome``, each once, that on its energy first."""
-    own = () if "contact" in outcome.found else findings(outcome.path or outcome.result)
-    return tuple(sorted(dict.fromkeys((*outcome.findings, *own)), key=lambda item: item.criterion != DOUBT))
 
 
 def doubted(told: Iterable[Advice], result: ContactResult) -> tuple[str, ...]:

@@ -21,9 +21,6 @@ from ..solids.layers import Layered, weaker_strength
 from ..theories.protocol import Prediction, SurfaceTheory, Theory
 from ..theories.statistics.roughness import Roughness
 
-YIELDING, ADHESIVE = ("hardness", "yield_stress"), ("work",)
-"""Parameters by which theories with plastic deformation, and with adhesion, are recognised."""
-
 
 @dataclass(frozen=True)
 class LeftOut:
@@ -110,11 +107,12 @@ def chosen_theories(
 
 
 def family(theory: SurfaceTheory) -> str:
-    """``elastic-plastic``, ``adhesive`` or ``elastic``, by the parameters of the ``theory``."""
+    """``elastic``, or one of the kinds that the catalogue recognises by the parameters of the
+    ``theory``."""
+    from ..theories.catalogue import RECOGNISED
+
     names = {parameter.name for parameter in parameters(type(theory))}
-    if names.intersection(YIELDING):
-        return "elastic-plastic"
-    return "adhesive" if names.intersection(ADHESIVE) else "elastic"
+    return next((kind for kind, known in RECOGNISED.items() if names.intersection(known)), "elastic")
 
 
 def known_of_bodies(problem: ContactProblem) -> dict[str, float]:
@@ -189,6 +187,8 @@ def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest
     ``largest_spot`` is the mean radius in m of the contact spots at the highest load, NaN if it is
     not known.
     """
+    from ..theories.catalogue import NOT_SOLVED
+
     found: list[str] = []
     coated = [b for b in (problem.body, problem.counter_body) if isinstance(b, Layered) and b.reduced.layers]
     if coated:
@@ -214,9 +214,9 @@ def remarks(problem: ContactProblem, theories: dict[str, SurfaceTheory], largest
             f"The numerical solution is elastic at any pressure; in {_listed(plastic)} summits flow, which "
             "adds to the area."
         )
-    adhesive = [name for name, theory in theories.items() if family(theory) == "adhesive"]
-    if adhesive:
-        found.append(f"The numerical solution has no adhesion; in {_listed(adhesive)} it adds to the area.")
+    for kind, remark in NOT_SOLVED.items():
+        if of_kind := [name for name, theory in theories.items() if family(theory) == kind]:
+            found.append(remark.format(_listed(of_kind)))
     if not isinstance(problem.boundary, Periodic):
         found.append(
             f"The boundary is {problem.boundary.name}: the contact is that of a patch whose borders carry more than "

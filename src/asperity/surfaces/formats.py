@@ -150,21 +150,31 @@ def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
         for opened in (opened_by_first_reader, opened_by_library):
             try:
                 with opened(file) as reader:
-                    _require_signature(reader, file)
+                    # the library takes any bytes whose number is twice a square for an SRTM terrain
+                    # tile (.hgt)
+                    if type(reader).__name__ == "HGTReader" and file.suffix.lower() != ".hgt":
+                        raise _unreadable(file, _NO_READER)
                     return use(reader)
             except InputError:
                 raise
             except Exception as exc:  # its readers raise many types on damaged files
                 failure = exc
     assert failure is not None
-    reason = "no reader recognises its content"  # of a failed detection without the list of readers that were tried
+    reason = _NO_READER  # of a failed detection without the list of readers that were tried
     if type(failure).__name__ != "CannotDetectFileFormat":
         text = " ".join(str(failure).split())[:160].rstrip(".")
         reason = f"{type(failure).__name__}: {text}" if text else type(failure).__name__
-    raise FileFormatError(
-        f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
-        f"but cannot be read ({reason}). It may be damaged or of an unknown format."
-    ) from failure
+    raise _unreadable(file, reason) from failure
+
+
+def _unreadable(file: Path, reason: str) -> FileFormatError:
+    return FileFormatError(
+        f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, but cannot "
+        f"be read ({reason}). It may be damaged or of an unknown format."
+    )
+
+
+_NO_READER = "no reader recognises its content"
 
 
 def _require_own_data(path: Path) -> None:
@@ -187,18 +197,6 @@ def _require_own_data(path: Path) -> None:
     except Exception as error:  # the library raises many types on damaged bytes
         reason = " ".join(str(error).split())[:160]
         raise FileFormatError(f"{what} must be a whole HDF5 file, but cannot be read ({reason}).") from error
-
-
-def _require_signature(reader: Any, file: Path) -> None:
-    """Refuse a format without signature unless the ending of the file names it.
-
-    The library takes any bytes whose number is twice a square for an SRTM terrain tile (.hgt).
-    """
-    if type(reader).__name__ == "HGTReader" and file.suffix.lower() != ".hgt":
-        raise FileFormatError(
-            f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
-            "but cannot be read (no reader recognises its content). It may be damaged or of an unknown format."
-        )
 
 
 @contextmanager

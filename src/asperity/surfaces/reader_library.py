@@ -13,6 +13,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from importlib import import_module
 from importlib.abc import InspectLoader, Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
@@ -105,12 +106,12 @@ class _PostponedPackage(ModuleType):
         raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
 
 
+@dataclass(eq=False)
 class _Postponing(Loader):
     """Loader of a package that leaves its code to the first use, for which it restores the usual
     ``loader``."""
 
-    def __init__(self, loader: InspectLoader) -> None:
-        self.loader = loader
+    loader: InspectLoader
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         """The package without its code."""

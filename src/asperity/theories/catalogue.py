@@ -160,6 +160,19 @@ THEORIES: dict[str, type[Described]] = {theory.name: theory for family in FAMILI
 """Class of each theory by its name."""
 
 
+RECOGNISED: MappingProxyType[str, tuple[str, ...]] = MappingProxyType(
+    {"elastic-plastic": ("hardness", "yield_stress"), "adhesive": ("work",)}
+)
+"""What the solids of a theory of rough contact do beside being elastic, and the parameters by which
+that is recognised."""
+
+NOT_SOLVED: MappingProxyType[str, str] = MappingProxyType(
+    {"adhesive": "The numerical solution has no adhesion; in {} it adds to the area."}
+)
+"""What is said of theories of a kind of ``RECOGNISED``, by their names, beside a numerical solution
+that leaves it out."""
+
+
 def theory(name: str) -> type[Described]:
     """Class of the theory called ``name``.
 

@@ -129,21 +129,22 @@ class TooLargeError(Exception):
     """A body has more bytes than are taken."""
 
 
+@dataclass(eq=False)
 class _Counted:
     """``receive`` that counts what comes, whatever the header says."""
 
-    def __init__(self, receive: Receive, largest: int) -> None:
-        self._receive, self._left = receive, largest
+    receive: Receive
+    left: int
 
     @property
     def over(self) -> bool:
         """Whether there were too many bytes."""
-        return self._left < 0
+        return self.left < 0
 
     async def __call__(self) -> Message:
-        message = await self._receive()
+        message = await self.receive()
         if message["type"] == "http.request":
-            self._left -= len(message.get("body", b""))
+            self.left -= len(message.get("body", b""))
             if self.over:
                 raise TooLargeError
         return message

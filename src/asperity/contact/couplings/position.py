@@ -128,6 +128,7 @@ class Position(Coupling):
     tolerance: float
     nested: bool = False
     name: ClassVar[str] = "position"
+    settled_text: ClassVar[str] = "The prescribed position is reached"
     feedback: ClassVar[bool] = True
     remedy: ClassVar[str] = "Prescribe a load, or a position of less overlap."
 
@@ -222,10 +223,6 @@ class Position(Coupling):
         note = replace(note, low=min(low, note.low), high=min(note.high, x))
         return replace(exchange, x=np.asarray(0.5 * (low + note.high)), note=note)
 
-    def settled(self, exchange: Exchange) -> str:
-        """That it is reached."""
-        return "The prescribed position is reached"
-
     def unsettled(self, exchange: Exchange) -> str:
         """That no load reaches it, or how far it is."""
         if exchange.stuck:
@@ -235,10 +232,6 @@ class Position(Coupling):
                 "found"
             )
         return f"The prescribed position is still missed by {exchange.residual:.1e}"
-
-    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
-        """Nothing to remember."""
-        return {}, None
 
 
 def without_bracket(exchange: Exchange) -> Exchange:

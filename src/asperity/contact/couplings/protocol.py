@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol, TypeAlias, runtime_checkable
+from typing import Any, ClassVar, NamedTuple, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
@@ -324,6 +324,11 @@ class Coupling(Protocol):
     concern it.
     """
 
+    settled_text: ClassVar[str] = ""
+    """That nothing changes any more, where no more has to be said; by its name if empty."""
+    unsettled_text: ClassVar[str] = ""
+    """What still changes by the ``change``, its residual; by its name if empty."""
+
     @property
     def name(self) -> str:
         """Name in states, results and certificates."""
@@ -361,7 +366,9 @@ class Coupling(Protocol):
         virgin interface)."""
 
     def share(self, exchange: Exchange) -> Share:
-        """What the next contact is posed with."""
+        """What the next contact is posed with: the iterate, as a displacement that lifts the
+        surface, unless it says otherwise."""
+        return Share(lift=exchange.x)
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """Target and residual for ``contact``. May raise NoSolutionError, explained, where there is
@@ -381,12 +388,13 @@ class Coupling(Protocol):
     def settled(self, exchange: Exchange) -> str:
         """That nothing changes any more: the beginning of a sentence that ends in "after 7
         rounds"."""
-        return f"The share of {self.name} is settled"
+        return self.settled_text or f"The share of {self.name} is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
         """What still changes and by how much: the beginning of a sentence that ends in "after 40
         rounds"."""
-        return f"The share of {self.name} still changes by {exchange.residual:.1e}"
+        text = self.unsettled_text or f"The share of {self.name} still changes by {{change:.1e}}"
+        return text.format(change=exchange.residual)
 
     def apart(self, exchange: Exchange, contact: Contact) -> Exchange:
         """Exchange of surfaces that lie apart at the position prescribed."""
@@ -394,6 +402,7 @@ class Coupling(Protocol):
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, object]:
         """Memory for the next step, and what it found (None if that is all in the contact)."""
+        return {}, None
 
     def end_in_time(self, exchange: Exchange, contact: Contact, ended: Ended, stored: float, heat: float) -> Ended:
         """The same of a step of time of bodies that hold the energy ``stored`` (J) after its

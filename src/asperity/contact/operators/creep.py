@@ -3,6 +3,7 @@ retarded compliances."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -40,15 +41,16 @@ class MultipleOperator(_Prepared):
         return np.asarray(self.factor * self.whole.matrix())
 
 
+@dataclass(eq=False)
 class _Multiple(Octaves):
     """``factor`` times the values of ``whole``."""
 
-    def __init__(self, whole: Octaves, factor: float) -> None:
-        self._whole, self._factor = whole, factor
+    whole: Octaves
+    factor: float
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """Displacement per pressure (m/Pa) at each ``wavenumber`` (rad/m)."""
-        return np.asarray(self._factor * self._whole.spectral(wavenumber))
+        return np.asarray(self.factor * self.whole.spectral(wavenumber))
 
 
 class SummedOperator(_Prepared):
@@ -72,13 +74,14 @@ class SummedOperator(_Prepared):
         return prepare_operator(self.compliance, self.grid, self.boundary, engine=self.engine).matrix()
 
 
+@dataclass(eq=False)
 class OperatorsInTime:
     """Operators of the steps of time of one problem, whose operator at the first instant is
     ``instantaneous``; the last one is kept."""
 
-    def __init__(self, creep: AnyCreep, instantaneous: Operator) -> None:
-        self.creep, self.instantaneous = creep, instantaneous
-        self._last: tuple[bytes, Operator] | None = None
+    creep: AnyCreep
+    instantaneous: Operator
+    _last: tuple[bytes, Operator] | None = field(default=None, init=False)
 
     def at(self, weights: RealArray, added: RealArray | None) -> Operator:
         """Operator of the instantaneous compliance and ``weights`` (terms,) of those that are

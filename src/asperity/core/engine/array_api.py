@@ -359,19 +359,21 @@ class ArrayEngine:
         field[...] = 0.0
 
 
+@dataclass(eq=False)
 class _Convolution:
     """Transform, product with the kernel, transform back; along y only the rows that hold data."""
 
-    def __init__(self, fft: Any, kernel: Any, shape: tuple[int, int], padded: tuple[int, int]) -> None:
-        self._fft, self._kernel = fft, kernel
-        self._shape, self._padded = shape, padded
+    fft: Any
+    kernel: Any
+    shape: tuple[int, int]
+    padded: tuple[int, int]
 
     def apply(self, field: Any, out: Any) -> Any:
-        fft, factor, (mx, my) = self._fft, self._kernel, self._padded
-        if self._shape == self._padded:
+        fft, factor, (mx, my) = self.fft, self.kernel, self.padded
+        if self.shape == self.padded:
             out[...] = fft.irfftn(fft.rfftn(field, axes=(0, 1)) * factor, s=(mx, my), axes=(0, 1))
             return out
-        nx, ny = self._shape
+        nx, ny = self.shape
         spectrum = fft.fft(fft.rfft(field, n=my, axis=1), n=mx, axis=0) * factor
         out[...] = fft.irfft(fft.ifft(spectrum, axis=0)[:nx, :], n=my, axis=1)[:, :ny]
         return out

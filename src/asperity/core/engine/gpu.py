@@ -557,29 +557,32 @@ class _Transforms:
         self._backward.fft(spectrum, out, self._cupy.cuda.cufft.CUFFT_INVERSE)
 
 
+@dataclass(eq=False)
 class _LineTransforms:
     """The same for grids of one line, which CuPy plans no transforms of real numbers for."""
 
-    def __init__(self, cupy: Any, shape: tuple[int, int], dtype: str) -> None:
-        self._fft, self._shape = cupy.fft, shape
+    cupy: Any
+    shape: tuple[int, int]
+    dtype: str
 
     def forward(self, field: Any) -> Any:
         """Half spectrum of ``field``."""
-        return self._fft.rfftn(field, axes=(0, 1))
+        return self.cupy.fft.rfftn(field, axes=(0, 1))
 
     def backward(self, spectrum: Any, out: Any) -> None:
         """Set ``out`` to the field of a ``spectrum``."""
-        out[...] = self._fft.irfftn(spectrum, s=self._shape, axes=(0, 1), norm="forward")
+        out[...] = self.cupy.fft.irfftn(spectrum, s=self.shape, axes=(0, 1), norm="forward")
 
 
+@dataclass(eq=False)
 class _GpuConvolution:
     """Transform, product with the kernel, transform back."""
 
-    def __init__(self, transforms: Any, kernel: Any) -> None:
-        self._transforms, self._kernel = transforms, kernel
+    transforms: Any
+    kernel: Any
 
     def apply(self, field: Any, out: Any) -> Any:
-        spectrum = self._transforms.forward(field)
-        spectrum *= self._kernel
-        self._transforms.backward(spectrum, out)
+        spectrum = self.transforms.forward(field)
+        spectrum *= self.kernel
+        self.transforms.backward(spectrum, out)
         return out

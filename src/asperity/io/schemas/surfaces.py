@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Optional, TypeAlias, Union
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Optional, TypeAlias, Union
 
 from pydantic import Field, create_model, model_validator
 
@@ -127,6 +127,9 @@ class _Channel(Values):
     """Name of a data channel, or its number, 0 or more."""
 
     metavar = "NAME"
+    json_schema: ClassVar[Mapping[str, Any]] = MappingProxyType(
+        {"anyOf": [{"type": "string"}, {"type": "integer", "minimum": 0}]}
+    )
 
     def read(self, value: Any, what: str) -> str | int:
         """The name or number."""
@@ -135,24 +138,17 @@ class _Channel(Values):
             return found
         raise InputError(f"{what} must be the name of a channel or its number, 0 or more, but is {value!r}.")
 
-    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        """Text or a number."""
-        return {"anyOf": [{"type": "string"}, {"type": "integer", "minimum": 0}]}
-
 
 class _LengthUnit(Values):
     """Name of a unit of length."""
 
     metavar = "UNIT"
+    json_schema: ClassVar[Mapping[str, Any]] = MappingProxyType({"type": "string", "examples": ["nm"]})
 
     def read(self, value: Any, what: str) -> str:
         """The name."""
         units.unit_factor(str(value), "length", what)
         return str(value)
-
-    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        """Text."""
-        return {"type": "string", "examples": ["nm"]}
 
 
 Channel: TypeAlias = Annotated[str | int, _Channel()]

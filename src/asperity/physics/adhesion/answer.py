@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
 
 from ...contact.answer import Answer
 from ...contact.couplings.protocol import Memory
-from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...core.late import Shown
 from ...core.quantity import Quantity, given, measured, measured_as
@@ -119,7 +118,7 @@ class AdhesiveContact(Answer, Shown):
         by its area.
     """
 
-    law: Adhesion = given()
+    law: Adhesion = given("adhesion")
     attraction: RealArray = measured("Pa", "attraction of the surfaces", "x", "y")
     attractive_force: float = measured_as(_ATTRACTIVE)
     external_force: float = measured_as(_EXTERNAL)
@@ -200,11 +199,6 @@ class AdhesiveContact(Answer, Shown):
     def ended(self) -> Status:
         """How the adhesive solver ended."""
         return self.status
-
-    @classmethod
-    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
-        """The law."""
-        return {"law": problem.adhesion}
 
     def memory(self, gap: RealArray, approach: float) -> Memory:
         """What the next step starts from, with the ``gap`` (nx, ny) in m and the ``approach`` in m

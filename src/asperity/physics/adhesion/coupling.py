@@ -121,6 +121,7 @@ class AdhesionCoupling(Coupling):
     solver: AdhesiveSolver = MajoriseMinimise()
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "adhesion"
+    settled_text: ClassVar[str] = "The attraction is settled"
     feedback: ClassVar[bool] = True
     positions: ClassVar[bool] = True
     remedy: ClassVar[str] = "Take smaller steps of load or position, or a grid that resolves the adhesion."
@@ -273,10 +274,6 @@ class AdhesionCoupling(Coupling):
         x, failed = solution.state.pull, 0 if solution.status.converged else note.failed + 1
         note = replace(note, base=base, solution=solution, mean=mean, failed=failed)
         return replace(exchange, target=x, residual=residual, note=note)
-
-    def settled(self, exchange: Exchange) -> str:
-        """That the attraction is."""
-        return "The attraction is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
         """The change of the attraction, and the pixel that it needs where the grid does not resolve

@@ -200,6 +200,7 @@ class Adhesion(Part):
     title = "Adhesion"
     table = "adhesion"
     settings = AdhesionSettings
+    basic = ("work", "range", "retract")
     whole_path = True
     of_result = "adhesion"
     work = "physics.adhesion.work:AdhesionWork"

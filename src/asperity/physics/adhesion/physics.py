@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -45,21 +45,18 @@ class Adhesive(Physics):
 
     law: Adhesion
     keyword: ClassVar[str] = "adhesion"
+    takes: ClassVar[Any] = Adhesion
+    types: ClassVar[tuple[type, ...]] = (
+        DugdaleAdhesion,
+        ExponentialAdhesion,
+        JKRAdhesion,
+        LennardJonesAdhesion,
+        LinearAdhesion,
+        VanDerWaalsAdhesion,
+    )
     attracts: ClassVar[bool] = True
     bears_pull: ClassVar[bool] = True
     moving: ClassVar[str] = "edges that open and close would take their own energy"
-
-    @property
-    def given(self) -> Adhesion:
-        """The law."""
-        return self.law
-
-    @classmethod
-    def of(cls, given: Any) -> Self:
-        """Adhesion by the law ``given``."""
-        if not isinstance(given, Adhesion):
-            raise TypeError
-        return cls(given)
 
     def check(self, problem: ContactProblem) -> None:
         """A core has no wall whose pressure a hardness could limit."""
@@ -102,18 +99,6 @@ class Adhesive(Physics):
             return Kind.smooth
         zone = cohesive_length(self.law, problem.contact_modulus) / max(problem.grid.pixels)
         return None if zone >= RESOLVED_ZONE else Kind.pinned
-
-    @classmethod
-    def types(cls) -> tuple[type, ...]:
-        """The laws."""
-        return (
-            DugdaleAdhesion,
-            ExponentialAdhesion,
-            JKRAdhesion,
-            LennardJonesAdhesion,
-            LinearAdhesion,
-            VanDerWaalsAdhesion,
-        )
 
     def rows(self) -> list[tuple[str, str]]:
         """Law and work of adhesion."""

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -255,10 +256,7 @@ def integrated(
 
 def _terminal(guard: Guard) -> Any:
     """The function of ``guard`` as SciPy takes an event."""
-
-    def crossing(time: float, state: RealArray) -> float:
-        return guard.function(time, state)
-
+    crossing = partial(guard.function)
     crossing.__dict__.update(terminal=True, direction=guard.direction)
     return crossing
 

@@ -183,6 +183,7 @@ class Dynamics(Part):
     essential = True
     settings = DynamicsSettings
     work = "physics.dynamics.work:DynamicsWork"
+    takes_friction = True
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
-from ...contact.problem import ContactProblem
 from ...core.units import show
 from ...io.words import value_text
 from ...parts.part import Found, Solved, Words, Work
@@ -18,6 +18,8 @@ from .work_motion import Made, fitted_law
 class DynamicsWork(Work):
     """Motion on the interface of the contact: what is done for it."""
 
+    citation_keys: ClassVar[tuple[str, ...]] = SlidingBlock.citation_keys
+
     def compute(self, ask: Moving, solved: Solved) -> Found:
         """Law of the interface, stability, and the motion."""
         with solved.stage("law of the interface"):
@@ -26,10 +28,6 @@ class DynamicsWork(Work):
             made = Made(ask, solved, fit)
             values, findings = made.values(), made.findings()
         return Found(values, fit, findings, made.citation_keys)
-
-    def citations(self, ask: Moving, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of law and models."""
-        return SlidingBlock.citation_keys
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Law, forces and penetration in time, phase portraits, curve of friction."""

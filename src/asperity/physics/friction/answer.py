@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
@@ -12,7 +12,6 @@ import numpy as np
 from ...contact.answer import Answer
 from ...contact.certificate import Certificate
 from ...contact.couplings.protocol import Memory
-from ...contact.problem import ContactProblem
 from ...contact.tangential import Shift, Tangential, TangentialForce
 from ...core.arrays import BoolArray, RealArray
 from ...core.quantity import Labelled, Quantity, given, measured, stored_quantities
@@ -71,7 +70,7 @@ class StickSlip(Answer):
         How it ended.
     """
 
-    law: FrictionLaw = given()
+    law: FrictionLaw = given("friction")
     tangential: Tangential = measured("", "prescribed shift or tangential force, as JSON")
     traction: RealArray = measured("Pa", "shear traction on the body", "component", "x", "y")
     slip_increment: RealArray = measured("m", "slip in the step", "component", "x", "y")
@@ -96,11 +95,6 @@ class StickSlip(Answer):
     status: Status = measured("", "how it ended")
     citation_keys: ClassVar[tuple[str, ...]] = ("Alart1991", "DeSaxce1998", "Kalker1990", "Panagiotopoulos1975")
     """Papers of law and method."""
-
-    @classmethod
-    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
-        """The law."""
-        return {"law": problem.friction}
 
     def remembered(self, approach: float) -> Memory:
         """All of it."""

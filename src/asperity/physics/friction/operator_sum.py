@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -45,13 +46,14 @@ class SummedTangential(TangentialOperator):
         return SummedTangential([part.coarsened for part in self.parts], self.factors)
 
 
+@dataclass(eq=False)
 class _SummedOctaves(Octaves):
     """Sum of ``parts`` times ``factors`` at a few wavenumbers."""
 
-    def __init__(self, parts: Sequence[Octaves], factors: Sequence[float]) -> None:
-        self._parts, self._factors = parts, factors
+    parts: Sequence[Octaves]
+    factors: Sequence[float]
 
     def spectral(self, wavenumber: RealArray) -> RealArray:
         """Displacement per traction (m/Pa) at each ``wavenumber`` (rad/m)."""
-        found = [factor * part.spectral(wavenumber) for factor, part in zip(self._factors, self._parts, strict=True)]
+        found = [factor * part.spectral(wavenumber) for factor, part in zip(self.factors, self.parts, strict=True)]
         return np.asarray(sum(found))

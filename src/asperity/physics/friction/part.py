@@ -105,6 +105,7 @@ class Friction(Part):
     title = "Friction"
     table = "friction"
     settings = FrictionSettings
+    basic = ("coefficient",)
     in_every_document = True
 
     def asked(self, document: Any, folder: Path) -> FrictionLaw | None:

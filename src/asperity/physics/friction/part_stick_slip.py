@@ -206,9 +206,11 @@ class StickSlip(Part):
     table = "shear"
     implied = staticmethod(sticks)
     settings = ShearSettings
+    basic = ("shift",)
     whole_path = True
     of_result = "stick_slip"
     work = "physics.friction.work_stick_slip:StickSlipWork"
+    takes_friction = True
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -34,20 +34,10 @@ class Rubbing(Physics):
 
     law: FrictionLaw
     keyword: ClassVar[str] = "friction"
+    takes: ClassVar[Any] = FrictionLaw
+    types: ClassVar[tuple[type, ...]] = (Coulomb, FullStick, TrescaFriction)
     moving: ClassVar[str] = ""
     supplies: ClassVar[tuple[str, ...]] = ("tangential_work",)
-
-    @property
-    def given(self) -> FrictionLaw:
-        """The law."""
-        return self.law
-
-    @classmethod
-    def of(cls, given: Any) -> Self:
-        """Friction by the law ``given``."""
-        if not isinstance(given, FrictionLaw):
-            raise TypeError
-        return cls(given)
 
     def check(self, problem: ContactProblem) -> None:
         """Maps of the law have the shape of the surface."""
@@ -114,11 +104,6 @@ class Rubbing(Physics):
         if sticks:
             return 1e-8
         return 1e-12 if isinstance(self.law, Coulomb) and self.law.couples else None
-
-    @classmethod
-    def types(cls) -> tuple[type, ...]:
-        """The laws."""
-        return Coulomb, FullStick, TrescaFriction
 
     def works(self, steps: Sequence[ContactResult]) -> Mapping[str, RealArray]:
         """Work of the displacement by the shear of gross sliding; of surfaces that stick and slip

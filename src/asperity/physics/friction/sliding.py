@@ -17,7 +17,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from ...contact.answer import Answer
-from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed
 from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...core.quantity import given, measured
@@ -105,6 +105,10 @@ class SlidingCoupling(Coupling):
     tolerance: float = TOLERANCE
     retarded: RealArray | float = 0.0
     name: ClassVar[str] = "sliding"
+    settled_text: ClassVar[str] = "The displacement by shear is settled"
+    unsettled_text: ClassVar[str] = (
+        "The normal displacement by shear of the sliding contact still changes by {change:.1e}"
+    )
     remedy: ClassVar[str] = "Tighten the solver's tolerance, allow more change, or lower the friction coefficient."
 
     @classmethod
@@ -143,10 +147,6 @@ class SlidingCoupling(Coupling):
         x = np.zeros(posed.profile.shape) if start is None else self.displacement(start)
         return Exchange(x, x, np.inf if self.feedback else 0.0, self.tolerance)
 
-    def share(self, exchange: Exchange) -> Share:
-        """The displacement as a lift."""
-        return Share(lift=exchange.x)
-
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The displacement under the shear of ``contact``."""
         if not self.feedback:
@@ -155,14 +155,6 @@ class SlidingCoupling(Coupling):
         size = float(np.linalg.norm(target))
         change = float(np.linalg.norm(target - exchange.x))
         return replace(exchange, target=target, residual=change / size if size else change, scale=size or 1.0)
-
-    def settled(self, exchange: Exchange) -> str:
-        """That the displacement is."""
-        return "The displacement by shear is settled"
-
-    def unsettled(self, exchange: Exchange) -> str:
-        """The change of the displacement."""
-        return f"The normal displacement by shear of the sliding contact still changes by {exchange.residual:.1e}"
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, GrossSliding]:
         """Nothing to remember: the displacement follows from the pressure."""

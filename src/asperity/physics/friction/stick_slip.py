@@ -20,7 +20,7 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed
 from ...contact.problem import ContactProblem
 from ...contact.solvers.protocol import FixedMean
 from ...contact.tangential import Shift, Tangential, TangentialForce, resultant, shift_field
@@ -159,6 +159,7 @@ class StickSlipCoupling(Coupling):
     tolerance: float = TOLERANCE
     held: Held | None = field(default=None, repr=False)
     name: ClassVar[str] = "stick_slip"
+    settled_text: ClassVar[str] = "The displacement by shear is settled"
 
     @property
     def remedy(self) -> str:
@@ -238,10 +239,6 @@ class StickSlipCoupling(Coupling):
     def _free(self, before: _Before) -> RealArray:
         """Displacement (2, nx, ny) in m before the step less what the past leaves at its end."""
         return before.displacement if self.held is None else before.displacement - self.held.displacement
-
-    def share(self, exchange: Exchange) -> Share:
-        """The displacement as a lift."""
-        return Share(lift=exchange.x)
 
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The displacement by the shear traction that ``contact`` bears."""
@@ -344,10 +341,6 @@ class StickSlipCoupling(Coupling):
                 return note.with_solution(solution)
             mean = force / grid.area
         return note.with_solution(solver.solve(TangentialQP(self.operator, bound, target, mean), warm))
-
-    def settled(self, exchange: Exchange) -> str:
-        """That the displacement is."""
-        return "The displacement by shear is settled"
 
     def unsettled(self, exchange: Exchange) -> str:
         """The change of the displacement, and which points open and close by turns where the bound

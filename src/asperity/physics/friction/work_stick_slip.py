@@ -4,7 +4,7 @@ words."""
 from __future__ import annotations
 
 import math
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -31,6 +31,8 @@ COARSE = 0.1
 class StickSlipWork(Work):
     """Shear tractions within the bound of friction: where the surfaces stick, where they slip, and
     the heat: what is done for it."""
+
+    citation_keys: ClassVar[tuple[str, ...]] = Outcome.citation_keys
 
     def check(self, ask: Sheared, problem: ContactProblem) -> None:
         """Refuse a twist of a contact that repeats."""
@@ -108,10 +110,6 @@ class StickSlipWork(Work):
             level: Literal["note", "warning"] = "warning" if factor >= 1.0 else "note"
             made.append(Advice(level, "contraction of pressure and shear", f"{text}.{met}", remedy, numbers))
         return Found(values, None, tuple(made), found.citation_keys)
-
-    def citations(self, ask: Sheared, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of law and method."""
-        return Outcome.citation_keys
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Map of stick and slip, of the heat, section, and the loop of a history."""

@@ -127,6 +127,8 @@ class DepthHardness(Coupling):
     fall: float = field(default=np.inf, repr=False)
     falls: bool = field(default=False, repr=False)
     name: ClassVar[str] = "hardness"
+    settled_text: ClassVar[str] = "The hardness agrees with the depth of the indentation"
+    unsettled_text: ClassVar[str] = "The hardness still changes by {change:.1e} with the depth of the indentation"
     feedback: ClassVar[bool] = True
     bounds: ClassVar[bool] = True
     remedy: ClassVar[str] = (
@@ -285,14 +287,6 @@ class DepthHardness(Coupling):
                 return None
             bearing = self._place(depth) if smooth else self._limits(depth)
         return replace(exchange, x=0.5 * (exchange.x + bearing), note=replace(note, bearing=bearing, weak=True))
-
-    def settled(self, exchange: Exchange) -> str:
-        """That the limit is."""
-        return "The hardness agrees with the depth of the indentation"
-
-    def unsettled(self, exchange: Exchange) -> str:
-        """The change of the limit."""
-        return f"The hardness still changes by {exchange.residual:.1e} with the depth of the indentation"
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
         """Indentation and work."""

@@ -110,8 +110,4 @@ class Indentation(Part):
     table = "indentation"
     settings = IndentationSettings
     work = "physics.indentation.work:IndentationWork"
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
-        """Scalars, cut, curve and imprint."""
-        return (*SCALARS, *quantities_of(PREFIX))
+    quantities = (*SCALARS, *quantities_of(PREFIX))

@@ -172,13 +172,12 @@ class Passes(Part):
     table = "passes"
     settings = PassesSettings
     work = "physics.indentation.work_passes:PassesWork"
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
-        """Scalars, cut, groove, and columns of the passes and of the residual stress."""
-        each = tuple(replace(item, dims=("passes_pass",)) for item in EACH)
-        profile = tuple(replace(item, dims=("passes_row",)) for item in PROFILE)
-        return (*SCALARS, *quantities_of(PREFIX), *each, *profile)
+    quantities = (
+        *SCALARS,
+        *quantities_of(PREFIX),
+        *(replace(item, dims=("passes_pass",)) for item in EACH),
+        *(replace(item, dims=("passes_row",)) for item in PROFILE),
+    )
 
     def asked(self, document: Any, folder: Path) -> Passing:
         """The table [passes] with the friction of the contact."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -285,7 +285,7 @@ def found_of(run: Indented, body: Any, indenter: Indenter, course: Course) -> Fo
         }
         drawn = np.linspace(max(fit.final_depth, 0.0), fit.peak_depth, 25)
         facts |= {"oliver_pharr": read.hardness, "unloading": [drawn.tolist(), fit.force(drawn).tolist()]}
-    return Found({**values, **shown.values(PREFIX)}, Detail(facts, run), tuple(findings), KEYS)
+    return Found({**values, **shown.values(PREFIX)}, Detail(facts, run), tuple(findings), IndentationWork.citation_keys)
 
 
 FEW = 8
@@ -298,6 +298,8 @@ BERKOVICH_ANGLE = math.radians(70.3)
 
 class IndentationWork(OfElements):
     """An indenter in the body, by finite elements: what is done for it."""
+
+    citation_keys: ClassVar[tuple[str, ...]] = ("SimoTaylor1985", "Oliver1992")
 
     def check(self, ask: IndentationSettings, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, before the contact is
@@ -316,10 +318,6 @@ class IndentationWork(OfElements):
         with solved.stage("indentation") as progress:
             run = indented(body, indenter, course, unknown_is_elastic=ask.unknown_is_elastic, progress=progress)
         return found_of(run, body, indenter, course)
-
-    def citations(self, ask: IndentationSettings, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of the method."""
-        return KEYS
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Zones, residual stress, stress under load, curve, imprint, hardness."""
@@ -352,9 +350,6 @@ class IndentationWork(OfElements):
                 f"{show(float(values['indent_residual_depth']), 'm', 3)} of the depth stay."
             )
         return Words(sentence, [("hardness by indentation", hard)], rows, tables, (REMARK,))
-
-
-KEYS = ("SimoTaylor1985", "Oliver1992")
 
 
 def _of_indenter(ask: IndentationSettings, problem: ContactProblem) -> Any:

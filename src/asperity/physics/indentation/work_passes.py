@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -156,7 +156,7 @@ def found_of(run: Passed, body: Elastic | Layered, course: Course) -> Found:
         growth = float(values["pass_strain_growth"])
         fact = f"Every pass adds {percent(growth)} of plastic strain: {found}. Cracks form {cracks}."
         made.append(Advice("warning", "passes", fact, numbers={"growth": growth}))
-    return Found(values, Detail(facts, run), tuple(made), KEYS)
+    return Found(values, Detail(facts, run), tuple(made), PassesWork.citation_keys)
 
 
 LARGE_SHARE = 0.15
@@ -182,6 +182,8 @@ class PassesWork(OfElements):
     """A cylinder or sphere that passes over the body again and again, by finite elements: what is
     done for it."""
 
+    citation_keys: ClassVar[tuple[str, ...]] = ("SimoTaylor1985", "Johnson1962", "Hearle1985")
+
     def check(self, ask: Passing, problem: ContactProblem) -> None:
         """Refuse a body that is rigid or whose yield stresses are not known, and loads under which
         strains are not small, before the contact is solved."""
@@ -196,10 +198,6 @@ class PassesWork(OfElements):
         with solved.stage("passes") as progress:
             run = passed(body, course, unknown_is_elastic=ask.settings.unknown_is_elastic, progress=progress)
         return found_of(run, body, course)
-
-    def citations(self, ask: Passing, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of the method."""
-        return KEYS
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Zones, residual stress, stress under load, groove; residual stress against depth; what
@@ -243,9 +241,6 @@ class PassesWork(OfElements):
                     f"the first: {ends}."
                 )
         return Words(sentence, [("repeated passes", ends)], rows, tables, (REMARK,))
-
-
-KEYS = ("SimoTaylor1985", "Johnson1962", "Hearle1985")
 
 
 # In words and tables.

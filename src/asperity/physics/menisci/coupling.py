@@ -14,16 +14,15 @@ position the force is passive.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from ...contact.answer import Answer
 from ...contact.certificate import Certificate
 from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
-from ...contact.problem import ContactProblem
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError, NoSolutionError
@@ -97,7 +96,7 @@ class Menisci(Answer, Shown):
         prescribed, NaN where menisci of an earlier step were there from the start.
     """
 
-    film: LiquidFilm = given()
+    film: LiquidFilm = given("film")
     wetting: Wetting = measured("", "where the liquid stands")
     external_force: float = measured_as(_SCALARS["external_force"])
     meniscus_force: float = measured_as(_SCALARS["meniscus_force"])
@@ -105,11 +104,6 @@ class Menisci(Answer, Shown):
     viscous_force: float = measured_as(_SCALARS["viscous_force"])
     feedback: float = measured_as(_SCALARS["feedback"])
     quantities: ClassVar[tuple[Quantity, ...]] = WET_SCALARS
-
-    @classmethod
-    def given_by(cls, problem: ContactProblem) -> Mapping[str, Any]:
-        """The film."""
-        return {"film": problem.film}
 
     def line(self) -> str:
         """Number and force of the menisci."""

@@ -94,13 +94,12 @@ class Menisci(Part):
     title = "Liquid film and menisci"
     table = "film"
     settings = FilmSettings
+    basic = ("liquid", "humidity", "thickness")
     of_result = "menisci"
     work = "physics.menisci.work:MenisciWork"
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
-        """Scalars of a wet contact."""
-        return WET_SCALARS
+    headline = "meniscus_force"
+    takes_friction = True
+    quantities = WET_SCALARS
 
     def asked(self, document: Any, folder: Path) -> Wetted:
         """The film of the table [film], whose liquids file starts at ``folder``, with the friction

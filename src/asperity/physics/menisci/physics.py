@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -24,21 +24,11 @@ class Wet(Physics):
 
     film: LiquidFilm
     keyword: ClassVar[str] = "film"
+    takes: ClassVar[Any] = LiquidFilm
+    types: ClassVar[tuple[type, ...]] = (LiquidFilm,)
     attracts: ClassVar[bool] = True
     moving: ClassVar[str] = "menisci of moving surfaces are not steady"
     pull_term: ClassVar[str] = "meniscus_work"
-
-    @property
-    def given(self) -> LiquidFilm:
-        """The film."""
-        return self.film
-
-    @classmethod
-    def of(cls, given: Any) -> Self:
-        """Menisci of the film ``given``."""
-        if not isinstance(given, LiquidFilm):
-            raise TypeError
-        return cls(given)
 
     def check(self, problem: ContactProblem) -> None:
         """The force of the menisci is shared by all points, so that friction is one number."""
@@ -60,8 +50,3 @@ class Wet(Physics):
 
         dry = problem.friction if isinstance(problem.friction, Coulomb) else Coulomb(0.0)
         yield MeniscusCoupling(self.film, problem.boundary.wraps, dry, how.tolerances.get("menisci", TOLERANCE))
-
-    @classmethod
-    def types(cls) -> tuple[type, ...]:
-        """The film."""
-        return (LiquidFilm,)

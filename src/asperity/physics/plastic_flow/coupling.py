@@ -124,6 +124,8 @@ class PlasticFlowCoupling(Coupling):
     tolerance: float = 1e-4
     feedback: ClassVar[bool] = True
     name: ClassVar[str] = NAME
+    settled_text: ClassVar[str] = "The plastic strain is settled"
+    unsettled_text: ClassVar[str] = "The return mapping still changes the plastic strain by {change:.1e}"
     remedy: ClassVar[str] = REMEDY
 
     @classmethod
@@ -309,14 +311,6 @@ class PlasticFlowCoupling(Coupling):
         if fixed and (external == 0.0 or float(qp.profile.max()) <= qp.constraint.offset):  # type: ignore[union-attr]
             return np.zeros_like(start)
         return run(self.solver, qp, start if start.any() else None).state.pressure
-
-    def settled(self, exchange: Exchange) -> str:
-        """That the plastic strain is."""
-        return "The plastic strain is settled"
-
-    def unsettled(self, exchange: Exchange) -> str:
-        """The change of the plastic strain."""
-        return f"The return mapping still changes the plastic strain by {exchange.residual:.1e}"
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, PlasticBody]:
         """State of the body, and what it tells."""

@@ -89,11 +89,7 @@ class PlasticFlow(Part):
     settings = PlasticFlowSettings
     whole_path = True
     work = "physics.plastic_flow.work:PlasticFlowWork"
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]
-        """Scalars, imprint, cut and curve."""
-        return (*SCALARS, IMPRINT, *quantities_of(PREFIX))
+    quantities = (*SCALARS, IMPRINT, *quantities_of(PREFIX))
 
     def asked(self, document: Any, folder: Path) -> Flows | None:
         """The table [plastic_flow], unless it is switched off."""

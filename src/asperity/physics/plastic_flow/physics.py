@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...contact.boundary import FreeLine
 from ...contact.controls import Control, Step
@@ -30,19 +30,9 @@ class Flowing(Physics):
 
     flow: PlasticFlow
     keyword: ClassVar[str] = "plastic_flow"
+    takes: ClassVar[Any] = PlasticFlow
+    types: ClassVar[tuple[type, ...]] = (J2, PlasticFlow)
     moving: ClassVar[str] = "what has flowed would have to move with the surface"
-
-    @property
-    def given(self) -> PlasticFlow:
-        """The flow."""
-        return self.flow
-
-    @classmethod
-    def of(cls, given: Any) -> Self:
-        """The flow ``given``."""
-        if not isinstance(given, PlasticFlow):
-            raise TypeError
-        return cls(given)
 
     def conserves(self) -> bool:
         """It dissipates."""
@@ -99,9 +89,3 @@ class Flowing(Physics):
             return result if result.converged else in_parts(control, state, result, solved)
 
         return by_parts
-
-    @classmethod
-    def types(cls) -> tuple[type, ...]:
-        """The flow, and the law of a part of it; files know hardening by the strength of
-        materials."""
-        return J2, PlasticFlow

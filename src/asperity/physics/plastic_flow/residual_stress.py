@@ -155,6 +155,7 @@ class ResidualStress:
         return np.asarray(found.mean(axis=0))
 
 
+@dataclass(eq=False)
 class YieldingStress:
     """Stress under given tractions as the flow rule has it.
 
@@ -170,21 +171,22 @@ class YieldingStress:
         (nx, ny) and (2, nx, ny) in Pa on the body; None for none.
     """
 
-    def __init__(self, stress: ResidualStress, pressure: RealArray | None, shear: RealArray | None) -> None:
-        self._stress, self._tractions = stress, (pressure, shear)
+    stress: ResidualStress
+    pressure: RealArray | None
+    shear: RealArray | None
 
     @cached_property
     def _means(self) -> RealArray:
-        return self._stress.means(*self._tractions)
+        return self.stress.means(self.pressure, self.shear)
 
     def at(self, depth: float, *, below: bool) -> RealArray:
         """(6, nx, ny) in Pa just below ``depth`` (m), or just above it."""
-        cell = self._stress.cell_at(depth, below=below)
+        cell = self.stress.cell_at(depth, below=below)
         return self.exact(depth, below=below) if cell is None else self._means[cell]
 
     def exact(self, depth: float, *, below: bool) -> RealArray:
         """The same at the depth itself, whose tractions pass interfaces."""
-        return self._stress.loaded(depth, *self._tractions, above=not below, below=below)
+        return self.stress.loaded(depth, self.pressure, self.shear, above=not below, below=below)
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -134,6 +134,8 @@ def _curve(solved: Solved) -> dict[str, RealArray]:
 class PlasticFlowWork(WithFacts):
     """Plastic flow of the body below the contact: what is done for it."""
 
+    citation_keys: ClassVar[tuple[str, ...]] = (*PlasticBody.citation_keys, "SimoTaylor1985")
+
     def check(self, ask: Flows, problem: ContactProblem) -> None:
         """Refuse bodies that cannot flow, before the contact is solved."""
         body, _ = plastic_body(problem.body, problem.counter_body)
@@ -224,10 +226,6 @@ class PlasticFlowWork(WithFacts):
             elastic = Advice("note", "plastic flow", "Nothing flows under this load: the contact is elastic.")
             findings = (*findings, elastic)
         return Found(values, facts, findings, flow.citation_keys)
-
-    def citations(self, ask: Any, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of the method."""
-        return (*PlasticBody.citation_keys, "SimoTaylor1985")
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Map of the imprint; on the cut through the largest strain zones, residual stress, stress

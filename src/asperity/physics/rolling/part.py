@@ -126,6 +126,7 @@ class Rolling(Part):
     table = "rolling"
     settings = RollingSettings
     work = "physics.rolling.work:RollingWork"
+    takes_friction = True
 
     @property
     def quantities(self) -> tuple[Quantity, ...]:  # type: ignore[override]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -39,6 +39,8 @@ FEW = 16
 class RollingWork(WithFacts):
     """The steady contact of bodies that roll with creepage, or a rough wheel: what is done for
     it."""
+
+    citation_keys: ClassVar[tuple[str, ...]] = SteadyNewton.citation_keys
 
     def check(self, ask: Rolls, problem: ContactProblem) -> None:
         """Refuse what cannot roll."""
@@ -110,10 +112,6 @@ class RollingWork(WithFacts):
                 )
             )
         return Found(values, facts, tuple(made), keys)
-
-    def citations(self, ask: Rolls, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of law and method."""
-        return SteadyNewton.citation_keys
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Map of stick and slip, section, creep-force curve, forces of a rough wheel."""

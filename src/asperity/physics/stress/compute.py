@@ -3,9 +3,10 @@ a stream."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any, Literal, Protocol, TypeAlias
 
@@ -87,24 +88,26 @@ class Residual(Protocol):
         tractions."""
 
 
+@dataclass(eq=False)
 class WithResidual:
     """Stress by tractions on ``planes`` and the ``residual`` stress, in numbers of the type
     ``dtype``."""
 
-    def __init__(self, planes: Planes, residual: Residual, dtype: str) -> None:
-        self._planes, self._residual, self._dtype = planes, residual, dtype
-        self._last: tuple[Plane, RealArray] | None = None
+    planes: Planes
+    residual: Residual
+    dtype: str
+    _last: tuple[Plane, RealArray] | None = dataclasses.field(default=None, init=False)
 
     def _added(self, plane: Plane) -> RealArray:
         """Residual stress (6, nx, ny) on ``plane``; that of the last one is kept."""
         if self._last is None or self._last[0] != plane:
             sides = {"above": plane.side in ("above", "inside"), "below": plane.side != "above"}
-            self._last = plane, self._residual.at(plane.depth, **sides).astype(self._dtype)
+            self._last = plane, self.residual.at(plane.depth, **sides).astype(self.dtype)
         return self._last[1]
 
     def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:
         """Stress (Pa) on ``plane``, written into the arrays of ``out`` if given."""
-        found = self._planes.stress(plane, out)
+        found = self.planes.stress(plane, out)
         for component, added in zip(vars(found).values(), self._added(plane), strict=True):
             component += added
         return found
@@ -117,12 +120,12 @@ class WithResidual:
             for first, part in rows:
                 yield first, part + added[:, first : first + part.shape[1]]
 
-        self._planes.read(plane, lambda rows: reader(whole(rows)))
+        self.planes.read(plane, lambda rows: reader(whole(rows)))
 
     def at(self, plane: Plane, places: Sequence[Selection]) -> list[RealArray]:
         """Stress (Pa) on ``plane`` at each of some ``places``, (6, …)."""
         added = self._added(plane)
-        found = zip(self._planes.at(plane, places), places, strict=True)
+        found = zip(self.planes.at(plane, places), places, strict=True)
         return [field + added[(slice(None), *place.index)] for field, place in found]
 
     def displacement(self, plane: Plane, out: Displacement | None = None) -> Displacement:
@@ -130,23 +133,22 @@ class WithResidual:
         raise _displaced()
 
 
+@dataclass(eq=False)
 class OverCells(WithResidual):
     """The same, but at depths within cells on whose mean stress yield is required that mean, under
     the ``tractions``."""
 
-    def __init__(self, planes: Planes, residual: Residual, dtype: str, tractions: Tractions) -> None:
-        super().__init__(planes, residual, dtype)
-        self._tractions = tractions
+    tractions: Tractions
 
     @cached_property
     def _means(self) -> RealArray:
-        loads = self._tractions
+        loads = self.tractions
         shear = np.stack([loads.shear_x, loads.shear_y]) if loads.sheared else None
-        return self._residual.means(loads.pressure, shear).astype(self._dtype, copy=False)
+        return self.residual.means(loads.pressure, shear).astype(self.dtype, copy=False)
 
     def _mean(self, plane: Plane) -> RealArray | None:
         """Mean stress (6, nx, ny) of the cell that ``plane`` is in; None where there is none."""
-        cell = self._residual.cell_at(plane.depth, below=plane.side != "above")
+        cell = self.residual.cell_at(plane.depth, below=plane.side != "above")
         return None if cell is None else self._means[cell]
 
     def stress(self, plane: Plane, out: StressTensor | None = None) -> StressTensor:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, NamedTuple, TypeAlias
 
@@ -82,12 +82,12 @@ class _Candidate(NamedTuple):
     j: int
 
 
+@dataclass(eq=False)
 class _Top:
     """Candidates for the largest of one quantity, and the largest ``value`` of theirs."""
 
-    def __init__(self) -> None:
-        self.value = -math.inf
-        self.candidates: list[_Candidate] = []
+    value: float = -math.inf
+    candidates: list[_Candidate] = field(default_factory=list)
 
     def add(self, candidates: list[_Candidate]) -> None:
         """Take in ``candidates``, and drop those that are no longer any."""
@@ -247,16 +247,13 @@ class _Reading:
                 "shear": 2.0 * root,
             }
             if bounds.get(self._measure, math.inf) > self._limit or self._measure == _OWN:
-                self._judge(first, rows)
-
-    def _judge(self, first: int, rows: RealArray) -> None:
-        """Count what is beyond the limit, and seek the largest equivalent stress where that is none
-        of the quantities."""
-        values = self._criterion.equivalent(StressTensor(*rows))
-        self.beyond += int(np.count_nonzero(values > self._limit))
-        if self._measure == _OWN and values.max() > self._least[-1]:
-            place = np.array([np.unravel_index(int(np.argmax(values)), values.shape)])
-            self._add(-1, first, rows, place, values.max(keepdims=True).ravel(), np.zeros(1))
+                # count what is beyond the limit, and seek the largest where that is none of the
+                # quantities
+                values = self._criterion.equivalent(StressTensor(*rows))
+                self.beyond += int(np.count_nonzero(values > self._limit))
+                if self._measure == _OWN and values.max() > self._least[-1]:
+                    place = np.array([np.unravel_index(int(np.argmax(values)), values.shape)])
+                    self._add(-1, first, rows, place, values.max(keepdims=True).ravel(), np.zeros(1))
 
     def _add(
         self, number: int, first: int, rows: RealArray, places: NDArray[np.intp], values: RealArray, margins: RealArray

@@ -6,6 +6,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from operator import attrgetter
+from typing import Any, cast
 
 import numpy as np
 
@@ -38,6 +40,17 @@ DERIVED = (
     Quantity("shear_yz", "Pa", "σyz"),
 )
 """Attributes of a ``StressField`` that are stresses at its points."""
+
+
+class FromTensor:
+    """Attribute of a stress field that follows from its ``tensor`` alone: what ``of`` gives of
+    that."""
+
+    def __init__(self, of: Callable[[StressTensor], RealArray], text: str) -> None:
+        self._of, self.__doc__ = of, text
+
+    def __get__(self, field: Any, kind: type | None = None) -> RealArray:
+        return cast("RealArray", self) if field is None else self._of(field.tensor)
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,80 +209,29 @@ class StressField(Stored):
         """The regions that have planes, from the surface down."""
         return tuple(dict.fromkeys(plane.region for plane in self.planes))
 
-    @property
-    def normal_xx(self) -> RealArray:
-        """σ_xx."""
-        return self.tensor.xx
-
-    @property
-    def normal_yy(self) -> RealArray:
-        """σ_yy."""
-        return self.tensor.yy
-
-    @property
-    def normal_zz(self) -> RealArray:
-        """σ_zz."""
-        return self.tensor.zz
-
-    @property
-    def shear_xy(self) -> RealArray:
-        """σ_xy."""
-        return self.tensor.xy
-
-    @property
-    def shear_xz(self) -> RealArray:
-        """σ_xz."""
-        return self.tensor.xz
-
-    @property
-    def shear_yz(self) -> RealArray:
-        """σ_yz."""
-        return self.tensor.yz
-
-    @property
-    def von_mises(self) -> RealArray:
-        """√(3 J2), see ``invariants``."""
-        return invariants.von_mises(self.tensor)
-
-    @property
-    def sqrt_J2(self) -> RealArray:
-        """√J2."""
-        return invariants.sqrt_J2(self.tensor)
-
-    @property
-    def tresca(self) -> RealArray:
-        """σ1 - σ3."""
-        return invariants.tresca(self.tensor)
-
-    @property
-    def max_shear(self) -> RealArray:
-        """(σ1 - σ3)/2."""
-        return invariants.max_shear(self.tensor)
-
-    @property
-    def max_shear_normal(self) -> RealArray:
-        """Unit normal of a plane of largest shear, (3, n, …)."""
-        return invariants.max_shear_normal(self.tensor)
-
-    @property
-    def principal(self) -> RealArray:
-        """σ1 >= σ2 >= σ3, (3, n, …)."""
-        return invariants.principal_stresses(self.tensor)
+    normal_xx = FromTensor(attrgetter("xx"), "σ_xx.")
+    normal_yy = FromTensor(attrgetter("yy"), "σ_yy.")
+    normal_zz = FromTensor(attrgetter("zz"), "σ_zz.")
+    shear_xy = FromTensor(attrgetter("xy"), "σ_xy.")
+    shear_xz = FromTensor(attrgetter("xz"), "σ_xz.")
+    shear_yz = FromTensor(attrgetter("yz"), "σ_yz.")
+    von_mises = FromTensor(invariants.von_mises, "√(3 J2), see ``invariants``.")
+    sqrt_J2 = FromTensor(invariants.sqrt_J2, "√J2.")
+    tresca = FromTensor(invariants.tresca, "σ1 - σ3.")
+    max_shear = FromTensor(invariants.max_shear, "(σ1 - σ3)/2.")
+    max_shear_normal = FromTensor(invariants.max_shear_normal, "Unit normal of a plane of largest shear, (3, n, …).")
+    principal = FromTensor(invariants.principal_stresses, "σ1 >= σ2 >= σ3, (3, n, …).")
 
     @property
     def max_principal(self) -> RealArray:
         """σ1."""
         return np.asarray(self.principal[0])
 
-    @property
-    def principal_tensile(self) -> RealArray:
-        """Larger principal stress within planes parallel to the surface (Peng 2001, eq. 3.34)."""
-        return invariants.principal_tensile(self.tensor)
-
-    @property
-    def hydrostatic(self) -> RealArray:
-        """Mean normal stress."""
-        return invariants.hydrostatic(self.tensor)
+    principal_tensile = FromTensor(
+        invariants.principal_tensile,
+        "Larger principal stress within planes parallel to the surface (Peng 2001, eq. 3.34).",
+    )
+    hydrostatic = FromTensor(invariants.hydrostatic, "Mean normal stress.")
 
     @property
     def interfaces(self) -> tuple[InterfaceStress, ...]:

@@ -150,6 +150,7 @@ class Stress(Part):
     title = "Stresses inside the body"
     table = "stress"
     settings = StressSettings
+    basic = ("sections", "depths")
     quantities = (
         *(Quantity(name, "Pa", text) for name, text in _LARGEST.items()),
         *(Quantity(f"{name}_error", "Pa", f"error of the {text}") for name, text in _LARGEST.items()),
@@ -174,6 +175,7 @@ class Stress(Part):
         Quantity("interface_max_peel", "Pa", "largest peel of the interface", dims=("interface",)),
     )
     work = "physics.stress.work:StressWork"
+    headline = "max_von_mises"
     whole_path = True
 
     def asked(self, document: Any, folder: Path) -> StressRequest:

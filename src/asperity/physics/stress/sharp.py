@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -69,6 +69,7 @@ _SIXTH = (45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0)
 _FOURTH = (8.0 / 12.0, -1.0 / 12.0)
 
 
+@dataclass(eq=False, repr=False)
 class AtEdges:
     """Largest stresses at the surface of a ``body`` of a contact ``result`` under ``loads``, its
     tractions on that body; found at the first call.
@@ -78,15 +79,11 @@ class AtEdges:
     somebody has computed them.
     """
 
-    def __init__(
-        self,
-        result: Any,
-        loads: Tractions,
-        body: object,
-        planes: Callable[..., Any],
-        known: tuple[RealArray, RealArray, RealArray] | None = None,
-    ) -> None:
-        self.result, self.loads, self.body, self.planes, self.known = result, loads, body, planes, known
+    result: Any
+    loads: Tractions
+    body: object
+    planes: Callable[..., Any]
+    known: tuple[RealArray, RealArray, RealArray] | None = None
 
     def beside(self, field: StressField) -> AtEdges:
         """The same, which takes the stresses at the surface from a ``field`` under the same loads
@@ -95,8 +92,7 @@ class AtEdges:
         s = field.tensor
         if not numbers or field.dims != ("plane", "x", "y") or s.xx.dtype != np.float64:
             return self
-        known = s.xx[numbers[0]], s.yy[numbers[0]], s.xy[numbers[0]]
-        return AtEdges(self.result, self.loads, self.body, self.planes, known)
+        return replace(self, known=(s.xx[numbers[0]], s.yy[numbers[0]], s.xy[numbers[0]]))
 
     def __call__(self) -> SurfaceMaxima | None:
         """None where nothing is known of the edges: no contact, or attraction that holds them."""

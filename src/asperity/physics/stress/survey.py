@@ -3,6 +3,7 @@ need not fit in memory together."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -448,14 +449,14 @@ def survey(
     )
 
 
+@dataclass(eq=False)
 class _Passed:
     """Sections and profiles that were cut out of planes as they were read, and those that were
     not."""
 
-    def __init__(self, job: StressPlanes) -> None:
-        self._job = job
-        self._cut: dict[tuple[Where, Plane], StressField] = {}
-        self._places: dict[Where, Selection] = {}
+    _job: StressPlanes
+    _cut: dict[tuple[Where, Plane], StressField] = dataclasses.field(default_factory=dict, init=False)
+    _places: dict[Where, Selection] = dataclasses.field(default_factory=dict, init=False)
 
     def cutting(self, lines: list[Where]) -> Callable[[Plane, Reader], None]:
         """What reads planes for others and keeps their stress along ``lines``."""

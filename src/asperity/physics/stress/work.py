@@ -284,7 +284,9 @@ def yield_sentence(survey: StressSurvey) -> str:
         )
     unknown = list(dict.fromkeys(part.region.name for part in report.regions if math.isnan(part.load_factor)))
     beside = f" The strength of {' and '.join(unknown)} is not known." if unknown else ""
-    where = _where(first.peak)
+    face = {"above": " (its lower face)", "below": " (its upper face)"}.get(first.peak.side, "")
+    deep = f"in {first.peak.region.name} at a depth of {show(first.peak.depth, 'm')}{face}"
+    where = f"at the surface of {first.peak.region.name}" if first.peak.side == "surface" else deep
     at = f"At {survey.where}: " if survey.where else ""
     if report.yields:
         return (
@@ -361,15 +363,6 @@ def _place_text(survey: StressSurvey, peak: Peak) -> tuple[str, str, str]:
         for at, step, n in zip((peak.x, peak.y), grid.spacing, grid.shape, strict=True)
     )
     return x, y, _depth_text(peak)
-
-
-def _where(peak: Peak) -> str:
-    """Place of a ``peak`` within a sentence."""
-    name = peak.region.name
-    if peak.side == "surface":
-        return f"at the surface of {name}"
-    face = {"above": " (its lower face)", "below": " (its upper face)"}.get(peak.side, "")
-    return f"in {name} at a depth of {show(peak.depth, 'm')}{face}"
 
 
 def _depth_text(peak: Peak) -> str:

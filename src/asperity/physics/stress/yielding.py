@@ -3,6 +3,7 @@ beyond its strength."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -147,13 +148,13 @@ def first_yield(fields: StressField | Iterable[StressField], criterion: Criterio
     return YieldReport(criterion, tuple(part.report(region, peaks[region]) for region, part in parts.items()))
 
 
+@dataclass(eq=False)
 class Gathered:
     """How much of one region is beyond its ``limit``, plane by plane."""
 
-    def __init__(self, limit: Limit) -> None:
-        self.limit = limit
-        self._depths: list[float] = []
-        self._extents: list[float] = []
+    limit: Limit
+    _depths: list[float] = dataclasses.field(default_factory=list, init=False)
+    _extents: list[float] = dataclasses.field(default_factory=list, init=False)
 
     def note(self, depth: float, extent: float) -> None:
         """Take in a plane, with the area (length, number) beyond the limit."""

@@ -17,7 +17,7 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 
 from ...contact.boundary import Periodic
-from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share
+from ...contact.couplings.protocol import Coupling, Exchange, Memory, Posed, Share
 from ...contact.operators.convolution import Operator, spectral_kernel
 from ...core.arrays import ComplexArray, RealArray
 from ...core.engine import CpuEngine
@@ -553,8 +553,3 @@ class CreepCoupling(Coupling):
     def share(self, exchange: Exchange) -> Share:
         """The displacement as a lift, where there is any."""
         return Share(lift=exchange.x) if exchange.x.any() else Share()
-
-    def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
-        """Nothing: the past is brought up to date by the steps of time, which may take a step
-        back."""
-        return {}, None

@@ -140,6 +140,7 @@ class Viscoelasticity(Part):
     title = "Viscoelasticity"
     table = "viscoelastic"
     settings = ViscoelasticSettings
+    basic = ("hold",)
     implied = staticmethod(attrgetter("relaxes"))
     whole_path = True
     work = "physics.viscoelastic.work:ViscoelasticityWork"

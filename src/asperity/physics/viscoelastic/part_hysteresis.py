@@ -118,6 +118,7 @@ class Hysteresis(Part):
     title = "Hysteretic friction"
     table = "hysteresis"
     settings = HysteresisSettings
+    basic = ("speed",)
     quantities = (*SCALARS, FIELD, *COLUMNS)
     work = "physics.viscoelastic.work_hysteresis:HysteresisWork"
 

@@ -27,7 +27,7 @@ import numpy as np
 from ...contact.boundary import Periodic
 from ...contact.controls import Control, Unloaded
 from ...contact.couplings.driver import Rounds
-from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, Share, height_scale
+from ...contact.couplings.protocol import Contact, Coupling, Exchange, Memory, Posed, height_scale
 from ...contact.law import HardWall
 from ...contact.operators import Operator, prepare_operator
 from ...contact.operators.convolution import PeriodicOperator
@@ -160,6 +160,8 @@ class LagCoupling(Coupling):
     feedback: bool = True
     tolerance: float = TOLERANCE
     name: ClassVar[str] = "lag"
+    settled_text: ClassVar[str] = "The lag of the viscoelastic displacement is settled"
+    unsettled_text: ClassVar[str] = "The lag of the viscoelastic displacement still changes by {change:.1e}"
     remedy: ClassVar[str] = (
         "Allow more rounds, or loosen the tolerance of the lag. Where adhesive contacts jump, prescribe the "
         "position or start from a contact of another speed (after=); slide_in_time follows the motion."
@@ -170,10 +172,6 @@ class LagCoupling(Coupling):
         x = np.asarray(memory["displacement"]) if memory else np.zeros(posed.profile.shape)
         return Exchange(x, x, np.inf if self.feedback else 0.0, self.tolerance)
 
-    def share(self, exchange: Exchange) -> Share:
-        """The displacement as a lift."""
-        return Share(lift=exchange.x)
-
     def reply(self, exchange: Exchange, contact: Contact) -> Exchange:
         """The displacement under the traction of ``contact``."""
         if not self.feedback:
@@ -181,14 +179,6 @@ class LagCoupling(Coupling):
         target = self.kernel.lag(contact.traction)
         size, change = float(np.linalg.norm(target)), float(np.linalg.norm(target - exchange.x))
         return replace(exchange, target=target, residual=change / size if size else change, scale=size or 1.0)
-
-    def settled(self, exchange: Exchange) -> str:
-        """That the displacement is."""
-        return "The lag of the viscoelastic displacement is settled"
-
-    def unsettled(self, exchange: Exchange) -> str:
-        """The change of the displacement."""
-        return f"The lag of the viscoelastic displacement still changes by {exchange.residual:.1e}"
 
     def end(self, exchange: Exchange, contact: Contact) -> tuple[Memory, None]:
         """The displacement."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -30,6 +30,8 @@ MUCH = 0.05
 
 class ViscoelasticityWork(WithFacts):
     """What time does to a contact of viscoelastic bodies: what is done for it."""
+
+    citation_keys: ClassVar[tuple[str, ...]] = ("Ferry1980", "Lee1960", "Park1999", "Ting1966")
 
     def check(self, ask: InTime, problem: ContactProblem) -> None:
         """Refuse times where nothing relaxes, and a temperature without a shift."""
@@ -135,10 +137,6 @@ class ViscoelasticityWork(WithFacts):
             )
             made.append(Advice("warning", "steps of time", fact, remedy, numbers, concerns))
         return Found(values, detail, tuple(made), keys)
-
-    def citations(self, ask: InTime, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of viscoelastic contact."""
-        return ("Ferry1980", "Lee1960", "Park1999", "Ting1966")
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Area, approach, load and energies against time, and the moduli of the solids."""

@@ -4,7 +4,7 @@ in numbers, figures and words."""
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -32,6 +32,8 @@ APART = 0.2
 class HysteresisWork(WithFacts):
     """Friction of a rough body that slides steadily over a viscoelastic one: what is done for
     it."""
+
+    citation_keys: ClassVar[tuple[str, ...]] = ("Hunter1961", "Carbone2013", "Persson2001")
 
     def check(self, ask: HysteresisSettings, problem: ContactProblem) -> None:
         """Refuse what cannot slide steadily."""
@@ -93,10 +95,6 @@ class HysteresisWork(WithFacts):
             compared = {"friction": friction, "largest": STEEP}
             made.append(Advice("warning", "steep slopes", fact, numbers=compared, concerns=("hysteresis_", "sliding_")))
         return Found(values, facts, tuple(made), keys)
-
-    def citations(self, ask: HysteresisSettings, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of sliding over viscoelastic bodies."""
-        return ("Hunter1961", "Carbone2013", "Persson2001")
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Pressure while sliding; friction and area against speed."""

@@ -4,7 +4,7 @@ and words."""
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -42,6 +42,8 @@ LEAST, MOST = 4, 100_000
 class SlidingStartWork(Work):
     """What happens from the load at once over the first distance of sliding: what is done for
     it."""
+
+    citation_keys: ClassVar[tuple[str, ...]] = ("Carbone2013",)
 
     def check(self, ask: HysteresisSettings, problem: ContactProblem) -> None:
         """Refuse fewer steps of time than friction is averaged over, and more than are
@@ -117,10 +119,6 @@ class SlidingStartWork(Work):
             concerns = ("hysteresis_", "sliding_", "start_last_")
             made.append(Advice("warning", "two steady states", fact, numbers=compared, concerns=concerns))
         return Found(values, facts, tuple(made), found.citation_keys)
-
-    def citations(self, ask: HysteresisSettings, problem: ContactProblem) -> tuple[str, ...]:
-        """Papers of sliding over viscoelastic bodies."""
-        return ("Carbone2013",)
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Friction and area against distance, heat against time, pressure after it."""

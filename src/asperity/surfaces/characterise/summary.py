@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from operator import attrgetter
 from typing import Any, ClassVar, TypeVar
 
@@ -62,12 +62,12 @@ from .texture import AngularSpectrum, angular_spectrum, texture_lengths
 T = TypeVar("T")
 
 
+@dataclass(eq=False)
 class Attempts:
     """Evaluates quantities; one that is undefined for the surface gives None and adds a sentence to
     ``remarks``."""
 
-    def __init__(self) -> None:
-        self.remarks: list[str] = []
+    remarks: list[str] = field(default_factory=list)
 
     def __call__(self, what: str, measure: Callable[[], T]) -> T | None:
         """Value of ``measure()``, or None after an ``InputError``; ``what`` names it in the

@@ -184,11 +184,11 @@ class MajoriseMinimise(Stepwise):
             return None
 
 
+@dataclass(eq=False)
 class Work:
     """FFT pairs spent so far."""
 
-    def __init__(self) -> None:
-        self.pairs = 0.0
+    pairs: float = 0.0
 
 
 FINEST = 1e-13
