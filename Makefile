@@ -10,7 +10,7 @@
 #   make fix          mends what ruff can mend
 #   make hooks        checks style and types before every commit (pre-commit)
 #   make package      wheel and source archive in dist/, installed in empty environments, where the demo runs
-#   make bench        speed, as ratios, against other packages if they are installed (BENCH="--sizes 256" passes options)
+#   make bench        every benchmark: tables and picture of benchmarks/README.md, ten minutes (BENCH="layered paths" some, BENCH=--full all sizes, hours)
 #   make validate     every page of validation/ anew, one process at a time, their summary, and pictures in PICTURES=validation-pictures
 #   make docs         the site in build/docs/html, without network; warnings are errors
 #   make docs-serve   shows it on http://127.0.0.1:8000 (PORT=8000), on this machine only
@@ -96,7 +96,7 @@ package: $(DEV_OK)
 	done
 
 bench: $(DEV_OK)
-	$(BIN)/python benchmarks/run.py $(BENCH)
+	$(BIN)/python benchmarks/bench.py $(BENCH)
 
 # Scripts with a page; stops at the end, with an error, if one of them disagrees with what was published.
 PAGES    := $(filter-out validation/README.md,$(sort $(wildcard validation/*.md)))

@@ -2,7 +2,7 @@
 they offer.
 
 The reference is a solution at 1e-10 in double precision. Usage: python benchmarks/accuracy.py
-[--sizes 256 512]
+[--sizes 256 512] [--write]
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import argparse
 import numpy as np
 from checks import contact_pixels, relative_l2
 from surfaces import BODY, LOADS, self_affine
+from tables import add_option, made, show
 
 import asperity as asp
 
@@ -26,24 +27,36 @@ def solved(problem: asp.ContactProblem, load: float, solver: object) -> asp.Cont
     )
 
 
-def line(n: int, load: float, arithmetic: str, found: asp.ContactResult, reference: asp.ContactResult) -> str:
+COLUMNS = (
+    "n",
+    "load",
+    "arithmetic",
+    "error of the pressure (L2)",
+    "pixels",
+    "the field's error",
+    "duality gap",
+    "pairs",
+)
+
+
+def row(n: int, load: float, arithmetic: str, found: asp.ContactResult, reference: asp.ContactResult) -> list[str]:
     """One row of the table."""
     work = found.certificate
     pixels = contact_pixels(found.pressure) - contact_pixels(reference.pressure)
-    state = "" if found.converged else f"  {found.status.outcome.value}"
-    return (
-        f"{n:>5} {load:>5} {arithmetic:<7} {relative_l2(found.pressure, reference.pressure):>9.1e} {pixels:>+7} "
-        f"{work.field_error:>9.1e} {work.duality_gap:>9.1e} {work.fft_pairs:>6.0f} {work.wall_time:>8.3f}{state}"
-    )
+    state = "" if found.converged else f", {found.status.outcome.value}"
+    error = f"{relative_l2(found.pressure, reference.pressure):.1e}{state}"
+    numbers = [f"{pixels:+}", f"{work.field_error:.1e}", f"{work.duality_gap:.1e}", f"{work.fft_pairs:.0f}"]
+    return [str(n), str(load), arithmetic, error, *numbers]
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--sizes", type=int, nargs="+", default=[256, 512])
     parser.add_argument("--tolerance", type=float, default=1e-6)
+    add_option(parser)
     given = parser.parse_args()
+    rows = []
     print(f"asperity {asp.__version__}, tolerance {given.tolerance}, against {REFERENCE} in double precision")
-    print("    n  load arith.      L2 err  pixels  field err  gap/V    pairs   time/s")
     for n in given.sizes:
         problem = asp.ContactProblem(self_affine(n), BODY)
         for load in LOADS:
@@ -60,7 +73,8 @@ def main() -> None:
                 except asp.InputError:
                     print(f"{n:>5} {load:>5} {arithmetic:<7} not offered")
                     continue
-                print(line(n, load, arithmetic, solved(problem, load, solver), reference), flush=True)
+                rows.append(row(n, load, arithmetic, solved(problem, load, solver), reference))
+    show(made("accuracy", COLUMNS, rows), write=given.write)
 
 
 if __name__ == "__main__":

@@ -10,14 +10,15 @@ from the displacement of the position before.
 
 from __future__ import annotations
 
+import argparse
 import json
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
 
 import numpy as np
+from tables import add_option, made, show
 
 POINTS, SIZE, E_STAR, WORK, RANGE = 64, 6.4e-6, 9.2e6, 0.05, 45e-9
 ONE_THREAD = {"PATH": "", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
@@ -75,25 +76,28 @@ def theirs(python: str, heights: np.ndarray) -> list[tuple[float, float]]:
     return [(force, seconds) for force, seconds in json.loads(done.stdout.splitlines()[-1])]
 
 
-def main(python: str) -> None:
-    """Print both, ours once more after theirs."""
+def main() -> None:
+    """Both, ours once more after theirs."""
     import asperity as asp
 
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("python", help="interpreter under which Adhesion is installed")
+    add_option(parser)
+    given = parser.parse_args()
     spectrum = asp.generate.GaussianAutocorrelation(45e-9, 1.1e-6)
     surface = asp.generate.gaussian(asp.Grid((POINTS, POINTS), (SIZE / POINTS, SIZE / POINTS)), spectrum, seed=3)
     heights = surface.heights - surface.heights.mean()
-    first, peer, second = ours(heights), theirs(python, heights), ours(heights)
-    print("approach (nm)   asperity (uN, s, s again)        Adhesion (uN, s)      difference")
-    for approach, (force, seconds), (other, took), (_, again) in zip(APPROACHES, first, peer, second, strict=True):
-        print(
-            f"{approach * 1e9:10.0f}   {force * 1e6:12.5f} {seconds:8.3f} {again:8.3f}   {other * 1e6:12.5f} "
-            f"{took:8.3f}   {force / other - 1.0:+.1e}"
-        )
-    print(
-        f"processor time in all: {sum(t for _, t in first):.2f} and {sum(t for _, t in second):.2f} s against "
-        f"{sum(t for _, t in peer):.2f} s"
-    )
+    first, peer, second = ours(heights), theirs(given.python, heights), ours(heights)
+    rows = [
+        [f"{approach * 1e9:.0f}", f"{force * 1e6:.5f}", f"{other * 1e6:.5f}", f"{force / other - 1.0:+.1e}"]
+        + [f"{time:.3f}" for time in (seconds, again, took)]
+        for approach, (force, seconds), (other, took), (_, again) in zip(APPROACHES, first, peer, second, strict=True)
+    ]
+    totals = (f"{sum(time for _, time in some):.2f}" for some in (first, second, peer))
+    times = ("asperity (s)", "again (s)", "Adhesion (s)")
+    columns = ("approach (nm)", "force, asperity (µN)", "force, Adhesion (µN)", "difference", *times)
+    show(made("adhesive", columns, [*rows, ["all", "", "", "", *totals]]), write=given.write)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main()

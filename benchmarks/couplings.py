@@ -11,10 +11,10 @@ from __future__ import annotations
 import argparse
 import itertools
 import math
-import sys
 from dataclasses import replace
 
 import numpy as np
+from tables import add_option, made, show
 
 import asperity as asp
 from asperity.contact.solve import Keep
@@ -75,19 +75,15 @@ def coated(film: float, base: float) -> asp.Layered:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--size", type=int, default=96, help="pixels per side")
-    size = parser.parse_args().size
+    add_option(parser)
+    given = parser.parse_args()
+    size, rows = given.size, []
     spectrum = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsHeight(2.0 * NM), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=100 * NM
     )
     surface = asp.generate.gaussian(asp.Grid((size, size), (25 * NM, 25 * NM)), spectrum, seed=5)
     plain = asp.Elastic(100e9, 0.15)
     bodies = {"": plain, "soft film": coated(0.7e9, 2e9), "hard film": coated(2e9, 1e9)}
-    write = sys.stdout.write
-    write(
-        "| physics | solves | pairs | nested solves | nested pairs | at a mean gap: solves | pairs | nested "
-        "solves | nested pairs |\n"
-    )
-    write("|---|---|---|---|---|---|---|---|---|\n")
     for (name, body), film, friction in itertools.product(bodies.items(), (None, FILM), (None, FRICTION)):
         law = asp.plasticity.LayeredHardness(body) if isinstance(body, asp.Layered) else asp.plasticity.HardWall()
         problem = asp.ContactProblem(surface, body, law=law, film=film, friction=friction)
@@ -101,8 +97,11 @@ def main() -> None:
         nested.searched(replace(problem, film=None), gap)  # menisci are passive there
         row += [flat.solves, flat.pairs, nested.solves, nested.pairs]
         physics = [text for text in (name, "menisci" if film else "", "sliding" if friction else "") if text]
-        write(f"| {', '.join(physics) or 'elastic'} | {' | '.join(f'{value:.0f}' for value in row)} |\n")
-        sys.stdout.flush()
+        rows.append([", ".join(physics) or "elastic", *(f"{value:.0f}" for value in row)])
+        print(*rows[-1], flush=True)
+    work = ("solves", "pairs", "nested solves", "nested pairs")
+    columns = ("physics", *work, *(f"{name}, mean gap" for name in work))
+    show(made("couplings", columns, rows), write=given.write)
 
 
 if __name__ == "__main__":

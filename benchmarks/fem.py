@@ -11,6 +11,7 @@ import argparse
 import time
 
 import numpy as np
+from tables import add_option, made, show
 
 import asperity as asp
 from asperity import fem
@@ -41,26 +42,17 @@ def sphere(across: int, steps: int) -> list[str]:
     took = time.process_time() - start
     iterations, cuts = sum(step.iterations for step in found.steps), sum(step.cuts for step in found.steps)
     cells = len(found.fields[steps - 1].mesh.cells)
-    lines = [
-        (
-            f"{cells} elements, {steps} steps: {took:.1f} s, {iterations} iterations of {took / iterations:.2f} s, "
-            f"{cuts} cuts"
-        )
-    ]
-    lines += [
-        (
-            f"  load at {x:g} yield approaches: {np.interp(x, found.approach / APPROACH, found.load / LOAD):.1f}, "
-            f"reference {load:g}"
-        )
-        for x, load in REFERENCE.items()
-    ]
-    return lines
+    numbers = [str(cells), str(steps), f"{took:.1f}", str(iterations), f"{took / iterations:.2f}", str(cuts)]
+    return [*numbers, *(f"{np.interp(x, found.approach / APPROACH, found.load / LOAD):.1f}" for x in REFERENCE)]
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--steps", type=int, default=40)
     parser.add_argument("--across", type=int, nargs="+", default=[40, 56])
+    add_option(parser)
     options = parser.parse_args()
-    for across in options.across:
-        print("\n".join(sphere(across, options.steps)))
+    rows = [sphere(across, options.steps) for across in options.across]
+    loads = [f"load at {x:g} (reference {load:g})" for x, load in REFERENCE.items()]
+    columns = ("elements", "steps", "s", "iterations", "s an iteration", "cuts", *loads)
+    show(made("finite-elements", columns, rows), write=options.write)

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 from surfaces import self_affine
+from tables import add_option, made, show
 
 import asperity as asp
 from asperity.core.arrays import RealArray
@@ -43,7 +44,7 @@ def timed(run: Callable[[], Any], repeats: int) -> tuple[Any, float]:
     return found, best
 
 
-def one_step(n: int, nu: float, repeats: int) -> str:
+def one_step(n: int, nu: float, repeats: int) -> list[str]:
     """Row of one partial-slip step of equal bodies."""
     body = asp.Elastic(2.0 * (1.0 - nu**2), nu)
     problem = asp.ContactProblem(self_affine(n), body, counter_body=body)
@@ -54,13 +55,11 @@ def one_step(n: int, nu: float, repeats: int) -> str:
     found, seconds = timed(lambda: StickSlipNewton().solve(qp), repeats)
     assert found.status.converged
     pairs = normal.certificate.fft_pairs
-    return (
-        f"| step, equal bodies, ν = {nu:g} | {n} | {cold:.3f} | {pairs:.0f} | {found.iterations} | {found.pairs:.0f} | "
-        f"{seconds / cold:.2f} |"
-    )
+    numbers = [f"{cold:.3f}", f"{pairs:.0f}", str(found.iterations), f"{found.pairs:.0f}", f"{seconds / cold:.2f}"]
+    return [f"step, equal bodies, ν = {nu:g}", str(n), *numbers]
 
 
-def history(n: int, name: str, body: asp.Elastic | asp.Layered, repeats: int) -> str:
+def history(n: int, name: str, body: asp.Elastic | asp.Layered, repeats: int) -> list[str]:
     """Row of a coupled history of 20 steps."""
     surface, modulus = self_affine(n), asp.solids.contact_modulus(body, asp.Rigid())
     bare = asp.ContactProblem(surface, body)
@@ -75,17 +74,30 @@ def history(n: int, name: str, body: asp.Elastic | asp.Layered, repeats: int) ->
     rounds = np.mean([s.certificate.rounds for s in found.steps])
     forces = max(abs(s.stick_slip.force_x) / s.stick_slip.friction_limit for s in found.steps)
     per_step = seconds / len(found.steps)
-    return (
-        f"| history, {name} (Q up to {forces:.2f} μP, {rounds:.1f} rounds a step) | {n} | {cold:.3f} | "
-        f"{normal.certificate.fft_pairs:.0f} | {np.mean([s.stick_slip.iterations for s in found.steps]):.1f} | "
-        f"{np.mean([s.certificate.fft_pairs for s in found.steps]):.0f} + "
-        f"{np.mean([s.stick_slip.fft_pairs for s in found.steps]):.0f} | {per_step / cold:.2f} |"
-    )
+    newton = np.mean([s.stick_slip.iterations for s in found.steps])
+    pairs = [np.mean([part(s) for s in found.steps]) for part in (_normal_pairs, _shear_pairs)]
+    return [
+        f"history, {name} (Q up to {forces:.2f} μP, {rounds:.1f} rounds a step)",
+        str(n),
+        f"{cold:.3f}",
+        f"{normal.certificate.fft_pairs:.0f}",
+        f"{newton:.1f}",
+        f"{pairs[0]:.0f} + {pairs[1]:.0f}",
+        f"{per_step / cold:.2f}",
+    ]
 
 
-def beside_tamaas(n: int, repeats: int) -> str:
+def _normal_pairs(step: asp.ContactResult) -> float:
+    return step.certificate.fft_pairs
+
+
+def _shear_pairs(step: asp.ContactResult) -> float:
+    return step.stick_slip.fft_pairs
+
+
+def beside_tamaas(n: int, repeats: int) -> list[str] | None:
     """Row of the contact and one step of half the friction limit, rigid on an incompressible body,
-    by asperity and by Tamaas.
+    by asperity and by Tamaas; None without it.
 
     There the bodies do not couple, and ``PolonskyKeerTan`` of Tamaas, which alternates as well,
     means the same contact. Both start from heights; errors are duality gaps of the tangential
@@ -94,7 +106,7 @@ def beside_tamaas(n: int, repeats: int) -> str:
     try:
         import tamaas
     except ImportError:
-        return f"| {n} | Tamaas: not installed | | | | | |"
+        return None
     tamaas.set_log_level(tamaas.LogLevel.error)
     tamaas.initialize(1)
     surface, body = self_affine(n), asp.Elastic(0.75, 0.5)
@@ -118,10 +130,8 @@ def beside_tamaas(n: int, repeats: int) -> str:
 
     errors = gap(ours.pressure, ours.stick_slip.traction), gap(found[..., 2], np.moveaxis(found[..., :2], -1, 0))
     apart = np.linalg.norm(found[..., 0] - ours.stick_slip.traction[0]) / np.linalg.norm(found[..., 0])
-    return (
-        f"| {n} | {seconds:.2f} | {theirs:.1f} | {theirs / seconds:.0f} | {errors[0]:.0e} | "
-        f"{errors[1]:.0e} | {apart:.0e} |"
-    )
+    times = [f"{seconds:.2f}", f"{theirs:.1f}", f"{theirs / seconds:.0f}"]
+    return [str(n), *times, *(f"{value:.0e}" for value in (*errors, apart))]
 
 
 def main() -> None:
@@ -132,22 +142,23 @@ def main() -> None:
     parser.add_argument(
         "--peer-sizes", type=int, nargs="*", default=[64, 128], help="grids to run Tamaas on, if installed"
     )
+    add_option(parser)
     options = parser.parse_args()
     coated = asp.Layered([asp.Layer(asp.Elastic(4.0, 0.3), 4.0)], base=asp.Elastic(1.0, 0.3))
-    print(
-        "| case | n | cold normal solve (s) | its pairs | Newton steps | pairs (histories: normal + joint and "
-        "tangential solves) | time in cold solves |"
-    )
-    print("|---|---|---|---|---|---|---|")
+    rows = []
     for n in options.sizes:
-        for nu in (0.0, 0.3):
-            print(one_step(n, nu, options.repeats), flush=True)
+        rows += [one_step(n, nu, options.repeats) for nu in (0.0, 0.3)]
         for name, body in (("rigid on elastic", asp.Elastic(0.91, 0.3)), ("rigid on layer E 4", coated)):
-            print(history(n, name, body, options.repeats), flush=True)
-    print("\n| n | asperity (s) | Tamaas (s) | ratio | gap, asperity | gap, Tamaas | tractions apart |")
-    print("|---|---|---|---|---|---|---|")
-    for n in options.peer_sizes:
-        print(beside_tamaas(n, options.repeats), flush=True)
+            rows.append(history(n, name, body, options.repeats))
+    columns = ("case", "n", "cold normal solve (s)", "its pairs", "Newton steps", "pairs", "time in cold solves")
+    tables = [made("stick-slip", columns, rows)]
+    beside = [row for n in options.peer_sizes if (row := beside_tamaas(n, options.repeats))]
+    columns = ("n", "asperity (s)", "Tamaas (s)", "ratio", "gap, asperity", "gap, Tamaas", "tractions apart")
+    if beside:
+        tables.append(made("stick-slip-tamaas", columns, beside))
+    else:
+        print("Tamaas: not installed (pip install 'asperity[bench]')")
+    show(*tables, write=options.write)
 
 
 if __name__ == "__main__":

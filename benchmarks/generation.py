@@ -1,6 +1,7 @@
 """Time to generate surfaces of every random kind, beside one real FFT pair of the same size.
 
 Usage: python benchmarks/generation.py [--sizes 1024 4096] [--threads 2] [--repeats 3] [--all]
+[--write]
 
 Medians of the rounds; ``beyond`` is the time without the pair, ``pairs`` the time over it. Kinds
 that iterate (rank ordering) or add up particles are timed on the smallest size only, unless
@@ -13,6 +14,7 @@ import argparse
 import os
 from collections.abc import Callable
 
+from tables import add_option, made, show
 from topography import median_time, pair
 
 import asperity as asp
@@ -60,18 +62,21 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--all", action="store_true")
+    add_option(parser)
     options = parser.parse_args()
+    rows = []
     os.environ["ASPERITY_THREADS"] = str(options.threads)
     for work in kinds(64).values():  # imports
         work()
     for n in options.sizes:
         one = median_time(pair(n, options.threads), options.repeats)
-        print(f"\n{n} x {n} points, {options.threads} threads, FFT pair {one:.3f} s\n")
-        print("| surface | s | beyond | pairs |\n|---|---|---|---|")
+        print(f"{n} x {n} points, {options.threads} threads, FFT pair {one:.3f} s", flush=True)
         works = kinds(n) | (slow_kinds(n) if options.all or n == min(options.sizes) else {})
         for name, work in works.items():
             took = median_time(work, options.repeats)
-            print(f"| {name} | {took:.2f} | {took - one:.2f} | {took / one:.1f} |")
+            rows.append([n, name, f"{took:.2f}", f"{took - one:.2f}", f"{took / one:.1f}"])
+    columns = ("n", "surface", "s", "s beyond a pair", "pairs")
+    show(made("generate", columns, rows), write=options.write)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from peers import installed, make
+from tables import add_option, made, show
 
 import asperity as asp
 from asperity.run.build import Case, build
@@ -66,20 +67,23 @@ def main() -> None:
     parser.add_argument("--surfaces", type=int, default=3, help="of which the least time counts")
     parser.add_argument("--tolerances", type=float, nargs="+", default=[1e-7, 1e-5], help="the field's error")
     parser.add_argument("--peers", nargs="*", choices=PEERS, default=list(PEERS), help="other packages")
+    add_option(parser)
     given = parser.parse_args()
     ours(0, 1e-2)
+    rows = []
     for tolerance in given.tolerances:
         spent = min(ours(seed, tolerance) for seed in range(1, given.surfaces + 1))
-        print(f"{tolerance:.0e} asperity: {spent:.2f} s a surface, {minutes(spent):.0f} min in all")
+        rows.append(["asperity", f"{tolerance:.0e}", f"{spent:.2f}", f"{minutes(spent):.0f}"])
         for peer in given.peers:
             if not installed(peer):
                 print(f"{tolerance:.0e} {peer}: not installed (pip install 'asperity[bench]')")
                 continue
             one = theirs(peer, tolerance)
-            print(
-                f"{tolerance:.0e} {peer}: {one:.2f} s a solve, {minutes(LOADS.size * one):.0f} min in all (projected)",
-                flush=True,
-            )
+            each, total = f"{LOADS.size} × {one:.2f}", f"{minutes(LOADS.size * one):.0f}"
+            rows.append([peer, f"{tolerance:.0e}", each, total])
+    columns = ("package", "tolerance", "one surface (s)", "1000 surfaces, two cores (min)")
+    others = any(row[0] != "asperity" for row in rows)
+    show(made("campaign-packages" if others else "campaign", columns, rows), write=given.write)
 
 
 if __name__ == "__main__":

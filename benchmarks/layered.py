@@ -2,7 +2,7 @@
 on the same surface.
 
 Usage: python benchmarks/layered.py [--sizes 512 1024] [--load 0.05] [--threads 2] [--repeats 3]
-[--surfaces 3]
+[--surfaces 3] [--write]
 
 All bodies are solved once in every round, so that all see the same disturbances; given are medians
 over the rounds, and their means over some surfaces, for a pair more or less on one of them is
@@ -23,6 +23,7 @@ from collections.abc import Sequence
 from dataclasses import astuple, dataclass, field
 
 from surfaces import BODY, self_affine
+from tables import add_option, made, show
 
 import asperity as asp
 from asperity.core.spectral import thread_count
@@ -126,19 +127,39 @@ def on_one_surface(surface: asp.Surface, load: float, tolerance: float, threads:
     return {name: Cost.of(row) for name, row in rows.items()}
 
 
-def show(n: int, found: list[dict[str, Cost]]) -> None:
-    """Table for n x n points, from the costs on some surfaces."""
+COLUMNS = (
+    "n",
+    "body",
+    "total (s)",
+    "× homogeneous",
+    "cpu ×",
+    "pairs",
+    "× pairs",
+    "set-up (ms)",
+    "share of a solve",
+    "area",
+)
+
+
+def rows_of(n: int, found: list[dict[str, Cost]]) -> list[list[str]]:
+    """Rows for n x n points, from the costs on some surfaces."""
     costs = {name: Cost.mean([one[name] for one in found]) for name in found[0]}
     base = costs["homogeneous"]
-    print(f"| n = {n} | total (s) | × homogeneous | cpu × | pairs | × pairs | set-up (ms) | share of a solve | area |")
-    print("|---|---|---|---|---|---|---|---|---|")
-    for name, cost in costs.items():
-        print(
-            f"| {name} | {cost.total:.3f} | {cost.total / base.total:.2f} | {cost.cpu / base.cpu:.2f} | "
-            f"{cost.pairs:.1f} | {cost.pairs / base.pairs:.2f} | {1e3 * cost.setup:.1f} | "
-            f"{100.0 * cost.setup / base.total:.1f} % | {cost.area:.3f} |",
-            flush=True,
-        )
+    return [
+        [
+            str(n),
+            name,
+            f"{cost.total:.3f}",
+            f"{cost.total / base.total:.2f}",
+            f"{cost.cpu / base.cpu:.2f}",
+            f"{cost.pairs:.1f}",
+            f"{cost.pairs / base.pairs:.2f}",
+            f"{1e3 * cost.setup:.1f}",
+            f"{100.0 * cost.setup / base.total:.1f} %",
+            f"{cost.area:.3f}",
+        ]
+        for name, cost in costs.items()
+    ]
 
 
 def main() -> None:
@@ -149,13 +170,17 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=thread_count())
     parser.add_argument("--tolerance", type=float, default=1e-6)
     parser.add_argument("--surfaces", type=int, default=3, help="number of surfaces, of seeds 1, 2, ...")
+    add_option(parser)
     given = parser.parse_args()
     print(f"asperity {asp.__version__}, {given.threads} thread(s), tolerance {given.tolerance}, load {given.load}")
     problem = asp.ContactProblem(self_affine(128), BODY)
     once(Row(), problem, given.load, 1e-4, given.threads)  # compiles
+    rows = []
     for n in given.sizes:
         surfaces = [self_affine(n, seed) for seed in range(1, given.surfaces + 1)]
-        show(n, [on_one_surface(s, given.load, given.tolerance, given.threads, given.repeats) for s in surfaces])
+        work = (given.load, given.tolerance, given.threads, given.repeats)
+        rows += rows_of(n, [on_one_surface(surface, *work) for surface in surfaces])
+    show(made("layers", COLUMNS, rows), write=given.write)
 
 
 if __name__ == "__main__":

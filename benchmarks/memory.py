@@ -3,7 +3,7 @@
 Each size is solved in a fresh process that has loaded the heights and solved a small problem
 before. Counted is the rise of the largest resident set (ru_maxrss) over the resident set just
 before the solve: everything but the heights themselves, native buffers included. Linux only. Usage:
-python benchmarks/memory.py [--sizes 1024 2048]
+python benchmarks/memory.py [--sizes 1024 2048] [--write]
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 from surfaces import BODY, self_affine
+from tables import add_option, made, show
 
 import asperity as asp
 
@@ -77,12 +78,12 @@ def main() -> None:
     parser.add_argument("--load", type=float, default=0.2)
     parser.add_argument("--tolerance", type=float, default=1e-6)
     parser.add_argument("--file", help=argparse.SUPPRESS)
+    add_option(parser)
     given = parser.parse_args()
     if given.file:
         print(json.dumps(measured(given.file, given.load, given.tolerance)))
         return
-    print(f"asperity {asp.__version__}, load {given.load}; real fields beyond the heights themselves")
-    print("    n   solver  all of solve   (not seen below)")
+    rows = []
     for n in given.sizes:
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "heights.npy"
@@ -90,7 +91,9 @@ def main() -> None:
             command = [sys.executable, __file__, "--file", str(file), "--load", str(given.load)]
             command += ["--tolerance", str(given.tolerance)]
             found = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
-        print(f"{n:>5} {found['solver']:>8.1f} {found['all']:>13.1f} {found['uncertainty']:>18.1f}", flush=True)
+        rows.append([n, given.load, *(f"{found[key]:.1f}" for key in ("solver", "all", "uncertainty"))])
+    columns = ("n", "load", "fields, solver", "fields, all of `solve`", "not seen below")
+    show(made("memory", columns, rows), write=given.write)
 
 
 if __name__ == "__main__":

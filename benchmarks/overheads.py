@@ -1,7 +1,7 @@
-"""What a call of ``asp.solve`` takes beyond its solver, in bare FFT pairs, along paths, under caps
-and on stiff films.
+"""What a call of ``asp.solve`` takes beyond its solver, in bare FFT pairs, under caps and on stiff
+films, and a stress survey.
 
-Usage: python benchmarks/overheads.py [--sizes 256 512 1024 2048] [--repeats 5]
+Usage: python benchmarks/overheads.py [--sizes 256 512 1024 2048] [--repeats 5] [--write]
 
 Processor seconds of one thread, the least of several interleaved runs, and only ratios of them:
 other work on the machine hardly changes them. FFT pairs do not depend on the machine at all.
@@ -11,11 +11,12 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 from surfaces import BODY, LOADS, self_affine
+from tables import Table, add_option, made, show
 
 import asperity as asp
 from asperity.core.spectral import RealTransform
@@ -25,6 +26,7 @@ from asperity.physics.stress.survey import StressRequest, WantedSection, survey,
 SOLVER = asp.solvers.ActiveSet(tolerance=1e-6)
 BASE = asp.Elastic(1.0, 0.3)
 DX = 10e-9
+QUESTIONS = ("call", "pairs", "survey")
 
 
 class Watched:
@@ -56,7 +58,7 @@ def solved(problem: asp.ContactProblem, load: float) -> asp.ContactResult:
     return asp.solve(problem, asp.MeanPressure(load), solver=SOLVER, engine=asp.engines.CpuEngine(1))
 
 
-def in_pairs(n: int, load: float, repeats: int) -> str:
+def in_pairs(n: int, load: float, repeats: int) -> list[str]:
     """Whole call in bare FFT pairs of double precision, and over its solver."""
     problem, transform = asp.ContactProblem(self_affine(n), BODY), RealTransform((n, n), 1)
     field, spectrum = np.random.default_rng(0).random((n, n)), np.empty(transform.spectrum_shape, complex)
@@ -71,25 +73,7 @@ def in_pairs(n: int, load: float, repeats: int) -> str:
     pair, call = least(
         repeats, lambda: [transform.backward(transform.forward(field, spectrum), field) for _ in range(10)], whole
     )
-    return f"{call / (0.1 * pair):>8.0f} {min(shares):>8.3f}"
-
-
-def path(n: int, steps: int, repeats: int) -> str:
-    """Step of a path over a cold solve: processor time, FFT pairs."""
-    problem = asp.ContactProblem(self_affine(n), BODY)
-    controls = [asp.MeanPressure(float(load)) for load in np.linspace(LOADS[0], LOADS[-1], steps)]
-    options: dict[str, Any] = {"solver": SOLVER, "engine": asp.engines.CpuEngine(1), "keep": asp.Keep(stiffness=False)}
-    found: dict[str, float] = {}
-
-    def along() -> None:
-        done = asp.solve(problem, asp.History(controls), **options).steps
-        found["path"] = sum(result.certificate.fft_pairs for result in done)
-
-    def cold() -> None:
-        found["cold"] = sum(asp.solve(problem, c, **options).certificate.fft_pairs for c in controls)
-
-    stepwise, alone = least(repeats, along, cold)
-    return f"{stepwise / alone:>8.2f} {found['path'] / found['cold']:>8.2f} {found['path'] / steps:>8.1f} pairs a step"
+    return [f"{call / (0.1 * pair):.0f}", f"{min(shares):.3f}"]
 
 
 def ratios(n: int) -> list[tuple[str, float]]:
@@ -120,7 +104,7 @@ def ratios(n: int) -> list[tuple[str, float]]:
     return rows
 
 
-def surveyed(n: int, repeats: int) -> str:
+def surveyed(n: int, repeats: int) -> list[str]:
     """Stress survey with three sections of a coated contact over the inverse transforms of the six
     components on its planes."""
     body = asp.Layered([asp.Layer(asp.Elastic(280e9, 0.25), 5 * DX)], asp.Elastic(70e9, 0.33))
@@ -143,37 +127,32 @@ def surveyed(n: int, repeats: int) -> str:
         for _ in range(repeats)
     ]
     transforms, whole = (min(column) for column in zip(*rounds, strict=True))
-    return f"{number} planes: {whole / transforms:.2f}"
+    return [str(n), str(number), f"{whole:.2f}", f"{whole / transforms:.2f}"]
+
+
+def tables(given: argparse.Namespace) -> Iterator[Table]:
+    """One table for each question that is asked."""
+    if "call" in given.only:
+        rows = [[n, load, *in_pairs(n, load, given.repeats)] for n in given.sizes for load in LOADS]
+        yield made("call", ("n", "load", "in bare pairs", "over its solver"), rows)
+    if "pairs" in given.only:
+        rows = [[name, f"{ratio:.2f}"] for name, ratio in ratios(512)]
+        yield made("pairs-of-bodies", ("512²", "pairs over those of the elastic half-space"), rows)
+    if "survey" in given.only:
+        columns = ("n", "planes", "s", "over the bare transforms of the planes")
+        yield made("survey", columns, [surveyed(512, given.repeats)])
 
 
 def main() -> None:
-    """Print one table for each question."""
+    """One table for each question."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--sizes", type=int, nargs="+", default=[256, 512, 1024, 2048])
-    parser.add_argument("--path-size", type=int, default=512)
-    parser.add_argument("--steps", type=int, default=20, help="of the path")
     parser.add_argument("--repeats", type=int, default=5)
-    parser.add_argument(
-        "--only", nargs="+", choices=("call", "path", "pairs", "survey"), default=["call", "path", "pairs", "survey"]
-    )
+    parser.add_argument("--only", nargs="+", choices=QUESTIONS, default=list(QUESTIONS))
+    add_option(parser)
     given = parser.parse_args()
-    print(f"asperity {asp.__version__}, one thread, processor time")
     solved(asp.ContactProblem(self_affine(128), BODY), 0.1)  # compiles
-    if "call" in given.only:
-        print("asp.solve, everything included: in bare FFT pairs; over its solver")
-        for n in given.sizes:
-            for load in LOADS:
-                print(f"{n:>5} {load:>5} {in_pairs(n, load, given.repeats)}", flush=True)
-    if "path" in given.only:
-        print(f"path of {given.steps} loads over cold solves: time, pairs")
-        print(f"{given.path_size:>5} {path(given.path_size, given.steps, max(2, given.repeats // 2))}", flush=True)
-    if "pairs" in given.only:
-        print("FFT pairs over those of elastic contact of the homogeneous body, 512²")
-        for name, ratio in ratios(512):
-            print(f"{name:<40} {ratio:.2f}", flush=True)
-    if "survey" in given.only:
-        print("stress survey of a coated 512² contact with sections over the bare transforms of its planes")
-        print(surveyed(512, given.repeats))
+    show(*tables(given), write=given.write)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """A load path against cold solves of its steps, and free against periodic boundaries.
 
-Usage: python benchmarks/paths.py [--sizes 512 1024] [--steps 20] [--threads 2]
+Usage: python benchmarks/paths.py [--sizes 512 1024] [--steps 20] [--threads 2] [--write]
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from collections.abc import Callable
 import numpy as np
 from checks import relative_l2
 from surfaces import BODY, self_affine
+from tables import add_option, made, show
 
 import asperity as asp
 from asperity.core.spectral import PaddedTransform, RealTransform, fast_length, thread_count
@@ -28,7 +29,7 @@ def timed(work: Callable[[], list[asp.ContactResult]]) -> tuple[float, list[asp.
     return time.perf_counter() - started, results
 
 
-def compare_path(problem: asp.ContactProblem, steps: int, tolerance: float, threads: int) -> str:
+def compare_path(problem: asp.ContactProblem, steps: int, tolerance: float, threads: int) -> list[str]:
     """Row: path, cold solves, their ratio in time and in FFT pairs, largest difference of the
     pressures."""
     controls = [asp.MeanPressure(float(load)) for load in np.linspace(_LEAST, _MOST, steps)]
@@ -44,13 +45,11 @@ def compare_path(problem: asp.ContactProblem, steps: int, tolerance: float, thre
     cold_seconds, alone = timed(cold)
     pairs, cold_pairs = (sum(result.certificate.fft_pairs for result in some) for some in (path, alone))
     apart = max(relative_l2(one.pressure, other.pressure) for one, other in zip(path, alone, strict=True))
-    return (
-        f"{path_seconds:>9.2f} {cold_seconds:>9.2f} {path_seconds / cold_seconds:>6.2f} {pairs:>7.0f} "
-        f"{cold_pairs:>7.0f} {pairs / cold_pairs:>6.2f} {apart:>9.1e}"
-    )
+    times = [f"{value:.2f}" for value in (path_seconds, cold_seconds, path_seconds / cold_seconds)]
+    return [*times, f"{pairs:.0f}", f"{cold_pairs:.0f}", f"{pairs / cold_pairs:.2f}", f"{apart:.1e}"]
 
 
-def compare_boundaries(surface: asp.Surface, load: float, tolerance: float, threads: int, repeats: int) -> str:
+def compare_boundaries(surface: asp.Surface, load: float, tolerance: float, threads: int, repeats: int) -> list[str]:
     """Row: medians of periodic and free solves (alternating), their ratio, FFT pairs of each."""
     solver, engine = asp.solvers.ActiveSet(tolerance=tolerance), asp.engines.CpuEngine(threads)
     seconds: dict[str, list[float]] = {"periodic": [], "free": []}
@@ -65,10 +64,11 @@ def compare_boundaries(surface: asp.Surface, load: float, tolerance: float, thre
             seconds[name].append(result.certificate.wall_time)
             pairs[name] = result.certificate.fft_pairs
     periodic, free = (statistics.median(seconds[name]) for name in ("periodic", "free"))
-    return f"{periodic:>9.3f} {free:>9.3f} {free / periodic:>6.2f} {pairs['periodic']:>9.0f} {pairs['free']:>9.0f}"
+    times = [f"{periodic:.3f}", f"{free:.3f}", f"{free / periodic:.2f}"]
+    return [*times, f"{pairs['periodic']:.0f}", f"{pairs['free']:.0f}"]
 
 
-def compare_pruning(n: int, threads: int, repeats: int = 15) -> str:
+def compare_pruning(n: int, threads: int, repeats: int = 15) -> list[str]:
     """Row: medians of a pair on the padded grid with all rows and with those that hold data only
     (float32), ratio."""
     padded = fast_length(2 * n - 1), fast_length(2 * n - 1)
@@ -82,7 +82,7 @@ def compare_pruning(n: int, threads: int, repeats: int = 15) -> str:
             transform.backward(transform.forward(field, spectrum), field)
             seconds[name].append(time.perf_counter() - started)
     full, part = (statistics.median(seconds[name]) for name in ("whole", "pruned"))
-    return f"{1e3 * full:>9.2f} {1e3 * part:>9.2f} {part / full:>6.2f}"
+    return [f"{1e3 * full:.2f}", f"{1e3 * part:.2f}", f"{part / full:.2f}"]
 
 
 def main() -> None:
@@ -93,23 +93,21 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--threads", type=int, default=thread_count())
     parser.add_argument("--tolerance", type=float, default=1e-6)
+    add_option(parser)
     given = parser.parse_args()
     print(f"asperity {asp.__version__}, {given.threads} thread(s), tolerance {given.tolerance}")
     compare_boundaries(self_affine(128), given.load, 1e-4, given.threads, 1)  # compiles
-    print(f"path of {given.steps} loads {_LEAST} to {_MOST}: seconds, FFT pairs (of path and of cold solves), ratios")
-    print("    n    path/s    cold/s  ratio    path    cold  ratio  L2 apart")
+    paths, boundaries, pruning = [], [], []
     for n in given.sizes:
-        problem = asp.ContactProblem(self_affine(n), BODY)
-        print(f"{n:>5} {compare_path(problem, given.steps, given.tolerance, given.threads)}", flush=True)
-    print(f"boundaries at load {given.load}: solver seconds, ratio, FFT pairs of the grid")
-    print("    n periodic/s    free/s  ratio  periodic      free")
-    for n in given.sizes:
-        row = compare_boundaries(self_affine(n), given.load, given.tolerance, given.threads, given.repeats)
-        print(f"{n:>5} {row}", flush=True)
-    print("pruning of the padded transforms of the free boundary: milliseconds a pair, ratio")
-    print("    n     whole    pruned  ratio")
-    for n in given.sizes:
-        print(f"{n:>5} {compare_pruning(n, given.threads)}", flush=True)
+        surface, work = self_affine(n), (given.tolerance, given.threads)
+        paths.append([n, *compare_path(asp.ContactProblem(surface, BODY), given.steps, *work)])
+        boundaries.append([n, *compare_boundaries(surface, given.load, *work, given.repeats)])
+        pruning.append([n, *compare_pruning(n, given.threads)])
+    of_path = ("n", "path (s)", "cold solves (s)", "ratio", "pairs", "pairs, cold", "ratio of pairs", "pressures apart")
+    of_free = ("n", "periodic (s)", "free (s)", "ratio", "pairs, periodic", "pairs, free")
+    of_rows = ("n", "padded pair, all rows (ms)", "rows with data (ms)", "ratio")
+    show(made("padded-transforms", of_rows, pruning), write=False)
+    show(made("path", of_path, paths), made("free-boundary", of_free, boundaries), write=given.write)
 
 
 if __name__ == "__main__":

@@ -1,19 +1,20 @@
 """Plastic flow in the volume: one application of its operators beside its bare transforms, and ten
 steps of a rough layered contact.
 
-``python benchmarks/plastic_flow.py [points] [steps]``; processor time of one thread and the largest
-memory of the process. With ``--tamaas PYTHON`` a periodic sphere of hardening material beside
-Tamaas, which is installed under that interpreter.
+``python benchmarks/plastic_flow.py [--points 256] [--steps 10] [--write]``; processor time of one
+thread and the largest memory of the process. With ``--tamaas PYTHON`` a periodic sphere of
+hardening material beside Tamaas, which is installed under that interpreter.
 """
 
 from __future__ import annotations
 
+import argparse
 import resource
 import subprocess
-import sys
 import time
 
 import numpy as np
+from tables import Table, add_option, made, show
 
 import asperity as asp
 from asperity.contact.solve import steps
@@ -25,7 +26,7 @@ SPACING = 25e-9
 BODY = asp.Layered([asp.Layer(FILM, 8 * SPACING)], STEEL)
 
 
-def application(points: int, cells: int = 40) -> None:
+def application(points: int, cells: int = 40) -> Table:
     """All transforms of a volume, and the sweeps between them."""
     grid = asp.Grid((points, points), (SPACING, SPACING))
     edges = depth_edges(BODY, 40 * SPACING, 0.5 * SPACING, cells)
@@ -45,13 +46,12 @@ def application(points: int, cells: int = 40) -> None:
         times.append(np.diff(marks))
     forward, sweeps, backward = np.min(times, axis=0)
     transforms = forward + backward
-    print(
-        f"{points} x {points} x {operator.cells.count}: transforms {transforms:.3f} s, sweeps {sweeps:.3f} s, "
-        f"ratio {1 + sweeps / transforms:.2f}"
-    )
+    seconds = [f"{transforms:.3f}", f"{sweeps:.3f}", f"{1 + sweeps / transforms:.2f}"]
+    columns = ("points", "transforms (s)", "sweeps (s)", "all over transforms")
+    return made("plastic-operators", columns, [[f"{points} × {points} × {operator.cells.count}", *seconds]])
 
 
-def rough(points: int, count: int) -> None:
+def rough(points: int, count: int) -> Table:
     """Loads of a rough layered contact up to where a tenth of it touches."""
     waves = asp.generate.SelfAffine(
         amplitude=asp.generate.RmsHeight(3e-9 * points / 256),
@@ -66,16 +66,25 @@ def rough(points: int, count: int) -> None:
     )
     problem = asp.ContactProblem(surface, BODY, plastic_flow=asp.PlasticFlow(laws))
     loads = [asp.MeanPressure(0.6e9 * k / count) for k in range(1, count + 1)]
+    rows: list[list[str]] = []
     begin = time.process_time()
     for step in steps(problem, asp.History(loads), engine=asp.engines.CpuEngine(threads=1), on_failure="return"):
         flow = step.require_plastic_flow()
-        print(
-            f"{step.mean_pressure / 1e6:6.0f} MPa, area {step.area_fraction:.4f}, {flow.depths.size} cells, "
-            f"{flow.flowed.points.size} points, strain {max(zone.largest_strain for zone in flow.zones):.3f}, "
-            f"{flow.iterations} iterates, {step.status.outcome}, {time.process_time() - begin:.0f} s",
-            flush=True,
+        rows.append(
+            [
+                f"{step.mean_pressure / 1e6:.0f}",
+                f"{step.area_fraction:.4f}",
+                str(flow.depths.size),
+                str(flow.flowed.points.size),
+                f"{max(zone.largest_strain for zone in flow.zones):.3f}",
+                str(flow.iterations),
+                f"{time.process_time() - begin:.1f}",
+                f"{resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20:.2f}",
+            ]
         )
-    print(f"{resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20:.2f} GiB")
+        print(*rows[-1], step.status.outcome, flush=True)
+    numbers = ("depth cells", "points that flowed", "largest strain", "iterates", "s so far", "GiB so far")
+    return made("plastic-flow", ("pressure (MPa)", "area", *numbers), rows)
 
 
 SPHERE = {
@@ -109,15 +118,11 @@ begin = time.process_time()
 for load in case["loads"]:
     epic.acceleratedSolve(load)
     p, q = model.traction[..., 2], model["cumulated_plastic_strain"]
-    took = time.process_time() - begin
-    print(
-        f"Tamaas   {load:g}: area {(p > 0).mean():.6f}, pressure {p.max():.6f}, strain {q.max():.6f}, {took:.2f} s",
-        flush=True,
-    )
+    print(load, (p > 0).mean(), p.max(), q.max(), time.process_time() - begin, flush=True)
 """
 
 
-def beside_tamaas(python: str, points: int = 32) -> None:
+def beside_tamaas(python: str, points: int) -> Table:
     """The same three loads with both."""
     unit, case = 1e9, SPHERE
     x = (np.arange(points) - points // 2) / points
@@ -128,22 +133,37 @@ def beside_tamaas(python: str, points: int = 32) -> None:
     )
     problem = asp.ContactProblem(surface, solid, plastic_flow=asp.PlasticFlow(law))
     history = asp.History([asp.MeanPressure(load * unit) for load in case["loads"]])
+    rows = []
     begin = time.process_time()
     for step in steps(problem, history, engine=asp.engines.CpuEngine(threads=1)):
         (zone,) = step.require_plastic_flow().zones
-        print(
-            f"asperity {step.mean_pressure / unit:g}: area {step.area_fraction:.6f}, pressure "
-            f"{step.max_pressure / unit:.6f}, strain {zone.largest_strain:.6f}, "
-            f"{time.process_time() - begin:.2f} s",
-            flush=True,
-        )
-    subprocess.run([python, "-c", THEIRS, repr(case), str(points), str(3 * points // 4)], check=True)
+        numbers = (step.area_fraction, step.max_pressure / unit, zone.largest_strain)
+        rows.append(_row(points, "asperity", step.mean_pressure / unit, *numbers, time.process_time() - begin))
+    command = [python, "-c", THEIRS, repr(case), str(points), str(3 * points // 4)]
+    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    rows += [_row(points, "Tamaas", *map(float, line.split())) for line in done.stdout.splitlines()]
+    columns = ("points", "package", "load", "area", "largest pressure", "largest plastic strain", "s so far")
+    return made("plastic-flow-tamaas", columns, rows)
+
+
+def _row(points: int, package: str, load: float, area: float, pressure: float, strain: float, took: float) -> list[str]:
+    """Row of a load; pressures over the modulus."""
+    numbers = [f"{load:g}", f"{area:.5f}", f"{pressure:.6f}", f"{strain:.6f}", f"{took:.2f}"]
+    return [f"{points}²", package, *numbers]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--points", type=int, default=256, help="along a side")
+    parser.add_argument("--steps", type=int, default=10, help="of the rough contact")
+    parser.add_argument("--tamaas", metavar="PYTHON", help="interpreter with Tamaas: only the sphere, with both")
+    add_option(parser)
+    given = parser.parse_args()
+    if given.tamaas:
+        show(beside_tamaas(given.tamaas, min(given.points, 32)), write=given.write)
+    else:
+        show(application(given.points), rough(given.points, given.steps), write=given.write)
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["--tamaas"]:
-        beside_tamaas(sys.argv[2])
-        raise SystemExit
-    number = int(sys.argv[1]) if len(sys.argv) > 1 else 256
-    application(number)
-    rough(number, int(sys.argv[2]) if len(sys.argv) > 2 else 10)
+    main()

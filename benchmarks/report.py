@@ -32,6 +32,50 @@ def line(row: Row) -> str:
     return f"{text}  {row.fault}" if row.fault else text
 
 
+COLUMNS = (
+    "n",
+    "load",
+    "solver",
+    "runs",
+    "median (s)",
+    "min–max (s)",
+    "processor (s)",
+    "pairs",
+    "in pairs",
+    "cost",
+    "× ours",
+    "error",
+    "L2 to ours",
+)
+"""Of the table in README.md: *in pairs* is the median over the time of a bare pair, *cost* the time
+in the solver over that of its pairs."""
+
+
+def cells(row: Row) -> list[str]:
+    """The same as text; empty where there is no number."""
+    spread = f"{min(row.seconds):.3f}–{max(row.seconds):.3f}" if row.seconds else ""
+    distance = _short(row.distance, ".1e") if row.distance else ""
+    return [
+        str(row.n),
+        str(row.load),
+        row.solver,
+        str(len(row.seconds)),
+        _short(row.median, ".3f"),
+        spread,
+        _short(row.counts.get("cpu_seconds"), ".3f"),
+        _short(row.counts.get("pairs"), ".0f"),
+        _short(row.median / row.pair_seconds, ".0f"),
+        _short(row.cost, ".2f"),
+        _short(row.ratio_to_ours, ".1f"),
+        _short(row.field_error, ".1e"),
+        distance,
+    ]
+
+
+def _short(value: float | None, form: str) -> str:
+    return "" if value is None or np.isnan(value) else format(value, form)
+
+
 def _number(value: float | None, width: int, digits: int) -> str:
     return " " * width if value is None or np.isnan(value) else f"{value:>{width}.{digits}f}"
 

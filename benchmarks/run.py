@@ -1,28 +1,26 @@
 """Our solvers, a bare FFT pair and other packages on the same surfaces in one interleaved run.
 
 Usage: python benchmarks/run.py [--sizes 256 512 1024] [--threads 2] [--repeats 3] [--out folder]
-Ends with an error if the solvers do not agree on contact area and pressure.
+[--write] Ends with an error if the solvers do not agree on contact area and pressure.
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from figure import draw
-from history import histories
 from measure import Rounds, Row, problem_rows
 from ours import SOLVERS
 from peers import PEERS, installed
-from report import HEADER, line, machine, write
+from report import COLUMNS, HEADER, cells, line, machine, write
 from surfaces import LOADS, self_affine
+from tables import Table, add_option, made, show
 from worker import Worker, start
 
 from asperity.core.spectral import thread_count
-
-_LARGEST_HISTORY = 1024
 
 
 def options() -> argparse.Namespace:
@@ -36,7 +34,8 @@ def options() -> argparse.Namespace:
     parser.add_argument("--tolerance", type=float, default=1e-6, help="the field's error")
     parser.add_argument("--peers", nargs="*", choices=PEERS, default=list(PEERS), help="other packages")
     parser.add_argument("--solvers", nargs="+", choices=list(SOLVERS), default=["asperity"], help="ours")
-    parser.add_argument("--out", type=Path, default=Path(__file__).parent / "results", help="folder of the results")
+    parser.add_argument("--out", type=Path, help="folder for bench.json and bench.csv, with every time and count")
+    add_option(parser)
     return parser.parse_args()
 
 
@@ -66,6 +65,14 @@ def compare(given: argparse.Namespace, solvers: list[Worker], pair: Worker) -> l
     return rows
 
 
+def table(rows: list[Row], solvers: list[Worker], ours: int, threads: int) -> Table:
+    """Everything as one table; that of asperity alone does not replace one with other packages."""
+    others = [f"{worker.name} {worker.version}" for worker in solvers[ours:]]
+    name = "solves" if not others else "packages" if threads > 1 else "packages-one-thread"
+    found = made(name, COLUMNS, map(cells, rows))
+    return replace(found, machine=", ".join([found.machine, *others]))
+
+
 def main() -> int:
     given = options()
     about = machine() | {"tolerance": given.tolerance, "threads": given.threads}
@@ -78,12 +85,11 @@ def main() -> int:
     rows = compare(given, solvers, pair)
     for worker in (pair, *solvers):
         worker.close()
-    write(given.out, rows, about)
-    n, load = min(max(given.sizes), _LARGEST_HISTORY), given.loads[len(given.loads) // 2]
-    curves = histories(np.array(self_affine(n).heights), load, given.threads)
-    draw(given.out / "bench.png", rows, curves, f"{n}², load {load}, {given.threads} thread(s)")
-    print(f"written: {given.out}/bench.json, bench.csv, bench.png")
+    if given.out:
+        write(given.out, rows, about)
     faults = [row for row in rows if row.fault]
+    found = table(rows, solvers, len(given.solvers), given.threads)
+    show(found, write=given.write and not faults)
     for row in faults:
         print(f"DISAGREES: {row.solver}, {row.n}², load {row.load}: {row.fault}", file=sys.stderr)
     return 1 if faults else 0

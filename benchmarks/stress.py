@@ -1,5 +1,5 @@
 """Cost of a stress plane against six bare inverse transforms of its size, in one interleaved run,
-and of its maxima, with the edges of a contact too.
+and of its maxima.
 
 python benchmarks/stress.py --size 1024 --threads 2 --repeats 15
 """
@@ -9,9 +9,11 @@ from __future__ import annotations
 import argparse
 import statistics
 import time
+from collections import defaultdict
 from collections.abc import Callable
 
 import numpy as np
+from tables import Table, add_option, made, show
 
 import asperity as asp
 from asperity.core.spectral import RealTransform, fft_library
@@ -51,14 +53,12 @@ def shears(
     }
 
 
-def periodic(n: int, threads: int, repeats: int) -> None:
-    """Print the ratio of a plane to six inverse transforms for every body, load and precision."""
+def periodic(n: int, threads: int, repeats: int) -> Table:
+    """Ratio of a plane to six inverse transforms for every precision and load, least and largest of
+    all bodies."""
     rng = np.random.default_rng(0)
     grid, pressure = asp.Grid((n, n), (DX, DX)), rng.random((n, n))
-    print(
-        f"{'precision':9} {'body':11} {'load':13} {'6 inverse FFTs':>14} {'plane':>8} {'ratio':>6}   (ms, "
-        f"medians of {repeats})"
-    )
+    times: dict[tuple[str, str], list[tuple[float, float]]] = defaultdict(list)
     for dtype in ("float64", "float32"):
         transform = RealTransform((n, n), threads)
         given = transform.forward(pressure.astype(dtype))
@@ -80,16 +80,23 @@ def periodic(n: int, threads: int, repeats: int) -> None:
                     (bare(), milliseconds(lambda s=source, p=plane, o=out: s.stress(p, o))) for _ in range(repeats)
                 ]
                 six, one = (statistics.median(column) for column in zip(*rounds, strict=True))
-                print(f"{dtype:9} {name:11} {load:13} {six:14.2f} {one:8.2f} {one / six:6.2f}")
+                times[dtype, load].append((six, one))
+                print(f"{dtype:9} {name:11} {load:13} {six:14.2f} {one:8.2f} {one / six:6.2f}", flush=True)
+    rows = []
+    for (dtype, load), both in times.items():
+        six, one = (statistics.fmean(column) for column in zip(*both, strict=True))
+        least, most = (extreme(plane / bare for bare, plane in both) for extreme in (min, max))
+        rows.append([n, dtype, load, f"{six:.1f}", f"{one:.1f}", f"{least:.2f}–{most:.2f}"])
+    columns = ("n", "precision", "load", "six inverse transforms (ms)", "plane (ms)", "ratio, all bodies")
+    return made("stress-planes", columns, rows)
 
 
-def searched(n: int, threads: int, repeats: int) -> None:
-    """Print the time of a plane that is kept, and of one that is read for its maxima, at several
-    depths."""
+def searched(n: int, threads: int, repeats: int) -> Table:
+    """Time of a plane that is kept, and of one that is read for its maxima, at several depths."""
     rough = np.fft.irfft2(np.fft.rfft2(np.random.default_rng(0).standard_normal((n, n))) * smooth(n), s=(n, n))
     pressure = np.maximum(rough / rough.std() - 1.0, 0.0)
     loads = Tractions(asp.Grid((n, n), (DX, DX)), pressure, asp.stresses.Sliding(0.3))
-    print(f"\nmaxima of a plane, one layer, sliding: ms, medians of {repeats}")
+    rows = []
     for dtype in ("float64", "float32"):
         source = PeriodicPlanes(loads, BODIES["1 layer"], dtype=dtype, threads=threads)
         for depth in (0.0, 3 * DX, 20 * DX, 200 * DX):
@@ -103,9 +110,9 @@ def searched(n: int, threads: int, repeats: int) -> None:
                 for _ in range(repeats)
             ]
             one, search = (statistics.median(column) for column in zip(*rounds, strict=True))
-            print(
-                f"{dtype:9} depth {depth / DX:4.0f} pixels: plane {one:6.1f}, read with its maxima found {search:6.1f}"
-            )
+            rows.append([n, dtype, f"{depth / DX:.0f}", f"{one:.1f}", f"{search:.1f}"])
+    columns = ("n", "precision", "depth (pixels)", "plane (ms)", "read for its maxima (ms)")
+    return made("stress-maxima", columns, rows)
 
 
 def smooth(n: int) -> np.ndarray:
@@ -114,9 +121,9 @@ def smooth(n: int) -> np.ndarray:
     return np.exp(-((30.0 * frequency) ** 2))
 
 
-def at_edges(n: int, repeats: int) -> None:
-    """Print the time of a solve, of its surface stress under sliding, and of the largest tension
-    with the edges of the contact."""
+def at_edges(n: int, repeats: int) -> Table:
+    """Time of a solve, of its surface stress under sliding, and of the largest tension with the
+    edges of the contact."""
     spectrum = asp.generate.SelfAffine(
         hurst=0.8,
         rolloff_wavelength=n * DX / 8,
@@ -132,23 +139,22 @@ def at_edges(n: int, repeats: int) -> None:
         plane = milliseconds(lambda found=found: found.append(asp.stress(found[0], [0.0], friction=0.3)))
         rounds.append((solve, plane, milliseconds(lambda found=found: found[1].largest_tension)))
     solve, plane, largest = (statistics.median(column) for column in zip(*rounds, strict=True))
-    print(f"\nlargest tension with the edges of a sliding contact, {n}²: ms, medians of {repeats}")
-    print(
-        f"solve {solve:.1f}, surface plane {plane:.1f}, largest tension {largest:.1f} ({largest / solve:.2f} "
-        "of a solve)"
-    )
+    columns = ("n", "solve (ms)", "surface plane (ms)", "largest tension (ms)", "over the solve")
+    row = [n, f"{solve:.1f}", f"{plane:.1f}", f"{largest:.1f}", f"{largest / solve:.2f}"]
+    return made("stress-edges", columns, [row])
 
 
-def free(n: int, threads: int) -> None:
-    """Print the time of a plane with nothing outside the grid: influence coefficients, their
-    transforms, the products."""
+def free(n: int, threads: int) -> Table:
+    """Time of a plane with nothing outside the grid: influence coefficients, their transforms, the
+    products."""
     grid, pressure = asp.Grid((n, n), (DX, DX)), np.random.default_rng(0).random((n, n))
-    print(f"\nfree boundary, {n}²: seconds for one plane")
+    rows = []
     for name, body in BODIES.items():
         for load, shear in (("pressure", asp.stresses.Sliding(0.0)), ("sliding", asp.stresses.Sliding(0.3, 0.4))):
             source = FreePlanes(Tractions(grid, pressure, shear, "free"), body, threads=threads)
             seconds = 1e-3 * milliseconds(lambda s=source, b=body: s.stress(planes(b, [DEPTH])[0]))
-            print(f"{name:11} {load:13} {seconds:6.2f}")
+            rows.append([n, name, load, f"{seconds:.2f}"])
+    return made("stress-free", ("n", "body", "load", "a plane (s)"), rows)
 
 
 if __name__ == "__main__":
@@ -157,10 +163,9 @@ if __name__ == "__main__":
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--repeats", type=int, default=15)
     parser.add_argument("--no-free", action="store_true", help="leave out the free boundary")
+    add_option(parser)
     options = parser.parse_args()
     print(f"{options.size}², {options.threads} threads, transforms by {fft_library()}")
-    periodic(options.size, options.threads, options.repeats)
-    searched(options.size, options.threads, options.repeats)
-    at_edges(options.size, options.repeats)
-    if not options.no_free:
-        free(options.size, options.threads)
+    size, threads, repeats = options.size, options.threads, options.repeats
+    found = [periodic(size, threads, repeats), searched(size, threads, repeats), at_edges(size, repeats)]
+    show(*found, *([] if options.no_free else [free(size, threads)]), write=options.write)

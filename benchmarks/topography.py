@@ -1,6 +1,6 @@
 """Time to generate and to characterise surfaces, and what the parts of a characterisation take.
 
-Usage: python benchmarks/topography.py [--sizes 512 1024 2048] [--threads 2] [--repeats 3]
+Usage: python benchmarks/topography.py [--sizes 512 1024 2048] [--threads 2] [--repeats 3] [--write]
 
 The surface is not periodic and has no missing points, the most work: spectra are windowed and the
 autocovariance padded. Medians of the rounds; ``pairs`` is the time over that of one real FFT pair
@@ -17,6 +17,7 @@ from collections.abc import Callable
 
 import numpy as np
 from surfaces import self_affine
+from tables import add_option, made, show
 
 import asperity as asp
 from asperity import roughness as r
@@ -69,19 +70,21 @@ def main() -> None:
     parser.add_argument("--sizes", type=int, nargs="+", default=[512, 1024, 2048])
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--repeats", type=int, default=3)
+    add_option(parser)
     options = parser.parse_args()
+    rows = []
     os.environ["ASPERITY_THREADS"] = str(options.threads)
     asp.characterise(self_affine(64))  # imports
     for n in options.sizes:
         generated = self_affine(n)
         surface = asp.levelled(asp.Surface(generated.heights, generated.dx))
         one = median_time(pair(n, options.threads), options.repeats)
-        print(f"\n{n} x {n} points, {options.threads} threads, FFT pair {1e3 * one:.1f} ms\n")
-        print("| work | s | pairs |\n|---|---|---|")
-        print(f"| generation | {median_time(lambda n=n: self_affine(n), options.repeats):.3f} | |")
+        print(f"{n} x {n} points, {options.threads} threads, FFT pair {1e3 * one:.1f} ms", flush=True)
+        rows.append([n, "generation", f"{median_time(lambda n=n: self_affine(n), options.repeats):.3f}", None])
         for name, work in parts(surface).items():
             took = median_time(work, options.repeats)
-            print(f"| {name} | {took:.3f} | {took / one:.0f} |")
+            rows.append([n, name, f"{took:.3f}", f"{took / one:.0f}"])
+    show(made("characterise", ("n", "work", "s", "pairs"), rows), write=options.write)
 
 
 if __name__ == "__main__":

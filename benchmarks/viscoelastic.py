@@ -16,6 +16,7 @@ import statistics
 import time
 
 from surfaces import self_affine
+from tables import add_option, made, show
 
 import asperity as asp
 from asperity.contact.solve import Prepared
@@ -55,9 +56,10 @@ def main() -> None:
     parser.add_argument("--load", type=float, default=0.05, help="mean pressure over the modulus half-way")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--repeats", type=int, default=5)
+    add_option(parser)
     args = parser.parse_args()
     load, surface = asp.MeanPressure(args.load * 3.0), self_affine(args.size)
-    print(f"{'body':22}{'boundary':10}{'steps':10}{'elastic s':>10}{'tries':>7}{'s/try':>8}{'ratio':>7}{'range':>13}")
+    found = []
     for name, (body, elastic) in bodies().items():
         for boundary in (asp.Periodic(), asp.Free()):
             reference = prepared(asp.ContactProblem(surface, elastic, boundary=boundary), args.threads, asp.TimeSteps())
@@ -77,10 +79,11 @@ def main() -> None:
                     rows.append((between - started, (time.process_time() - between) / tries))
                 cold, each = (statistics.median(column) for column in zip(*rows[1:], strict=True))
                 ratios = [after / before for before, after in rows[1:]]
-                print(
-                    f"{name:22}{type(boundary).__name__:10}{kind:10}{cold:10.3f}{tries:7d}{each:8.3f}{each / cold:7.2f}"
-                    f"{min(ratios):7.2f}-{max(ratios):.2f}"
-                )
+                times = [f"{cold:.3f}", str(tries), f"{each:.3f}", f"{each / cold:.2f}"]
+                place = type(boundary).__name__.lower()
+                found.append([name, place, kind, *times, f"{min(ratios):.2f}–{max(ratios):.2f}"])
+    columns = ("body", "boundary", "steps", "cold elastic solve (s)", "number", "s a step", "ratio", "range")
+    show(made("viscoelastic", columns, found), write=args.write)
 
 
 if __name__ == "__main__":

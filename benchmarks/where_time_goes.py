@@ -1,6 +1,6 @@
 """Where a solve spends its time: transforms, each compiled pass, and what is left.
 
-Usage: python benchmarks/where_time_goes.py [--sizes 1024] [--load 0.05] [--threads 2]
+Usage: python benchmarks/where_time_goes.py [--sizes 1024] [--load 0.05] [--threads 2] [--write]
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from surfaces import BODY, self_affine
+from tables import add_option, made, show
 
 import asperity as asp
 from asperity.core.engine.blocks import Blocks
@@ -47,8 +48,8 @@ def _timed(method: Callable[..., Any], label: Callable[..., str], spent: dict[st
     return wrapper
 
 
-def show(n: int, load: float, tolerance: float, threads: int) -> None:
-    """Table of one solve, the most expensive first."""
+def shares(n: int, load: float, tolerance: float, threads: int) -> list[list[str]]:
+    """Rows of one solve, the most expensive first."""
     problem, engine = asp.ContactProblem(self_affine(n), BODY), asp.engines.CpuEngine(threads)
     operator = asp.solvers.prepare_operator(problem.compliance, problem.grid, problem.boundary, engine=engine)
     solver, keep = asp.solvers.ActiveSet(tolerance=tolerance), asp.Keep(stiffness=False)
@@ -59,8 +60,12 @@ def show(n: int, load: float, tolerance: float, threads: int) -> None:
     work = result.certificate
     print(f"{n}², load {load}: {work.wall_time:.3f} s, {work.fft_pairs:.1f} pairs, {work.iterations} iterations")
     spent["everything else"].append(work.wall_time - sum(map(sum, spent.values())))
-    for name, seconds in sorted(spent.items(), key=lambda item: -sum(item[1])):
-        print(f"  {name:<28} {len(seconds):>5} × {1e3 * sum(seconds):>9.1f} ms {sum(seconds) / work.wall_time:>7.1%}")
+    most = sorted(spent.items(), key=lambda item: -sum(item[1]))
+    return [
+        [str(n), name, str(len(seconds)), f"{1e3 * sum(seconds):.1f}", f"{100.0 * sum(seconds) / work.wall_time:.1f} %"]
+        for name, seconds in most
+        if sum(seconds) >= 0.01 * work.wall_time
+    ]
 
 
 def main() -> None:
@@ -69,9 +74,11 @@ def main() -> None:
     parser.add_argument("--load", type=float, default=0.05)
     parser.add_argument("--tolerance", type=float, default=1e-6)
     parser.add_argument("--threads", type=int, default=thread_count())
+    add_option(parser)
     given = parser.parse_args()
-    for n in given.sizes:
-        show(n, given.load, given.tolerance, given.threads)
+    rows = [row for n in given.sizes for row in shares(n, given.load, given.tolerance, given.threads)]
+    columns = ("n", "work, of at least one per cent", "calls", "ms", "share")
+    show(made("where-time-goes", columns, rows), write=given.write)
 
 
 if __name__ == "__main__":

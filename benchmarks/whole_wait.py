@@ -7,7 +7,7 @@ drawn by several processes, so that the clock shows less than the processors wor
 compiled modules in a folder of the run, whatever the environment says, so that they are compiled
 once, as in an installed package.
 
-Usage: python benchmarks/whole_wait.py [SCAN] [--rounds 5] [--fresh 1] [--json FILE]
+Usage: python benchmarks/whole_wait.py [SCAN] [--rounds 5] [--fresh 1] [--json FILE] [--write]
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from tables import add_option, made, show
 
 BASE = "import numpy, scipy.fft, numba, h5py"
 PICTURES = f"{BASE}, xarray, matplotlib.pyplot"
@@ -147,6 +148,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--fresh", type=int, default=1, help="contacts with all kernels to compile")
     parser.add_argument("--json", type=Path, help="file for the seconds of each row")
+    add_option(parser)
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         scan = given.scan or Path(folder) / "scan.bcr"
@@ -155,13 +157,15 @@ def main() -> None:
         best = measured(scan, given.rounds, Path(folder))
         first = [first_result(scan, Path(folder)) for _ in range(given.fresh)]
     over = {"info": "imports", "contact": "imports", "coated contact, everything": "imports with pictures"}
-    print(f"{'s':<29}processor    clock")
+    rows = []
     for row, wait in best.items():
-        ratios = [own / other for own, other in zip(wait, best[over[row]], strict=True)] if row in over else []
-        times = f"  {ratios[0]:.2f} and {ratios[1]:.2f} times the {over[row]}" if ratios else ""
-        print(f"{row:<29}{wait.processor:9.3f}{wait.clock:9.3f}{times}")
+        base = best[over[row]] if row in over else None
+        ratios = [f"{own / other:.2f}" for own, other in zip(wait, base, strict=True)] if base else ["", ""]
+        rows.append([row, f"{wait.processor:.2f}", f"{wait.clock:.2f}", *ratios, over.get(row, "")])
     if first:
-        print(f"{'first contact, all compiled':<38}{min(first):9.3f}")
+        rows.append(["first contact, all compiled", "", f"{min(first):.2f}", "", "", ""])
+    columns = ("what", "processor (s)", "clock (s)", "processor, over", "clock, over", "these")
+    show(made("whole-wait", columns, rows), write=given.write)
     if given.json:
         found = {row: wait._asdict() for row, wait in best.items()} | {"first contact": {"clock": first}}
         given.json.write_text(json.dumps(found, indent=2) + "\n")

@@ -34,6 +34,7 @@ def homes() -> dict[str, str]:
         "benchmarks/README.md": "speed/index.md",
         "CONTRIBUTING.md": "develop/contributing.md",
         "CHANGELOG.md": "develop/changes.md",
+        "SECURITY.md": "develop/security.md",
     }
 
 

@@ -17,66 +17,55 @@ from ...core.errors import NoSolutionError
 from ..controls import Approach, MeanGap
 from .protocol import Contact, Coupling, Exchange, Memory, Posed, Share
 
-# Pairs of ``benchmarks/constants.py``: periodic elastic contacts (23.7 as it is), near full contact
-# (64.2), with a hardness (23.3) and with a liquid film (25.1).
+# What other values of the constants change: docs/develop/constants.md.
 
 TARGET_ERROR = 1e-9
-"""Relative error of a position that is reached, beside ``_HEIGHT_ERROR`` of the rms height. 1e-7
-saves up to 9 % of the pairs, 1e-11 costs none: the last step lands far within."""
+"""Relative error of a position that is reached, beside ``_HEIGHT_ERROR`` of the rms height: the
+last step lands far within, so that a smaller one costs little."""
 
 _HEIGHT_ERROR = 1e-9
-"""Error of a position over the rms height: the gap is a difference of heights. 1e-7 saves up to 9 %
-of the pairs, 0 costs none."""
+"""Error of a position over the rms height: the gap is a difference of heights."""
 
 _LARGEST_SHARE = 1e2
 """Positions over which ``_HEIGHT_ERROR`` of the rms height counts at most: near full contact, where
-the mean gap is far below the rms height, it is still reached to 1e-7. 1, 10 and 1e4 take the same
-pairs."""
+the mean gap is far below the rms height, it is still reached to 1e-7."""
 
 _SOLVER_SHARE = 1e-2
 """Error of a normal solve over the position, where that is less than the rms height: a hundredth,
-so that the noise leads no step astray. Near full contact 1e-3 takes 70 pairs, 0.1 takes 62;
-elsewhere the normal solve is more accurate anyway."""
+so that the noise leads no step astray."""
 
 _FINEST = 1e-10
 """Accuracy over the rms height that is asked of a normal solve at the finest, about the rounding of
-its gap; asked for by positions below 1e-8 of the rms height alone."""
+its gap."""
 
 _LOOSE = 1e3
 """Errors within which a position counts as reached when the step left for the load is below what
-the normal solve resolves. Near full contact 1 takes 70 pairs, 10 and 1e5 as many as 1e3."""
+the normal solve resolves."""
 
 _PERSSON = 0.45
 """Mean gap in rms heights by which the logarithm of the load changes by one (Persson's law of
-self-affine surfaces): the step before there are two points for a secant. Periodic for 0.2, 0.3,
-0.6, 0.9: 32, 26, 31, 35; hardness 42, 28, 29, 35; film 42, 31, 32, 35."""
+self-affine surfaces): the step before there are two points for a secant."""
 
 _LIGHT = 0.8
 """Power of the load with which the closeness grows where few points touch, between Hertz's 2/3 and
-proportionality. Periodic for 0.5, 0.65, 1: 22, 23, 24; all others the same but a hardness 25 for
-0.5."""
+proportionality."""
 
 _AT_FULL = 0.8
-"""Logarithm of the load at full contact over rms height times stiffness, for the first guess.
-Periodic for 0, 0.4, 1.2, 2: 32, 27, 32, 34; near full contact 72, 71, 53, 73; film 26, 22, 30, 31;
-at 2 one with a hardness finds no load."""
+"""Logarithm of the load at full contact over rms height times stiffness, for the first guess."""
 
 _BEYOND = 10.0
 """Logarithm of the load beyond full contact of the first guess at most: of flat bodies, whose rms
 height is rounding, it would be any number."""
 
 _FARTHEST = float(np.log(8.0))
-"""Largest step of the logarithm of the load; of a factor of 2 the periodic contacts take 24.4 pairs
-for 23.7, and any larger one changes none: a guard against one extrapolation."""
+"""Largest step of the logarithm of the load: a guard against one extrapolation."""
 
 _INSIDE = 1e-3
-"""Share of the bracket that a step keeps from its ends, so that it shrinks in every round. For 0
-those with a hardness take 23.6 pairs, for 0.1 periodic ones 29.2; at 0.3 a periodic one finds no
-load any more."""
+"""Share of the bracket that a step keeps from its ends, so that it shrinks in every round."""
 
 _CLOSED = 1e-12
 """Width of the bracket of the logarithm of the load that counts as closed, its rounding for loads
-between 1e-4 and 1e4 Pa per Pa of modulus; 0, 1e-14 and 1e-9 take the same pairs."""
+between 1e-4 and 1e4 Pa per Pa of modulus."""
 
 _ROUNDING = 8.0 * float(np.finfo(float).eps)
 """Rounding of a gap over the largest height of the profile: of nearly flat surfaces far from the
@@ -88,8 +77,8 @@ and the surface flat."""
 
 _TOWARDS = 0.5
 """Share of its own step that a search alone takes at least: where the position hardly depends on
-the load, as beyond full contact of a free body, the extrapolation of earlier rounds may lead back.
-0, 0.25 and 1 take the same pairs elsewhere."""
+the load, as beyond full contact of a free body, the extrapolation of earlier rounds may lead
+back."""
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,7 @@ NEAR_CAP = 1.0 - 1e-14
 roundings of float64, fewer than the 1e-14 of the load to which the load is restored."""
 
 SQUARE_SIDE = 16
-"""Points along the side of the squares in which a survey sums up residuals; a multiple of 8. FFT
-pairs of the fast solver for 8, 32, 64: elastic 6.0, 5.9, 6.0; films 6.7, 6.5, 6.5 (16: 5.9 and 6.7;
-cases: see ``benchmarks/constants.py``)."""
+"""Points along the side of the squares in which a survey sums up residuals; a multiple of 8."""
 
 
 @dataclass(frozen=True)

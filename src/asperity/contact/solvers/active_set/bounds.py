@@ -22,19 +22,15 @@ def plane_level(qp: ContactQP, totals: Totals) -> float:
 
 _PRIOR = 4.0
 """Loaded points as which the mean over the wider square counts in that of a square, so that few
-points do not decide alone. Pairs for 2: free 18.6; for 1, 8, 16: the same."""
+points do not decide alone."""
 
 _SCATTER_SHARE = 0.5
-"""Share of the scatter by which a point must stand out to enter. Pairs for 0: tight 12.9; for 0.3,
-0.7: the same; for 1: film 5.9, cap 6.2, tight 11.9. It is for stiffer films and points of noise
-that it is not 0."""
+"""Share of the scatter by which a point must stand out to enter, so that noise does not enter on
+stiff films and rough pixels."""
 
 _SCATTER_SHARE_WIDE = -0.5
-"""The same for a ``wide`` set: points enter that do not stand out. Before a set is ``narrowed``,
-for the model finds nearly all that will not touch among them, but none of those that are missing;
-and for the last step, after which points that do not touch are cleared, but one that is missing
-would be too deep for the tolerance. Pairs for 0.5: elastic 5.8, film 6.2; for 0: free 20.1; for
--0.3: free 18.6; for -0.75, -1: the same."""
+"""The same for a ``wide`` set, which narrowing and clearing only make smaller: points enter that do
+not stand out."""
 
 _RESOLVED = 1e-14
 """Scatter² over mean square below which it is lost in the rounding of sums of squares."""
@@ -77,16 +73,12 @@ def entering_levels(squares: RealArray, level: float, share: float) -> RealArray
 # (3, 4) Tension cleared, steps on the model alone, steps clipped.
 
 LEAST_SHARE = 0.1
-"""Share of a clipped step below which it is replaced by one along the projected gradient: what
-little would be left of it shows that the set was wrong. No case of the sweep gets there (0.01 to
-0.3: the same pairs); random small problems with caps do."""
+"""Share of a clipped step below which one along the projected gradient replaces it: so little left
+shows that the set was wrong."""
 
 _PARTS = 4
-"""Parts of a step at most that are clipped, one product each, before it is shortened. Bending films
-show what it is for: moduli of 100 and 1000, 2 pixels thick, white noise of 24² and 64² points under
-caps of 1.01, 2 and 10 mean pressures take 170 pairs on average; with one part they took 1770, and 9
-of 24 did not converge in 300 steps. Two to eight parts differ by 1 %. No case of the sweep needs a
-second one."""
+"""Parts of a step at most that are clipped, one product each, before it is shortened: stiff films
+of rough pixels under a cap do not all converge with one."""
 
 
 class _Clipping(NamedTuple):

@@ -17,48 +17,34 @@ from .linear_system import Workspace
 from .spline_model import pixel_compliance, steepness
 
 COARSEST = 64
-"""Points per side at which there is no coarser grid. Pairs for 32: the same; for 128: cap 6.5,
-tight 13.2."""
+"""Points per side at which there is no coarser grid: a solve there costs next to nothing."""
 
 COARSE_ITERATIONS = 30
-"""Most steps on a coarse grid; two to four are the rule. Pairs for 3, 10, 100: the same."""
+"""Most steps on a coarse grid; two to four are the rule."""
 
 _HIDDEN_SHARE, _HIDDEN_SHARE_CAPPED = 1.0, 0.1
 """Tolerance on a coarse grid over the roughness that it cannot show, both relative to the rms
-height, without and with a cap. Pairs for 0.2, 0.5, 2: film 5.9, 5.7, 5.7; free 19.5, 19.3, 19.3;
-monotone 8.2, 8.0, 7.8. With a cap 0.5 takes 7.1 and 10.4 pairs at a hardness of 0.3 and 0.1 E*
-(512²), 0.1 takes 5.8 and 6.8."""
+height, without and with a cap, under which a poor guess costs more."""
 
 _LOOSEST, _LOOSEST_CAPPED = 0.1, 0.03
-"""Loosest tolerance on a coarse grid. Pairs for 0.01, 0.03, 0.3: film 5.9, 5.7, 5.7; free 20.2,
-19.4, 19.3; monotone 8.2, 8.0, 7.9."""
+"""Loosest tolerance on a coarse grid, without and with a cap."""
 
 _FINE_STIFFNESS, _FINE_STIFFNESS_RISING = 0.15, 0.05
 """Stiffness of what stands out of 2 x 2 points, over that of alternating pixels (the roughness of a
-resolved surface is longer), and where c(q) q rises. Pairs for 0, 0.1, 0.2, 0.3: elastic 5.8, 5.7,
-5.7, 5.8; free 20.1, 19.3, 18.6, 18.6; tight 12.7, 12.9, 12.9, 12.4; monotone 8.4, 7.9, 7.7, 7.7;
-where it rises for 0, 0.03: the same; for 0.1, 0.15: film 5.9, 5.9 (E 10 on 4 pixels, 1024², 0.02,
-0.05, 0.08: 6.0, 5.8, 6.2). Under a cap there is none: crests that it would load beyond the cap
-yield. With it a hardness of 0.3 and 0.1 E* takes 8.2 and 15.3 pairs at 256² instead of 5.8 and 8.6,
-9.8 and 18.5 at 512² instead of 5.8 and 6.8."""
+resolved surface is longer), and where c(q) q rises; under a cap there is none, for crests loaded
+beyond it yield."""
 
 _RISING_FROM, _RISING_CELLS = 1.2, 4
 """Rise of c(q) q over that of the shortest waves, at waves up to 32 points (twice the side of cells
-of this level), from which on a guess is that of a film. Pairs for a rise of 1.01, 2: the same; for
-1e9 (never): film 6.3."""
+of this level), from which on a guess is that of a film."""
 
 _NARROWED = 1, 2, 3
 """How often the set of a guess is narrowed: as a rule and always on the coarsest grid, where c(q) q
-rises, and where the guess is settled, before that as well. Pairs for once everywhere: film 6.4; for
-twice: elastic 6.0, free 17.8, tight 13.9. Settled guesses of films of E 100 on 2 pixels, of E 50 on
-2 and of E 30 on 2 (1024², means over loads and surfaces) take 7.7, 7.7 and 8.3 pairs with three,
-9.9, 8.3 and 9.3 with two."""
+rises, and where the guess is settled before."""
 
 _SETTLING_FROM = 8.0
-"""Steepness of a compliance from which on ``settle`` is worth its time. Films of E 30 on 2 pixels
-(steepness 8.5) take 8.3 pairs with it and 10.0 without, five measured surfaces with such films 8.7
-and 9.3; of E 10 on 2 (4.9) 7.0 and 7.3, in more time. Pairs for 3: stiff the same; for 1e9 (never):
-stiff 35.3."""
+"""Steepness of a compliance from which on ``settle`` is worth its time: thin films of E 30 and
+stiffer."""
 
 
 class Adjustable(Solver, Protocol):
@@ -148,9 +134,7 @@ def settle(work: Workspace, rounds: int) -> None:
 
 _AREA_PER_LOAD = 2.0
 """Factor a in the share erf(a p / E* s) of the points that are loaded first, s being the rms slope:
-small shares then grow like 2.26 p / E* s, as those of computed rough contacts. Pairs for 1.4: tight
-12.9; for 2.4: the same; for all points free 19.9. On 64² points two or three steps do instead of
-three to seven."""
+small shares then grow like 2.26 p / E* s, as those of computed rough contacts."""
 
 
 def highest_points(qp: ContactQP) -> RealArray | None:

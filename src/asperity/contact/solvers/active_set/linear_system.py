@@ -133,21 +133,18 @@ class Workspace:
 
 _MODEL_STEPS = 3
 """Steps on the model of a compliance whose inverse is refined, each as dear as two uses of its
-inverse. Pairs for 1, 4: stiff 90.4, 25.3, the last in more time on films of E 100 and 300 on one
-and two pixels."""
+inverse: for films so stiff that the inverse alone is poor."""
 
 _FIRST_STEPS = 1
-"""Further such steps for a direction whose length is not measured. Pairs for 0: elastic 7.7, film
-8.5, free 23.8, cap 7.7, tight 14.2, monotone 10.6; for 2: free 17.8, tight 11.7."""
+"""Further such steps for a direction whose length is not measured, since no product corrects it."""
 
 _LAST_LENGTH = 0.85
 """Length of the last of these steps over that of the one before, which spares a product with the
-model. Pairs for 0.7: the same; for 1: film 5.9."""
+model."""
 
 _STEP_LENGTH = 1.0
-"""Length of a step along the preconditioned residual where none can be measured. Pairs for 0.8,
-0.9, 1.1, 1.2: elastic 9.2, 7.7, 6.7, 8.5; film 9.2, 7.4, 8.2, 8.7; free 26.8, 23.1, 24.6, 27.6; cap
-9.4, 8.0, 8.0, 9.2; tight 15.4, 13.7, 12.7, 14.4; monotone 11.6, 9.9, 8.9, 11.0."""
+"""Length of a step along the preconditioned residual where none can be measured: the model has the
+scale of the compliance."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,14 +3,8 @@
 Read it beside docs/theory/contact.md: numbers in parentheses, such as (4), are the steps of the
 algorithm there.
 
-The constants are not delicate. Behind each stand FFT pairs for other values, by
-``benchmarks/constants.py``: means over self-affine surfaces of two seeds, tolerance 1e-6.
-*Elastic*: half-space, 512², loads 0.01, 0.05, 0.2 E*; *film*: E 10, h 4 and 20 pixels, 512²;
-*free*: free boundary, 256²; *cap*: hardness 0.3 E*, 256²; *tight*: elastic, 256², tolerance 1e-10;
-*monotone*: elastic, 256², every iterate within its bounds. The constants as they are take 5.7, 5.7,
-19.3, 6.0, 12.4 and 7.9 pairs; cases that are not named differ from these by 0.3 at most (*free*:
-0.8). *Stiff*: films of E 300 and 1000, 1 and 2 pixels thick, 128² and 256², for the constants that
-bear on them alone; 30.6 pairs.
+A constant has one line of reason; what other values change is measured by
+``benchmarks/constants.py`` and listed in docs/develop/constants.md.
 """
 
 from __future__ import annotations
@@ -67,17 +61,15 @@ def relative_error(work: Workspace, totals: Totals) -> float:
 
 _SETTLED = 0.003
 """Points entering or beyond their bounds, over the free set, below which the set counts as nearly
-settled. Pairs for 0: elastic 6.5, film 6.7, free 20.8, tight 13.2; for 0.001, 0.01 and 0.03 none
-differs."""
+settled and its system is worth solving closely."""
 
 _REDUCTION = 0.3
-"""Reduction of the residual while the set changes; conjugate gradients gain a factor of 9 a step,
-so mostly one step. Pairs for 0.1, 0.2 and 0.5: none differs."""
+"""Reduction of the residual while the set changes: what one step of conjugate gradients gains, for
+the set will be another one."""
 
 _UNSETTLED_STEPS = 3
 """Most steps while the set changes, doubled with every fallback, and twice with every failure of
-unclipped ones. Two would do on these surfaces (2, 4, 6: the same pairs), the third is for harder
-ones."""
+unclipped ones: one more than smooth surfaces need."""
 
 _UNMEASURED, _LAST, _LAST_CLOSELY = Stopping(0.0, 0), Stopping(0.0, 0, ending=1.0), Stopping(0.0, 0, ending=1.0, more=1)
 """Effort on a correction that is clipped afterwards, and on the last one: a single direction of the
@@ -85,50 +77,40 @@ model of the compliance, whose deflection the product with what is left of it af
 that which ends the solve, shows."""
 
 _SINGLE = 0.015
-"""Reduction of the error that a single direction is trusted to reach. Pairs for 0.01, 0.02: the
-same; for 0.06, 0.3: elastic 5.8, 6.7; film 6.2, 6.7; free 20.1, 20.1; cap 6.0, 7.0."""
+"""Reduction of the error that a single direction of the model is trusted to reach: more is missed
+too often, which costs a product."""
 
 _CLOSELY = 0.05
-"""Reduction of the error below which such a direction takes a step more on the model. Pairs for 0
-and 1: the same; 1024², four surfaces: half-spaces at 0.02 to 0.2 E* 5.9 for 5.9 with 0 and 5.8 with
-0.1, films of E 10 on 4 pixels at 0.05 to 0.5 5.7 for 5.8 and 5.7. The step takes a tenth of the
-time of one more product with all that belongs to it."""
+"""Reduction of the error below which such a direction takes a step more on the model, which costs a
+tenth of the product that it may spare."""
 
 _MOST_DOUBLINGS = 4
-"""Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30). No
-case here needs one."""
+"""Doublings of the steps at most: 48 steps then, more than a system ever took to be solved (30)."""
 
 _CLOSER, _CLOSER_DOUBLINGS = 0.1, 2
-"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed.
-Pairs for a factor of 0.03 and 0.3: stiff 32.7, 31.6; for 1 and 3 doublings: the same."""
+"""Factor to the reduction, and doublings of the steps, every time that unclipped steps have failed:
+a set that goes in circles settles where its systems are solved closely."""
 
 _NEARLY_SETTLED = Stopping(reduction=0.1, max_steps=8)
-"""Effort on a nearly settled set. Pairs for a reduction of 0.03: elastic 6.7, film 6.2; for 0.2 and
-0.3: tight 13.2; for 3, 5, 12 steps the same."""
+"""Effort on a nearly settled set: a decade, since some points will still change."""
 
 _SETTLED_SET = Stopping(reduction=1e-4, max_steps=14)
-"""Effort at most on a set that did not change; more than single precision holds is wasted. Pairs
-for a reduction of 1e-6, 1e-3, 1e-2: tight 11.9, 12.2, 11.9, all others the same; for 8, 20, 40
-steps the same."""
+"""Effort at most on a set that did not change; more than single precision holds is wasted."""
 
 _LAST_STEP = 0.07
-"""Reduction of the error expected of a last step whose length is not measured. Then the product
-that computes the deflection from scratch, which ends every solve, serves it too. Pairs for 0.03,
-0.15, 0.3: the same."""
+"""Reduction of the error expected of a last step whose length is not measured: the product that
+computes the deflection from scratch, which ends every solve, then serves it too."""
 
 _LAST_REDUCTION = 0.01
-"""Reduction down to which a step on a set that is nearly settled is taken for the last one and ends
-so. Pairs for 0.02, 0.05: the same."""
+"""Reduction down to which a step on a set that is nearly settled is taken for the last one."""
 
 _FURTHER = 0.75
 """Length, over that of the last step of conjugate gradients, of one more step of a correction that
-is clipped afterwards. The product with what is left of it after clipping shows its deflection, so
-that it takes none of its own. Only after a fallback, which no case of the sweep has, are there
-other steps of such corrections."""
+is clipped afterwards: its deflection is shown by the product with what clipping leaves, so it costs
+none."""
 
 _MARGIN = 0.8
-"""Share of the tolerance aimed at, since the error follows the residual only nearly. Pairs for 0.3:
-film 6.2, free 20.8; for 0.5 and 1 the same."""
+"""Share of the tolerance aimed at, since the error follows the residual only nearly."""
 
 
 # The solver.
@@ -151,26 +133,20 @@ class Loaded(NamedTuple):
 
 
 _POOR = 0.5
-"""Error of a start above which one from coarser grids is better: 20 loads from 0.01 to 0.2, each
-started from the one before, take 0.74 of the pairs of cold solves at 512²
-(``benchmarks/overheads.py``); a start from another surface, whose error is about 1, takes more than
-a cold one."""
+"""Error of a start above which one from coarser grids is better: that of another surface is about
+1."""
 
 _MOST_UNSUCCESSFUL = 2
-"""Unclipped steps in a row that may fail to lower the lowest error. Pairs for 0, 1, 4: stiff 34.7,
-33.3, 29.5."""
+"""Unclipped steps in a row that may fail to lower the lowest error before systems are solved more
+closely."""
 
 _MOST_REFINEMENTS = 3
-"""How often they may fail before steps are clipped. A set that follows the errors of loosely solved
-systems goes in circles on films so stiff that pressures change sign within a few pixels; solved
-closely, it settles. Clipped steps take hundreds of pairs there, so they are the last resort. Pairs
-for 0, 1, 2, 4: stiff 191, 43.4, 32.0, 29.5."""
+"""How often they may fail before steps are clipped, which take hundreds of pairs on very stiff
+films."""
 
 _REFRESH = 1e-5
 """Fall of the error since the deflection was computed from scratch after which it is again: updates
-are rounded to single precision, 6e-8 of the largest. Pairs for 1e-3, 1e-4, 1e-7: elastic 6.7, 6.2,
-5.7; film 6.7, 5.7, 5.7; free 22.3, 20.8, 19.3; cap 7.0, 6.0, 6.0; tight 11.6, 11.4, 13.4; monotone
-8.9, 8.4, 7.9."""
+are rounded to single precision, 6e-8 of the largest."""
 
 
 @dataclass(eq=False)

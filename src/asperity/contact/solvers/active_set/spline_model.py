@@ -215,8 +215,7 @@ def _samples(grid: Grid) -> _Samples:
 
 _TRUST = 0.001
 """Weight of the guess, an octave of the compliance for each level, in the fit of a level: where no
-wave tells it, it is as guessed. Pairs for 1e-4: the same; for 0.01, 0.05: film 7.7, 23.8 (constants
-and cases as in ``solver``)."""
+wave tells it, it is as guessed."""
 
 _RELATIVE = 1.0, 1.8, 1.9, 1.6, 1.66, 2.6
 """Compliance of a level in the inverse over that of the body at pi over the side of its cells,
@@ -226,29 +225,24 @@ corrected, it is that of the model."""
 _MIDDLE, _FALL, _BEND = 2.02, 0.34, 0.24
 """Middle of the eigenvalues of M K, in the compliance of a point at the shortest wavelength (they
 are 1.6 to 2.4 on half-spaces), and shares of the local stiffness: for differences from the
-neighbours in the set, and for the curvature along each axis. Pairs for a fall of 0, 0.2, 0.5: free
-19.3, 19.3, 18.6; tight 13.7, 11.4, 12.7; for a bend of 0, 0.12, 0.4: elastic 5.8, 5.8, 5.7; free
-19.3, 19.3, 18.6; tight 13.2, 12.7, 12.7."""
+neighbours in the set, and for the curvature along each axis."""
 
 _STIFF = 1.5
 """Rise of c(q) q over that of the shortest waves, at any wavelength, from which on a body counts as
-stiff: a film on a softer base. Pairs for 1.1, 3: the same; for 1e9 (never): film 11.9."""
+stiff: a film on a softer base."""
 
 _STIFF_MIDDLE, _STIFF_FALL, _STIFF_BEND = 2.4, -0.1, 0.7
-"""The same for stiff bodies. There the cells count by the row sums of the local stiffness, which
-are larger at the rim of a contact: without, a uniform displacement of a point with neighbours
-missing leaves a pressure, which is a large one where c(q) rises steeply. Pairs for a middle of 2,
-2.8 and a fall of -0.3, 0.1: the same, and for a bend of 0.4, 1."""
+"""The same for stiff bodies, whose cells count by the row sums of the local stiffness: these are
+larger at the rim of a contact."""
 
 _CORRECTION = 0.75
 """Share in which row sums are corrected on stiff bodies, from the level on that lies ``_AHEAD``
-below the first where c(q) q has risen by ``_RISEN``. Pairs for 0, 0.5, 1: film 19.8, 5.9, 5.7."""
+below the first where c(q) q has risen by ``_RISEN``: without, conjugate gradients gain half as much
+a step."""
 
 _AHEAD, _RISEN = 3, 1.2
-"""Levels, and the rise. Pairs for 1, 2, 9 levels: the same; at 1024² 1.0 more for 1 on films of E
-10 on 4 pixels, 0.5 more for 2 on those of E 30 on 8. A wave of eight points is reproduced to three
-fifths by the row sums of points that form cells, one of 16 to nine tenths: what is left of it
-counts as if it deflected like single points."""
+"""Levels, and the rise: waves of eight points are reproduced to three fifths by the row sums of
+points that form cells, those of 16 to nine tenths."""
 
 _OBLONG = 1.7
 """Share of the local stiffness along the longer side of a pixel, times the ratio of the sides."""
@@ -259,7 +253,7 @@ the model."""
 
 _STEEP = 10.0
 """Steepness from which on the inverse of nested splines is not good enough by itself, where points
-form cells along both axes. Pairs for 2: the same; for 1e9 (never): stiff 90.4."""
+form cells along both axes."""
 
 
 class SplineCompliance(NamedTuple):
