@@ -17,6 +17,8 @@ HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 sys.path.insert(0, str(HERE))
 
+import live_report  # noqa: E402 - found by the line above
+
 LEVELS = ("beginner", "intermediate", "advanced", "expert")
 """Folders of examples, in the order of the gallery."""
 
@@ -47,7 +49,11 @@ def _below(folder: Path, pattern: str) -> list[str]:
 
 
 def made() -> Texts:
-    """Text of the pages made from declarations."""
+    """Text of the pages made from declarations.
+
+    Where ``docs/`` has a page of the same place, it says how to read the same in a checkout, and
+    the site shows this one.
+    """
     import commands
     import documents
     import interface
@@ -89,6 +95,7 @@ def pages() -> Texts:
     known = homes()
     found = {home: linked((ROOT / path).read_text(encoding="utf-8"), path, known) for path, home in known.items()}
     found["validation/index.md"] += CONTENTS
+    found["index.md"] = found["index.md"].replace(live_report.MARK, live_report.FRAME)
     if not examples():
         found["gallery/index.md"] = "# Gallery\n\nThe examples are in the folder `examples` of the repository.\n"
     return found | made()
@@ -108,9 +115,7 @@ def linked(text: str, path: str, known: dict[str, str]) -> str:
         aim = PurePosixPath(os.path.normpath(folder / target)).as_posix()
         if aim + "/index.md" in known:
             aim += "/index.md"
-        home = (known | ELSEWHERE).get(aim) or (
-            aim.removeprefix("docs/") if aim.removeprefix("docs/") in MADE or _is_picture(aim) else None
-        )
+        home = (known | ELSEWHERE).get(aim) or (aim.removeprefix("docs/") if _is_picture(aim) else None)
         if home is not None:
             home = gallery() if home == "gallery/index.md" else home
             return f"{'!' if found[0].startswith('!') else ''}[{words}]({os.path.relpath(home, page.parent)}{place})"
@@ -127,21 +132,12 @@ def _is_picture(path: str) -> bool:
     return path.startswith("docs/") and path.endswith((".png", ".svg", ".webp")) and (ROOT / path).exists()
 
 
-MADE = (
-    "reference/theories.md",
-    "reference/commands.md",
-    "reference/document.md",
-    "reference/units.md",
-    "reference/api/index.md",
-    "gallery/index.md",
-)
-"""Pages that hand-written ones may link to although no file of the repository holds them, as below
-``docs/``."""
-
-
 def assemble(folder: Path) -> None:
-    """Write pages to ``folder``/source, and scripts of the gallery to ``folder``/examples; what is
-    unchanged is left alone."""
+    """Write pages to ``folder``/source, scripts of the gallery to ``folder``/examples, the report
+    of the first page to ``folder``/extra.
+
+    What is unchanged is left alone.
+    """
     for place, texts in (("source", pages()), ("examples", examples())):
         home = folder / place
         for path, text in texts.items():
@@ -155,6 +151,7 @@ def assemble(folder: Path) -> None:
         copy = folder / "source" / picture.relative_to(ROOT / "docs")
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(picture, copy)
+    live_report.write(folder / "extra")
     if examples():
         (folder / "source" / "gallery" / "index.md").unlink(missing_ok=True)
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import search
 from assemble import HERE, ROOT, assemble
 from sphinx.cmd.build import build_main
 
@@ -15,8 +16,12 @@ FOLDER = ROOT / "build" / "docs"
 def build(folder: Path = FOLDER) -> int:
     """Gather the pages and run Sphinx; returns its exit status."""
     assemble(folder)
-    options = ["-b", "html", "-c", HERE, "-d", folder / "doctrees", "-W", "--keep-going", "-q"]
+    extra = f"html_extra_path={folder / 'extra'}"
+    options = ["-b", "html", "-c", HERE, "-d", folder / "doctrees", "-D", extra, "-W", "--keep-going", "-q"]
     status = build_main([str(word) for word in [*options, folder / "source", folder / "html"]])
+    if status == 0 and search.can_run() and (lost := search.misled(folder / "html")):
+        print("the search leads elsewhere than to the how-to:", *lost, sep="\n  ", file=sys.stderr)
+        return 1
     if status == 0:
         print(f"site built: {folder / 'html' / 'index.html'}")
     return status

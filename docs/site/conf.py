@@ -68,6 +68,7 @@ html_title = f"asperity {version}"
 html_math_renderer = "mathml"
 html_static_path = [str(HERE / "static")]
 html_css_files = ["asperity.css"]
+html_search_scorer = str(HERE / "scorer.js")
 html_copy_source = False
 html_show_sourcelink = False
 html_theme_options = {"navigation_with_keys": True}

@@ -171,7 +171,7 @@ _GONE = 6.0  # exp(-x²) beyond it is below the rounding of one
 class PerssonGap:
     """Mean gap and stiffness of an elastic half-space on a randomly rough rigid surface.
 
-    The elastic energy U = (E* A_n/16π) ∫ q² S C dq of full contact is reduced by S = a [γ + (1 - γ)
+    The elastic energy U = (E* A_n/8π) ∫ q² S C dq of full contact is reduced by S = a [γ + (1 - γ)
     a²], a the area fraction at the wavenumber q, and dū = -dU/(A_n p) (Persson 2007; Yang & Persson
     2008). At low load p = β E* exp(-ū/u0).
 
