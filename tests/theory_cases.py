@@ -123,7 +123,7 @@ EXAMPLES = {
     "plasticity-index": {**{key: SUMMITS[key] for key in ("E_star", "radius", "height_deviation")}, "hardness": 8e9},
     "profile-plasticity-index": {"E_star": 1e11, "rms_height": 1e-8, "correlation_length": 1e-6, "hardness": 8e9},
     "least-area": {"hardness": 8e9},
-    "effective-hardness": {"film": 15e9, "substrate": 9e9, "modulus_ratio": 0.7},
+    "effective-hardness": {"coating": 15e9, "substrate": 9e9, "modulus_ratio": 0.7},
     "oliver-pharr": {"load": 1e-3, "depth": 1e-7, "stiffness": 4e4},
     "statistical-meniscus": {**SUMMITS, **FILM, "skewness": 0.3, "kurtosis": 3.5},
     "kinetic-meniscus": {**SUMMITS, **FILM, "viscosity": 0.1, "hamaker_constant": 5e-20},

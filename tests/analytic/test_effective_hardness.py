@@ -45,7 +45,7 @@ def test_falls_from_film_to_substrate(hardness_ratio, modulus_ratio, yield_ratio
     law = EffectiveHardness(hardness_ratio, 1.0, modulus_ratio, yield_ratio)
     assert float(law.at(0.0)) == pytest.approx(hardness_ratio, rel=1e-14)
     assert float(law.at(1e9)) == 1.0
-    shallow, deep = law.film_share(sorted((first, second)))
+    shallow, deep = law.coating_share(sorted((first, second)))
     assert 1.0 >= shallow >= deep >= 0.0
 
 
@@ -57,8 +57,8 @@ def test_equal_hardness_is_that_hardness(modulus_ratio, depth):
 def test_without_yield_strengths_the_exponents_are_those_of_hardness():
     """Y = H/2.8: (H1/H2)/(E1/E2) (h_c/h)² for soft films, (E1/E2)^-1/2 h_c/h for hard ones (Peng
     2001, app. C)."""
-    assert float(EffectiveHardness(0.5, 1.0, 2.0).film_share(1.5)) == pytest.approx(np.exp(-0.25 * 2.25), rel=1e-14)
-    assert float(EffectiveHardness(4.0, 1.0, 2.0).film_share(1.5)) == pytest.approx(np.exp(-1.5 / 2**0.5), rel=1e-14)
+    assert float(EffectiveHardness(0.5, 1.0, 2.0).coating_share(1.5)) == pytest.approx(np.exp(-0.25 * 2.25), rel=1e-14)
+    assert float(EffectiveHardness(4.0, 1.0, 2.0).coating_share(1.5)) == pytest.approx(np.exp(-1.5 / 2**0.5), rel=1e-14)
 
 
 def test_the_example_runs():
@@ -70,7 +70,7 @@ def test_the_example_runs():
 @pytest.mark.parametrize(
     ("values", "subject"),
     [
-        ((0.0, 1.0, 1.0), "film (Pa) of effective-hardness"),
+        ((0.0, 1.0, 1.0), "coating (Pa) of effective-hardness"),
         ((1.0, -1.0, 1.0), "substrate (Pa) of effective-hardness"),
         ((1.0, 1.0, 0.0), "modulus_ratio of effective-hardness"),
         ((1.0, 1.0, 1.0, 0.0), "yield_ratio of effective-hardness"),

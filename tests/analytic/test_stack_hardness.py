@@ -88,7 +88,7 @@ def test_faces_must_fit_together():
         StackHardness((one, two), (1.0,))
     with refused(InputError, "depth of a face of a stack (m)"):
         StackHardness((one, two), (1.0, 1.0))
-    with refused(InputError, "film of each face of a stack", "1", "3"):
+    with refused(InputError, "coating of each face of a stack", "1", "3"):
         StackHardness((two, one), (1.0, 2.0))
     with refused(InputError, "depth of an indentation"):
         StackHardness((one,), (1.0,)).at(-1.0)

@@ -34,9 +34,9 @@ TABLES = {
 }
 """Files that name several physics, each with its reason."""
 
-MOST = {"adhesion": (0, 0), "menisci": (4, 13), "dynamics": (2, 6)}
-"""Files and mentions outside its folder at most. Of menisci the friction of their documents of
-version 1, and film as the word for a coating, are two files."""
+MOST = {"adhesion": (0, 0), "menisci": (1, 1), "dynamics": (2, 6)}
+"""Files and mentions outside its folder at most. Of menisci the list of energies in files names
+one."""
 
 
 def names(module: Module) -> Iterator[str]:

@@ -153,7 +153,7 @@ def test_csv(run: Runner, tmp_path: Path) -> None:
         (("nayak", "--m0", "100nm**2", "--m2", "0.01", "--m4", "4um**-2"), "summits"),
         (
             (
-                *("effective-hardness", "--film", "15GPa", "--substrate", "9GPa"),
+                *("effective-hardness", "--coating", "15GPa", "--substrate", "9GPa"),
                 "--modulus-ratio",
                 "0.7",
                 "--depth-ratio",

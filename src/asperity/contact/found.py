@@ -1,32 +1,21 @@
-"""Names by which results give what their physics have found, with their types: for type checkers
-and editors alone."""
+"""Names by which results give what their physics have found: for type checkers and editors alone.
+Each physics declares its own, in ``names_found``."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from ..physics.adhesion.names_found import AttractionFound
+    from ..physics.friction.names_found import FrictionFound
+    from ..physics.menisci.names_found import FilmFound
+    from ..physics.plastic_flow.names_found import FlowFound
+    from ..physics.viscoelastic.names_found import CreepFound
 
-    from ..physics.adhesion.answer import AdhesiveContact
-    from ..physics.friction.answer import StickSlip
-    from ..physics.friction.sliding import GrossSliding
-    from ..physics.menisci.coupling import Menisci
-    from ..physics.plastic_flow.answer import PlasticBody
-    from ..physics.viscoelastic.moments import Creeping
+    class ResultNames(FilmFound, FrictionFound, AttractionFound, FlowFound, CreepFound):
+        """What each coupling has found."""
 
+else:
 
-class ResultNames:
-    """What each coupling has found."""
-
-    if TYPE_CHECKING:
-        menisci: Menisci | None
-        adhesion: AdhesiveContact | None
-        plastic_flow: PlasticBody | None
-        sliding: GrossSliding | None
-        stick_slip: StickSlip | None
-        creep: Creeping | None
-        require_menisci: Callable[[], Menisci]
-        require_adhesion: Callable[[], AdhesiveContact]
-        require_stick_slip: Callable[[], StickSlip]
-        require_plastic_flow: Callable[[], PlasticBody]
+    class ResultNames:
+        """Nothing while a program runs."""

@@ -1,44 +1,31 @@
-"""Names by which problems give their physics and histories their energies, with their types: for
-type checkers and editors alone."""
+"""Names by which problems give their physics and histories their energies: for type checkers and
+editors alone. Each physics declares its own, in ``names``."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..core.arrays import RealArray
-    from ..physics.adhesion.law import Adhesion
-    from ..physics.friction.law import FrictionLaw
-    from ..physics.menisci.film import LiquidFilm
-    from ..physics.plastic_flow.law import PlasticFlow
+    from ..physics.adhesion.names import AttractionEnergies, AttractionGiven, AttractionKeyword
+    from ..physics.friction.names import FrictionEnergies, FrictionGiven, FrictionKeyword
+    from ..physics.menisci.names import FilmEnergies, FilmGiven, FilmKeyword
+    from ..physics.plastic_flow.names import FlowGiven, FlowKeyword
+    from ..physics.viscoelastic.names import CreepEnergies
 
+    class Keywords(FilmKeyword, FrictionKeyword, AttractionKeyword, FlowKeyword, total=False):
+        """Physics of a ``ContactProblem`` by keyword."""
 
-class Keywords(TypedDict, total=False):
-    """Physics of a ``ContactProblem`` by keyword."""
+    class ProblemNames(FilmGiven, FrictionGiven, AttractionGiven, FlowGiven):
+        """What was given for each keyword."""
 
-    film: LiquidFilm | None
-    friction: FrictionLaw | None
-    adhesion: Adhesion | None
-    plastic_flow: PlasticFlow | None
+    class EnergyNames(FilmEnergies, FrictionEnergies, AttractionEnergies, CreepEnergies):
+        """What each physics adds to the energies of a history."""
 
+else:
+    Keywords = dict
 
-class ProblemNames:
-    """What was given for each keyword."""
+    class ProblemNames:
+        """Nothing while a program runs."""
 
-    if TYPE_CHECKING:
-        film: LiquidFilm | None
-        friction: FrictionLaw | None
-        adhesion: Adhesion | None
-        plastic_flow: PlasticFlow | None
-
-
-class EnergyNames:
-    """What each physics adds to the energies of a history."""
-
-    if TYPE_CHECKING:
-        meniscus_work: RealArray
-        shear_work: RealArray
-        tangential_work: RealArray
-        slip_work: RealArray
-        step_work: RealArray
-        jump_work: RealArray
+    class EnergyNames:
+        """Nothing while a program runs."""

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from ..core.errors import InputError
@@ -295,6 +296,12 @@ class Part(Work):
     takes_friction: ClassVar[bool] = False
     """Whether friction is given for its sake. Where it is for no part, a command with friction asks
     for the stresses too."""
+    static_friction: ClassVar[bool] = False
+    """Whether what it adds gives the contact a static friction."""
+    moved: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Keys of its table in documents of version 1, and where version 2 has them."""
+    unmoved: ClassVar[Mapping[str, Any]] = MappingProxyType({})
+    """What such a table says in version 2 where another table had the friction, and it had none."""
     work: ClassVar[str] = ""
     """Module and name of the ``Work`` of a part of this package, such as
     ``physics.rolling.work:RollingWork``."""

@@ -15,7 +15,6 @@ import tomllib
 from collections.abc import Callable, Mapping
 from importlib import resources
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, Optional, TypeVar
 
 from pydantic import Field, create_model
@@ -30,7 +29,6 @@ from ..parts.registry import parts
 
 __all__ = [
     "PRESETS",
-    "RENAMED",
     "TRACTIONS",
     "ProblemDocument",
     "checked",
@@ -42,6 +40,7 @@ __all__ = [
     "loads",
     "read_table",
     "relocated",
+    "renamed",
     "save_document",
     "tidy",
     "validated",
@@ -53,16 +52,10 @@ D = TypeVar("D", bound=Settings)
 TRACTIONS = "tractions"
 """Table of documents that prescribe tractions and have no contact (``run.tractions``)."""
 
-RENAMED = MappingProxyType(
-    {
-        "stress.friction": "friction.coefficient",
-        "stress.direction": "friction.direction",
-        "stress.coupled": "friction.coupled",
-        "film.friction": "friction.coefficient",
-        "film.speed": "friction.speed",
-    }
-)
-"""Keys of version 1, and where version 2 has them."""
+
+def renamed() -> dict[str, str]:
+    """Keys of version 1, and where version 2 has them."""
+    return {f"{part.table}.{key}": to for part in parts() for key, to in part.moved.items()}
 
 
 @functools.lru_cache(maxsize=8)
@@ -167,27 +160,29 @@ def upgraded(table: Mapping[str, Any]) -> dict[str, Any]:
     Raises
     ------
     InputError
-        If stresses and film have different coefficients of friction.
+        If two tables have different coefficients of friction.
     """
     new = dict(table)
     if table.get("version") != 1:
         return new
     new["version"] = 2
     friction: dict[str, Any] = {}
-    before = {name: dict(table[name]) for name in ("film", "stress") if isinstance(table.get(name), Mapping)}
-    given = {name: part.get("friction") or 0 for name, part in before.items()}
-    if len(given) == 2 and given["stress"] and given["film"] and given["stress"] != given["film"]:
+    moving = {part.table: part for part in parts() if part.moved and isinstance(table.get(part.table), Mapping)}
+    before = {name: dict(table[name]) for name in moving}
+    given = {name: own["friction"] for name, own in before.items() if own.get("friction")}
+    if len(set(given.values())) > 1:
+        (one, first), (other, second) = sorted(given.items(), reverse=True)[:2]
         raise InputError(
-            f"stress.friction must be film.friction, but they are {given['stress']!r} and {given['film']!r}: "
+            f"{one}.friction must be {other}.friction, but they are {first!r} and {second!r}: "
             "there is one friction in a contact, friction.coefficient of version 2."
         )
-    if given.get("film") and not given.get("stress", True):
-        before["stress"]["shear"] = False
-    for old, key in RENAMED.items():
-        name, _, own = old.partition(".")
-        if own in before.get(name, {}):
-            value = before[name].pop(own)
-            friction[key.partition(".")[2]] = value or friction.get(key.partition(".")[2], value)
+    for name, part in moving.items():
+        if given and name not in given:
+            before[name] |= part.unmoved
+        for old, key in part.moved.items():
+            if old in before[name]:
+                own, value = key.partition(".")[2], before[name].pop(old)
+                friction[own] = value or friction.get(own, value)
     return {**new, **before, **({"friction": friction} if friction else {})}
 
 

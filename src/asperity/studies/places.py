@@ -18,7 +18,7 @@ from ..core.errors import InputError
 from ..core.settings import Settings, declared
 from ..core.values import Interval, Lengths, Number, Several, Written, WrittenPair
 from ..io.schemas.problem import CONTROLS, NONE, ProblemDocument
-from ..run.document import RENAMED, tidy
+from ..run.document import renamed, tidy
 
 Key: TypeAlias = str | int
 """Key of a table, or number of an item of a list."""
@@ -96,7 +96,7 @@ def locate(document: ProblemDocument, path: str) -> Place:
     InputError
         If there is none; the message names the nearest ones that there are.
     """
-    path = RENAMED.get(path, path)
+    path = renamed().get(path, path)
     known = {place.path: place for place in scalars(document)}
     if path not in known:
         near = difflib.get_close_matches(path, known, n=3, cutoff=0.5)

@@ -14,6 +14,7 @@ from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
 from ...core.values import Choice, Count, Fraction, Length, NonNegative, Number, Positive, Size, Whole
 from ...parts.part import Part
+from ...parts.registry import parts
 
 if TYPE_CHECKING:
     pass
@@ -210,7 +211,8 @@ class Dynamics(Part):
                 "speed must be given for the motion along the surface, but is missing. Give {friction.speed=1 mm/s}.",
                 subject="friction.speed",
             )
-        if settings.model != "mass" and not coefficient and getattr(document, "film", None) is None:
+        static = any(part.static_friction and getattr(document, part.table, None) is not None for part in parts())
+        if settings.model != "mass" and not coefficient and not static:
             raise InputError(
                 "friction must be given for the motion along the surface, but its coefficient is 0. Give "
                 "{friction.coefficient=0.3}.",

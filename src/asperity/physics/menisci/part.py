@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from pydantic import model_validator
@@ -98,7 +99,8 @@ class Menisci(Part):
     of_result = "menisci"
     work = "physics.menisci.work:MenisciWork"
     headline = "meniscus_force"
-    takes_friction = True
+    takes_friction = static_friction = True
+    moved = MappingProxyType({"friction": "friction.coefficient", "speed": "friction.speed"})
     quantities = WET_SCALARS
 
     def asked(self, document: Any, folder: Path) -> Wetted:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import model_validator
@@ -143,6 +144,9 @@ _LARGEST = {
 """Largest stresses that each layer has, and what they are called."""
 
 
+_OF_FRICTION = {"friction": "coefficient", "direction": "direction", "coupled": "coupled"}
+
+
 class Stress(Part):
     """Largest stresses of layers and interfaces."""
 
@@ -151,6 +155,8 @@ class Stress(Part):
     table = "stress"
     settings = StressSettings
     basic = ("sections", "depths")
+    moved = MappingProxyType({key: f"friction.{to}" for key, to in _OF_FRICTION.items()})
+    unmoved = MappingProxyType({"shear": False})
     quantities = (
         *(Quantity(name, "Pa", text) for name, text in _LARGEST.items()),
         *(Quantity(f"{name}_error", "Pa", f"error of the {text}") for name, text in _LARGEST.items()),

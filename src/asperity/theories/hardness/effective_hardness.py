@@ -1,4 +1,4 @@
-"""Hardness of films on substrates, of several coatings, and from an indentation curve."""
+"""Hardness of coatings on substrates, of several coatings, and from an indentation curve."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ from ..protocol import Theory, checked
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HardnessAnswer(Tabled):
-    """``hardness`` in Pa and ``film_share`` of it, (n,)."""
+    """``hardness`` in Pa and ``coating_share`` of it, (n,)."""
 
     hardness: RealArray
-    film_share: RealArray
+    coating_share: RealArray
 
 
 @dataclass(frozen=True)
 class EffectiveHardness(Theory):
-    """Hardness H_e of a film (1) of thickness h on a substrate (2), indented to the depth h_c.
+    """Hardness H_e of a coating (1) of thickness h on a substrate (2), indented to the depth h_c.
 
         H_e = H_2 + (H_1 - H_2) exp[-((Y_1/Y_2)/(E_1/E_2)) (h_c/h)²]  (H_1 ≤ H_2),
         H_e = H_2 + (H_1 - H_2) exp[-(H_1/H_2)/((Y_1/Y_2) sqrt(E_1/E_2)) (h_c/h)]  (H_1 > H_2).
@@ -49,22 +49,22 @@ class EffectiveHardness(Theory):
     ['15.00', '13.23', '10.87', '9.00']
     """
 
-    film: Annotated[HardnessValue, Help("hardness of the film", of="bodies")]
+    coating: Annotated[HardnessValue, Help("hardness of the coating", of="bodies")]
     substrate: Annotated[HardnessValue, Help("hardness of the substrate", of="bodies")]
-    modulus_ratio: Annotated[Positive, Help("Young's modulus of the film over that of the substrate", of="bodies")]
+    modulus_ratio: Annotated[Positive, Help("Young's modulus of the coating over that of the substrate", of="bodies")]
     yield_ratio: Annotated[
-        Positive | None, Help("yield stress of film over substrate; that of the hardnesses by default", of="bodies")
+        Positive | None, Help("yield stress of coating over substrate; that of the hardnesses by default", of="bodies")
     ] = None
     name: ClassVar[str] = "effective-hardness"
-    title: ClassVar[str] = "Effective hardness of a film on a substrate"
+    title: ClassVar[str] = "Effective hardness of a coating on a substrate"
     citation_keys: ClassVar[tuple[str, ...]] = ("Bhattacharya1988", "Peng2001")
     ways: ClassVar[tuple[Way, ...]] = (
         Way(
-            asked("depth_ratio", "", "depth of the indentation over the thickness of the film"),
+            asked("depth_ratio", "", "depth of the indentation over the thickness of the coating"),
             "at_depth_ratio",
             (
                 Quantity("hardness", "Pa", "hardness that the indenter meets"),
-                Quantity("film_share", "1", "weight of the film, from one down to zero"),
+                Quantity("coating_share", "1", "weight of the coating, from one down to zero"),
             ),
         ),
     )
@@ -72,24 +72,24 @@ class EffectiveHardness(Theory):
     def at(self, depth_ratio: ArrayLike) -> RealArray:
         """H_e in Pa at h_c/h = ``depth_ratio`` (any shape, >= 0). InputError if a depth is
         negative."""
-        return self.substrate + (self.film - self.substrate) * self.film_share(depth_ratio)
+        return self.substrate + (self.coating - self.substrate) * self.coating_share(depth_ratio)
 
     def at_depth_ratio(self, depth_ratio: ArrayLike) -> HardnessAnswer:
-        """Hardness and share of the film at h_c/h = ``depth_ratio`` (any shape, >= 0)."""
-        return HardnessAnswer(self.at(depth_ratio), self.film_share(depth_ratio))
+        """Hardness and share of the coating at h_c/h = ``depth_ratio`` (any shape, >= 0)."""
+        return HardnessAnswer(self.at(depth_ratio), self.coating_share(depth_ratio))
 
-    def film_share(self, depth_ratio: ArrayLike) -> RealArray:
-        """Weight (H_e - H2)/(H1 - H2) of the film at h_c/h = ``depth_ratio`` (any shape, >= 0),
+    def coating_share(self, depth_ratio: ArrayLike) -> RealArray:
+        """Weight (H_e - H2)/(H1 - H2) of the coating at h_c/h = ``depth_ratio`` (any shape, >= 0),
         from one down to zero."""
         depth = checked(depth_ratio, "depth of an indentation")
-        hardness_ratio = self.film / self.substrate
+        hardness_ratio = self.coating / self.substrate
         yield_ratio = hardness_ratio if self.yield_ratio is None else self.yield_ratio
         if hardness_ratio <= 1.0:
             return np.asarray(np.exp(-yield_ratio / self.modulus_ratio * depth**2))
         return np.asarray(np.exp(-hardness_ratio / (yield_ratio * self.modulus_ratio**0.5) * depth))
 
 
-# Several coatings, treated successively as films on substrates.
+# Several coatings, each treated as one on a substrate.
 
 
 _KNOTS = 2000
@@ -102,12 +102,12 @@ class StackHardness:
     """Hardness at the depth d of coatings whose lower faces lie at the depths t_k: H = H_N + Σ
     (H_k - H_(k+1)) s_k(d).
 
-    s_k is the share of the film in the law of Bhattacharya & Nix for the materials above and below
-    the face k, at the depth ratio d/t_k, but at least s_(k-1): every material keeps a weight >= 0,
-    so that H lies between the extremes of the stack. One coating gives their law itself, a face
-    between equal materials changes nothing, d -> 0 the hardness of the top, d -> ∞ that of the
-    base, and coatings of well separated thicknesses each other's hardness in between. The sum over
-    faces is an extension of this package; one coating is what was fitted.
+    s_k is the share of the coating in the law of Bhattacharya & Nix for the materials above and
+    below the face k, at the depth ratio d/t_k, but at least s_(k-1): every material keeps a
+    weight >= 0, so that H lies between the extremes of the stack. One coating gives their law
+    itself, a face between equal materials changes nothing, d -> 0 the hardness of the top, d -> ∞
+    that of the base, and coatings of well separated thicknesses each other's hardness in between.
+    The sum over faces is an extension of this package; one coating is what was fitted.
 
     InputError if there is no face, the depths are not as many, positive and increasing, or
     neighbours do not agree.
@@ -115,8 +115,8 @@ class StackHardness:
     Parameters
     ----------
     faces
-        The law of film and substrate at every face, from the top; the substrate of one is the film
-        of the next.
+        The law of coating and substrate at every face, from the top; the substrate of one is the
+        coating of the next.
     depths
         Depths t_k in m of the faces, increasing, > 0.
     """
@@ -137,10 +137,10 @@ class StackHardness:
         for depth in self.depths:
             above = require.between(depth, above, np.inf, "depth of a face of a stack (m)", "Give them in order.")
         for upper, lower in itertools.pairwise(self.faces):
-            if upper.substrate != lower.film:
+            if upper.substrate != lower.coating:
                 raise InputError(
-                    f"film of each face of a stack must have the hardness {upper.substrate:g} Pa of the substrate of "
-                    f"the face above, but has {lower.film:g} Pa."
+                    f"coating of each face of a stack must have the hardness {upper.substrate:g} Pa of the "
+                    f"substrate of the face above, but has {lower.coating:g} Pa."
                 )
         knots = np.geomspace(_SHALLOWEST * self.depths[0], _DEEPEST * self.depths[-1], _KNOTS)
         knots = np.concatenate([[0.0], knots])
@@ -154,8 +154,8 @@ class StackHardness:
         value: RealArray = np.full(d.shape, self.faces[-1].substrate)
         share: RealArray = np.zeros(d.shape)
         for face, thickness in zip(self.faces, self.depths, strict=True):
-            share = np.maximum(share, face.film_share(d / thickness))
-            value += (face.film - face.substrate) * share
+            share = np.maximum(share, face.coating_share(d / thickness))
+            value += (face.coating - face.substrate) * share
         return value
 
     @property
