@@ -11,7 +11,6 @@ import numpy as np
 
 from ..core import require
 from ..core.arrays import RealArray
-from ..core.citations import citation_keys
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Shown
@@ -360,8 +359,8 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
         """Keys of the papers the problem rests on."""
         pair = ("Peng2001",) if isinstance(self.counter_surface, Surface) else ()
         whole = self.surface, self.counter_surface, self.compliance, self.boundary, self.law
-        parts = citation_keys(*whole, *self.physics)
-        return (*parts, *pair, "Kalker1977", "Yastrebov2017")
+        parts = {key for item in (*whole, *self.physics) for key in getattr(item, "citation_keys", ())}
+        return (*sorted(parts), *pair, "Kalker1977", "Yastrebov2017")
 
     def profile(self) -> RealArray:
         """Heights (nx, ny) in m of the composite surface, float64, positive towards the counter

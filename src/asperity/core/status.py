@@ -36,7 +36,8 @@ class Status:
 
     def __post_init__(self) -> None:
         """Say what can be done in words."""
-        object.__setattr__(self, "remedy", in_words(self.remedy))
+        if self.remedy:
+            object.__setattr__(self, "remedy", in_words(self.remedy))
 
     @property
     def converged(self) -> bool:
