@@ -25,6 +25,9 @@ EXACT: dict[str, Callable[[StressTensor], RealArray]] = {
 _FIRST = 64
 """Points of the highest bounds at which the stress is evaluated first."""
 
+_FEW = 1 << 12
+"""Points up to which it is evaluated at all of them: less than the import of compiled bounds."""
+
 
 def largest(
     name: str, s: StressTensor, share: float = 0.0, slack: RealArray | None = None
@@ -36,7 +39,11 @@ def largest(
     Numbers rise.
     """
     flat = s.map(np.ravel)
-    bounds = _bounds(name, flat)
+    if flat.xx.size <= _FEW:
+        return np.arange(flat.xx.size), np.asarray(EXACT[name](flat))
+    kernels: Any = import_module(".kernels.extremes", __package__)
+    bounds = np.empty(flat.xx.size)
+    kernels.bounds(kernels.QUANTITIES.index(name), tuple(vars(flat).values()), bounds)
     rounding = 16.0 * float(np.finfo(flat.xx.dtype).eps) * float(np.abs(bounds).max())
     reach = bounds if share == 0.0 else bounds + share * np.abs(bounds)
     reach = reach if slack is None else reach + slack
@@ -44,14 +51,6 @@ def largest(
     def at(numbers: NDArray[np.intp]) -> RealArray:
         return np.asarray(EXACT[name](flat.map(lambda component: component[numbers])))
 
-    first = np.argpartition(bounds, -_FIRST)[-_FIRST:] if bounds.size > _FIRST else np.arange(bounds.size)
-    numbers = np.flatnonzero(reach >= float(at(first).max()) - rounding)
+    least = float(at(np.argpartition(bounds, -_FIRST)[-_FIRST:]).max()) - rounding
+    numbers = np.flatnonzero(~(reach < least))  # all where one is NaN, so that the largest is
     return numbers, at(numbers)
-
-
-def _bounds(name: str, flat: StressTensor) -> RealArray:
-    """What the stress ``name`` is at most, (n,)."""
-    kernels: Any = import_module(".kernels.extremes", __package__)
-    found = np.empty(flat.xx.size)
-    kernels.bounds(kernels.QUANTITIES.index(name), tuple(vars(flat).values()), found)
-    return found
