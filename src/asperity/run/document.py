@@ -169,9 +169,9 @@ def upgraded(table: Mapping[str, Any]) -> dict[str, Any]:
     friction: dict[str, Any] = {}
     moving = {part.table: part for part in parts() if part.moved and isinstance(table.get(part.table), Mapping)}
     before = {name: dict(table[name]) for name in moving}
-    given = {name: own["friction"] for name, own in before.items() if own.get("friction")}
-    if len(set(given.values())) > 1:
-        (one, first), (other, second) = sorted(given.items(), reverse=True)[:2]
+    given = {name: own["friction"] for name, own in sorted(before.items(), reverse=True) if own.get("friction")}
+    if any(value != next(iter(given.values())) for value in given.values()):
+        (one, first), (other, second), *_ = given.items()
         raise InputError(
             f"{one}.friction must be {other}.friction, but they are {first!r} and {second!r}: "
             "there is one friction in a contact, friction.coefficient of version 2."

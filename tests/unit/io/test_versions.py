@@ -45,6 +45,11 @@ def test_two_coefficients_in_one_contact_are_refused() -> None:
         asked(film={**FILM, "friction": 0.2}, stress={"friction": 0.3})
 
 
+def test_a_coefficient_that_is_no_number_is_refused() -> None:
+    with refused(asp.InputError, "problem document: friction.coefficient"):
+        asked(film={**FILM, "friction": [0.2]}, stress={"depths": ["0 nm"]})
+
+
 def test_paths_of_studies_lead_to_the_new_key() -> None:
     made = plan(
         problem={**PROBLEM, "version": 1, "stress": {}}, axes=[{"path": "stress.friction", "values": [0.1, 0.2]}]
