@@ -502,9 +502,10 @@ def relative_error(qp: ContactQP, pressure: RealArray, deflection: RealArray) ->
 def pressure_error(qp: ContactQP, pressure: RealArray, gap: float) -> float:
     """Bound on the relative L2 error of ``pressure`` (nx, ny) in Pa, from its ``gap`` (Pa·m).
 
-    An error e raises the energy by e·Ke/2 at least and by the gap at most, and e·Ke is at least c
-    e·e, c being the compliance of the wave that gives way least: |e| <= (2 gap/c)^1/2. At a
-    prescribed position it is the error from the solution under the load reached.
+    Infinite where there is none. An error e raises the energy by e·Ke/2 at least and by the gap at
+    most, and e·Ke is at least c e·e, c being the compliance of the wave that gives way least:
+    |e| <= (2 gap/c)^1/2. At a prescribed position it is the error from the solution under the load
+    reached.
     """
     squares = float((pressure * pressure).sum(dtype=np.float64))
     if gap <= 0.0:
