@@ -23,6 +23,7 @@ LIMITS: dict[str, dict[str, str]] = {
         "StressPlanes.__init__": (
             "independent keyword-only choices of the user, and the stress that a result knows beside its tractions"
         ),
+        "read": "independent keyword-only choices of the user, each with a default",
         "filter_waves": "independent keyword-only choices of the user, each with a default",
         "finished": "what a solve ends with, and who asks: a history, a step of time or a sliding contact",
         "slide": "independent keyword-only choices of the user, each with a default",

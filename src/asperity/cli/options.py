@@ -173,9 +173,14 @@ def document_options() -> tuple[Option, ...]:
 
 def read_surface(file: Path, given: Given) -> Surface:
     """Surface in ``file`` as the reading options that are ``given`` ask."""
+    return build_surface(reading_table(file, given), Path())
+
+
+def reading_table(file: Path, given: Given) -> FileSurface:
+    """Table of the surface in ``file`` as the reading options that are ``given`` ask."""
     table = {"kind": "file", "path": str(file), **given.under("surface").table()}
     names = {option.path[-1]: option.name for option in reading_options()}
-    return build_surface(validated(FileSurface, table, COMMAND_LINE, names), Path())
+    return validated(FileSurface, table, COMMAND_LINE, names)
 
 
 def levelled_as(surface: Surface, level: str) -> tuple[Surface, str]:

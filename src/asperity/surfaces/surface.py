@@ -14,6 +14,7 @@ from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Drawn
+from ..core.status import Advice
 from ..core.values import LEAST
 
 
@@ -24,7 +25,7 @@ class Origin:
     ``source`` file name or generator; ``channel`` data channel; ``instrument`` free key-value data
     from the file; ``history`` one sentence for every preparation step, oldest first;
     ``citation_keys`` the papers behind the reader, the generator and the steps, see
-    ``core.citations``.
+    ``core.citations``; ``findings`` what is doubtful in the file.
     """
 
     source: str = ""
@@ -32,6 +33,7 @@ class Origin:
     instrument: Mapping[str, str] = field(default_factory=dict)
     history: tuple[str, ...] = ()
     citation_keys: tuple[str, ...] = ()
+    findings: tuple[Advice, ...] = ()
 
     def continued(self, step: str, citation_keys: tuple[str, ...] = ()) -> Origin:
         """Origin after a further ``step``, which rests on the papers ``citation_keys``."""

@@ -1,8 +1,10 @@
-"""Levelling, removal of spikes and of offsets between scan lines, filling of missing points."""
+"""Levelling, removal of spikes and of offsets between scan lines, filling of missing points, and
+the codes that stand for them."""
 
 from __future__ import annotations
 
 import itertools
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
@@ -12,6 +14,7 @@ from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
 from ...core.parameters import checked
+from ...core.status import Advice
 from ...core.units import show
 from ...core.values import Axis, Positive, Whole
 from ..characterise.heights import rms_height
@@ -290,3 +293,181 @@ def _harmonic(surface: Surface) -> RealArray:
     entries = (np.concatenate([*values, diagonal]), (np.concatenate([*rows, every]), np.concatenate([*columns, every])))
     matrix = coo_array(entries, shape=(missing.size, missing.size)).tocsc()
     return np.atleast_1d(np.asarray(spsolve(matrix, right), dtype=np.float64))
+
+
+# Codes for missing points, clipping and spikes: rules of one repeated value far outside, and of
+# different values.
+
+
+Places: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.intp]]
+"""Whole numbers: places of points, and how often values occur."""
+
+SPIKES = "spikes"
+"""Criterion of findings on single points far outside."""
+
+MISSING_CODE = "missing points"
+"""Criterion of findings on codes for missing points."""
+
+_FEW = 4  # times that a value occurs before it counts as repeated
+_NEAR = 0.02  # of the 1-99 % range of the others: a gap up to it is none
+_SPIKE = 6.0 * 1.4826  # times the median distance from the median of 5 x 5 points
+
+
+@dataclass(frozen=True)
+class Code:
+    """What an extreme ``value`` is: ``"missing"``, ``"ask"`` or ``"clipped"``, and of how many
+    points."""
+
+    verdict: str
+    value: float
+    count: int
+
+
+def codes(values: RealArray) -> tuple[Code, ...]:
+    """What the smallest and largest of ``values`` (any shape, NaN missing) are, one after the
+    other.
+
+    A code is one repeated value far outside the others; maps of fewer than three distinct values
+    are gratings.
+    """
+    found: list[Code] = []
+    finite = values[np.isfinite(values)]
+    if finite.size == 0 or max(int(np.count_nonzero(finite == end)) for end in (finite.min(), finite.max())) < _FEW:
+        return ()
+    distinct, counts = np.unique(finite, return_counts=True)
+    while distinct.size >= 3:
+        hit = _extreme(distinct, counts)
+        if hit is None:
+            break
+        found.append(hit[0])
+        distinct, counts = np.delete(distinct, hit[1]), np.delete(counts, hit[1])
+    return tuple(found)
+
+
+def _extreme(distinct: RealArray, counts: Places) -> tuple[Code, int] | None:
+    """Verdict on the first extreme value that is none of the others, and its place; None if both
+    are like the others."""
+    n = int(counts.sum())
+    for place in (0, distinct.size - 1):
+        count = int(counts[place])
+        if count < _FEW:
+            continue
+        others, times = np.delete(distinct, place), np.delete(counts, place)
+        gap = float(abs(distinct[place] - others[0 if place == 0 else -1]))
+        extent = float(others[-1] - others[0])
+        share = np.cumsum(times) / times.sum()
+        inner = float(others[np.searchsorted(share, 0.99)] - others[np.searchsorted(share, 0.01)])
+        usual = float(np.median(times))
+        if gap > 2.0 * extent and count <= n / 4:
+            verdict = "missing"
+        elif gap > 0.5 * extent or (usual == 1.0 and gap > _NEAR * inner):
+            verdict = "ask"
+        elif count >= max(_FEW, 10.0 * usual) and gap <= _NEAR * inner:
+            verdict = "clipped"
+        else:
+            continue
+        return Code(verdict, float(distinct[place]), count), place
+    return None
+
+
+_BLOCK = 1 << 20  # points that are compared with their neighbours at a time
+
+
+def spikes(values: RealArray) -> BoolArray:
+    """Where ``values`` (nx, ny) lie far from the median of their 5 x 5 neighbourhood.
+
+    Only points that stick out of their neighbours two points away are compared; the scale is that
+    of a sample.
+    """
+    marked = np.zeros(values.shape, dtype=bool)
+    if min(values.shape) < 5:
+        return marked
+    padded = np.pad(values.astype(np.float64), 2, mode="reflect")
+    sample = np.argwhere(np.isfinite(values))
+    sample = sample[:: max(1, len(sample) // 20_000)]
+    if len(sample) < 25:
+        return marked
+    usual = float(np.nanmedian(_outside(padded, sample[:, 0], sample[:, 1])))
+    scale = float(np.nanmedian(_distances(padded, sample)))
+    if not usual > 0.0 or not scale > 0.0:
+        return marked
+    (nx, ny), found = values.shape, []
+    columns = np.arange(ny)[None, :]
+    for start in range(0, nx, max(1, _BLOCK // ny)):
+        lines = np.arange(start, min(nx, start + max(1, _BLOCK // ny)))[:, None]
+        hit = np.argwhere(_outside(padded, lines, columns) > 0.5 * _SPIKE * usual)
+        found.append(hit + np.array([start, 0]))
+    outside = np.concatenate(found)
+    if 0 < len(outside) <= 0.05 * values.size:
+        far = _distances(padded, outside) > _SPIKE * scale
+        marked[tuple(outside[far].T)] = True
+    return marked
+
+
+def _outside(padded: RealArray, i: Places, j: Places) -> RealArray:
+    """How far the values at (i, j) stick out of the two middle ones of the four that are two points
+    away."""
+    around = np.stack([padded[i + di, j + dj] for di, dj in ((0, 2), (4, 2), (2, 0), (2, 4))])
+    found: RealArray = np.abs(
+        padded[i + 2, j + 2] - 0.5 * (around.sum(axis=0) - around.max(axis=0) - around.min(axis=0))
+    )
+    return found
+
+
+def _distances(padded: RealArray, places: Places) -> RealArray:
+    """Distance of the values at ``places`` from the median of the 5 x 5 values around them."""
+    steps = np.arange(5)
+    block = padded[places[:, 0, None, None] + steps[None, :, None], places[:, 1, None, None] + steps[None, None, :]]
+    found: RealArray = np.abs(block[:, 2, 2] - np.nanmedian(block.reshape(len(places), 25), axis=1))
+    return found
+
+
+def value_findings(values: RealArray, unit: str) -> tuple[Advice, ...]:
+    """Findings on ``values`` (nx, ny) as they stand in the file, in its ``unit``."""
+    values = np.where(np.isfinite(values), values, np.nan)
+    with np.errstate(all="ignore"):  # of numbers that are damaged
+        return _value_findings(values, unit)
+
+
+def _value_findings(values: RealArray, unit: str) -> tuple[Advice, ...]:
+    made = []
+    found = codes(values)
+    for code in found:
+        text = f"{code.count} points have the value {code.value:.6g} {unit}".rstrip()
+        numbers = {"value": code.value, "points": float(code.count)}
+        if code.verdict == "missing":
+            fact = (
+                f"{text}, far outside all others: it stands for missing points as it seems, and was taken for a height."
+            )
+            made.append(Advice("warning", MISSING_CODE, fact, f"State it ({{missing}}: {code.value:.6g}).", numbers))
+        elif code.verdict == "ask":
+            fact = f"{text}, outside all others: a flat floor or top, or a code for missing points."
+            remedy = f"If it is a code, state it ({{missing}}: {code.value:.6g})."
+            made.append(Advice("warning", MISSING_CODE, fact, remedy, numbers))
+        else:
+            fact = f"{text}, the end of the instrument's range: heights are clipped there."
+            made.append(Advice("note", "clipped heights", fact, numbers=numbers))
+    if not any(code.verdict in ("missing", "ask") for code in found) and (far := spikes(values)).any():
+        made.append(_spikes_found(values, far, unit))
+    return tuple(made)
+
+
+_AS_CODES = 100.0
+"""Standard deviations from the median beyond which a spike is taken for a code by those who look at
+it."""
+
+
+def _spikes_found(values: RealArray, far: BoolArray, unit: str) -> Advice:
+    """The finding on ``values`` that are ``far`` from their neighbours."""
+    count, lowest, highest = int(far.sum()), float(values[far].min()), float(values[far].max())
+    rest, middle = float(np.nanstd(np.where(far, np.nan, values))), float(np.nanmedian(values))
+    outside = max(lowest, highest, key=lambda value: abs(value - middle))
+    worst = abs(outside - middle) / rest if rest > 0.0 else np.inf
+    extent = f"{lowest:.6g} {unit}" if count == 1 else f"{lowest:.6g} to {highest:.6g} {unit}"
+    fact = f"{count} point{'s stick' if count > 1 else ' sticks'} out of the neighbours: spikes ({extent.rstrip()})."
+    numbers = {"points": float(count), "distance": worst}
+    if worst <= _AS_CODES:
+        return Advice("note", SPIKES, fact, "Mask them ({despike}).", numbers)
+    fact += f" The farthest lies {worst:.0f} standard deviations off, as codes for missing points do."
+    remedy = f"Mask them ({{despike}}), or if {outside:.6g} is a code, state it ({{missing}}: {outside:.6g})."
+    return Advice("warning", SPIKES, fact, remedy, numbers)
