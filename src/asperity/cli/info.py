@@ -13,7 +13,7 @@ from typing import Annotated, Any
 import typer
 
 from ..core.errors import AsperityError, InputError
-from ..core.units import parse, percent, show
+from ..core.units import percent, show
 from ..io.atomic import require_new_file
 from ..io.records import roughness_record
 from ..io.words import surface_text
@@ -23,13 +23,15 @@ from ..plots.surface import roughness_figures
 from ..plots.together import save_pictures
 from ..report.roughness import quantity_rows, write_files_report, write_roughness_report
 from ..surfaces.characterise.heights import mean_absolute_height, peak_to_valley, rms_height
-from ..surfaces.characterise.slopes import rms_slope
+from ..surfaces.characterise.slopes import rms_profile_slope, rms_slope
 from ..surfaces.characterise.summary import Characterisation, characterise
 from ..surfaces.formats import HEIGHT, ChannelInfo, chosen
 from ..surfaces.formats_archive import scans
+from ..surfaces.profile import Profile
 from ..surfaces.read import channels, read_doubtful
-from ..surfaces.surface import Surface
+from ..surfaces.surface import Surface, strip
 from .declared import FILE, Given, Option, offers
+from .info_line import info_line, require_no_cutoffs, tip_radius
 from .main import NOT_CONVERGED, OK
 from .options import levelled_as, own_option, reading_options, reading_table
 from .show import console, print_files, say, short_names, silence, table
@@ -38,9 +40,14 @@ from .show import console, print_files, say, short_names, silence, table
 def _options() -> list[Option]:
     output = {"report": "write a page on the roughness, HTML", "plot": "write a picture of the heights, PNG"}
     output["plots"] = "write all pictures into this folder"
+    lengths = {
+        "lambda-c": "cut-off λc of a line scan, by default that of its measured Ra",
+        "lambda-s": "its cut-off λs",
+    }
     tip = own_option("--tip-radius", ("tip_radius",), "radius of the tip: shorter waves are not fitted", None, "LENGTH")
     return [
         tip,
+        *(own_option(f"--{key}", (key.replace("-", "_"),), text, None, "LENGTH") for key, text in lengths.items()),
         *(own_option(f"--{name}", ("output", name), text, None, FILE) for name, text in output.items()),
         *reading_options(),
     ]
@@ -87,9 +94,12 @@ def info(
             raise InputError("--full, --plot and --plots must be left out with many files: give one file.")
         raise typer.Exit(_many(entries, given, level, report, as_json=as_json, force=force))
     file = files[0]
-    tip = given.get("tip_radius")
-    radius = None if tip is None else parse(tip, "length", "--tip-radius")
     surface, found = _Scan(file).read(given)
+    if isinstance(surface, Profile):
+        shown_as = "json" if as_json else "full" if full else "short"
+        raise typer.Exit(info_line(file, surface, given, level, shown_as, force=force))
+    require_no_cutoffs(file, given)
+    radius = tip_radius(given)
     flat, removed = levelled_as(surface, level)
     whole = characterise(flat, tip_radius=radius) if full or report or plots else None
     shown = whole if full else None
@@ -128,8 +138,8 @@ class _Scan:
     number: int | None = None
     member: str = ""
 
-    def read(self, given: Given) -> tuple[Surface, tuple[ChannelInfo, ...]]:
-        """Surface and channels as the options that are ``given`` ask."""
+    def read(self, given: Given) -> tuple[Surface | Profile, tuple[ChannelInfo, ...]]:
+        """Surface or line scan, and channels, as the options that are ``given`` ask."""
         asked = reading_table(self.file, given).reading()
         if self.number is not None:
             asked["channel"] = self.number
@@ -157,7 +167,9 @@ def _many(files: Sequence[_Scan], given: Given, level: str, report: Path | None,
     rows, records, lost, doubts = [], [], [], list[str]()
     for file, name in zip(files, short_names([Path(str(file)) for file in files]), strict=True):
         try:
-            surface, found = file.read(given)
+            held, found = file.read(given)
+            line = isinstance(held, Profile)  # its strip has any length
+            surface = strip(held) if isinstance(held, Profile) else held
             flat, removed = levelled_as(surface, level)
         except AsperityError as error:
             lost.append(f"{file}: {error}")
@@ -165,10 +177,10 @@ def _many(files: Sequence[_Scan], given: Given, level: str, report: Path | None,
             continue
         doubts += [f"{file}: {item.message}" for item in surface.origin.findings if item.level == "warning"]
         records.append(_record(str(file), found, surface, flat, None) | {"levelled": removed})
-        size = " × ".join(show(side, "m", 3) for side in surface.size)
+        size = " × ".join(show(side, "m", 3) for side in surface.size[: 1 if line else 2])
         roughness = [show(value, unit, 3) for value, unit, _ in _roughness(flat).values()]
         missing = percent(surface.n_missing / surface.grid.n_points)
-        rows.append((name, " × ".join(map(str, surface.shape)), size, missing, *roughness, removed))
+        rows.append((name, " × ".join(map(str, surface.shape[: 1 if line else 2])), size, missing, *roughness, removed))
     if as_json:
         console().out(json.dumps(records, indent=2), highlight=False)
     else:
@@ -238,7 +250,7 @@ _NAME = 28
 def _roughness(flat: Surface) -> dict[str, tuple[float, str, str]]:
     """Value, unit and label by key of the roughness of a levelled surface."""
     try:
-        slope = rms_slope(flat)
+        slope = rms_profile_slope(flat) if flat.shape[1] == 1 else rms_slope(flat)
     except InputError:  # no two neighbouring valid points
         slope = math.nan
     return {

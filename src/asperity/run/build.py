@@ -86,7 +86,7 @@ from ..solids.strength import flow_stress
 from ..solids.viscoelastic import Arrhenius, TemperatureShift, Viscoelastic, WilliamsLandelFerry, fitted_solid
 from ..surfaces.formats import checked_size
 from ..surfaces.pair import on_common_grid, turned_over
-from ..surfaces.read import read
+from ..surfaces.read import read_map
 from ..surfaces.surface import Surface
 
 
@@ -340,10 +340,10 @@ _GRID = (
 
 
 def build_surface(table: SurfaceTable, folder: Path) -> Surface:
-    """Surface of ``table`` after its preparation steps; a relative file path starts at
-    ``folder``."""
+    """Surface of ``table`` after its preparation steps; a relative file path starts at ``folder``.
+    A line scan is a strip."""
     if isinstance(table, FileSurface):
-        surface = read(folder / table.path, **table.reading())
+        surface = read_map(folder / table.path, **table.reading())  # a line scan is a strip of grooves
     else:
         surface = build_generated(table, folder)
     for step in table.prepare:

@@ -20,11 +20,15 @@ from ..core.errors import FileFormatError, InputError, UnitError
 from ..core.hdf5_files import SIGNATURE, require_own_data
 from ..core.status import Advice
 from ..core.units import show, unit_factor
+from .formats_limits import TERRAIN, family_of, height_doubt, lateral_doubt, scale_finding
 from .formats_mended import OwnReader, completed, mended, own_reader, stated_scale
 from .prepare.level import value_findings
+from .profile import Profile
+from .profile_files import Units, profile_of_reader
 from .reader_library import opened_by_first_reader, opened_by_library
 from .surface import Origin, Surface
 from .text_files import text_end
+from .text_points import LineScan
 
 # What a file holds, before it is read.
 
@@ -37,17 +41,17 @@ HEIGHT = "height"
 class ChannelInfo:
     """One data channel of a file.
 
-    ``shape`` is (nx, ny); ``size`` is (Lx, Ly) in m, or None if the file does not state it;
-    ``unit`` is the unit of the data as written in the file, empty if unknown or if the data are no
-    heights and the file calls them lengths all the same; ``default`` marks the channel that is read
-    when none is named; ``kind`` is ``"height"``, or what the data are instead, by their name or
-    unit: ``"phase"``, ``"amplitude"``, ``"deflection"``, …
+    ``shape`` is (nx, ny), (n,) of a line scan; ``size`` is (Lx, Ly) or (L,) in m, or None if the
+    file does not state it; ``unit`` is the unit of the data as written in the file, empty if
+    unknown or if the data are no heights and the file calls them lengths all the same; ``default``
+    marks the channel that is read when none is named; ``kind`` is ``"height"``, or what the data
+    are instead, by their name or unit: ``"phase"``, ``"amplitude"``, ``"deflection"``, …
     """
 
     index: int
     name: str
     shape: tuple[int, ...]
-    size: tuple[float, float] | None
+    size: tuple[float, ...] | None
     unit: str
     default: bool
     kind: str = HEIGHT
@@ -131,7 +135,7 @@ SQUARE = 1e-3
 """Relative difference of dx and dy up to which a pixel counts as square."""
 
 
-def checked_size(size: tuple[float, float] | None, what: str, shape: tuple[int, ...]) -> tuple[float, float]:
+def checked_size(size: tuple[float, ...] | None, what: str, shape: tuple[int, ...]) -> tuple[float, float]:
     """``size`` of ``what`` as two positive finite lengths in m; one length written for both sides
     needs square pixels."""
     try:
@@ -154,85 +158,6 @@ def checked_size(size: tuple[float, float] | None, what: str, shape: tuple[int, 
     return length_x, length_y
 
 
-# What instruments can measure.
-
-
-SCALE = "scale of the file"
-"""Criterion of the finding that a size or the heights of a file cannot be."""
-
-
-@dataclass(frozen=True)
-class Family:
-    """Instruments of one kind and what they can measure: sides, pixels and range of heights in m,
-    from least to most."""
-
-    name: str
-    sides: tuple[float, float]
-    pixels: tuple[float, float]
-    heights: tuple[float, float]
-
-
-PROBE = Family("a scanning probe microscope", (1e-10, 2e-3), (1e-13, 1e-4), (1e-14, 1e-3))
-OPTICAL = Family("an optical profiler or microscope", (1e-7, 1.0), (1e-10, 1e-2), (1e-13, 0.1))
-ANY = Family("any instrument", (1e-10, 10.0), (1e-13, 0.1), (1e-14, 1.0))
-
-_FAMILIES = {
-    **dict.fromkeys(("DI", "MDT", "IBW", "MI", "PS", "EZD", "WSXM", "JPK", "BCR", "NHF"), PROBE),
-    **dict.fromkeys(
-        ("OPD", "OPDx", "DATX", "MetroPro", "VK", "ZMG", "ZON", "OS3D", "AL3D", "PLU", "PLUX", "FRT"), OPTICAL
-    ),
-    **dict.fromkeys(("LEXT", "OIR", "POIR", "NMS", "TMD", "QEP", "Mitutoyo"), OPTICAL),
-}
-"""Families by the name of the reader, without "Reader"; files of all others may come from
-anything."""
-
-TERRAIN = "HGT"
-"""Reader of terrain, which has no limits."""
-
-
-def family_of(reader: str) -> Family:
-    """Family of instruments whose files the ``reader`` reads."""
-    return _FAMILIES.get(reader.removesuffix("Reader"), ANY)
-
-
-def lateral_doubt(family: Family, size: tuple[float, float], shape: tuple[int, ...]) -> str:
-    """Why a stated ``size`` in m cannot be right, empty if it can."""
-    for side, n in zip(size, shape, strict=True):
-        least, most = family.sides
-        if not least <= side <= most:
-            return f"a side of {show(side, 'm')}, but {family.name} measures {show(least, 'm')} to {show(most, 'm')}"
-        least, most = family.pixels
-        if not least <= side / n <= most:
-            return (
-                f"pixels of {show(side / n, 'm')}, but those of {family.name} are {show(least, 'm')} to "
-                f"{show(most, 'm')}"
-            )
-    return ""
-
-
-def height_doubt(family: Family, heights: RealArray) -> str:
-    """Why ``heights`` in m cannot be right, empty if they can."""
-    valid = heights[np.isfinite(heights)]
-    with np.errstate(all="ignore"):  # of numbers that are damaged
-        extent = float(np.ptp(np.percentile(valid, (0.5, 99.5)))) if valid.size else 0.0
-    least, most = family.heights
-    if extent == 0.0 or least <= extent <= most:
-        return ""
-    return f"heights over {show(extent, 'm')}, but {family.name} measures {show(least, 'm')} to {show(most, 'm')}"
-
-
-def scale_finding(lateral: str, vertical: str) -> Advice:
-    """The finding that a scale cannot be, from the reasons of :func:`lateral_doubt` and
-    :func:`height_doubt`."""
-    remedies = [word for word, doubt in (("{give_size}", lateral), ("{give_height_unit}", vertical)) if doubt]
-    return Advice(
-        "warning",
-        SCALE,
-        f"The file states {' and '.join(doubt for doubt in (lateral, vertical) if doubt)}.",
-        f"State the right one, or this one if it is right ({' and '.join(remedies)}).",
-    )
-
-
 # Instrument files through the reader library SurfaceTopography (Roettger et al. 2022).
 
 
@@ -240,31 +165,32 @@ _Read = TypeVar("_Read")
 
 
 def instrument_channels(file: Path) -> tuple[ChannelInfo, ...]:
-    """Two-dimensional channels of an instrument file."""
+    """Maps and line scans of an instrument file."""
     return _read_with(file, lambda reader: _listed(reader, file))
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What a caller states of a file: channel, size in m, unit of heights, and numbers that stand
-    for missing points."""
+    """What a caller states of a file: channel, size in m, unit of heights, numbers that stand for
+    missing points, and the unit along a line scan."""
 
     channel: str | int | None = None
     size: tuple[float, float] | None = None
     height_unit: str | None = None
     missing: tuple[float | str, ...] = ()
+    lateral_unit: str | None = None
 
 
-def read_instrument(file: Path, asked: Asked) -> Surface:
-    """Surface from one channel of an instrument file, with what is doubtful in it as findings of
-    its origin.
+def read_instrument(file: Path, asked: Asked) -> Surface | Profile:
+    """Map or line scan of one channel of an instrument file, with what is doubtful in it as
+    findings of its origin.
 
-    Size and unit may be ``asked`` only where the file lacks them, or states some that cannot be.
+    Size and units may be ``asked`` only where the file lacks them, or states some that cannot be.
     """
     return _read_with(file, lambda reader: _surface(reader, file, asked))
 
 
-def _surface(reader: Any, file: Path, asked: Asked) -> Surface:
+def _surface(reader: Any, file: Path, asked: Asked) -> Surface | Profile:
     listed = _listed(reader, file)
     info = chosen(listed, asked.channel, file)
     raw = next(c for c in reader.channels if c.index == info.index)
@@ -278,6 +204,13 @@ def _surface(reader: Any, file: Path, asked: Asked) -> Surface:
             f"channel {info.name!r} of file {file} must hold heights, but holds another signal ({info.kind}). "
             f"Choose one of heights ({{channel}}): {names}."
         )
+    if len(info.shape) == 1:
+        return _line(raw, info, file, asked, chosen_in_words(listed, info), _name(reader))
+    if asked.lateral_unit is not None:
+        raise FileFormatError(
+            f"file {file} is no list of points x y z, so {{lateral_unit}} must be left out.",
+            subject=f"lateral unit of file {file}",
+        )
     given = {} if raw.physical_sizes is not None else {"physical_sizes": size or info.size or (1.0, 1.0)}
     topography, name = raw.topography(**given), _name(reader)
     heights: RealArray = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
@@ -288,8 +221,7 @@ def _surface(reader: Any, file: Path, asked: Asked) -> Surface:
         )
     if name not in _ARRAYS:
         heights = heights[:, ::-1]  # the library counts y downwards from the top row of the picture
-    for code in asked.missing:
-        heights = np.where(np.isclose(heights, _number(code), rtol=1e-6, atol=0.0), np.nan, heights)
+    heights = _without(heights, asked.missing)
     scale, doubt = _scales(info, file, replace(asked, size=size), name, heights)
     findings = [*([doubt] if doubt else []), *value_findings(heights, info.unit or str(asked.height_unit or ""))]
     nx, ny = heights.shape
@@ -315,6 +247,31 @@ _AXES = {
     "NCReader": "; x and y are the dimensions of these names, y downwards",
 }
 """Words on the axes of files that are no pictures."""
+
+
+def _line(raw: Any, info: ChannelInfo, file: Path, asked: Asked, words: str, reader: str) -> Profile:
+    """Line scan of the channel ``raw`` of a ``reader``; ``words`` say why it is the one."""
+    if asked.size is not None:
+        raise FileFormatError(
+            f"channel {info.name!r} of file {file} is a line scan, so {{size}} must be left out.",
+            subject=f"size of file {file}",
+        )
+    scan = raw.topography()
+    heights = _without(np.ma.filled(np.ma.asarray(scan.heights(), dtype=np.float64), np.nan), asked.missing)
+    if asked.missing:
+        words += f"; missing: {', '.join(map(str, asked.missing))}"
+    along = raw.unit[0] if isinstance(raw.unit, tuple) else raw.unit
+    held = LineScan(np.asarray(scan.positions(), dtype=np.float64), heights, str(along or ""), info.unit)
+    history = f"read: line scan {info.name!r} of {file.name}{words}"
+    origin = Origin(file.name, info.name, _metadata(scan.info), (history,), ("Roettger2022",))
+    return profile_of_reader(file, held, Units(asked.height_unit, asked.lateral_unit), family_of(reader), origin, scan)
+
+
+def _without(heights: RealArray, missing: Sequence[float | str]) -> RealArray:
+    """``heights`` without the numbers that stand for ``missing`` points."""
+    for code in missing:
+        heights = np.where(np.isclose(heights, _number(code), rtol=1e-6, atol=0.0), np.nan, heights)
+    return heights
 
 
 def _number(code: float | str) -> float:
@@ -475,19 +432,15 @@ def _name(reader: Any) -> str:
 
 
 def _listed(reader: Any, file: Path) -> tuple[ChannelInfo, ...]:
-    maps = [channel for channel in reader.channels if channel.dim == 2]
-    if not maps:
-        scans = len(list(reader.channels))
-        raise FileFormatError(
-            f"file {file} must hold a two-dimensional map, but holds "
-            + (f"{scans} line scan{'s' if scans > 1 else ''} only." if scans else "none. It may be cut short.")
-        )
     name = _name(reader)
-    found = [_described(channel, name) for channel in maps]
-    heights = [item for item in found if item.kind == HEIGHT]
-    if not heights and name in _ARRAYS:  # the name of an array may be anything
+    kept = (2,) if name in _ARRAYS else (1, 2)  # an array of one dimension states no spacing
+    found = [_described(channel, name) for channel in reader.channels if channel.dim in kept]
+    if not found:
+        raise FileFormatError(f"file {file} must hold a map or a line scan, but holds none. It may be cut short.")
+    if name in _ARRAYS and all(item.kind != HEIGHT for item in found):  # the name of an array may be anything
         found = [replace(item, kind=HEIGHT) for item in found]
-    heights = heights or found
+    maps = [item for item in found if len(item.shape) == 2] or found
+    heights = [item for item in maps if item.kind == HEIGHT] or maps
     usual = [item.index for item in heights]
     index = reader.default_channel.index if reader.default_channel is not None else usual[0]
     place = preferred([item.name for item in heights], usual.index(index) if index in usual else 0)
@@ -507,10 +460,10 @@ def _described(channel: Any, reader: str) -> ChannelInfo:
         stated = getattr(channel, "data_unit", None) or ""
         stated = str(stated[1] or "") if isinstance(stated, tuple) else str(stated)
         stated = "" if _is_length(stated) else stated
-    size = None
+    size: tuple[float, ...] | None = None
     if channel.physical_sizes is not None and lateral:
         metre = unit_factor(str(lateral), "length", f"lateral unit of channel {channel.name!r}")
-        size = (float(channel.physical_sizes[0]) * metre, float(channel.physical_sizes[1]) * metre)
+        size = tuple(float(length) * metre for length in channel.physical_sizes)
     size = stated_scale(reader, channel, size) if reader == "NMSReader" else size
     return ChannelInfo(int(channel.index), name, tuple(int(n) for n in channel.nb_grid_pts), size, stated, False, kind)
 

@@ -72,7 +72,7 @@ class OwnReader:
 _LARGEST_NMS = 1e-3  # m: no confocal microscope has larger pixels
 
 
-def stated_scale(reader: str, channel: Any, size: tuple[float, float] | None) -> tuple[float, float] | None:
+def stated_scale(reader: str, channel: Any, size: tuple[float, ...] | None) -> tuple[float, ...] | None:
     """``size`` in m of a ``channel``, mended where the library takes its unit wrongly.
 
     The spacing of an .nms file is in nm: 312.5 of a 20x objective with a field of 160 µm stands
@@ -81,7 +81,7 @@ def stated_scale(reader: str, channel: Any, size: tuple[float, float] | None) ->
     """
     if reader != "NMSReader" or size is None or size[0] / channel.nb_grid_pts[0] < _LARGEST_NMS:
         return size
-    return size[0] * 1e-6, size[1] * 1e-6
+    return tuple(side * 1e-6 for side in size)
 
 
 # X3P.

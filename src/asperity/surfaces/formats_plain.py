@@ -16,12 +16,15 @@ from ..core.arrays import RealArray
 from ..core.errors import AsperityError, FileFormatError, InputError
 from ..core.status import Advice, require_memory
 from ..core.units import show, unit_factor
-from .formats import ANY, SQUARE, ChannelInfo, checked_size, chosen, height_doubt, lateral_doubt, scale_finding
+from .formats import SQUARE, ChannelInfo, checked_size, chosen
+from .formats_limits import ANY, height_doubt, lateral_doubt, scale_finding
 from .prepare.level import value_findings
+from .profile import Profile
+from .profile_files import Units, profile_of_text
 from .surface import Origin, Surface
 from .text_files import TextLayout, is_count, is_table, is_text, text_numbers
 from .text_header import Stated
-from .text_points import gridded, line_scan, point_columns
+from .text_points import LineScan, gridded, line_scan, point_columns
 
 _TEXT = (".txt", ".dat", ".asc", ".csv", ".tsv", ".xyz", ".prn", ".tab")
 _PICTURES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp")
@@ -68,6 +71,14 @@ class _Plain:
     stated: Stated = field(default_factory=Stated)
 
 
+@dataclass(frozen=True, eq=False)
+class _Line:
+    """A line ``scan`` in a text, and ``words`` on how the text was understood."""
+
+    scan: LineScan
+    words: str
+
+
 def is_plain(file: Path, layout: TextLayout) -> bool:
     """Whether ``file`` is a text, a NumPy array or a picture without units, by its beginning; by
     its ending where that is no mark.
@@ -90,14 +101,17 @@ def is_plain(file: Path, layout: TextLayout) -> bool:
     return ending in _TEXT and is_text(file) and (layout.stated or is_table(file))
 
 
-def plain_channels(file: Path, layout: TextLayout = TextLayout()) -> tuple[ChannelInfo, ...]:
-    """The one channel of a plain file; its size and unit are unknown unless a header states
-    them."""
-    found = _numbers(file, layout)
-    return (_channel(found),)
+def plain_channels(
+    file: Path, layout: TextLayout = TextLayout(), size: tuple[float, float] | None = None
+) -> tuple[ChannelInfo, ...]:
+    """The one channel of a plain file, a map if its ``size`` is given; its size and unit are
+    unknown unless a header states them."""
+    return (_channel(_numbers(file, layout, sized=size is not None)),)
 
 
-def _channel(found: _Plain) -> ChannelInfo:
+def _channel(found: _Plain | _Line) -> ChannelInfo:
+    if isinstance(found, _Line):
+        return ChannelInfo(0, "heights", (len(found.scan.x),), None, found.scan.z_unit, True)
     return ChannelInfo(
         0, "heights", found.values.shape, _stated_size(found), found.stated.height_unit or found.height_unit, True
     )
@@ -114,12 +128,19 @@ def _stated_size(found: _Plain) -> tuple[float, float] | None:
     return found.stated.size
 
 
-def read_plain(file: Path, *, channel: str | int | None, scales: Scales, layout: TextLayout) -> Surface:
-    """Surface from a plain file; see :func:`asperity.surfaces.read.read` for scales and
-    orientation."""
-    found = _numbers(file, layout)
-    nx, ny = found.values.shape
+def read_plain(file: Path, *, channel: str | int | None, scales: Scales, layout: TextLayout) -> Surface | Profile:
+    """Surface or line scan from a plain file; see :func:`asperity.surfaces.read.read` for scales
+    and orientation."""
+    found = _numbers(file, layout, sized=scales.size is not None)
     chosen((_channel(found),), channel, file)
+    if isinstance(found, _Line):
+        _refuse_grey_scale(file, scales)
+        return profile_of_text(file, found.scan, found.words, Units(scales.height_unit, scales.lateral_unit))
+    return _surface(file, found, scales, layout)
+
+
+def _surface(file: Path, found: _Plain, scales: Scales, layout: TextLayout) -> Surface:
+    nx, ny = found.values.shape
     (length_x, length_y), lateral = _given_size(file, found, scales)
     values, findings = found.values, list[Advice]()
     if found.full_scale is None:
@@ -162,10 +183,7 @@ def _height_factor(file: Path, found: _Plain, scales: Scales) -> tuple[float, st
             f"file {file} does not state the unit of its heights: give {{give_height_unit}}.",
             subject=f"height unit of file {file}",
         )
-    if scales.z_scale is not None:
-        raise FileFormatError(
-            f"file {file} holds heights, not grey levels: leave out {{z_scale}}.", subject=f"z_scale of file {file}"
-        )
+    _refuse_grey_scale(file, scales)
     factor = unit_factor(given or stated, "length", "height_unit")
     if stated and given is not None and factor != unit_factor(stated, "length", "height_unit"):
         raise FileFormatError(
@@ -176,7 +194,15 @@ def _height_factor(file: Path, found: _Plain, scales: Scales) -> tuple[float, st
     return factor, f"heights in {given or stated}{'' if given else ' as its header says'}"
 
 
-def _numbers(file: Path, layout: TextLayout) -> _Plain:
+def _refuse_grey_scale(file: Path, scales: Scales) -> None:
+    if scales.z_scale is not None:
+        raise FileFormatError(
+            f"file {file} holds heights, not grey levels: leave out {{z_scale}}.", subject=f"z_scale of file {file}"
+        )
+
+
+def _numbers(file: Path, layout: TextLayout, *, sized: bool) -> _Plain | _Line:
+    """What ``file`` holds; a map if it is ``sized``."""
     with file.open("rb") as stream:
         start = stream.read(16)
     with _reported(file):
@@ -185,23 +211,29 @@ def _numbers(file: Path, layout: TextLayout) -> _Plain:
         elif start.startswith(_PICTURE_MARKS) and not is_text(file):
             found = _grey_levels(file)
         elif is_text(file):
-            found = _of_text(file, layout)
+            text = _of_text(file, layout, sized=sized)
+            if isinstance(text, _Line):
+                return text
+            found = text
         else:
             found = _grey_levels(file)
         require.field(found.values, f"content of file {file}")
         return found
 
 
-def _of_text(file: Path, layout: TextLayout) -> _Plain:
-    """Heights of a text: a matrix, with or without coordinates, or a list of points."""
+def _of_text(file: Path, layout: TextLayout, *, sized: bool) -> _Plain | _Line:
+    """Heights of a text: a matrix, with or without coordinates, a list of points, or a line scan
+    unless it is ``sized``."""
     text = text_numbers(file, layout)
-    if (scan := line_scan(text)) is not None:
+    if layout.axes != "none" and (scan := line_scan(text, stated=not sized)) is not None:
+        if not sized:
+            return _Line(scan, text.understood)
         units = (
             f" ({scan.x_unit or 'unknown unit'}, {scan.z_unit or 'unknown unit'})" if scan.x_unit or scan.z_unit else ""
         )
         raise InputError(
             f"it is no map but a line scan: {len(scan.x)} points x z{units} in two columns, x from {scan.x.min():g} to "
-            f"{scan.x.max():g}",
+            f"{scan.x.max():g}. Leave out {{size}}, or if both columns hold heights, say so ({{axes}}: none)",
             subject=f"line scan in file {file}",
         )
     if text.rows.shape[1] == 1 and text.rows.shape[0] > 1:

@@ -1,5 +1,5 @@
-"""Any file with heights → Surface. Units and sizes are taken from the file or asked for, never
-guessed."""
+"""Any file with heights → Surface, or Profile of a line scan. Units and sizes are taken from the
+file or asked for, never guessed."""
 
 from __future__ import annotations
 
@@ -10,11 +10,13 @@ from pathlib import Path
 from typing import Any, Unpack
 
 from ..core.errors import FileFormatError
-from .formats import SCALE, Asked, ChannelInfo, chosen, instrument_channels, read_instrument
-from .formats_archive import scans, unpacked
+from .formats import Asked, ChannelInfo, chosen, instrument_channels, read_instrument
+from .formats_archive import Unpacked, scans, unpacked
+from .formats_limits import SCALE
 from .formats_netcdf import is_own, netcdf_channel, read_netcdf
 from .formats_plain import PLAIN_ENDINGS, PLAIN_MARKS, Scales, is_plain, plain_channels, read_plain
-from .surface import Surface
+from .profile import Profile
+from .surface import Surface, strip
 from .text_files import TextLayout, TextOptions, is_text
 
 
@@ -28,8 +30,9 @@ def read(
     lateral_unit: str | None = None,
     missing: Sequence[float | str] = (),
     **text: Unpack[TextOptions],
-) -> Surface:
+) -> Surface | Profile:
     """Surface from a file; heights in m on axes x (to the right) and y (upwards in the picture).
+    Profile of a line scan.
 
     * Instrument files (some forty formats, read by SurfaceTopography, and .gsf and .nhf) state size
       and units themselves. The picture that the instrument software shows has its top row at the
@@ -42,11 +45,15 @@ def read(
       text was understood. They need ``size`` (or, with coordinates, ``lateral_unit``) and
       ``height_unit`` unless the header states them. A text that was cut exactly between two lines
       is refused where its header counts them or its pixels cease to be square; otherwise nothing
-      tells it from a whole one. Two columns x z are a line scan and refused.
+      tells it from a whole one.
     * Lists of points, in text files: three columns x, y, z on more than three lines, or columns of
       these names, in any order, on a regular grid on which points may be missing. They need
       ``lateral_unit`` and ``height_unit`` unless the names of the columns state them, as ``x (um)``
       does.
+    * Line scans: texts of two columns x, z on three lines or more, which need ``lateral_unit`` and
+      ``height_unit`` unless the names of the columns state them, and stylus formats, which state
+      them. With ``size`` two columns are a map two points wide, and refused if the first rises or
+      falls throughout, unless ``axes="none"`` says that it holds heights.
     * Arrays (.npy, .npz, .mat, .h5) are taken as [x, y], as everywhere in this package, and need
       ``size`` and ``height_unit``.
     * Pictures (.png, .tif, .jpg, .bmp): grey level zero is height zero, full scale (255 for 8 bit,
@@ -72,7 +79,8 @@ def read(
     z_scale
         Height in m of the full grey scale of a picture.
     lateral_unit
-        Unit of the coordinates of a list of points x y z, or of a matrix with coordinates.
+        Unit of the coordinates of a list of points x y z, a line scan x z or a matrix with
+        coordinates.
     missing
         Numbers as they stand in the file, and in texts words, that stand for missing points.
     text
@@ -84,7 +92,7 @@ def read(
     Raises
     ------
     FileFormatError
-        If the file is missing, unreadable, empty, damaged, of unknown format, not a map, or lacks a
+        If the file is missing, unreadable, empty, damaged, of unknown format, or lacks a
         size or unit that is not given, states one that is given, or one that no instrument of its
         kind has.
     InputError
@@ -126,9 +134,19 @@ _USUAL = TextLayout()
 _OF_TEXT = ("delimiter", "decimal", "header_lines", "axes", "encoding")
 
 
-def read_doubtful(path: str | os.PathLike[str], **given: Unpack[Reading]) -> Surface:
-    """Surface as :func:`read` gives it, also where its scale cannot be: that stands among the
-    findings of its origin.
+def read_map(path: str | os.PathLike[str], *, strip_length: float = 1.0, **given: Unpack[Reading]) -> Surface:
+    """Surface from a file, as :func:`read` with what is ``given``; a line scan becomes a strip of
+    grooves without end.
+
+    ``strip_length`` in m along y is what its forces and areas belong to; the history says so.
+    """
+    found = read(path, **given)
+    return found if isinstance(found, Surface) else strip(found, strip_length)
+
+
+def read_doubtful(path: str | os.PathLike[str], **given: Unpack[Reading]) -> Surface | Profile:
+    """Surface or line scan as :func:`read` gives it, also where its scale cannot be: that stands
+    among the findings of its origin.
 
     Raises
     ------
@@ -141,26 +159,41 @@ def read_doubtful(path: str | os.PathLike[str], **given: Unpack[Reading]) -> Sur
     with unpacked(file, given.get("channel")) as found:
         if not found.shown:
             return _read(file, found.channel, given)
-        asked, factor = dict(given), 1.0
-        if found.scan.size is not None or found.scan.height_unit is not None:
-            info = chosen(_channels(found.path, given), found.channel, found.shown)
-            if info.size is None and asked.get("size") is None:
-                asked["size"] = found.scan.size
-            if not info.unit and asked.get("height_unit") is None:
-                asked["height_unit"], factor = found.scan.height_unit, found.scan.height_scale
-        surface = _read(found.path, found.channel, asked)
-        origin = surface.origin
-        first = origin.history[0].replace(found.path.name, found.shown)
-        named = replace(origin, source=file.name, history=(first, *origin.history[1:]))
-        heights = surface.heights * factor
-        return Surface(heights, surface.dx, surface.dy, periodic=surface.periodic, origin=named)
+        return _read_member(file, found, given)
 
 
-def _read(file: Path, channel: str | int | None, given: Mapping[str, Any]) -> Surface:
-    """Surface in a ``file`` that is not packed."""
-    size, height_unit = given.get("size"), given.get("height_unit")
-    asked = Asked(channel, size, height_unit, tuple(given.get("missing", ())))
-    scales = Scales(size, height_unit, given.get("z_scale"), given.get("lateral_unit"))
+def _read_member(file: Path, found: Unpacked, given: Mapping[str, Any]) -> Surface | Profile:
+    """What is ``found`` packed in ``file``, with what an index states of it."""
+    asked, factor = dict(given), 1.0
+    if found.scan.size is not None or found.scan.height_unit is not None:
+        info = chosen(_channels(found.path, given), found.channel, found.shown)
+        line = len(info.shape) == 1 and found.scan.size is None
+        if not line and info.size is None and asked.get("size") is None:
+            asked["size"] = found.scan.size
+        if not info.unit and asked.get("height_unit") is None:
+            asked["height_unit"], factor = found.scan.height_unit, found.scan.height_scale
+            if line and info.size is None and asked.get("lateral_unit") is None:
+                asked["lateral_unit"] = found.scan.height_unit
+    held = _read(found.path, found.channel, asked)
+    first = held.origin.history[0].replace(found.path.name, found.shown)
+    named = replace(held.origin, source=file.name, history=(first, *held.origin.history[1:]))
+    if isinstance(held, Profile):
+        return Profile(
+            held.heights * factor,
+            held.spacing,
+            periodic=held.periodic,
+            instrument=held.instrument,
+            short_cutoff=held.short_cutoff,
+            origin=named,
+        )
+    return Surface(held.heights * factor, held.dx, held.dy, periodic=held.periodic, origin=named)
+
+
+def _read(file: Path, channel: str | int | None, given: Mapping[str, Any]) -> Surface | Profile:
+    """Surface or line scan in a ``file`` that is not packed."""
+    size, height_unit, lateral_unit = given.get("size"), given.get("height_unit"), given.get("lateral_unit")
+    asked = Asked(channel, size, height_unit, tuple(given.get("missing", ())), lateral_unit)
+    scales = Scales(size, height_unit, given.get("z_scale"), lateral_unit)
     layout = _layout(given)
     if file.suffix.lower() == ".nc" and is_own(file):
         chosen((netcdf_channel(file),), asked.channel, file)
@@ -169,24 +202,19 @@ def _read(file: Path, channel: str | int | None, given: Mapping[str, Any]) -> Su
                 f"file {file} states its size and unit itself: leave out {{size}}, {{height_unit}} and {{z_scale}}.",
                 subject=f"size and unit of file {file}",
             )
-        surface = read_netcdf(file)
+        found: Surface | Profile = read_netcdf(file)
     elif _is_plain(file, layout):
-        surface = read_plain(file, channel=asked.channel, scales=scales, layout=layout)
+        found = read_plain(file, channel=asked.channel, scales=scales, layout=layout)
     else:
         if scales.z_scale is not None:
             raise FileFormatError(
                 f"file {file} is not a picture, so {{z_scale}} must be left out.",
                 subject=f"z_scale of file {file}",
             )
-        if scales.lateral_unit is not None:
-            raise FileFormatError(
-                f"file {file} is no list of points x y z, so {{lateral_unit}} must be left out.",
-                subject=f"lateral unit of file {file}",
-            )
-        surface = read_instrument(file, asked)
-    if min(surface.shape) < 2:
-        raise FileFormatError(f"file {file} must hold a map of at least 2 x 2 points, but holds {surface.shape}.")
-    return surface
+        found = read_instrument(file, asked)
+    if isinstance(found, Surface) and min(found.shape) < 2:
+        raise FileFormatError(f"file {file} must hold a map of at least 2 x 2 points, but holds {found.shape}.")
+    return found
 
 
 def _packed(file: Path) -> bool:
@@ -233,7 +261,7 @@ def _is_plain(file: Path, layout: TextLayout) -> bool:
 
 
 def channels(path: str | os.PathLike[str], **given: Unpack[Reading]) -> tuple[ChannelInfo, ...]:
-    """The two-dimensional data channels of a file, in its order; of a text as it is ``given`` to
+    """The maps and line scans of a file, in its order; of a text as it is ``given`` to
     :func:`read`.
 
     Raises FileFormatError if the file is missing, unreadable, empty, damaged or of unknown format.
@@ -273,7 +301,7 @@ def _channels(file: Path, given: Mapping[str, Any]) -> tuple[ChannelInfo, ...]:
     if file.suffix.lower() == ".nc" and is_own(file):
         return (netcdf_channel(file),)
     layout = _layout(given)
-    return plain_channels(file, layout) if _is_plain(file, layout) else instrument_channels(file)
+    return plain_channels(file, layout, given.get("size")) if _is_plain(file, layout) else instrument_channels(file)
 
 
 def _checked(path: str | os.PathLike[str]) -> Path:

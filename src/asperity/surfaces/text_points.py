@@ -26,18 +26,25 @@ class LineScan(NamedTuple):
     z_unit: str
 
 
-def line_scan(found: TextNumbers) -> LineScan | None:
-    """The line scan that a text holds, None if it holds something else: two columns, the first of
-    which rises or falls throughout."""
-    rows = found.rows
-    if found.x is not None or rows.shape[0] < 4 or rows.shape[1] != 2:
-        if found.y is not None and found.x is None and rows.shape[1] == 1:
-            return LineScan(found.y, rows[:, 0], *(unit_of_name(name) for name in (found.names or ("", ""))))
+_FEWEST = 3  # points of a line scan
+
+
+def line_scan(found: TextNumbers, *, stated: bool = False) -> LineScan | None:
+    """The line scan that a text holds, None if it holds something else: two columns of four points
+    or more, the first of which rises or falls throughout.
+
+    Where it is ``stated`` that the text is no map, any two columns of three points or more are one.
+    """
+    rows, units = found.rows, [unit_of_name(name) for name in (found.names or ("", ""))[-2:]]
+    if found.x is None and found.y is not None and rows.shape[1] == 1:
+        return LineScan(found.y, rows[:, 0], *units)
+    if found.x is not None or rows.shape[1] != 2 or rows.shape[0] < _FEWEST:
         return None
     steps = np.diff(rows[:, 0])
-    if not np.isfinite(rows[:, 0]).all() or not (np.all(steps > 0) or np.all(steps < 0)):
-        return None
-    return LineScan(rows[:, 0], rows[:, 1], *(unit_of_name(name) for name in (found.names or ("", ""))))
+    one_way = bool(np.isfinite(steps).all() and (np.all(steps > 0) or np.all(steps < 0)))
+    if (one_way and rows.shape[0] > _FEWEST) or (stated and found.y is None):
+        return LineScan(rows[:, 0], rows[:, 1], *units)
+    return None
 
 
 class PointColumns(NamedTuple):

@@ -178,8 +178,8 @@ def test_a_plane_and_a_staircase_have_no_coordinates(tmp_path: Path) -> None:
 def test_a_line_scan_is_no_map(tmp_path: Path) -> None:
     x = np.arange(50) * 0.5
     np.savetxt(tmp_path / "xz.txt", np.c_[x, np.sin(x)], fmt="%.4f")
-    for given in ({}, SCALE):
-        with refused(FileFormatError, f"line scan in file {tmp_path / 'xz.txt'}", "50 points", "0 to 24.5"):
+    for given, subject in (({}, "units of"), (SCALE, "line scan in")):
+        with refused(FileFormatError, f"{subject} file {tmp_path / 'xz.txt'}", "50 points", "0 to 24.5"):
             read(tmp_path / "xz.txt", **given)  # type: ignore[arg-type]
     found = line_scan(text_numbers(tmp_path / "xz.txt", TextLayout()))
     assert found is not None

@@ -226,7 +226,9 @@ class FileSurface(AnySurface):
     size: Size | None = setting(None, help='physical size, such as "20 um x 10 um", if the file does not state it')
     height_unit: HeightUnit | None = setting(None, help="unit of the heights, if the file does not state it: nm, um, …")
     z_scale: Length | None = setting(None, help="height of the full grey scale of a picture")
-    lateral_unit: HeightUnit | None = setting(None, help="unit of the coordinates of points x y z or of a matrix")
+    lateral_unit: HeightUnit | None = setting(
+        None, help="unit of the coordinates of points x y z, a line scan x z or a matrix"
+    )
     missing: Codes | None = setting(None, help="numbers or texts that stand for missing points: -9999")
     delimiter: Literal["comma", "semicolon", "tab", "blank"] | None = setting(
         None, help="what stands between the columns of a text, if it is not found"

@@ -4,8 +4,9 @@ the codes that stand for them."""
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,8 @@ from ...core.status import Advice
 from ...core.units import show
 from ...core.values import Axis, Positive, Whole
 from ..characterise.heights import rms_height
-from ..surface import Surface
+from ..profile import Profile
+from ..surface import Surface, lines_too, maps_only
 
 # Used by all preparation steps.
 
@@ -60,21 +62,24 @@ _ROBUST_PASSES = 50
 _FACTORISED_TOGETHER = 1 << 16  # points in one block of the orthogonal factorisation, to bound its memory
 
 
-def usual_form(surface: Surface) -> str:
+def usual_form(surface: Surface | Profile) -> str:
     """What is removed where no form is asked for: the ``mean`` of a periodic surface, whose plane
     is part of it, else the ``plane``."""
     return "mean" if surface.periodic else "plane"
 
 
+@lines_too
 def levelled(surface: Surface, form: str | int | None = None, *, robust: bool = False) -> Surface:
     """Surface less its least-squares ``form`` over the valid points.
 
-    The form is a polynomial Σ c_ab x^a y^b of total degree a + b <= 0 (``mean``), 1 (``plane``), 2
-    (``quadratic``) or of any whole number up to 20, found by QR factorisation in products of
-    Legendre polynomials on [-1, 1]². Levelling is a high-pass filter: it reduces the rms height of
-    a surface with waves as long as the map, the more the higher the degree. A periodic surface
-    stays periodic only if no more than the mean is removed. Raises InputError if the form is
-    unknown or the valid points do not determine it (all on one line, for example).
+    Of a line scan the form is a polynomial of x, ``line`` being that of degree 1, or the ``arc`` of
+    a circle. Of a map the form is a polynomial Σ c_ab x^a y^b of total degree a + b <= 0
+    (``mean``), 1 (``plane``), 2 (``quadratic``) or of any whole number up to 20, found by QR
+    factorisation in products of Legendre polynomials on [-1, 1]². Levelling is a high-pass filter:
+    it reduces the rms height of a surface with waves as long as the map, the more the higher the
+    degree. A periodic surface stays periodic only if no more than the mean is removed. Raises
+    InputError if the form is unknown or the valid points do not determine it (all on one line, for
+    example).
 
     Parameters
     ----------
@@ -89,8 +94,14 @@ def levelled(surface: Surface, form: str | int | None = None, *, robust: bool = 
         the plane.
     """
     form = usual_form(surface) if form is None else form
+    scan = surface.shape[1] == 1
+    degrees = _DEGREES | ({"line": 1} if scan else {})
+    if scan and form == "arc":
+        arc = _arc(surface)
+        removed = f"levelled: arc of radius {show(abs(arc.radius), 'm')} removed"
+        return recorded(surface, surface.heights - arc.heights, removed, periodic=False)
     if isinstance(form, str):
-        degree, name = _DEGREES[require.one_of(form, _DEGREES, "form to be removed")], form
+        degree, name = degrees[require.one_of(form, (*degrees, "arc") if scan else degrees, "form to be removed")], form
     else:
         degree = require.integer(form, 0, "degree of the form to be removed")
         if degree > HIGHEST_DEGREE:
@@ -99,6 +110,7 @@ def levelled(surface: Surface, form: str | int | None = None, *, robust: bool = 
             )
         named = {known: name for name, known in _DEGREES.items()}
         name = named.get(degree, f"polynomial of degree {degree}")
+    name = "line" if scan and degree == 1 else name
     used = ~surface.mask
     before: RealArray = surface.heights.astype(np.float64, copy=False)
     fit = _fitted(surface, used, degree, name)
@@ -120,7 +132,8 @@ def _fitted(surface: Surface, used: BoolArray, degree: int, form: str) -> RealAr
         np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, n) if n > 1 else np.zeros(1), degree)
         for n in surface.shape
     )
-    powers = [(a, b) for a in range(degree + 1) for b in range(degree + 1 - a)]
+    across = 1 if surface.shape[1] == 1 else degree + 1  # along y there is nothing to fit on a single line
+    powers = [(a, b) for a in range(degree + 1) for b in range(min(across, degree + 1 - a))]
     offset = float(np.nanmean(surface.heights))
     triangle: RealArray = np.zeros((0, len(powers) + 1))
     rows = max(1, _FACTORISED_TOGETHER // surface.shape[1])
@@ -144,12 +157,57 @@ def _fitted(surface: Surface, used: BoolArray, degree: int, form: str) -> RealAr
     return along_x @ coefficients @ along_y.T + offset
 
 
+class Arc(NamedTuple):
+    """Circle fitted to a line: ``heights`` (n, 1) in m at all its points, and ``radius`` in m,
+    negative if hollow."""
+
+    heights: RealArray
+    radius: float
+
+
+def _arc(surface: Surface) -> Arc:
+    """Least-squares circle through the valid points of a strip (n, 1).
+
+    With slope tan θ and curvature κ at the middle, z = z0 + (2 u sin θ + κ u²)/(cos θ + sqrt(cos²
+    θ - 2 κ u sin θ - κ² u²)), which is a line for κ = 0. Raises InputError if the points do not
+    determine it.
+    """
+    from scipy.optimize import least_squares
+
+    used = ~surface.mask[:, 0]
+    if np.count_nonzero(used) < 4:
+        raise InputError(
+            f"profile must have at least four valid points to fit an arc, but has {np.count_nonzero(used)}. "
+            "Use a lower form."
+        )
+    u = (np.arange(surface.shape[0]) - 0.5 * (surface.shape[0] - 1)) * surface.dx
+    heights = surface.heights[:, 0].astype(np.float64)
+
+    def circle(values: RealArray) -> RealArray:
+        z0, slope, kappa = (float(value) for value in values)
+        sine, cosine = math.sin(math.atan(slope)), math.cos(math.atan(slope))
+        root = cosine**2 - 2.0 * kappa * u * sine - np.square(kappa * u)
+        return np.asarray(z0 + (2.0 * u * sine + kappa * u**2) / (cosine + np.sqrt(np.maximum(root, 1e-12))))
+
+    parabola = np.polyfit(u[used], heights[used], 2)[::-1] * np.array([1.0, 1.0, 2.0])
+    spread = float(np.std(heights[used])) or 1.0
+    scales = np.array([spread, spread / surface.size[0], spread / surface.size[0] ** 2])
+
+    def residual(scaled: RealArray) -> RealArray:
+        return np.asarray((circle(scaled * scales)[used] - heights[used]) / spread)
+
+    found = least_squares(residual, parabola / scales, xtol=1e-14, ftol=1e-14)
+    kappa = float(found.x[2] * scales[2])
+    return Arc(circle(found.x * scales)[:, None], -1.0 / kappa if kappa else math.inf)
+
+
 # Spikes and scan lines.
 
 
 _SORTED_TOGETHER = 1 << 18  # heights, to bound the memory
 
 
+@lines_too
 @checked
 def despiked(
     surface: Surface,
@@ -189,11 +247,16 @@ def despiked(
     spikes = valid & (distance > threshold * scale)
     count = int(np.count_nonzero(spikes))
     limit = show(threshold * scale, "m", 3)
-    step = f"despiked: {count} points more than {limit} from the median of {window} x {window} points masked"
+    step = f"despiked: {count} points more than {limit} from the median of {_near(surface, window)} points masked"
     heights = np.where(spikes, np.nan, surface.heights)
     return recorded(surface, heights, step, periodic=surface.periodic)
 
 
+def _near(surface: Surface, window: int) -> str:
+    return f"{window}" if surface.shape[1] == 1 else f"{window} x {window}"
+
+
+@maps_only
 @checked
 def line_corrected(
     surface: Surface, axis: Annotated[Axis, "fast axis, along which the scan lines run"] = "x"
@@ -225,6 +288,7 @@ FillMethod: TypeAlias = Literal["harmonic", "mean", "nearest"]
 _METHODS = {"harmonic": "harmonic interpolation", "mean": "the mean height", "nearest": "the nearest valid height"}
 
 
+@lines_too
 @checked
 def filled(surface: Surface, method: Annotated[FillMethod, "how missing points are filled"] = "harmonic") -> Surface:
     """Surface without missing points; valid points are unchanged and the history records how many
@@ -253,8 +317,10 @@ def filled(surface: Surface, method: Annotated[FillMethod, "how missing points a
     else:
         heights[surface.mask] = _harmonic(surface)
     share = surface.n_missing / surface.grid.n_points
-    hole = show(float(np.sqrt(surface.n_missing * surface.grid.pixel_area)), "m", 3)
-    step = f"filled: {surface.n_missing} points ({share:.2%}, {hole} squared) by {_METHODS[method]}"
+    hole = show(float(np.sqrt(surface.n_missing * surface.grid.pixel_area)), "m", 3) + " squared"
+    if surface.shape[1] == 1:
+        hole = show(surface.n_missing * surface.dx, "m", 3)
+    step = f"filled: {surface.n_missing} points ({share:.2%}, {hole}) by {_METHODS[method]}"
     return surface.with_heights(heights, step)
 
 
