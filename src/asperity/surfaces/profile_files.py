@@ -40,7 +40,7 @@ def profile_of_text(file: Path, scan: LineScan, understood: str, given: Units) -
     """
     if not ((scan.x_unit or given.lateral) and (scan.z_unit or given.height)):
         stated = scan.x_unit or scan.z_unit
-        lacking = "the units of both" if not stated else "that of its heights" if scan.x_unit else "that of x"
+        lacking = "their units" if not stated else "the unit of its heights" if scan.x_unit else "the unit of x"
         asked = [
             name
             for name, unit in (("{give_lateral_unit}", scan.x_unit), ("{give_height_unit}", scan.z_unit))
