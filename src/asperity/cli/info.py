@@ -79,15 +79,7 @@ def info(
     """
     paths = {name: Path(path) for name, path in given.under("output").table().items()}
     report, plot, plots = (paths.get(name) for name in ("report", "plot", "plots"))
-    for name, path, suffix, example in (
-        ("--plot", plot, ".png", "heights.png"),
-        ("--report", report, ".html", "roughness.html"),
-    ):
-        if path is not None and path.suffix.lower() != suffix:
-            kind = suffix[1:].upper()
-            raise InputError(f"{name} must be the name of a {kind} file, such as {example}, but is {str(path)!r}.")
-        if path is not None:
-            require_new_file(path, overwrite=force)
+    _require_outputs(report, plot, overwrite=force)
     entries = [scan for file in files for scan in _scans(file, given)]
     if len(entries) > 1:
         if full or plot or plots:
@@ -125,6 +117,19 @@ def info(
     if written and not as_json:
         say(f"Pictures and pages show the heights after {levelling}.", "dim")
         print_files(written)
+
+
+def _require_outputs(report: Path | None, plot: Path | None, *, overwrite: bool) -> None:
+    """Refuse names of other kinds of files, and files that exist unless they are to be replaced."""
+    for name, path, suffix, example in (
+        ("--plot", plot, ".png", "heights.png"),
+        ("--report", report, ".html", "roughness.html"),
+    ):
+        if path is not None and path.suffix.lower() != suffix:
+            kind = suffix[1:].upper()
+            raise InputError(f"{name} must be the name of a {kind} file, such as {example}, but is {str(path)!r}.")
+        if path is not None:
+            require_new_file(path, overwrite=overwrite)
 
 
 HEADINGS = ("file", "points", "size", "missing", "Sq", "Sa", "Sz", "Sdq", "levelled")
