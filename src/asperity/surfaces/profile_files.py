@@ -53,7 +53,7 @@ def profile_of_text(file: Path, scan: LineScan, understood: str, given: Units) -
             subject=f"units of file {file}",
         )
     origin = Origin(file.name, "heights", history=(f"read: line scan in {file.name}; points x z, {understood}",))
-    return _made(file, f"file {file}", scan, given, ANY, origin)
+    return _made(file, scan, given, ANY, origin)
 
 
 def profile_of_reader(
@@ -78,7 +78,7 @@ def profile_of_reader(
             f"{what} does not state its units: give {' and '.join(asked)}.", subject=f"units of file {file}"
         )
     more = {"periodic": bool(topography.is_periodic), "instrument": _instrument(dict(topography.info))}
-    return _made(file, what, scan, given, family, origin, **more)
+    return _made(file, scan, given, family, origin, **more)
 
 
 class _Unit(NamedTuple):
@@ -90,9 +90,9 @@ class _Unit(NamedTuple):
     doubt: str
 
 
-def _made(file: Path, what: str, scan: LineScan, given: Units, family: Family, origin: Origin, **more: Any) -> Profile:
+def _made(file: Path, scan: LineScan, given: Units, family: Family, origin: Origin, **more: Any) -> Profile:
     """Profile of ``scan``, with what is doubtful in it among the findings of its ``origin``."""
-    n = len(scan.x)
+    n, what = len(scan.x), f"line scan {origin.channel!r} of file {file}"
     extent = float(np.ptp(scan.x)) * n / max(n - 1, 1)
 
     def along(metres: float) -> str:

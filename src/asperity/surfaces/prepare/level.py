@@ -329,8 +329,7 @@ def _harmonic(surface: Surface) -> RealArray:
 
     Points beyond the border of a map that is not periodic have no weight.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.linalg import spsolve
+    from scipy.sparse import coo_array, linalg
 
     missing = np.flatnonzero(surface.mask)
     number = np.full(surface.grid.n_points, -1)
@@ -358,7 +357,7 @@ def _harmonic(surface: Surface) -> RealArray:
     every = np.arange(missing.size)
     entries = (np.concatenate([*values, diagonal]), (np.concatenate([*rows, every]), np.concatenate([*columns, every])))
     matrix = coo_array(entries, shape=(missing.size, missing.size)).tocsc()
-    return np.atleast_1d(np.asarray(spsolve(matrix, right), dtype=np.float64))
+    return np.atleast_1d(np.asarray(linalg.spsolve(matrix, right), dtype=np.float64))
 
 
 # Codes for missing points, clipping and spikes: rules of one repeated value far outside, and of
