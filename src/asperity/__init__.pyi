@@ -49,7 +49,6 @@ from .core.errors import NoSolutionError as NoSolutionError
 from .core.grid import Grid as Grid
 from .io.results import load as load
 from .io.results import save as save
-from .physics.adhesion.jkr import JKRAdhesion as JKRAdhesion
 from .physics.adhesion.law import ExponentialAdhesion as ExponentialAdhesion
 from .physics.friction.law import Coulomb as Coulomb
 from .physics.menisci.film import LiquidFilm as LiquidFilm
@@ -75,6 +74,7 @@ from .surfaces.characterise.summary import characterise as characterise
 from .surfaces.prepare.extent import periodised as periodised
 from .surfaces.prepare.level import filled as filled
 from .surfaces.prepare.level import levelled as levelled
+from .surfaces.profile import Profile as Profile
 from .surfaces.read import read as read
 from .surfaces.surface import Surface as Surface
 

@@ -22,6 +22,7 @@ from .surfaces.generate.gaussian import gaussian
 from .surfaces.generate.non_gaussian import HeightMoments, HeightsOf, TwoLevels, rank_ordered, translated
 from .surfaces.generate.power_laws import PlateauPSD, RmsHeight, RmsSlope
 from .surfaces.generate.spectra import MeasuredSpectrum, SelfAffine, Spectrum, TabulatedSpectrum, TwoSlopes, spectrum_of
+from .surfaces.profile_conversion import surface_of_profile
 
 __all__ = [
     "EndlessSurface",
@@ -57,6 +58,7 @@ __all__ = [
     "sinusoid",
     "spectrum_of",
     "sphere",
+    "surface_of_profile",
     "translated",
     "two_process",
     "wedge",

@@ -142,7 +142,7 @@ def coating_on_a_grid(points: float) -> float:
     x = (np.arange(int(points)) - 0.5 * (points - 1.0)) * pixel
     body = asp.Layered([asp.Layer(asp.Elastic(0.25, 0.3), 0.5)], asp.Elastic(1.0, 0.3))
     surface = asp.Surface(-0.5 * (x[:, None] ** 2 + x[None, :] ** 2), pixel)
-    problem = asp.ContactProblem(surface, body, boundary=asp.Free(), adhesion=asp.JKRAdhesion(0.02))
+    problem = asp.ContactProblem(surface, body, boundary=asp.Free(), adhesion=asp.adhesion.JKRAdhesion(0.02))
     approach = float(theory.at_radius(theory.pull_off_radius).approach)
     steps = approach + abs(approach) * np.array([1.5, 0.6, 0.3, 0.15, 0.0, -0.1, -0.2, -0.3, -0.4, -0.5])
     found = asp.solve(problem, asp.History([asp.FixedGrips(float(step)) for step in steps]))

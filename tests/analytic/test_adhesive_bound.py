@@ -18,7 +18,7 @@ LAWS = (
     LinearAdhesion(WORK, RANGE),
     DugdaleAdhesion(WORK, RANGE, smoothing=0.0),
     VanDerWaalsAdhesion(WORK, 2.0 * RANGE),
-    asp.JKRAdhesion(WORK),
+    asp.adhesion.JKRAdhesion(WORK),
 )
 
 

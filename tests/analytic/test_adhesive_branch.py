@@ -147,7 +147,7 @@ def test_stable_parts_are_what_grips_hold_and_jumps_are_at_folds():
 
 
 def test_what_cannot_be_followed_is_refused():
-    jkr = asp.solve(sphere(16, 5.0, asp.JKRAdhesion(WORK)), asp.FixedGrips(0.1 * APPROACH))
+    jkr = asp.solve(sphere(16, 5.0, asp.adhesion.JKRAdhesion(WORK)), asp.FixedGrips(0.1 * APPROACH))
     with refused(InputError, "adhesion"):
         asp.adhesion.adhesive_branch(jkr)
     law = ExponentialAdhesion(WORK, WORK / strength_of(0.5))

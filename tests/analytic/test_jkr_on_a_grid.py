@@ -18,7 +18,7 @@ from asperity.physics.adhesion.solver.front import step_compliance
 from asperity.solids.compliance.halfspace import contact_compliance
 from asperity.theories.adhesion.short_range import PowerLawJKR, WavyJKR
 
-LAW = asp.JKRAdhesion(WORK)
+LAW = asp.adhesion.JKRAdhesion(WORK)
 THEORY = PowerLawJKR(E_STAR, 2.0, 0.5 / RADIUS, WORK)
 SIZE = 4.2
 
@@ -55,7 +55,7 @@ def test_edge_of_a_growing_contact_is_that_of_jkr():
 
 
 def test_contact_that_does_not_close_by_itself_approaches_as_without_adhesion():
-    sticky, dry = sphere(48, SIZE, asp.JKRAdhesion(WORK, closes=False)), sphere(48, SIZE, LAW, adhesion=None)
+    sticky, dry = sphere(48, SIZE, asp.adhesion.JKRAdhesion(WORK, closes=False)), sphere(48, SIZE, LAW, adhesion=None)
     found, plain = (asp.solve(problem, asp.Approach(APPROACH)) for problem in (sticky, dry))
     assert found.external_force == pytest.approx(plain.force, rel=1e-6)
     loop = parted(sticky, [1.2, *np.linspace(0.8, -0.9, 31)])
@@ -81,7 +81,7 @@ def wave(alpha: float, points: int) -> tuple[asp.ContactProblem, float]:
     full = math.pi * E_STAR * amplitude / length
     x = (np.arange(points) + 0.5) / points - 0.5
     surface = asp.Surface((amplitude * (np.cos(2.0 * np.pi * x) - 1.0))[:, None], length / points, 1.0)
-    law = asp.JKRAdhesion(alpha**2 * length * full**2 / (2.0 * E_STAR))
+    law = asp.adhesion.JKRAdhesion(alpha**2 * length * full**2 / (2.0 * E_STAR))
     return asp.ContactProblem(surface, BODY, adhesion=law), full
 
 
@@ -123,7 +123,7 @@ def test_pull_off_of_a_coated_sphere():
     body = asp.Layered([asp.Layer(asp.Elastic(10.0, row["nu1"]), 0.1)], asp.Elastic(1.0, row["nu2"]))
     x = (np.arange(points) - 0.5 * (points - 1)) * side / points
     surface = asp.Surface(-(x[:, None] ** 2 + x[None, :] ** 2) / 2.0, side / points)
-    problem = asp.ContactProblem(surface, body, boundary=asp.Free(), adhesion=asp.JKRAdhesion(row["w"]))
+    problem = asp.ContactProblem(surface, body, boundary=asp.Free(), adhesion=asp.adhesion.JKRAdhesion(row["w"]))
     at = row["delta_at_pulloff"]
     steps = [0.1 * abs(at), *(at * (1.0 - step) for step in (0.4, *np.linspace(0.2, -0.4, 13)))]
     found = -min(asp.solve(problem, asp.History([asp.FixedGrips(d) for d in steps])).external_force)
@@ -164,7 +164,7 @@ def test_loads_and_what_is_refused():
     with refused(NoSolutionError, "Step 2 of the history: force"):
         asp.solve(problem, asp.History([asp.Unloaded(), asp.contact.Pull(1.9 * FORCE)]))
     with refused(InputError, "work of adhesion (J/m^2)"):
-        asp.JKRAdhesion(0.0)
+        asp.adhesion.JKRAdhesion(0.0)
 
 
 def test_other_couplings_join_and_states_go_on(tmp_path):

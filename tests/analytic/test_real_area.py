@@ -142,7 +142,7 @@ def test_adhesive_edges(name: str) -> None:
     pixel, radius = 4e-9, 1e-6
     x = np.arange(48) - 23.3
     heights = -(x[:, None] ** 2 + x[None, :] ** 2) * pixel**2 / (2.0 * radius)
-    law = asp.JKRAdhesion(0.05) if name == "jkr" else asp.ExponentialAdhesion(1e-4, 20e-9)
+    law = asp.adhesion.JKRAdhesion(0.05) if name == "jkr" else asp.ExponentialAdhesion(1e-4, 20e-9)
     problem = asp.ContactProblem(asp.Surface(heights, pixel), asp.Elastic(1e8, 0.0), boundary=asp.Free(), adhesion=law)
     found = asp.solve(problem, asp.Force(6e-8))
     if name == "jkr":  # Johnson, Kendall & Roberts (1971)

@@ -160,7 +160,7 @@ def test_load_that_reaches_a_position() -> None:
             ),
             "friction and plastic_flow of steady sliding",
         ),
-        (lambda: asp.slide(sticky(32, asp.JKRAdhesion(1e-4)), LIGHT, 1.0), "adhesion of viscoelastic bodies"),
+        (lambda: asp.slide(sticky(32, asp.adhesion.JKRAdhesion(1e-4)), LIGHT, 1.0), "adhesion of viscoelastic bodies"),
         (lambda: asp.slide(sticky(32, None), asp.contact.Pull(1e-4), 1.0), "control of a problem without adhesion"),
         (
             lambda: asp.slide(sticky(32), LIGHT, 1.0, after=asp.slide(sticky(16), LIGHT, 1.0)),

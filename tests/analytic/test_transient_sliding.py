@@ -147,7 +147,7 @@ def test_what_is_refused() -> None:
         rubbed = asp.ContactProblem(rough, asp.Rigid(), counter_body=RUBBER, friction=asp.Coulomb(0.2))
         asp.viscoelasticity.slide_in_time(rubbed, PRESSURE, 1.0, 1.0)
     with refused(asp.InputError, "adhesion of viscoelastic bodies", "JKRAdhesion"):
-        sticky = asp.ContactProblem(rough, asp.Rigid(), counter_body=RUBBER, adhesion=asp.JKRAdhesion(1e-4))
+        sticky = asp.ContactProblem(rough, asp.Rigid(), counter_body=RUBBER, adhesion=asp.adhesion.JKRAdhesion(1e-4))
         asp.viscoelasticity.slide_in_time(sticky, PRESSURE, 1.0, 1.0)
     first = asp.viscoelasticity.slide_in_time(wave(16), PRESSURE, 1.0, 0.1)
     with refused(asp.InputError, "earlier part of a motion"):

@@ -229,6 +229,6 @@ def test_hardness_of_layers_with_menisci_beside_creep(boundary: asp.Free | asp.P
 
 
 def test_what_is_not_followed_is_named() -> None:
-    endless = asp.ContactProblem(GROUND, SOFT, boundary=asp.Free(), adhesion=asp.JKRAdhesion(0.05))
+    endless = asp.ContactProblem(GROUND, SOFT, boundary=asp.Free(), adhesion=asp.adhesion.JKRAdhesion(0.05))
     with refused(asp.InputError, "adhesion of viscoelastic bodies", "JKRAdhesion"):
         asp.solve(endless, LOAD)

@@ -20,9 +20,11 @@ LIMITS: dict[str, dict[str, str]] = {
         "app": "one for each option of the command line",
         "indentation": "independent keyword-only choices of the user, each with a default",
         "Indentation.of": "the same choices as those of the function",
+        "Profile.__init__": "independent keyword-only facts of a line scan, each with a default",
         "StressPlanes.__init__": (
             "independent keyword-only choices of the user, and the stress that a result knows beside its tractions"
         ),
+        "read": "independent keyword-only choices of the user, each with a default",
         "filter_waves": "independent keyword-only choices of the user, each with a default",
         "finished": "what a solve ends with, and who asks: a history, a step of time or a sliding contact",
         "slide": "independent keyword-only choices of the user, each with a default",

@@ -40,6 +40,7 @@ HEAVY = {
     "tomli_w": "only where a document is written",
     "uvicorn": "comes with nicegui",
     "xarray": "0.4 s",
+    "yaml": "comes with SurfaceTopography; only for older containers of contact.engineering",
 }
 """Libraries that may be imported late, and why. Parts of scipy count one by one."""
 

@@ -22,6 +22,7 @@ from asperity.parts.registry import parts
 from asperity.physics.adhesion.work import ZONE
 from asperity.physics.dynamics.work_motion import SLIDING, VIBRATION
 from asperity.run.document import document_model
+from asperity.surfaces.text_files import TextOptions
 from asperity.web.forms import Asked, asked_of
 
 WITHOUT_FINDINGS = ("cli", "web", "report", "plots")
@@ -160,6 +161,7 @@ def test_names_of_actions_exist_in_python(name: str) -> None:
         for part in call.removeprefix("numpy.geomspace").split("."):
             found = getattr(found, part) if part else found
     known = {parameter for one in ARGUMENTS_OF for parameter in inspect.signature(one).parameters} | FURTHER
+    known |= {*TextOptions.__annotations__}
     assert set(re.findall(r"\b([a-z]\w*)=", words)) <= known
 
 

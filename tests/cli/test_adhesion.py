@@ -161,7 +161,7 @@ def test_short_range_needs_the_work_alone(run: Runner, tmp_path: Path) -> None:
     done = run("contact", "--from", document, "--adhesion", "50mJ/m**2", "--adhesion-law", "jkr", "--out", out)
     assert done.exit_code == 0, done.output
     outcome = load_outcome(out / "result.nc")
-    assert outcome.result.adhesion.law == asp.JKRAdhesion(0.05)
+    assert outcome.result.adhesion.law == asp.adhesion.JKRAdhesion(0.05)
     assert outcome.result.external_force == pytest.approx(10e-6, rel=1e-9)
     assert outcome.values["cohesive_length"] == 0.0
     assert outcome.values["pixels_per_cohesive_length"] == outcome.result.adhesion.pixels_per_length < 20.0

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import io
 import json
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
 from cli.conftest import SCALE, Runner
 from refusals import subject_of
+from rich.console import Console
+
+from asperity.cli.info import HEADINGS, one_line_each
+from asperity.cli.show import table
 
 
 def test_info_says_what_is_in_the_file(run: Runner, matrix: Path) -> None:
@@ -113,3 +119,71 @@ def test_many_files_are_one_table(run: Runner, matrix: Path, tmp_path: Path) -> 
     assert [record["shape"] for record in json.loads(machine.stdout)] == [[32, 24]]
     assert "broken.txt" in machine.stderr
     assert run("info", *files, *SCALE, "--full").exit_code == 2
+
+
+def test_info_says_how_a_text_was_understood_and_what_is_doubtful(run: Runner, tmp_path: Path) -> None:
+    values = np.random.default_rng(1).normal(size=(12, 12))
+    values[3, 4:9] = -9999.0
+    text = "Disk A\n" + "".join(";".join(f"{v:.3f}".replace(".", ",") for v in row) + "\n" for row in values)
+    (tmp_path / "a.csv").write_text(text)
+    command = ("info", tmp_path / "a.csv", "--size", "12um", "--height-unit", "nm")
+    shown = run(*command)
+    for word in ("semicolon", "comma", "-9999", "--missing"):
+        assert word in shown.stdout
+    found = json.loads(run(*command, "--missing", "-9999", "--json").stdout)
+    assert found["missing"] == 5
+    assert found["findings"] == []
+    stated = ("--delimiter", "semicolon", "--decimal", "comma", "--header-lines", "1", "--axes", "none")
+    assert json.loads(run(*command, *stated, "--encoding", "utf-8", "--json").stdout)["missing"] == 0
+    assert subject_of(run(*command, "--encoding", "klingon")) == "encoding of a text"
+
+
+def test_a_scale_that_cannot_be_is_a_finding_of_info_and_refused_by_contact(run: Runner, tmp_path: Path) -> None:
+    head = b"Gwyddion Simple Field 1.0\nXRes = 16\nYRes = 16\nXReal = 160\nYReal = 160\nXYUnits = m\nZUnits = m\n"
+    heights = np.random.default_rng(1).normal(size=256) * 1e-8
+    (tmp_path / "a.gsf").write_bytes(head + b"\0" * (4 - len(head) % 4) + heights.astype("<f4").tobytes())
+    shown = run("info", tmp_path / "a.gsf")
+    assert shown.exit_code == 0
+    assert "160 m, but" in shown.stdout
+    pressed = ("contact", tmp_path / "a.gsf", "--body", "DLC", "--pressure", "50kPa")
+    assert subject_of(run(*pressed)) == f"scale of file {tmp_path / 'a.gsf'}"
+    assert run(*pressed, "--size", "160um").exit_code == 0
+
+
+def test_the_scans_of_an_archive_are_rows(run: Runner, matrix: Path, tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "scans.zip", "w") as archive:
+        archive.write(matrix, "day 1/a.txt")
+        archive.write(matrix, "day 2/b.txt")
+    shown = run("info", tmp_path / "scans.zip", *SCALE)
+    assert [line.split()[0] for line in shown.stdout.splitlines() if "32 × 24" in line] == ["a.txt", "b.txt"]
+    one = json.loads(run("info", tmp_path / "scans.zip", *SCALE, "--channel", "1", "--json").stdout)
+    assert one["shape"] == [32, 24]
+
+
+@pytest.mark.parametrize("width", [60, 80, 120])
+def test_each_file_has_one_line(width: int) -> None:
+    sizes = ("1024 × 1024", "87.6 µm × 130 µm", "0.0378 %", "6.71 nm", "5.2 nm", "112 nm", "0.0181", "plane")
+    rows = [
+        (
+            "afm_grainy_film_1um_256.007",
+            "256 × 256",
+            "1 µm × 1 µm",
+            "0 %",
+            "2.42 nm",
+            "1.95 nm",
+            "18.2 nm",
+            "0.378",
+            "mean",
+        ),
+        ("a_very_long_name_of_a_scan_of_the_second_disk_after_running_in.nid", *sizes),
+    ]
+    headings, shown, left = one_line_each(HEADINGS, rows, width)
+    assert headings[:2] == HEADINGS[:2]
+    assert {*headings, *left} == {*HEADINGS}
+    made = table("2 files", shown, headings)
+    made.columns[0].no_wrap = True
+    text = io.StringIO()
+    Console(file=text, width=width).print(made)
+    assert next(line.split()[0] for line in text.getvalue().splitlines() if " × " in line).startswith("afm")
+    assert sum(" × " in line for line in text.getvalue().splitlines()) == 2
+    assert ("Sq" in headings) == (width >= 60)

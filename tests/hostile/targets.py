@@ -4,8 +4,11 @@ the commands that read it."""
 from __future__ import annotations
 
 import copy
+import gzip
+import io
 import json
 import struct
+import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -155,6 +158,10 @@ def texts() -> dict[str, bytes]:
         "list.csv": ("x (µm);y (µm);z (nm)\n" + "\n".join(f"{0.5 * x};{0.5 * y};{z:.4g}" for x, y, z in points))
         .replace(".", ",")
         .encode(),
+        "head.csv": (
+            '"Model","50x"\n"XY calibration","500","nm/pixel"\n"Unit","nm"\n' + matrix.replace(" ", ",")
+        ).encode(),
+        "quoted.csv": "\n".join(",".join(f'"{v}"' for v in row.split()) for row in matrix.splitlines()).encode(),
     }
 
 
@@ -186,10 +193,18 @@ def instruments() -> dict[str, bytes]:
         '\\@2:Image Data: S [Height] "Height"\r\n\\@2:Z scale: V [Sens. Zscan] (0.006713867 V/LSB) 440.0 V\r\n'
         "\\*File list end\r\n\x1a"
     ).encode("latin-1")
+    field = b"Gwyddion Simple Field 1.0\nXRes=16\nYRes=12\nXReal=8e-6\nYReal=6e-6\nXYUnits=m\nZUnits=nm\n"
+    field = field + b"\0" * (4 - len(field) % 4) + rows.astype("<f4").tobytes()
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr("a.gsf", field)
     return {
         "a.al3d": al3d,
         "a.sdf": sdf + rows.astype("<f8").tobytes(),
         "a.di": nanoscope.ljust(1024, b"\0") + (100 * rows).astype("<i2").tobytes(),
+        "a.gsf": field,
+        "a.gsf.gz": gzip.compress(field),
+        "a.zip": packed.getvalue(),
     }
 
 

@@ -105,7 +105,7 @@ def adhesion(of: Pressed, control: object) -> list[Check]:
     checks = [*bounds(of), *yielding(of)]
     if law.spacing > 0.0:
         checks += _soft_core(of, traction)
-    elif isinstance(law, asp.JKRAdhesion):
+    elif isinstance(law, asp.adhesion.JKRAdhesion):
         checks += [*complementarity(of), *_edge(of, traction)]
     else:
         checks += [*complementarity(of), *gaps(of), *_by_law(of)]
@@ -159,7 +159,7 @@ def _edge(of: Pressed, traction: RealArray) -> list[Check]:
     nowhere do bodies overlap."""
     found = of.result.require_adhesion()
     law = found.law
-    assert isinstance(law, asp.JKRAdhesion)
+    assert isinstance(law, asp.adhesion.JKRAdhesion)
     most = math.sqrt(2.0 * law.work / step_compliance(of.operator))
     closed = of.pressure > 0.0
     tension = float(np.maximum(-traction, 0.0)[closed].max(initial=0.0))

@@ -278,7 +278,7 @@ def adhesion_law(rng: np.random.Generator, modulus: float, pixel: float, slope: 
         lambda: asp.adhesion.VanDerWaalsAdhesion(work, 2.0 * reach, reach=8.0 * reach),
         lambda: asp.adhesion.VanDerWaalsAdhesion(work, 2.0 * reach),
         lambda: asp.adhesion.LennardJonesAdhesion(work, reach),
-        lambda: asp.JKRAdhesion(work),
+        lambda: asp.adhesion.JKRAdhesion(work),
         lambda: asp.adhesion.CustomAdhesion(
             of_gap=lambda g: strength * np.exp(-g / reach),
             energy_of_gap=lambda g: -work * np.exp(-g / reach),
@@ -298,7 +298,7 @@ def _adhesive(seed: int, rng: np.random.Generator) -> Case:
     modulus, slope, grid = asp.ContactProblem(surface, body).contact_modulus, slope_of(surface), surface.grid
     law = adhesion_law(rng, modulus, max(grid.pixels), slope)
     wall: Any = asp.plasticity.HardWall()
-    if law.spacing == 0.0 and not isinstance(law, asp.JKRAdhesion) and rng.random() < 0.2:
+    if law.spacing == 0.0 and not isinstance(law, asp.adhesion.JKRAdhesion) and rng.random() < 0.2:
         wall = asp.Hardness(max(modulus * slope, 2.0 * law.strength) * _log(rng, 0.0, 1.0))
     posed = asp.ContactProblem(surface, body, boundary=boundary, adhesion=law, law=wall)
     range_ = float(np.ptp(surface.heights))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from cli.conftest import BODY, LOAD
@@ -219,6 +220,7 @@ INFO: tuple[tuple[str, ...], ...] = (
     ("--size", "8um x 6um", "--height-unit", "nm", "--report", "page.pdf"),
     ("--size", "8um x 6um", "--height-unit", "nm", "--plot", "map.jpg"),
     ("--size", "8um x 6um", "--height-unit", "nm", "--level", "cubic"),
+    ("--size", "8um x 6um", "--height-unit", "nm", "--lambda-c", "1mm"),
 )
 """Options of ``asperity info`` on a matrix that states neither size nor unit."""
 
@@ -228,6 +230,14 @@ FILES: Mapping[str, bytes | None] = {
     "noise.di": b"\x00\x01\x02 not a topography \xff" * 40,
     "noise.xyzzy": b"certainly not a topography" * 8,
     "ragged.txt": b"1 2 3\n4 5\n",
+    "line_scan.txt": b"0.0 1\n0.5 2\n1.0 1\n1.5 0\n",
+    "line_of_heights.txt": b"1\n2\n1\n0\n",
+    "words_in_a_row.csv": b"1;2;3\n4;hole;6\n7;8;9\n",
+    "commas_of_two_meanings.csv": b"0,123,0,456\n0,234,0,067\n0,345,0,678\n",
+    "head_of_another_format.csv": b"DSAA\n4,3\n1,2,3,4\n5,6,7,9\n9,8,7,6\n5,4,3,1\n",
+    "heads_of_columns.csv": b"a,b,c,d,e\n1,2,3,4\n5,6,7,9\n9,8,7,6\n5,4,3,1\n",
+    "coordinates.csv": b"0,.5,1,1.5,2\n.5,5,1,3,7\n1,4,1,5,9\n1.5,2,6,5,3\n2,5,8,9,7\n",
+    "coordinates_of_unknown_unit.csv": b"x (um),y (nm),z (nm)\n0,0,1\n0,1,2\n1,0,3\n1,1,5\n",
     "infinite.txt": b"1 2 3\n4 inf 6\n7 8 9\n",
     "all_nan.txt": b"nan nan\nnan nan\n",
     "one.txt": b"5\n",
@@ -280,6 +290,15 @@ def _materials(content: str) -> object:
 
 def _axis(path: str, values: list[object]) -> dict[str, object]:
     return {"path": path, "values": values}
+
+
+def _scan(points: int = 400, **more: Any) -> asp.Profile:
+    return asp.Profile(1e-9 * np.random.default_rng(1).standard_normal(points), 1e-6, **more)
+
+
+def _two_columns(**units: Any) -> object:
+    Path("trace.txt").write_text("0 1\n1 2\n2 4\n")
+    return asp.read("trace.txt", **units)
 
 
 CALLS: Mapping[str, Callable[[], object]] = {
@@ -415,6 +434,10 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a theory to compare by another name": lambda: asp.compare(rough((8, 8)), elastic(1.0), 1e-3, theories=["gw"]),
     "a name for a list": lambda: asp.compare(rough((8, 8)), elastic(1.0), 1e-3, theories="persson"),
     "a matrix with a unit of lengths": lambda: asp.read("rough.txt", lateral_unit="um", height_unit="nm"),
+    "a text with an unknown delimiter": lambda: asp.read("rough.txt", delimiter="pipe"),
+    "a text with an unknown encoding": lambda: asp.read("rough.txt", encoding="klingon"),
+    "a text in another encoding": lambda: _read("micro.txt", "\u00b5\n1 2\n3 4\n", encoding="ascii"),
+    "a text with axes of another name": lambda: asp.read("rough.txt", axes="all"),  # type: ignore[arg-type]
     "points in no order": lambda: _read("points.txt", "0 0 1\n1 0.1 1\n2.7 0.4 1\n3 1.3 2\n", size=(1.0, 1.0)),
     "points on the same node": lambda: _read("points.txt", 2 * "0 0 1\n0 1 1\n1 0 1\n1 1 1\n", size=(1.0, 1.0)),
     "points of unknown unit": lambda: _read("points.txt", "0 0 1\n0 1 1\n1 0 1\n1 1 1\n"),
@@ -449,6 +472,31 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "two levels": lambda: plan(convergence={"of": "grid", "levels": [16, 32]}),
     "a number that is no seed": lambda: plan(
         monte_carlo=SAMPLES | {"random": [{"path": "control.mean_pressure", "distribution": "seed"}]}
+    ),
+    "a map as a profile": lambda: asp.Profile(np.zeros((3, 2)), 1e-6),
+    "a profile without points": lambda: asp.Profile([np.nan, np.nan], 1e-6),
+    "a profile across its lay": lambda: asp.Profile([0.0, 1e-9], 1e-6, lay_angle=2.0),
+    "a profile of unknown lay": lambda: _scan().across_lay(),
+    "an overhang": lambda: asp.Profile.from_points([*range(20), 18.5, 21, 22], np.zeros(23)),
+    "two heights at one place": lambda: asp.Profile.from_points([0.0, 1.0, 1.0], np.zeros(3)),
+    "a profile for an area": lambda: asp.characterise(_scan()),  # type: ignore[arg-type]
+    "a profile in a problem": lambda: asp.ContactProblem(_scan(), asp.Elastic(1e9, 0.3)),  # type: ignore[arg-type]
+    "a row that is not there": lambda: asp.Surface(np.zeros((4, 3)), 1e-6).row(3),
+    "an instrument of no size": lambda: asp.surfaces.Instrument("stylus", tip_radius=0.0),
+    "two columns without units": lambda: _two_columns(height_unit="nm"),
+    "two columns in kg": lambda: _two_columns(height_unit="kg", lateral_unit="um"),
+    "cut-offs the wrong way": lambda: asp.roughness.components(_scan(), long=1e-5, short=2e-5),
+    "a trace shorter than a section": lambda: asp.roughness.components(_scan(), long=3e-4),
+    "settings by RSm of the new standard": lambda: asp.roughness.settings_class(RSm=1e-4),
+    "settings by nothing": lambda: asp.roughness.settings_class(),
+    "settings of a rock": lambda: asp.roughness.settings_class(RSm=1.0, standard="ISO 4288"),
+    "a spectrum of few modes": lambda: asp.roughness.isotropic_spectrum(_scan(30)),
+    "an alias without a sum": lambda: asp.roughness.alias_factor(1.0, 1e5, 1e-6),
+    "peaks of a flat profile": lambda: asp.roughness.summits_of_peaks(
+        asp.roughness.profile_peaks(asp.Profile(np.zeros(9), 1e-6)), 1e-18
+    ),
+    "a closed profile with a datum": lambda: asp.contact.line_problem(
+        _scan(periodic=True), asp.Elastic(1e9, 0.3), datum=1.0
     ),
     "an axis too long": lambda: plan(
         axes=[{"path": "control.mean_pressure", "first": "1 MPa", "last": "2 MPa", "count": 1_000_000_000}]

@@ -29,9 +29,10 @@ from ..io.schemas.problem import (
     SolverTable,
 )
 from ..io.schemas.surfaces import STEPS, AnySurface, FileSurface, Place
-from ..run.build import build_surface
 from ..surfaces.prepare.level import levelled, usual_form
-from ..surfaces.surface import Surface
+from ..surfaces.profile import Profile
+from ..surfaces.read import read
+from ..surfaces.surface import Heights, Surface
 from .declared import FILE, Given, Option, declarations, options_of, part_options
 
 READING, PREPARATION, BODIES = "Reading the file", "Preparation, in this order", "Bodies and interface"
@@ -171,14 +172,19 @@ def document_options() -> tuple[Option, ...]:
     return (*load_options(), *body_options(), *reading_options(), *preparation_options(), *solver_options())
 
 
-def read_surface(file: Path, given: Given) -> Surface:
-    """Surface in ``file`` as the reading options that are ``given`` ask."""
+def heights_in(file: Path, given: Given) -> Surface | Profile:
+    """Surface or line scan in ``file`` as the reading options that are ``given`` ask."""
+    return read(file, **reading_table(file, given).reading())
+
+
+def reading_table(file: Path, given: Given) -> FileSurface:
+    """Table of the surface in ``file`` as the reading options that are ``given`` ask."""
     table = {"kind": "file", "path": str(file), **given.under("surface").table()}
     names = {option.path[-1]: option.name for option in reading_options()}
-    return build_surface(validated(FileSurface, table, COMMAND_LINE, names), Path())
+    return validated(FileSurface, table, COMMAND_LINE, names)
 
 
-def levelled_as(surface: Surface, level: str) -> tuple[Surface, str]:
+def levelled_as(surface: Heights, level: str) -> tuple[Heights, str]:
     """``surface`` after levelling and what was removed: left to itself (auto) the mean of a
     periodic one, else the plane."""
     found = level if level != "auto" else usual_form(surface)

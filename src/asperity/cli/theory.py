@@ -35,8 +35,8 @@ from ..theories.catalogue import theory as theory_of
 from ..theories.protocol import Described
 from .declared import FILE, Given, Option, built, options_of
 from .main import Listing
-from .options import READING, body_options, levelled_as, read_surface, reading_options
-from .show import console, print_files, say, table
+from .options import READING, body_options, heights_in, levelled_as, reading_options
+from .show import console, error_console, print_files, say, table
 
 INPUTS, ASKED, ANSWER = "What it is made from", "What it is asked", "Answer"
 
@@ -226,9 +226,12 @@ def _made(kind: type[Described], given: Given) -> Described:
             raise InputError(
                 f"{kind.name} of a surface must also be given {options}, but is not; --body names a material."
             )
-        surface = read_surface(Path(chosen["file"]), given)
+        surface = heights_in(Path(chosen["file"]), given)
         flat, _ = levelled_as(filled(surface) if surface.n_missing else surface, chosen.get("level") or "auto")
-        theory: Described = method(roughness_of(flat), **values)
+        rough = roughness_of(flat)
+        if rough.assumption:
+            error_console().print(f"Assumption: {rough.assumption}.", style="yellow", markup=False, soft_wrap=True)
+        theory: Described = method(rough, **values)
         return theory
     if "surface" in chosen or "bins" in chosen:
         raise InputError("options for reading must be given together with --surface, but are given alone.")

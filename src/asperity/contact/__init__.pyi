@@ -3,6 +3,7 @@ from ..parts.advice import advise, review
 from .boundary import Boundary, Free, FreeLine, Periodic
 from .controls import Approach, Control, FixedGrips, Force, MeanGap, MeanPressure, Pull, Step, Unloaded
 from .history import EnergyBalance, History, HistoryResult, ramps
+from .line_contact import line_problem
 from .problem import ContactProblem, Flat
 from .result import ContactResult
 from .solve import Keep, solve, steps
@@ -32,6 +33,7 @@ __all__ = [
     "TimeSteps",
     "Unloaded",
     "advise",
+    "line_problem",
     "ramps",
     "review",
     "solve",

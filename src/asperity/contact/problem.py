@@ -21,6 +21,7 @@ from ..solids.compliance.halfspace import Compliance, contact_compliance
 from ..solids.elastic import Elastic, Rigid
 from ..solids.layers import Body, Layered, contact_modulus
 from ..surfaces.pair import composite
+from ..surfaces.profile import Profile, no_area
 from ..surfaces.surface import Surface
 from .boundary import Boundary, FreeLine, Periodic
 from .controls import Control, FixedGrips, Pull, Step
@@ -285,6 +286,8 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
         return replace(self, **given)  # type: ignore[misc]
 
     def _check(self) -> None:
+        if isinstance(self.surface, Profile):
+            raise no_area()
         _require(self.surface, Surface, "surface", "a Surface (see asperity.read and asperity.generate)")
         _require(self.counter_surface, Surface | Flat, "counter_surface", "a Surface or Flat()")
         _require(self.boundary, Boundary, "boundary", "Periodic(), Free() or FreeLine()")

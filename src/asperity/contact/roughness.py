@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ..core import require
 from ..core.errors import InputError
 from ..surfaces.characterise.correlation import DROP_1E, autocovariance, fractal_parameters
 from ..surfaces.characterise.heights import deviations, height_parameters
 from ..surfaces.characterise.moments import DifferenceMoments, SpectralMoments, difference_moments, spectral_moments
-from ..surfaces.characterise.spectrum import power_spectrum, radial_spectrum
+from ..surfaces.characterise.spectrum import power_spectrum, profile_spectrum, radial_spectrum
 from ..surfaces.characterise.summits import summits
 from ..surfaces.prepare.level import filled
+from ..surfaces.profile import Profile
+from ..surfaces.profile_conversion import isotropic_spectrum, profile_moments
 from ..surfaces.surface import Surface
 from ..theories.statistics.roughness import Fractal, MomentTensor, Roughness, Spectrum, SummitList
 
@@ -19,12 +23,14 @@ MOMENTS = ("auto", "spectrum", "differences")
 """Where the moments can come from."""
 
 
-def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8) -> Roughness:
+def roughness_of(surface: Surface | Profile, *, moments: str = "auto", neighbours: int = 8) -> Roughness:
     """Measure on ``surface`` what theories of rough contact need: moments, spectrum, summits,
     heights.
 
     Nothing is levelled or filtered: prepare the surface first. Missing points are filled for the
-    spectrum.
+    spectrum. Of a line scan moments, heights and correlation are its own, and the spectrum is that
+    of the isotropic surface that it may belong to (see ``asperity.roughness.isotropic_spectrum``);
+    there are no summits, and the ``assumption`` says so.
 
     Parameters
     ----------
@@ -44,6 +50,8 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
         If a choice is unknown, or the surface is flat or too small for second differences.
     """
     require.one_of(moments, MOMENTS, "source of the moments")
+    if isinstance(surface, Profile):
+        return _of_profile(surface, moments)
     spectrum = power_spectrum(filled(surface) if surface.n_missing else surface)
     from_spectrum = moments == "spectrum" or (moments == "auto" and surface.periodic)
     found: SpectralMoments | DifferenceMoments
@@ -80,6 +88,40 @@ def roughness_of(surface: Surface, *, moments: str = "auto", neighbours: int = 8
         kurtosis=shape.Sku,
         fractal=_fractal(surface),
         correlation_length=0.5 * sum(covariance.correlation_length(DROP_1E, axis=axis) for axis in ("x", "y")),
+    )
+
+
+def _of_profile(profile: Profile, moments: str) -> Roughness:
+    """Numbers of the isotropic surface of which ``profile`` is a section."""
+    converted = isotropic_spectrum(profile)
+    pieces = converted.pieces()
+    if moments == "spectrum" or (moments == "auto" and profile.periodic):
+        modes = profile_spectrum(filled(profile))
+        share = np.full(modes.q.size, 2.0) / profile.length  # of both signs of a mode; the Nyquist mode is one
+        share[-1] *= 0.5 if profile.n_points % 2 == 0 else 1.0
+        m0, m2, m4 = (float(share @ (modes.q**order * modes.psd)) for order in (0, 2, 4))
+    else:
+        found = profile_moments(profile)
+        m0, m2, m4 = found.m0, found.m2, found.m4
+    shape = height_parameters(profile)
+    fractal = None
+    try:
+        fit = fractal_parameters(profile)
+        if fit.self_affine and fit.roughness > 0.0:
+            fractal = Fractal(fit.dimension, fit.roughness, fit.first_lag, fit.last_lag)
+    except InputError:  # too few lags, or no slope
+        pass
+    return Roughness(
+        m0,
+        m2,
+        m4,
+        spectrum=Spectrum(pieces.q, pieces.psd_at),
+        heights=deviations(profile),
+        skewness=shape.Ssk,
+        kurtosis=shape.Sku,
+        fractal=fractal,
+        correlation_length=autocovariance(profile).correlation_length(DROP_1E),
+        assumption=converted.assumption,
     )
 
 

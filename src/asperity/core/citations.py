@@ -3,7 +3,11 @@ text."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
 from .errors import InputError
+from .status import Advice
 
 REFERENCES = {
     "Abbott1933": "Abbott, E. J., Firestone, F. A. (1933). Specifying surface quality: a method based on accurate measurement and comparison. Mechanical Engineering 55, 569-572.",
@@ -63,9 +67,18 @@ REFERENCES = {
     "HuTonder1992": "Hu, Y. Z., Tonder, K. (1992). Simulation of 3-D random rough surface by 2-D digital filter and Fourier analysis. International Journal of Machine Tools and Manufacture 32, 83-90.",
     "Hunter1961": "Hunter, S. C. (1961). The rolling contact of a rigid cylinder with a viscoelastic half space. Journal of Applied Mechanics 28, 611-617.",
     "Hunter2004": "Hunter, D. R., Lange, K. (2004). A tutorial on MM algorithms. The American Statistician 58, 30-37.",
+    "ISO13565-1": "ISO 13565-1:1996. Geometrical Product Specifications (GPS) - Surface texture: Profile method; Surfaces having stratified functional properties - Part 1: Filtering and general measurement conditions.",
+    "ISO13565-2": "ISO 13565-2:1996. Geometrical Product Specifications (GPS) - Surface texture: Profile method; Surfaces having stratified functional properties - Part 2: Height characterization using the linear material ratio curve.",
+    "ISO16610-21": "ISO 16610-21:2011. Geometrical product specifications (GPS) - Filtration - Part 21: Linear profile filters: Gaussian filters.",
+    "ISO16610-22": "ISO 16610-22:2015. Geometrical product specifications (GPS) - Filtration - Part 22: Linear profile filters: Spline filters.",
+    "ISO16610-31": "ISO 16610-31:2016. Geometrical product specifications (GPS) - Filtration - Part 31: Robust profile filters: Gaussian regression filters.",
     "ISO16610-61": "ISO 16610-61:2015. Geometrical product specifications (GPS) - Filtration - Part 61: Linear areal filters: Gaussian filters.",
     "ISO16610-71": "ISO 16610-71:2014. Geometrical product specifications (GPS) - Filtration - Part 71: Robust areal filters: Gaussian regression filters.",
+    "ISO21920-2": "ISO 21920-2:2021. Geometrical product specifications (GPS) - Surface texture: Profile - Part 2: Terms, definitions and surface texture parameters.",
+    "ISO21920-3": "ISO 21920-3:2021. Geometrical product specifications (GPS) - Surface texture: Profile - Part 3: Specification operators.",
     "ISO25178": "ISO 25178-2:2021. Geometrical product specifications (GPS) - Surface texture: Areal - Part 2: Terms, definitions and surface texture parameters.",
+    "ISO4287": "ISO 4287:1997. Geometrical Product Specifications (GPS) - Surface texture: Profile method - Terms, definitions and surface texture parameters.",
+    "ISO4288": "ISO 4288:1996. Geometrical Product Specifications (GPS) - Surface texture: Profile method - Rules and procedures for the assessment of surface texture.",
     "Israelachvili2011": "Israelachvili, J. N. (2011). Intermolecular and Surface Forces. 3rd ed., Academic Press, Burlington.",
     "Jackson2005": "Jackson, R. L., Green, I. (2005). A finite element study of elasto-plastic hemispherical contact against a rigid flat. Journal of Tribology 127, 343-354.",
     "Jacobs2017": "Jacobs, T. D. B., Junge, T., Pastewka, L. (2017). Quantitative characterization of surface topography using spectral analysis. Surface Topography: Metrology and Properties 5, 013001.",
@@ -196,3 +209,29 @@ def cite(*objects: object) -> str:
         If an object names a paper that is not in the list.
     """
     return "\n".join(f"[{key}] {reference(key)}" for key in citation_keys(*objects))
+
+
+# Where heights come from: their source, every step of preparation, and the papers behind them.
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a surface comes from.
+
+    ``source`` file name or generator; ``channel`` data channel; ``instrument`` free key-value data
+    from the file; ``history`` one sentence for every preparation step, oldest first;
+    ``citation_keys`` the papers behind the reader, the generator and the steps; ``findings`` what
+    is doubtful in the file.
+    """
+
+    source: str = ""
+    channel: str = ""
+    instrument: Mapping[str, str] = field(default_factory=dict)
+    history: tuple[str, ...] = ()
+    citation_keys: tuple[str, ...] = ()
+    findings: tuple[Advice, ...] = ()
+
+    def continued(self, step: str, citation_keys: tuple[str, ...] = ()) -> Origin:
+        """Origin after a further ``step``, which rests on the papers ``citation_keys``."""
+        keys = tuple(dict.fromkeys((*self.citation_keys, *citation_keys)))
+        return replace(self, history=(*self.history, step), citation_keys=keys)

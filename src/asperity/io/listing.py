@@ -87,6 +87,8 @@ def listing(thing: Tabled) -> Listing:
 
 def _roughness(rough: Roughness) -> Iterator[tuple[str, str]]:
     """What is known of it, name and value."""
+    if rough.assumption:
+        yield "assumption", rough.assumption
     yield from (
         ("rms height", show(rough.rms_height, "m")),
         ("rms slope of the surface", f"{rough.rms_gradient:.4g}"),

@@ -16,7 +16,7 @@ from ..core.errors import InputError, OutputError
 from ..core.grid import Grid
 from ..core.spectral import complex_lines, line_transform, real_lines, thread_count
 from ..core.status import NoProgress, Progress
-from ..surfaces.formats import write_netcdf
+from ..surfaces.formats_netcdf import write_netcdf
 from ..surfaces.generate.digital_filter import EndlessSurface
 from ..surfaces.generate.gaussian import Spectrum, noise_rows
 from ..surfaces.generate.spectra import Columns, column_slices, spectrum_columns

@@ -21,6 +21,7 @@ from ..solids.elastic import TABOR, Elastic, yield_pressure
 from ..solids.layers import Layered, RigidBase, materials_of, strength_of, unknown_strengths
 from ..surfaces.characterise.heights import rms_height
 from ..surfaces.characterise.slopes import axis_index, rms_profile_curvature, stencil_sums
+from ..surfaces.prepare.level import SPIKES
 from ..surfaces.surface import Surface
 
 LARGEST_SLOPE = 0.3
@@ -97,8 +98,19 @@ def advise(problem: ContactProblem, control: Control) -> tuple[Advice, ...]:
         *_layers(problem),
         *_memory(problem),
         *_units(problem),
+        *_of_files(problem),
         *(found for physics in problem.physics for found in physics.advice()),
     )
+
+
+def _of_files(problem: ContactProblem) -> Iterator[Advice]:
+    """What was doubtful in the files of the surfaces and has not been dealt with since."""
+    for surface in (problem.surface, problem.counter_surface):
+        if isinstance(surface, Surface):
+            masked = any(step.startswith("despiked") for step in surface.origin.history)
+            for finding in surface.origin.findings:
+                if finding.level == "warning" and not (masked and finding.criterion == SPIKES):
+                    yield finding
 
 
 def findings(solved: ContactResult | HistoryResult) -> tuple[Advice, ...]:

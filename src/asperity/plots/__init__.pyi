@@ -24,6 +24,7 @@ from .contact import (
 )
 from .maps import plot_contact, plot_gap, plot_heights, plot_indentation, plot_pressure, plot_residual
 from .picture import Plot, render, style
+from .profile import PROFILE_PLOTS, plot_profile, profile_figures
 from .surface import (
     SURFACE_PLOTS,
     plot_autocorrelation,
@@ -40,6 +41,7 @@ __all__ = [
     "PATH_PLOTS",
     "PLASTIC_PLOTS",
     "PLOTS",
+    "PROFILE_PLOTS",
     "SURFACE_PLOTS",
     "Plot",
     "plot_area_loop",
@@ -57,6 +59,7 @@ __all__ = [
     "plot_material_ratio",
     "plot_pressure",
     "plot_pressure_histogram",
+    "plot_profile",
     "plot_residual",
     "plot_running_mean",
     "plot_samples",
@@ -72,6 +75,7 @@ __all__ = [
     "plot_summits",
     "plot_surface_view",
     "plot_transitions",
+    "profile_figures",
     "render",
     "save_path_plots",
     "save_plots",

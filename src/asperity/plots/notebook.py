@@ -18,12 +18,15 @@ from ..core.words import printable
 from ..io.description import kind_name
 from ..io.words import heading_and_rows
 from ..surfaces.characterise.summary import Characterisation
+from ..surfaces.profile import Profile
+from ..surfaces.profile_summary import ProfileCharacterisation
 from ..surfaces.surface import Surface
 from .comparison import SIZE as COMPARISON_SIZE
 from .comparison import comparison_plots
 from .contact import PATH_PLOTS, PLASTIC_PLOTS, PLOTS, physics_plots
 from .maps import plot_heights
 from .picture import CURVE_SIZE, VIEW_SIZE, Plot, map_size, png, style, uncrowd
+from .profile import PROFILE_PLOTS, plot_profile
 from .surface import SURFACE_PLOTS, plot_surface_view
 
 if TYPE_CHECKING:
@@ -94,6 +97,10 @@ def _chosen(thing: Any, kind: str) -> _Chosen:
     plots: Sequence[Plot]
     if isinstance(thing, Surface):
         what, first, plots = "a surface", "heights", _OF_SURFACE
+    elif isinstance(thing, Profile):
+        what, first, plots = "a line scan", "heights", (Plot("heights", "", "", plot_profile),)
+    elif isinstance(thing, ProfileCharacterisation):
+        what, first, plots = "a characterised line scan", "trace", PROFILE_PLOTS
     elif isinstance(thing, Characterisation):
         what, first, plots = "a characterisation", "distribution", SURFACE_PLOTS
     elif isinstance(thing, ContactResult):

@@ -14,7 +14,7 @@ from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.units import percent, show
 from ..surfaces.characterise.correlation import DROP_1E, DROP_TENTH
-from ..surfaces.characterise.heights import core
+from ..surfaces.characterise.heights import MaterialRatioCurve, core
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.surface import Surface
 from .maps import heights_field, map_of, plot_heights
@@ -65,7 +65,11 @@ def plot_height_distribution(found: Characterisation, ax: Axes) -> Axes:
 
 def plot_material_ratio(found: Characterisation, ax: Axes) -> Axes:
     """Draw the material ratio (Abbott) curve with the line and the bounds of its core on ``ax``."""
-    curve = found.curves.material_ratio
+    return draw_material_ratio(found.curves.material_ratio, ax)
+
+
+def draw_material_ratio(curve: MaterialRatioCurve, ax: Axes, letter: str = "S") -> Axes:
+    """Draw a material ratio ``curve`` on ``ax``; ``letter`` begins the names of its parameters."""
     in_unit = scale(curve.heights, "m")
     ratios = np.linspace(0.0, 1.0, _CURVE_POINTS)
     ax.set(xlabel="material ratio (%)", ylabel=f"height ({in_unit.symbol})", xlim=(0.0, 100.0))
@@ -77,7 +81,7 @@ def plot_material_ratio(found: Characterisation, ax: Axes) -> Axes:
     top, bottom = float(in_unit(line.top)), float(in_unit(line.bottom))
     ax.plot([0.0, 100.0], [top, bottom], color=VERMILLION, linestyle="--", label="core line")
     ax.hlines([top, bottom], 0.0, 100.0, color="0.6", linewidth=0.7)
-    for ratio, name in ((line.ratio_1, "Smr1"), (line.ratio_2, "Smr2")):
+    for ratio, name in ((line.ratio_1, f"{letter}mr1"), (line.ratio_2, f"{letter}mr2")):
         ax.axvline(100.0 * ratio, color="0.6", linewidth=0.7, linestyle=":", label=f"{name} {percent(ratio)}")
     peak, valley = float(in_unit(line.reduced_peak)), float(in_unit(line.reduced_valley))
     # triangles with the areas of peaks and valleys
@@ -86,7 +90,9 @@ def plot_material_ratio(found: Characterisation, ax: Axes) -> Axes:
         [(100.0, bottom), (100.0, bottom - valley), (100.0 - 100.0 * (1.0 - line.ratio_2), bottom)],
     ):
         ax.fill(*zip(*corners, strict=True), color=SKY, alpha=0.5, linewidth=0.0)
-    ax.set_title(f"Sk {top - bottom:.3g}   Spk {peak:.3g}   Svk {valley:.3g} {in_unit.symbol}", loc="right")
+    ax.set_title(
+        f"{letter}k {top - bottom:.3g}   {letter}pk {peak:.3g}   {letter}vk {valley:.3g} {in_unit.symbol}", loc="right"
+    )
     ax.legend(loc="lower left", frameon=True, edgecolor="none", framealpha=0.9)
     return ax
 

@@ -1,6 +1,13 @@
 from .animation import save_plastic_animation
 from .comparison import write_comparison_report
+from .profile import write_profile_report
 from .roughness import write_roughness_report
 from .write import write_report
 
-__all__ = ["save_plastic_animation", "write_comparison_report", "write_report", "write_roughness_report"]
+__all__ = [
+    "save_plastic_animation",
+    "write_comparison_report",
+    "write_profile_report",
+    "write_report",
+    "write_roughness_report",
+]

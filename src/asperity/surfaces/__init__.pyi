@@ -3,11 +3,14 @@ from .pair import SurfacePair, composite, on_common_grid, turned_over
 from .prepare.extent import cropped, periodised, resampled, sliced, tapered
 from .prepare.filter import filtered, reliability_cutoff, tip_limited
 from .prepare.level import despiked, filled, levelled, line_corrected
+from .profile import Instrument, Profile
 from .read import channels, read
-from .surface import Surface
+from .surface import Surface, strip
 
 __all__ = [
     "Grid",
+    "Instrument",
+    "Profile",
     "Surface",
     "SurfacePair",
     "channels",
@@ -24,6 +27,7 @@ __all__ = [
     "reliability_cutoff",
     "resampled",
     "sliced",
+    "strip",
     "tapered",
     "tip_limited",
     "turned_over",

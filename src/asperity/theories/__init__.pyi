@@ -69,6 +69,7 @@ from .rough.greenwood_williamson import (
     separation_at_plastic_onset,
 )
 from .rough.interacting_crests import InteractingCrests
+from .rough.line_contact import full_contact_pressure, persson_line_area, wave_line_area
 from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import IsotropicSpectrum, Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
@@ -286,6 +287,7 @@ __all__ = [
     "flutter_friction",
     "free_vibration",
     "friction_of_stick",
+    "full_contact_pressure",
     "hardness_coefficient",
     "hertz_ellipse_normal",
     "hertz_line_normal",
@@ -297,6 +299,7 @@ __all__ = [
     "maugis_pull_off",
     "nominal_interference",
     "paraboloid_area",
+    "persson_line_area",
     "plastic_area_share",
     "point_shakedown",
     "profile_plasticity_index",
@@ -313,5 +316,6 @@ __all__ = [
     "tabor_parameter",
     "tangential_modulus",
     "theory",
+    "wave_line_area",
     "yield_coefficient",
 ]

@@ -63,6 +63,23 @@ def axis(title: str, **more: Any) -> dict[str, Any]:
     }
 
 
+def height_line(values: Any, spacing: tuple[float, float], title: str) -> dict[str, Any]:
+    """Curve of heights (1, nx) in m at points of that spacing: a line scan."""
+    count = values.shape[1]
+    x_unit, x_scale = scaled(count * spacing[0])
+    z_unit, z_scale = scaled(float(np.nanmax(np.abs(values), initial=0.0)))
+    place = (np.arange(count, dtype=np.float32) + 0.5) * np.float32(spacing[0] / x_scale)
+    return {
+        "data": [{"type": "scattergl", "mode": "lines", "x": packed(place), "y": packed(values[0] / z_scale)}],
+        "layout": layout(
+            title={"text": title, "font": {"size": 13}},
+            xaxis=axis(f"x / {x_unit}"),
+            yaxis=axis(f"height / {z_unit}"),
+        ),
+        "config": CONFIG,
+    }
+
+
 def height_map(values: Any, spacing: tuple[float, float], title: str) -> dict[str, Any]:
     """Map of heights (ny, nx) in m on a grid of that spacing."""
     ny, nx = values.shape

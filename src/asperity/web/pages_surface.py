@@ -69,7 +69,8 @@ class Preview:
                 return
             nx, ny = self.answer["shape"]
             values = np.frombuffer(self._file.read_bytes(), "<f4").reshape(ny, nx)
-            figure = maps.height_map(values, tuple(self.answer["spacing"]), self.title)
+            drawn = maps.height_map if ny > 1 else maps.height_line
+            figure = drawn(values, tuple(self.answer["spacing"]), self.title)
             ui.plotly(figure).classes("map").props('role="img" aria-label="map of heights"').on(
                 "plotly_relayout", self._moved, list(AXES)
             )

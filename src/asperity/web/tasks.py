@@ -28,9 +28,11 @@ from ..io.results import document_in
 from ..io.schemas.surfaces import SurfaceTable
 from ..io.words import surface_rows
 from ..physics.stress.part import Stress, StressSettings, stress_request
+from ..plots.profile import profile_figures
 from ..plots.surface import roughness_figures
 from ..plots.together import save_pictures
 from ..report.folder import write_run
+from ..report.profile import profile_headline, profile_rows, write_profile_report
 from ..report.roughness import headline_values, quantity_rows, write_roughness_report
 from ..run.build import build, build_surface
 from ..run.document import load_document, loads, relocated
@@ -39,6 +41,8 @@ from ..run.stored import load_outcome
 from ..studies.campaign import prepare_study
 from ..surfaces.characterise.heights import height_parameters
 from ..surfaces.characterise.summary import characterise
+from ..surfaces.profile import Profile
+from ..surfaces.profile_summary import characterise_profile
 from ..surfaces.read import channels
 from .views import theory_curves, write_views
 
@@ -87,8 +91,8 @@ def inspect(task: Task) -> dict[str, Any]:
     """Channels of the file at ``path``, and what it does not say itself."""
     found = []
     for item in channels(task["path"]):
-        size = "" if item.size is None else f", {show(item.size[0], 'm', 3)} × {show(item.size[1], 'm', 3)}"
-        text = f"{item.name or item.index}: {item.shape[0]} × {item.shape[1]} points{size}"
+        size = "" if item.size is None else f", {' × '.join(show(side, 'm', 3) for side in item.size)}"
+        text = f"{item.name or item.index}: {' × '.join(map(str, item.shape))} points{size}"
         found.append({"index": item.index, "name": item.name, "text": text})
     return {"channels": found}
 
@@ -133,14 +137,29 @@ def _built(task: Task) -> Any:
 def roughness(task: Task) -> dict[str, Any]:
     """Roughness of the surface of ``table``: rows of the page, and the report and its pictures in
     the folder ``out``."""
-    found = characterise(_built(task))
-    out = Path(task["out"])
+    built, out = _built(task), Path(task["out"])
+    if built.shape[1] == 1:
+        return _line_scan(built.row(0), out)
+    found = characterise(built)
     figures = roughness_figures(found)
     save_pictures(figures, out, overwrite=True)
     write_roughness_report(found, out / "roughness.html", figures=figures, overwrite=True)
     return {
         "headline": [[name, text] for name, text in headline_values(found)],
         "groups": [[title, [list(row) for row in rows]] for title, rows in quantity_rows(found)],
+        "figures": [[figure.name, figure.title, figure.caption] for figure in figures],
+    }
+
+
+def _line_scan(profile: Profile, out: Path) -> dict[str, Any]:
+    """The same of a line scan."""
+    found = characterise_profile(profile)
+    figures = profile_figures(found)
+    save_pictures(figures, out, overwrite=True)
+    write_profile_report(found, out / "roughness.html", figures=figures, overwrite=True)
+    return {
+        "headline": [[name, text] for name, text in profile_headline(found)],
+        "groups": [[title, [list(row) for row in rows]] for title, rows in profile_rows(found)],
         "figures": [[figure.name, figure.title, figure.caption] for figure in figures],
     }
 

@@ -44,7 +44,9 @@ def test_one_wave_in_closed_form():
     assert found.effective_work == pytest.approx(expected.effective_work, rel=1e-12)
 
     # without range any roughness is sticky, and full contact costs the same
-    short = stickiness(asp.ContactProblem(asp.Surface(heights, length / n), body, adhesion=asp.JKRAdhesion(work)))
+    short = stickiness(
+        asp.ContactProblem(asp.Surface(heights, length / n), body, adhesion=asp.adhesion.JKRAdhesion(work))
+    )
     assert short.number == 0.0
     assert short.effective_work == found.effective_work
 

@@ -151,7 +151,34 @@ class _LengthUnit(Values):
         return str(value)
 
 
+class _Codes(Values):
+    """Numbers and texts that stand for missing points: ``[-9999, "void"]``, ``"-9999,void"``."""
+
+    metavar = "VALUE,..."
+
+    def read(self, value: Any, what: str) -> tuple[float | str, ...]:
+        """Numbers where they are some, else texts."""
+        items = value.split(",") if isinstance(value, str) else value
+        if not isinstance(items, list | tuple) or not items:
+            items = [value]
+        found: list[float | str] = []
+        for item in items:
+            if isinstance(item, bool) or not isinstance(item, int | float | str) or not str(item).strip():
+                raise InputError(f"{what} must be numbers or texts that stand for missing points, but is {value!r}.")
+            try:
+                found.append(float(item))
+            except ValueError:
+                found.append(str(item).strip())
+        return tuple(found)
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        """A list of numbers and texts."""
+        items = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+        return {"type": "array", "items": items, "examples": [[-9999.0]]}
+
+
 Channel: TypeAlias = Annotated[str | int, _Channel()]
+Codes: TypeAlias = Annotated[tuple[float | str, ...], _Codes()]
 HeightUnit: TypeAlias = Annotated[str, _LengthUnit()]
 
 
@@ -199,7 +226,27 @@ class FileSurface(AnySurface):
     size: Size | None = setting(None, help='physical size, such as "20 um x 10 um", if the file does not state it')
     height_unit: HeightUnit | None = setting(None, help="unit of the heights, if the file does not state it: nm, um, …")
     z_scale: Length | None = setting(None, help="height of the full grey scale of a picture")
-    lateral_unit: HeightUnit | None = setting(None, help="unit of the coordinates of a list of points x y z")
+    lateral_unit: HeightUnit | None = setting(
+        None, help="unit of the coordinates of points x y z, a line scan x z or a matrix"
+    )
+    missing: Codes | None = setting(None, help="numbers or texts that stand for missing points: -9999")
+    delimiter: Literal["comma", "semicolon", "tab", "blank"] | None = setting(
+        None, help="what stands between the columns of a text, if it is not found"
+    )
+    decimal: Literal["point", "comma"] | None = setting(
+        None, help="what stands before the decimals of a text, if it is not found"
+    )
+    header_lines: Annotated[int, Whole(0)] | None = setting(
+        None, help="lines to leave out at the beginning of a text, if they are not found"
+    )
+    axes: Literal["none", "row", "column", "both"] | None = setting(
+        None, help="which of the first row and column of a text hold coordinates, if that is not found"
+    )
+    encoding: NonEmpty | None = setting(None, help="encoding of a text, if it is not found: utf-16, cp1252, …")
+
+    def reading(self) -> dict[str, Any]:
+        """Arguments of ``surfaces.read`` beside the path."""
+        return self.given("kind", "path", *AnySurface.model_fields)
 
 
 class GeneratedSurface(AnySurface):

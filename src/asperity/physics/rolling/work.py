@@ -18,7 +18,7 @@ from ...parts.part import Found, Rows, Solved, Table, WithFacts, Words
 from ...plots.picture import Figure, figures_by
 from ...surfaces.prepare.extent import cropped, periodised
 from ...surfaces.prepare.level import filled, levelled
-from ...surfaces.read import read
+from ...surfaces.read import read_map
 from ..friction.work_stick_slip import law_text
 from .creep_curve import CREEPAGES, FORCES, creep_curve, mean_forces, theories_of, theory_forces
 from .figures import CURVE_PLOT, PATH_PLOT, ROLLING_PLOTS, RollingPicture
@@ -157,7 +157,7 @@ def _rolled(problem: ContactProblem, control: Control, ask: Rolls, progress: Any
     """Rolling with the map of the file that is asked for: filled, levelled, cut to the width of the
     contact and made periodic."""
     assert ask.roughness is not None
-    table, roughness = ask.settings, levelled(filled(read(ask.roughness)))
+    table, roughness = ask.settings, levelled(filled(read_map(ask.roughness)))
     across = "x" if table.direction in ("y", "-y") else "y"
     width, room = (grid.size["xy".index(across)] for grid in (problem.grid, roughness.grid))
     if room > width:

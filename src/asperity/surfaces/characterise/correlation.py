@@ -13,7 +13,7 @@ from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.spectral import RealTransform, fast_length, thread_count
-from ..surface import Surface
+from ..surface import Surface, of_lines
 from .heights import mean_height, rms_height
 from .slopes import axis_index, increments, mean_square, stencil_sums
 
@@ -97,6 +97,7 @@ class Autocovariance:
         return Autocovariance(self.values[part].copy(), self.pairs[part].copy(), self.spacing, self.size)
 
 
+@of_lines
 def autocovariance(surface: Surface) -> Autocovariance:
     """Autocovariance of ``surface`` about the mean of its valid points, at all lags.
 
@@ -165,6 +166,7 @@ class ScaleDependence:
     citation_keys: ClassVar[tuple[str, ...]] = ("Sanner2022",)
 
 
+@of_lines
 def mean_square_increment(surface: Surface, lag: tuple[int, int]) -> float:
     """S in m² at the ``lag`` (k, l) in pixels, of either sign: mean over all valid pairs; a
     periodic surface wraps.
@@ -174,6 +176,7 @@ def mean_square_increment(surface: Surface, lag: tuple[int, int]) -> float:
     return mean_square(increments(surface, lag), "structure function")
 
 
+@of_lines
 def structure_function(surface: Surface, *, axis: str = "x", lags: Sequence[int] | None = None) -> StructureFunction:
     """Structure function of the profiles along ``axis``, averaged over all lines; needs no mean and
     no filling.
@@ -196,6 +199,7 @@ def structure_function(surface: Surface, *, axis: str = "x", lags: Sequence[int]
     return StructureFunction(axis, np.array(steps) * surface.grid.spacing[number], np.array(values))
 
 
+@of_lines
 def scale_dependence(
     surface: Surface,
     *,
@@ -314,6 +318,7 @@ class FractalParameters:
         return 1.0 + _MARGIN < self.dimension < 2.0 - _MARGIN
 
 
+@of_lines
 def fractal_parameters(
     surface: Surface,
     *,

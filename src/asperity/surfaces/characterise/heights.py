@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ..surface import Surface
+from ..surface import Surface, maps_only, of_lines
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,7 @@ class HeightParameters:
     Sku: float
 
 
+@of_lines
 def height_parameters(surface: Surface) -> HeightParameters:
     """All height parameters of ``surface`` in one pass over its valid points."""
     z = deviations(surface)
@@ -49,39 +50,46 @@ def height_parameters(surface: Surface) -> HeightParameters:
     )
 
 
+@of_lines
 def mean_height(surface: Surface) -> float:
     """Mean of the valid heights in m."""
     valid = surface.heights[~surface.mask].astype(np.float64, copy=False)
     return float(valid[0] + (valid - valid[0]).mean())  # avoids cancellation with a large common offset
 
 
+@of_lines
 def rms_height(surface: Surface) -> float:
     """Sq = sqrt(<z²>) in m, z measured from the mean of the valid points (ISO 25178-2, 4.1.1)."""
     return float(np.sqrt(np.mean(np.square(deviations(surface)))))
 
 
+@of_lines
 def mean_absolute_height(surface: Surface) -> float:
     """Sa = <|z|> in m, z measured from the mean of the valid points (ISO 25178-2, 4.1.7)."""
     return float(np.mean(np.abs(deviations(surface))))
 
 
+@of_lines
 def highest_peak(surface: Surface) -> float:
     """Sp = max z in m, z measured from the mean of the valid points (ISO 25178-2, 4.1.4)."""
     return float(deviations(surface).max())
 
 
+@of_lines
 def deepest_valley(surface: Surface) -> float:
     """Sv = -min z in m, positive, z measured from the mean of the valid points (ISO 25178-2,
     4.1.5)."""
     return float(-deviations(surface).min())
 
 
+@of_lines
 def peak_to_valley(surface: Surface) -> float:
     """Sz = Sp + Sv = max z - min z in m over the valid points (ISO 25178-2, 4.1.6)."""
     valid = surface.heights[~surface.mask].astype(np.float64, copy=False)
     return float(valid.max() - valid.min())
 
 
+@of_lines
 def skewness(surface: Surface) -> float:
     """Ssk = <z³>/Sq³, 0 for Gaussian heights (ISO 25178-2, 4.1.2).
 
@@ -90,6 +98,7 @@ def skewness(surface: Surface) -> float:
     return _defined(height_parameters(surface).Ssk, "skewness")
 
 
+@of_lines
 def kurtosis(surface: Surface) -> float:
     """Sku = <z⁴>/Sq⁴, 3 for Gaussian heights (not the excess), never below 1 + Ssk² (ISO 25178-2,
     4.1.3).
@@ -99,6 +108,7 @@ def kurtosis(surface: Surface) -> float:
     return _defined(height_parameters(surface).Sku, "kurtosis")
 
 
+@of_lines
 def deviations(surface: Surface) -> RealArray:
     """Heights (N,) of the valid points less their mean, in m."""
     valid = surface.heights[~surface.mask].astype(np.float64, copy=False)
@@ -135,6 +145,7 @@ class HeightDistribution:
         return np.asarray(np.exp(-0.5 * (height / self.deviation) ** 2) / (np.sqrt(2.0 * np.pi) * self.deviation))
 
 
+@of_lines
 def height_distribution(surface: Surface, bins: int | None = None) -> HeightDistribution:
     """Histogram of the valid heights of ``surface`` in equal ``bins`` from the lowest to the
     highest.
@@ -155,6 +166,7 @@ def height_distribution(surface: Surface, bins: int | None = None) -> HeightDist
 # Tilt.
 
 
+@maps_only
 def tilt_share(surface: Surface) -> float:
     """Share of the mean square height in the least-squares plane, 0 to 1; 0 for a flat map.
 
@@ -182,6 +194,7 @@ def tilt_share(surface: Surface) -> float:
 CORE_LINES = ("least squares", "secant")
 """Definitions of the core line through the 40 % of the curve with the smallest slope."""
 
+_AS_FLAT = 1.01  # fall of another window over that of the core, up to which the core is not determined
 _CORE = 0.4  # share of the curve in the window of the core line, ISO 13565-2 and ISO 25178-2
 
 
@@ -306,6 +319,7 @@ class Core:
     reduced_valley: float
 
 
+@of_lines
 def material_ratio_curve(surface: Surface) -> MaterialRatioCurve:
     """Curve of the valid heights of ``surface`` about their mean."""
     heights = np.sort(deviations(surface))[::-1]
@@ -327,12 +341,7 @@ def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
             "surface must have heights that differ for a core of its material ratio curve, but all are equal."
         )
     n = curve.heights.size
-    whole = int(np.floor(_CORE * n + 1e-9))
-    share = max(0.0, _CORE * n - whole)
-    highest = curve.heights[: max(1, n - whole - (share > 1e-9))]
-    lowest = curve.heights[whole : whole + highest.size]
-    following = np.append(curve.heights[1:], curve.heights[-1])[whole : whole + highest.size]
-    drops = highest - (lowest + share * (following - lowest))
+    whole, drops = _window_drops(curve)
     first = int(np.argmin(drops))  # the window begins at one of the samples
     start = (first + 0.5) / n
     if line == "secant":
@@ -359,6 +368,27 @@ def core(curve: MaterialRatioCurve, line: str = "least squares") -> Core:
         reduced_peak=2.0 * peak / ratio_1 if ratio_1 > 0.0 else 0.0,
         reduced_valley=2.0 * valley / (1.0 - ratio_2) if ratio_2 < 1.0 else 0.0,
     )
+
+
+def _window_drops(curve: MaterialRatioCurve) -> tuple[int, RealArray]:
+    """Whole steps of the window of the core, and the fall in m of ``curve`` over each such
+    window."""
+    n = curve.heights.size
+    whole = int(np.floor(_CORE * n + 1e-9))
+    share = max(0.0, _CORE * n - whole)
+    highest = curve.heights[: max(1, n - whole - (share > 1e-9))]
+    lowest = curve.heights[whole : whole + highest.size]
+    following = np.append(curve.heights[1:], curve.heights[-1])[whole : whole + highest.size]
+    return whole, highest - (lowest + share * (following - lowest))
+
+
+def core_is_unique(curve: MaterialRatioCurve) -> bool:
+    """Whether no window disjoint from that of the core is as flat to 1 %, as happens for sines and
+    triangles."""
+    whole, drops = _window_drops(curve)
+    first = int(np.argmin(drops))
+    apart = np.abs(np.arange(drops.size) - first) >= whole
+    return not bool((drops[apart] <= _AS_FLAT * drops[first]).any())
 
 
 def functional_parameters(curve: MaterialRatioCurve, line: str = "least squares") -> FunctionalParameters:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.spectral import mode_sum
-from ..surface import Surface
+from ..surface import Surface, maps_only
 from .heights import rms_height
 from .slopes import increments, mean_of, rms_laplacian, rms_profile_curvature, rms_profile_slope
 from .spectrum import PowerSpectrum
@@ -91,6 +91,7 @@ class DifferenceMoments:
         return nayak_parameter(self.m0, self.m2, self.m4)
 
 
+@maps_only
 def difference_moments(surface: Surface) -> DifferenceMoments:
     """Moments of ``surface`` by forward first and central second differences over all valid pairs
     and triples.
@@ -110,6 +111,7 @@ def difference_moments(surface: Surface) -> DifferenceMoments:
     )
 
 
+@maps_only
 def slope_tensor(surface: Surface) -> SlopeTensor:
     """Mean products of the forward slopes at the nodes where both exist.
 

@@ -10,7 +10,7 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ..surface import Surface
+from ..surface import Surface, maps_only, of_lines
 
 # Height differences; a difference is valid if all its points are.
 
@@ -159,6 +159,7 @@ def _rows(h: RealArray, start: int, stop: int) -> RealArray:
     return np.asarray(h[np.arange(start, stop) % n])
 
 
+@maps_only
 def rms_slope(surface: Surface) -> float:
     """Sdq, the rms gradient sqrt(<(∂h/∂x)²> + <(∂h/∂y)²>), dimensionless.
 
@@ -170,6 +171,7 @@ def rms_slope(surface: Surface) -> float:
     return math.hypot(rms_profile_slope(surface, axis="x"), rms_profile_slope(surface, axis="y"))
 
 
+@of_lines
 def rms_profile_slope(surface: Surface, *, axis: str = "x") -> float:
     """Rms slope of the profiles along ``axis`` (square root of m2): forward differences over all
     valid pairs.
@@ -180,6 +182,7 @@ def rms_profile_slope(surface: Surface, *, axis: str = "x") -> float:
     return math.sqrt(stencil_sums(surface, axis, 1, 1).square) / surface.grid.spacing[axis_index(axis)]
 
 
+@of_lines
 def rms_profile_curvature(surface: Surface, *, axis: str = "x") -> float:
     """Rms second derivative of the profiles along ``axis`` (square root of m4) in 1/m.
 
@@ -190,6 +193,7 @@ def rms_profile_curvature(surface: Surface, *, axis: str = "x") -> float:
     return math.sqrt(stencil_sums(surface, axis, 2, 1).square) / surface.grid.spacing[axis_index(axis)] ** 2
 
 
+@maps_only
 def rms_laplacian(surface: Surface) -> float:
     """Rms of ∂²h/∂x² + ∂²h/∂y² in 1/m: central second differences at the nodes where both exist.
 
@@ -205,6 +209,7 @@ def rms_laplacian(surface: Surface) -> float:
     return float(np.sqrt(mean_square(along_x + along_y, "curvature")))
 
 
+@maps_only
 def developed_area_ratio(surface: Surface) -> float:
     """Sdr, the surface area over its projection less 1 (a fraction, not %), dimensionless (ISO
     25178-2, 4.4.2).

@@ -22,7 +22,7 @@ from ...core.grid import Grid
 from ...core.quadrature import gauss
 from ...core.spectral import RealTransform, line_transform, mode_sum, multiplicity, thread_count
 from ..prepare.level import require_complete
-from ..surface import Surface
+from ..surface import Surface, maps_only, of_lines
 from .slopes import axis_index
 
 # Windows by which heights are multiplied before a Fourier transform, normalised to a mean square of
@@ -114,6 +114,7 @@ class ProfileSpectrum:
     window: str
 
 
+@maps_only
 def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
     """Two-dimensional power spectrum of the heights about their mean.
 
@@ -153,6 +154,7 @@ def power_spectrum(surface: Surface, window: str = "auto") -> PowerSpectrum:
     return spectrum
 
 
+@of_lines
 def profile_spectrum(surface: Surface, *, axis: str = "x", window: str = "auto") -> ProfileSpectrum:
     """Mean over all lines of the spectrum of the profiles along ``axis``, each about its own mean.
 

@@ -14,7 +14,7 @@ from ...core.late import Drawn
 from ...core.quantity import Quantity
 from ...core.units import percent
 from ..prepare.level import filled
-from ..surface import Surface
+from ..surface import Surface, maps_only
 from .correlation import (
     DROP_1E,
     DROP_TENTH,
@@ -339,6 +339,7 @@ class Characterisation(Drawn):
         return tuple((quantity, float(attrgetter(quantity.name)(self))) for quantity in QUANTITIES)
 
 
+@maps_only
 def characterise(
     surface: Surface, *, fill: str | None = "harmonic", window: str = "auto", tip_radius: float | None = None
 ) -> Characterisation:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ..surface import Surface
+from ..surface import Surface, maps_only, of_lines
 from .heights import mean_height, rms_height
 from .slopes import axis_index
 
@@ -108,6 +108,7 @@ class SummitStatistics:
     bandwidth: float = math.nan
 
 
+@maps_only
 def summits(surface: Surface, neighbours: int = 8) -> Summits:
     """Points strictly above all their ``neighbours``, all present and valid; equal heights are
     never summits.
@@ -196,6 +197,7 @@ class ProfilePeaks:
     citation_keys: ClassVar[tuple[str, ...]] = ("Whitehouse1970",)
 
 
+@of_lines
 def profile_peaks(surface: Surface, *, axis: str = "x") -> ProfilePeaks:
     """Peaks of the profiles of ``surface``: points strictly above both neighbours along ``axis``,
     all three valid.

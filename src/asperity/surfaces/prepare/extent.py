@@ -15,12 +15,13 @@ from ...core.spectral import RealTransform
 from ...core.status import require_memory
 from ...core.units import show
 from ...core.values import Length, LengthRange, Number, Points
-from ..surface import Surface
+from ..surface import Surface, lines_too, maps_only
 from .level import recorded, require_complete
 
 # Cropping.
 
 
+@lines_too
 @checked
 def cropped(
     surface: Surface,
@@ -41,10 +42,11 @@ def cropped(
         return surface
     heights = surface.heights[first_x:last_x, first_y:last_y]
     nx, ny = heights.shape
-    step = (
-        f"cropped: x {show(first_x * surface.dx, 'm')} to {show(last_x * surface.dx, 'm')}, "
-        f"y {show(first_y * surface.dy, 'm')} to {show(last_y * surface.dy, 'm')} ({nx} x {ny} points)"
-    )
+    step = f"cropped: x {show(first_x * surface.dx, 'm')} to {show(last_x * surface.dx, 'm')}"
+    if surface.shape[1] > 1:
+        step += f", y {show(first_y * surface.dy, 'm')} to {show(last_y * surface.dy, 'm')} ({nx} x {ny} points)"
+    else:
+        step += f" ({nx} points)"
     return Surface(heights, surface.dx, surface.dy, origin=surface.origin.continued(step))
 
 
@@ -75,6 +77,7 @@ Position: TypeAlias = float | Literal["middle"]
 """Coordinate in m from the corner, or "middle"."""
 
 
+@maps_only
 @checked
 def sliced(
     surface: Surface,
@@ -122,8 +125,11 @@ def sliced(
 # Resampling at constant physical size.
 
 
+@lines_too
 @checked
-def resampled(surface: Surface, points: Annotated[Points, "new numbers of points along x and y"]) -> Surface:
+def resampled(
+    surface: Surface, points: Annotated[Points, "new numbers of points along x and y; (n, 1) of a line scan"]
+) -> Surface:
     """Surface of the same physical size on ``points`` = (nx, ny) points; the pixel size changes
     accordingly.
 
@@ -205,6 +211,7 @@ def _axis_resampled(heights: RealArray, new: int) -> RealArray:
 # Periodic surfaces by a taper at the borders or by removal of the smooth component.
 
 
+@lines_too
 @checked
 def tapered(
     surface: Surface,
@@ -228,6 +235,7 @@ def tapered(
     return recorded(surface, result, step, periodic=True)
 
 
+@lines_too
 def periodised(surface: Surface) -> Surface:
     """Periodic surface: the surface less the smooth component that contains the jumps between
     opposite borders.

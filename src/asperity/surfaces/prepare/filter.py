@@ -17,7 +17,8 @@ from ...core.spectral import RealTransform, fast_length, thread_count
 from ...core.units import show
 from ...core.values import Length
 from ..characterise.correlation import scale_dependence, tip_cutoff
-from ..surface import Surface
+from ..profile_spline import spline_smooth
+from ..surface import Surface, lines_too, of_lines
 from .level import recorded, require_complete
 
 # Local regression with a Gaussian window (ISO 16610-61 and -71): at every node a polynomial of
@@ -146,6 +147,9 @@ Cutoff: TypeAlias = float | tuple[float, float]
 KINDS = ("gaussian", "robust", "sharp")
 """Filters."""
 
+LINE_KINDS = (*KINDS, "spline")
+"""Filters of line scans."""
+
 _LONGEST = {"short": 1.0, "long": 10.0}  # cut-offs in sides: beyond the first, hardly a wave of the map is left
 
 FINEST = 4.0
@@ -159,6 +163,7 @@ _MOST_PASSES = 50
 _ROUNDING = 1e-9
 
 
+@lines_too
 def filtered(
     surface: Surface,
     *,
@@ -175,10 +180,11 @@ def filtered(
     the wavelength λ; at borders and missing points the weights of the valid nodes within reach are
     normalised. ``robust`` (ISO 16610-71): nodes at the distance r from the smooth surface have the
     weight (1 - (r/c)²)² with c = 4.4478 times the median of |r|, iterated until c converges; spikes
-    and deep valleys then do not distort their surroundings. ``sharp``: ideal
-    band-pass between the cut-offs, for periodic surfaces only. Missing points stay missing. Raises
-    InputError if no cut-off is given, one is out of range, they are out of order, or a sharp filter
-    is applied to a surface that is not periodic or not complete.
+    and deep valleys then do not distort their surroundings. Of line scans these are ISO 16610-21
+    and -31, and ``spline`` (ISO 16610-22) runs to the ends, where a straight line passes exactly.
+    ``sharp``: ideal band-pass between the cut-offs, for periodic surfaces only. Missing points stay
+    missing. Raises InputError if no cut-off is given, one is out of range, they are out of order,
+    or a sharp filter is applied to a surface that is not periodic or not complete.
 
     Parameters
     ----------
@@ -190,14 +196,15 @@ def filtered(
         short < long; the short one at most the longer side of the surface, the long one ten times
         that.
     kind
-        ``gaussian``, ``robust`` or ``sharp``.
+        ``gaussian``, ``robust`` or ``sharp``; of line scans also ``spline``.
     order
         Order of the local polynomial: 0 as in ISO 16610-61; 1 preserves planes and 2 quadratic
         forms up to the borders.
     reach
         Half width of the window in cut-offs; 1 is exact to 2e-7, 0.5 to 1 %.
     """
-    require.one_of(kind, KINDS, "kind of filter")
+    scan = surface.shape[1] == 1
+    require.one_of(kind, LINE_KINDS if scan else KINDS, "kind of filter")
     if order not in (0, 1, 2):
         raise InputError(f"order of a filter must be 0, 1 or 2, but is {order!r}.")
     reach = require.positive(reach, "reach of a filter (cut-offs)")
@@ -221,6 +228,10 @@ def filtered(
     else:
         valid = (~surface.mask).astype(np.float64)
         for name, cutoff in cutoffs.items():
+            if kind == "spline":
+                smooth = spline_smooth(heights[:, 0], surface.dx, cutoff[0], periodic=surface.periodic)[:, None]
+                heights = smooth if name == "short" else heights - smooth
+                continue
             fit = local_regression(surface.grid, cutoff, order=order, periodic=surface.periodic, reach=reach)
             known = np.where(surface.mask, 0.0, heights)
             smooth = _robust(known, valid, fit) if kind == "robust" else fit.smooth(known, valid)
@@ -231,13 +242,15 @@ def filtered(
         lengths = show(along_x, "m") + ("" if along_x == along_y else f" along x and {show(along_y, 'm')} along y")
         words.append(f"{name} waves from {lengths}")
     what = kind if order == 0 else f"{kind} of order {order}"
-    keys = {"gaussian": ("ISO16610-61",), "robust": ("ISO16610-71",), "sharp": ()}[kind]
+    keys = {"gaussian": ("ISO16610-61",), "robust": ("ISO16610-71",), "sharp": ()}
+    if scan:
+        keys |= {"gaussian": ("ISO16610-21",), "robust": ("ISO16610-31",), "spline": ("ISO16610-22",)}
     return recorded(
         surface,
         heights,
         f"filtered: {', '.join(words)} on removed, {what}",
         periodic=surface.periodic,
-        citation_keys=keys,
+        citation_keys=keys[kind],
     )
 
 
@@ -296,6 +309,7 @@ def _robust(values: RealArray, valid: RealArray, fit: LocalRegression) -> RealAr
 _KEYS = ("Sanner2022",)
 
 
+@of_lines
 def reliability_cutoff(surface: Surface, tip_radius: float) -> float:
     """Wavelength in m below which a tip of ``tip_radius`` (m) may have distorted the map; may be 0
     or infinite.
@@ -305,9 +319,11 @@ def reliability_cutoff(surface: Surface, tip_radius: float) -> float:
     alone. Raises InputError if the radius is not positive or the map too small for a stencil.
     """
     radius = require.positive(tip_radius, "radius of the tip (m)")
-    return max(tip_cutoff(scale_dependence(surface, axis=axis), radius) for axis in ("x", "y"))
+    axes = ("x",) if surface.shape[1] == 1 else ("x", "y")
+    return max(tip_cutoff(scale_dependence(surface, axis=axis), radius) for axis in axes)
 
 
+@lines_too
 @checked
 def tip_limited(surface: Surface, radius: Annotated[Length, "radius of the tip"]) -> Surface:
     """Surface without the waves that a tip of ``radius`` (m) may have shaped, by a Gaussian filter.
@@ -324,7 +340,7 @@ def tip_limited(surface: Surface, radius: Annotated[Length, "radius of the tip"]
             "map may be distorted by the tip at every length. Check the radius and the units of the heights."
         )
     tip = f"tip of radius {show(radius, 'm', 3)}"
-    if cutoff < FINEST * max(surface.grid.spacing):
+    if cutoff < FINEST * (surface.dx if surface.shape[1] == 1 else max(surface.grid.spacing)):
         reach = "no wave" if cutoff == 0.0 else f"waves below {show(cutoff, 'm', 3)}, less than four pixels,"
         limited, step = surface, f"tip-limited: {reach} shaped by a {tip}, nothing removed"
     else:

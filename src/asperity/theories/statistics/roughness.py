@@ -180,6 +180,9 @@ class Roughness(Tabled):
         1/10 is longer, for an exponential autocorrelation by ln 10.
     skewness, kurtosis
         Of the surface heights; 0 and 3 for a Gaussian surface.
+    assumption
+        What is taken for granted, in words, where the numbers come from a line scan; empty for a
+        map.
     """
 
     m0: float
@@ -194,6 +197,7 @@ class Roughness(Tabled):
     kurtosis: float = 3.0
     fractal: Fractal | None = None
     correlation_length: float = math.nan
+    assumption: str = field(default="", repr=False)
 
     def __post_init__(self) -> None:
         fix = "A flat surface has no roughness theory."
