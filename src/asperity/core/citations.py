@@ -68,6 +68,7 @@ REFERENCES = {
     "ISO16610-71": "ISO 16610-71:2014. Geometrical product specifications (GPS) - Filtration - Part 71: Robust areal filters: Gaussian regression filters.",
     "ISO25178": "ISO 25178-2:2021. Geometrical product specifications (GPS) - Surface texture: Areal - Part 2: Terms, definitions and surface texture parameters.",
     "Israelachvili2011": "Israelachvili, J. N. (2011). Intermolecular and Surface Forces. 3rd ed., Academic Press, Burlington.",
+    "Istas1997": "Istas, J., Lang, G. (1997). Quadratic variations and estimation of the local Hölder index of a Gaussian process. Annales de l'Institut Henri Poincaré B 33, 407-436.",
     "Jackson2005": "Jackson, R. L., Green, I. (2005). A finite element study of elasto-plastic hemispherical contact against a rigid flat. Journal of Tribology 127, 343-354.",
     "Jacobs2017": "Jacobs, T. D. B., Junge, T., Pastewka, L. (2017). Quantitative characterization of surface topography using spectral analysis. Surface Topography: Metrology and Properties 5, 013001.",
     "Jacq2002": "Jacq, C., Nelias, D., Lormand, G., Girodin, D. (2002). Development of a three-dimensional semi-analytical elastic-plastic contact code. Journal of Tribology 124, 653-667.",

@@ -10,6 +10,7 @@ holds them for any spectrum; fitting expectations removes the bias of a periodog
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
@@ -92,7 +93,7 @@ def _sampled_modes(grid: Grid, rings: RadialSpectrum) -> tuple[RealArray, RealAr
     order = np.argsort(number, kind="stable")
     starts = np.searchsorted(number[order], np.arange(rings.q.size + 1))
     chosen = []
-    for first, last in zip(starts[:-1], starts[1:], strict=True):
+    for first, last in pairwise(starts):
         count = min(_MODES, last - first)
         chosen.append(order[first + (np.arange(count) * (last - first)) // max(1, count)])
     index = np.concatenate(chosen)

@@ -488,6 +488,42 @@ class SpectralFit:
             shortest = max(shortest, self.model.crossover_wavelength)
         return longest, shortest
 
+    @property
+    def lag_range(self) -> tuple[float, float]:
+        """Lags in m between which second differences follow a power law and a constant: from the
+        short cut-off to a tenth of the roll-off wavelength, a twentieth of a rounded one; from 0 or
+        to infinity if there is none."""
+        shortest = 0.0 if math.isnan(self.short_cutoff) else self.short_cutoff
+        if not self.has_rolloff:
+            return shortest, math.inf
+        return shortest, (_ROUNDED_LAG if self.model.rounded else _CORNER_LAG) * self.model.rolloff_wavelength
+
+    @property
+    def hurst(self) -> float:
+        """Hurst exponent of the first power law; NaN if that is not between 0 and 1 to two standard
+        errors."""
+        found = self.model.hurst[0]
+        return found if 0.0 < found <= 1.0 + 2.0 * self.hurst_error else math.nan
+
+    def agrees(self, hurst: float, error: float) -> bool:
+        """Whether another estimate of the Hurst exponent differs by less than twice the standard
+        error of the difference."""
+        return abs(hurst - self.hurst) <= _APART * math.hypot(error, self.hurst_error)
+
+    def structure_amplitude(self, resolution: float) -> float:
+        """C in m of the structure function S(τ) = C η^(2D-3) τ^(4-2D), η = ``resolution`` (m), of
+        profiles of the first power law without end; NaN unless 0 < H < 1.
+
+        S = (1/π) ∫ q C(q) [1 - J0(qτ)] dq = (c/π) Γ(1-H)/(2H 4^H Γ(1+H)) τ^(2H) for C = c
+        q^(-2-2H).
+        """
+        exponent, hurst = self.model.exponents[0], self.model.hurst[0]
+        if not 0.0 < hurst < 1.0:
+            return math.nan
+        at_resolution = self.model.level * (2.0 * math.pi / self.model.rolloff_wavelength) ** exponent
+        factor = math.gamma(1.0 - hurst) / (2.0 * math.pi * hurst * 4.0**hurst * math.gamma(1.0 + hurst))
+        return at_resolution * factor * resolution ** (2.0 * hurst) / resolution
+
 
 def fit_spectrum(
     spectrum: PowerSpectrum,
@@ -537,7 +573,10 @@ def fit_spectrum(
             expectations[shape.folded] = ring_expectation(spectrum.grid, rings, folded=shape.folded)
         found.append(fitted_shape(weighed, shape, expectations[shape.folded]))
     information = math.log(0.5 * float(weighed.modes.sum()))  # logarithm of the number of independent modes
-    criteria = [item.deviance / lost + item.shape.parameters * information for item in found]
+    criteria = [
+        item.deviance / lost + (item.shape.parameters - item.shape.plateau) * information + _CORNER * item.shape.plateau
+        for item in found
+    ]
     best = found[int(np.argmin(criteria))]
     longest = 2.0 * math.pi / rings.low[0]
     model = replace(best.model(longest), shortest_wavelength=0.0 if math.isnan(cutoff) else cutoff)
@@ -550,10 +589,7 @@ def fit_spectrum(
     ]
     total = sum(
         weight
-        * (
-            item.errors(weighed, lost)["exponent_1"] ** 2
-            + (item.model(longest).exponents[0] - model.exponents[0]) ** 2
-        )
+        * (item.errors(weighed, lost)["exponent_1"] ** 2 + (item.model(longest).exponents[0] - model.exponents[0]) ** 2)
         for weight, item in alike
     )
     errors["exponent_1"] = math.sqrt(total / sum(weight for weight, _ in alike))
@@ -580,6 +616,12 @@ def fit_spectrum(
     )
 
 
+MEASURED_MODEL_ERROR = 0.1
+"""Relative error of power laws fitted to measured maps, which are not periodic."""
+
+_APART = 2.0  # standard errors between two estimates of one Hurst exponent
+_CORNER_LAG, _ROUNDED_LAG = 0.1, 0.05  # longest lags of second differences in roll-off wavelengths
+_CORNER = 2.0  # of the criterion for a roll-off, which every surface has at some wavelength (Akaike's)
 _NEGLIGIBLE = 20.0  # difference of the criterion beyond which a shape has no weight
 
 
