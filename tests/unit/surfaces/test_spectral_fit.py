@@ -21,7 +21,8 @@ from asperity.core.errors import InputError
 from asperity.core.spectral import mode_sum
 from asperity.surfaces.characterise.moments import difference_moments, spectral_moments
 from asperity.surfaces.characterise.spectral_fit import SHAPES as SHAPES_TRIED
-from asperity.surfaces.characterise.spectral_fit import Shape, SpectralModel, expected_rings, fit_spectrum
+from asperity.surfaces.characterise.spectral_fit import Shape, expected_rings, fit_spectrum
+from asperity.surfaces.characterise.spectral_model import SpectralModel
 from asperity.surfaces.characterise.spectrum import PowerSpectrum, power_spectrum
 
 GRID = asp.Grid((256, 256), (1.0, 1.0))

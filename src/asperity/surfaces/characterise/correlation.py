@@ -365,11 +365,11 @@ def fractal_parameters(
         )
     for lag in chosen:
         require.integer(lag, 1, "lag of a second difference (pixels)")
-        if not surface.periodic and 2 * lag >= points:
-            raise InputError(
-                f"lags of a fractal dimension must be shorter than half of the {points} points along {axis}, "
-                f"but one is {lag} pixels."
-            )
+    if not surface.periodic and 2 * max(chosen) >= points:
+        raise InputError(
+            f"lags of a fractal dimension must be shorter than half of the {points} points along {axis}, "
+            f"but one is {max(chosen)} pixels."
+        )
     sums, counts = (np.array(part) for part in zip(*(_block_sums(surface, number, lag) for lag in chosen), strict=True))
     filled = (counts > 0.0).all(axis=0)
     if not filled.any() or not (sums.sum(axis=1) > 1e-20 * counts.sum(axis=1) * rms_height(surface) ** 2).all():
@@ -377,10 +377,7 @@ def fractal_parameters(
             f"second differences along {axis} must be positive at every lag for a fractal dimension, but are zero at "
             f"one of {chosen[0]} to {chosen[-1]} pixels. Use a surface that is rough and has fewer missing points."
         )
-    sums, counts = sums[:, filled], counts[:, filled]
-    whole, total = sums.sum(axis=1, keepdims=True), counts.sum(axis=1, keepdims=True)
-    parts = (whole - sums) / (total - counts) if filled.sum() > 1 else np.full((len(chosen), 0), np.nan)
-    values = np.concatenate([whole / total, parts], axis=1)
+    values = _with_parts_left_out(sums[:, filled], counts[:, filled])
     unit = float(np.exp(np.mean(np.log(values[:, 0]))))
     x = np.array(chosen, dtype=float)
     powers = _fitted_powers(x, values / unit)
@@ -391,8 +388,8 @@ def fractal_parameters(
             f"{2.0 * _POWERS[-1]:.2g} for a fractal dimension, but the best power of {chosen[0]} to {chosen[-1]} "
             "pixels is not between them: the profile is smooth, or has no long waves."
         )
-    spread = powers[1:] - powers[1:].mean() if powers.size > 2 else np.array([math.nan])
-    error = math.sqrt(float(spread @ spread) * (spread.size - 1.0) / spread.size) if spread.size > 1 else math.nan
+    # of the jackknife
+    error = math.sqrt((powers.size - 2.0) * float(np.var(powers[1:]))) if powers.size > 2 else math.nan
     (slope, constant), misfit = _with_power(x, values[:, 0] / unit, hurst)
     dimension = 2.0 - hurst
     # S at one pixel over the pixel
@@ -467,6 +464,15 @@ def _block_sums(surface: Surface, number: int, lag: int) -> tuple[RealArray, Rea
 
     valid = ~np.isnan(values) if surface.n_missing else np.ones(values.shape, dtype=bool)
     return by_part(np.where(valid, values, 0.0) ** 2), by_part(valid.astype(np.float64))
+
+
+def _with_parts_left_out(sums: RealArray, counts: RealArray) -> RealArray:
+    """Mean square of all parts, then without each of them, (lags, 1 + parts), of their ``sums`` and
+    ``counts`` (lags, parts); the first alone of a single part."""
+    whole, total = sums.sum(axis=1, keepdims=True), counts.sum(axis=1, keepdims=True)
+    if sums.shape[1] == 1:
+        return np.asarray(whole / total)
+    return np.concatenate([whole / total, (whole - sums) / (total - counts)], axis=1)
 
 
 def _with_power(x: RealArray, values: RealArray, power: float) -> tuple[tuple[float, float], float]:

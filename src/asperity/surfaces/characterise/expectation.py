@@ -9,6 +9,8 @@ holds them for any spectrum; fitting expectations removes the bias of a periodog
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
@@ -99,14 +101,14 @@ def _sampled_modes(grid: Grid, rings: RadialSpectrum) -> tuple[RealArray, RealAr
     index = np.concatenate(chosen)
     ring, weight = number[index], counted[index].astype(np.float64)
     share = weight / np.bincount(ring, weight, rings.q.size)[ring]
-    mode_x = np.fft.fftfreq(grid.shape[0], 1.0 / grid.shape[0])[index // q.shape[1]]
+    mode_x = np.rint(grid.wavevector()[0].ravel() * grid.size[0] / (2.0 * np.pi))[index // q.shape[1]]
     return mode_x, (index % q.shape[1]).astype(np.float64), ring, share
 
 
 def _nodes(grid: Grid, folded: bool) -> RealArray:
     """Wavenumbers (rad/m) between which C q³ is taken as linear in ln q."""
     first = 0.49 * 2.0 * np.pi / max(grid.size)
-    corner = float(np.hypot(*(np.pi / d for d in grid.spacing)))
+    corner = math.hypot(*(math.pi / d for d in grid.spacing))
     last = 1.2 * corner + 4.0 * 2.0 * np.pi / min(grid.size)
     last *= 2 * _FOLDS + 1 if folded else 1
     fine = np.geomspace(first, last, 2 + int(np.log(last / first) / _STEP))
@@ -146,7 +148,7 @@ def _kernel(window: str, grid: Grid, axis: int, near: bool) -> list[tuple[float,
     return list(zip(offsets.tolist(), (weights / weights.sum()).tolist(), strict=True))
 
 
-def _rest(nodes: RealArray, fold: tuple[float, float]) -> RealArray:
+def _rest(nodes: RealArray, fold: Sequence[float]) -> RealArray:
     """Weights of the waves beyond those folded one by one: the mean of C over all directions and
     wavenumbers."""
     half = [(_FOLDS + 0.5) * step for step in fold]

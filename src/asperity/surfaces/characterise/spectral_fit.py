@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -19,158 +19,9 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.grid import Grid
-from ..generate.power_laws import PowerLaws
 from .expectation import RingExpectation, ring_expectation
+from .spectral_model import SpectralModel
 from .spectrum import LOST_MODES, PowerSpectrum, RadialSpectrum, default_edges, radial_spectrum
-
-# The model: a plateau, one or two power laws and a floor.
-
-
-@dataclass(frozen=True, kw_only=True)
-class SpectralModel:
-    """C(q) = C0 up to q_r, C0 (q/q_r)^-a1 up to q_c, from there on with the exponent a2, plus a
-    floor.
-
-    Zero beyond the longest and the shortest wave; a spectrum without plateau begins at its
-    roll-off. Convention of Jacobs, Junge & Pastewka (2017). ``asperity.generate.gaussian`` accepts
-    it as a spectrum. Raises InputError if a number is out of range or the wavelengths are out of
-    order.
-
-    Parameters
-    ----------
-    level
-        C0 in m⁴, the value at the roll-off.
-    rolloff_wavelength
-        λ_r = 2π/q_r in m.
-    exponents
-        (a1,) or (a1, a2), any real numbers; a = 2 + 2H of a self-affine surface with the Hurst
-        exponent H.
-    crossover_wavelength
-        λ_c = 2π/q_c <= λ_r in m where the exponent changes; needed with two exponents.
-    floor
-        Added constant C_n in m⁴: white noise of the mean square height C_n/(dx dy).
-    shortest_wavelength
-        Shortest wave in m; 0 for no limit but the grid.
-    longest_wavelength
-        Longest wave in m, at least λ_r; equal to it, there is no plateau.
-    rounded
-        Whether the plateau goes over into the first power law as C0 (1 + q²/q_r²)^(-a1/2), the
-        K-correlation or Matérn spectrum, without a corner.
-    """
-
-    level: float
-    rolloff_wavelength: float
-    exponents: tuple[float, ...]
-    crossover_wavelength: float = math.nan
-    floor: float = 0.0
-    shortest_wavelength: float = 0.0
-    longest_wavelength: float = math.inf
-    rounded: bool = False
-    citation_keys: ClassVar[tuple[str, ...]] = ("Jacobs2017",)
-
-    def __post_init__(self) -> None:
-        require.positive(self.level, "level of a spectrum (m^4)")
-        require.positive(self.rolloff_wavelength, "roll-off wavelength (m)")
-        if len(self.exponents) not in (1, 2):
-            raise InputError(f"exponents of a spectrum must be one or two, but are {self.exponents!r}.")
-        for exponent in self.exponents:
-            require.finite(exponent, "exponent of a spectrum")
-        if len(self.exponents) == 2:
-            require.at_most(self.crossover_wavelength, self.rolloff_wavelength, "crossover wavelength (m)")
-        if not self.shortest_wavelength < self.rolloff_wavelength <= self.longest_wavelength:
-            raise InputError(
-                "wavelengths of a spectrum must satisfy shortest < roll-off <= longest, but are "
-                f"{self.shortest_wavelength:g}, {self.rolloff_wavelength:g} and {self.longest_wavelength:g} m."
-            )
-
-    @property
-    def has_plateau(self) -> bool:
-        """Whether there are waves longer than the roll-off."""
-        return self.rolloff_wavelength < self.longest_wavelength
-
-    @property
-    def hurst(self) -> tuple[float, ...]:
-        """(a - 2)/2 for each exponent; a Hurst exponent only if it lies between 0 and 1."""
-        return tuple(0.5 * (exponent - 2.0) for exponent in self.exponents)
-
-    @cached_property
-    def law(self) -> PowerLaws:
-        """Shape of the spectrum without its floor, with a corner at the roll-off."""
-        bends = [self.rolloff_wavelength] + [self.crossover_wavelength] * (len(self.exponents) - 1)
-        shortest = 2.0 * math.pi / self.shortest_wavelength if self.shortest_wavelength > 0.0 else math.inf
-        longest = 2.0 * math.pi / self.longest_wavelength
-        return PowerLaws(tuple(2.0 * math.pi / bend for bend in bends), self.exponents, longest, shortest)
-
-    @property
-    def correlation_range(self) -> float:
-        """Distance in m beyond which heights are taken as uncorrelated: two roll-off
-        wavelengths."""
-        return 2.0 * self.rolloff_wavelength
-
-    def psd(self, q: RealArray | float) -> RealArray:
-        """C(q) in m⁴ at the wavenumbers ``q`` (rad/m, any shape), zero at q = 0."""
-        number = np.asarray(q, dtype=float)
-        relative = self.law.relative(number.ravel()).reshape(number.shape) * self._rounding(number)
-        return np.where(relative > 0.0, self.level * relative + self.floor, 0.0)
-
-    def moments(self, shortest_wavelength: float = 0.0, longest_wavelength: float = math.inf) -> tuple[float, ...]:
-        """Profile moments m0 (m²), m2, m4 (1/m²) of the continuous surface between two wavelengths
-        (m), without floor.
-
-        m0 = (1/2π) ∫ q C dq, m2 = (1/4π) ∫ q³ C dq, m4 = (3/16π) ∫ q⁵ C dq. Infinite where an
-        integral diverges.
-        """
-        from scipy.integrate import quad
-
-        high = min(self.law.high, 2.0 * math.pi / shortest_wavelength if shortest_wavelength > 0.0 else math.inf)
-        law = replace(self.law, low=max(self.law.low, 2.0 * math.pi / longest_wavelength), high=high)
-        found = []
-        for power, factor in ((1.0, 0.5), (3.0, 0.25), (5.0, 0.1875)):  # power and factor of 1/π
-            integral = law.integral(power)
-            if self.rounded and math.isfinite(integral):  # less what the corner has too much
-                corner, near = 2.0 * math.pi / self.rolloff_wavelength, (1e-8, 1e-4, 0.1, 1.0, 10.0, 1e4, 1e8)
-                edges = np.clip(corner * np.array(near), law.low, law.high)
-                for low, top in zip(np.log(edges[:-1]), np.log(edges[1:]), strict=True):
-
-                    def missing(log_q: float, power: float = power) -> float:
-                        q = np.array([math.exp(log_q)])
-                        return float((q ** (power + 1.0) * law.relative(q) * (1.0 - self._rounding(q)))[0])
-
-                    integral -= quad(missing, low, top, limit=200)[0]
-            found.append(self.level * factor / math.pi * integral)
-        return tuple(found)
-
-    def _rounding(self, q: RealArray) -> RealArray:
-        """Factor at the wavenumbers ``q`` (rad/m) by which a rounded roll-off lowers the
-        spectrum."""
-        if not self.rounded:
-            return np.ones(q.shape)
-        x = q * self.rolloff_wavelength / (2.0 * math.pi)
-        near = np.minimum(x, 1.0 / np.maximum(x, 1.0))  # q/q_r or q_r/q, whichever is less than one
-        return np.asarray((1.0 + near**2) ** (-0.5 * self.exponents[0]))
-
-    def lattice_psd(self, grid: Grid) -> RealArray:
-        """C on the modes of ``grid`` in m⁴, shape (nx, ny // 2 + 1), zero at q = 0.
-
-        Raises InputError if the grid holds no mode of the spectrum.
-        """
-        values = self.psd(grid.wavenumber())
-        if not values.any():
-            raise InputError(
-                f"grid of {grid.size[0]:g} x {grid.size[1]:g} m must hold waves of the spectrum, but has none. "
-                "Change its size."
-            )
-        return values
-
-    def describe(self, grid: Grid) -> str:
-        """Words and numbers for the history of a surface generated on ``grid``."""
-        laws = " and ".join(f"q^-{exponent:.4g}" for exponent in self.exponents)
-        start = ("rounded plateau" if self.rounded else "plateau") if self.has_plateau else "no plateau"
-        bend = f", crossover {self.crossover_wavelength:.4g} m" if len(self.exponents) == 2 else ""
-        floor = f", floor {self.floor:.4g} m^4" if self.floor > 0.0 else ""
-        return f"{start}, {self.level:.4g} m^4 at {self.rolloff_wavelength:.4g} m, {laws}{bend}{floor}"
-
 
 # Maximum Whittle likelihood of one shape of spectrum: starting values, optimisation, standard
 # errors.
@@ -248,6 +99,11 @@ class Solution:
             longest_wavelength=math.inf if self.shape.plateau else rolloff,
             rounded=self.shape.rounded,
         )
+
+    @property
+    def exponent(self) -> float:
+        """Exponent of the first power law."""
+        return _split(self.shape, self.values)[3][0]
 
     def errors(self, rings: RadialSpectrum, lost: float) -> dict[str, float]:
         """Standard errors from the Fisher information of N_b/(2 ``lost``) independent modes a ring;
@@ -563,41 +419,34 @@ def fit_spectrum(
     error = require.finite(model_error, "relative error of the model")
     # fewer modes, so that the relative variance of a ring's mean is 2 lost/N + error²
     weighed = replace(rings, modes=1.0 / (1.0 / rings.modes + error**2 / (2.0 * lost)))
-    expectations: dict[bool, RingExpectation] = {}
+    expectations = [ring_expectation(spectrum.grid, rings, folded=folded) for folded in (False, True)]
     found = []
     for shape in SHAPES:
         features = zip((plateau, slopes, floor), (shape.plateau, shape.slopes, shape.floor), strict=True)
         if not all(wish in (None, has) for wish, has in features) or (shape.folded and not math.isnan(cutoff)):
             continue
-        if shape.folded not in expectations:
-            expectations[shape.folded] = ring_expectation(spectrum.grid, rings, folded=shape.folded)
         found.append(fitted_shape(weighed, shape, expectations[shape.folded]))
     information = math.log(0.5 * float(weighed.modes.sum()))  # logarithm of the number of independent modes
+    # a measured map usually has waves shorter than two pixels, a periodic one has to show them
+    folding = information if spectrum.window == "none" else 0.0
     criteria = [
-        item.deviance / lost + (item.shape.parameters - item.shape.plateau) * information + _CORNER * item.shape.plateau
+        item.deviance / lost
+        + (item.shape.parameters - item.shape.plateau) * information
+        + _CORNER * item.shape.plateau
+        + folding * item.shape.folded
         for item in found
     ]
     best = found[int(np.argmin(criteria))]
     longest = 2.0 * math.pi / rings.low[0]
     model = replace(best.model(longest), shortest_wavelength=0.0 if math.isnan(cutoff) else cutoff)
     errors = best.errors(weighed, lost)
-    # of exponent_1, over the shapes that the data do not tell apart
-    alike = [
-        (math.exp(-0.5 * (criterion - min(criteria))), item)
-        for criterion, item in zip(criteria, found, strict=True)
-        if item.shape.slopes == best.shape.slopes and criterion < min(criteria) + _NEGLIGIBLE
-    ]
-    total = sum(
-        weight
-        * (item.errors(weighed, lost)["exponent_1"] ** 2 + (item.model(longest).exponents[0] - model.exponents[0]) ** 2)
-        for weight, item in alike
-    )
-    errors["exponent_1"] = math.sqrt(total / sum(weight for weight, _ in alike))
+    errors["exponent_1"] = _error_of_first_exponent(best, found, np.array(criteria), weighed, lost)
     enough = rings.modes[rings.q < 2.0 * math.pi / model.rolloff_wavelength].sum() >= _PLATEAU_MODES
     known = errors.get("rolloff_wavelength", math.inf) < _PLATEAU_ERROR
     # of mean square height and slope, in the range of the rings
-    weights = [rings.modes * rings.q**power for power in (0, 2)]
-    ratios = [float(weight @ best.expected / (weight @ rings.psd)) for weight in weights]
+    ratios = [
+        float((rings.modes * rings.q**n) @ best.expected / ((rings.modes * rings.q**n) @ rings.psd)) for n in (0, 2)
+    ]
     return SpectralFit(
         model,
         errors,
@@ -625,6 +474,20 @@ _CORNER = 2.0  # of the criterion for a roll-off, which every surface has at som
 _NEGLIGIBLE = 20.0  # difference of the criterion beyond which a shape has no weight
 
 
+def _error_of_first_exponent(
+    best: Solution, found: Sequence[Solution], criteria: RealArray, rings: RadialSpectrum, lost: float
+) -> float:
+    """Standard error of the first exponent of the ``best`` shape, over all shapes of so many power
+    laws that the data do not tell apart."""
+    squares, weights = 0.0, 0.0
+    for item, criterion in zip(found, criteria - criteria.min(), strict=True):
+        if item.shape.slopes == best.shape.slopes and criterion < _NEGLIGIBLE:
+            error = item.errors(rings, lost)["exponent_1"]
+            squares += math.exp(-0.5 * criterion) * (error**2 + (item.exponent - best.exponent) ** 2)
+            weights += math.exp(-0.5 * criterion)
+    return math.sqrt(float(squares) / weights)
+
+
 def _fitted_rings(spectrum: PowerSpectrum, reliable_wavelength: float) -> tuple[RadialSpectrum, float]:
     """Rings of modes to fit, and the wavenumber (rad/m) of the last wave of a spectrum that ends,
     NaN if it does not.
@@ -641,7 +504,7 @@ def _fitted_rings(spectrum: PowerSpectrum, reliable_wavelength: float) -> tuple[
     last_wave = short_cutoff(spectrum, rings)
     end = last_wave
     if spectrum.window != "none":
-        end = np.fmin(end, _TOP_WINDOWED * spectrum.nyquist)
+        end = float(np.fmin(end, _TOP_WINDOWED * spectrum.nyquist))
     if not math.isnan(end) and end < edges[-1]:
         edges = np.unique(np.minimum(edges, max(end, edges[0])))
         rings = radial_spectrum(spectrum, edges)

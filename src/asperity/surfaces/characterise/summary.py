@@ -115,6 +115,14 @@ class SpectralCurves:
     fit: SpectralFit | None
     tip_cutoff: float
 
+    @property
+    def lag_range(self) -> tuple[float, float] | None:
+        """Lags in m between which second differences follow one power law; None if not known."""
+        if self.fit is None:
+            return None
+        shortest, longest = self.fit.lag_range
+        return max(shortest, 0.0 if math.isnan(self.tip_cutoff) else self.tip_cutoff), longest
+
 
 def measured_spectra(
     surface: Surface, window: str, *, tip_radius: float | None, curves: Curves, attempt: Attempts
@@ -265,8 +273,8 @@ def spectral_parameters(fit: SpectralFit) -> SpectralParameters:
     return SpectralParameters(
         hurst=fit.hurst,
         hurst_error=_NAN if math.isnan(fit.hurst) else fit.hurst_error,
-        longest_wave=longest,
-        shortest_wave=shortest,
+        longest_wave=_NAN if math.isnan(fit.hurst) else longest,
+        shortest_wave=_NAN if math.isnan(fit.hurst) else shortest,
         exponent_1=model.exponents[0],
         exponent_1_error=errors["exponent_1"],
         exponent_2=model.exponents[1] if two else _NAN,
@@ -418,14 +426,11 @@ def characterise(
     spectral = undefined(SpectralMoments) if spectra.power is None else spectral_moments(spectra.power)
     tensor, lengths, eight = difference.slope_tensor, texture_lengths(covariance), summit_statistics(found)
     attempt.remarks.extend(doubts_of_texture(lengths, periodic=surface.periodic))
-    lag_range = None if spectra.fit is None else spectra.fit.lag_range
-    if lag_range is not None and spectra.tip_cutoff > lag_range[0]:
-        lag_range = spectra.tip_cutoff, lag_range[1]
     fractal = attempt.along_axes(
         "fractal dimension",
-        lambda axis: fractal_parameters(surface, axis=axis, structure=known[axis], lag_range=lag_range),
+        lambda axis: fractal_parameters(surface, axis=axis, structure=known[axis], lag_range=spectra.lag_range),
     )
-    attempt.remarks.extend(doubts_of_self_affinity(spectra.fit, [found for found in fractal if found is not None]))
+    attempt.remarks.extend(doubts_of_self_affinity(spectra.fit, [item for item in fractal if item is not None]))
     samples = math.nan if spectra.power is None else effective_samples(spectra.power)
     core = attempt("core of the material ratio curve", lambda: functional_parameters(curves.material_ratio))
     slope = attempt("rms gradient Sdq", lambda: rms_slope(surface))
@@ -445,9 +450,7 @@ def characterise(
             beta_01_x=covariance.correlation_length(DROP_TENTH, axis="x"),
             beta_01_y=covariance.correlation_length(DROP_TENTH, axis="y"),
         ),
-        hybrid=HybridParameters(
-            math.nan if slope is None else slope, math.nan if area is None else area, Ssc=eight.mean_curvature
-        ),
+        hybrid=HybridParameters(_NAN if slope is None else slope, _NAN if area is None else area, eight.mean_curvature),
         functional=core or undefined(FunctionalParameters),
         moments=Moments(difference, spectral),
         summits=SummitDensities(eight, summit_statistics(summits(surface, 4))),

@@ -80,35 +80,7 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
         angles = np.array([0.0 if k_max else 0.5 * math.pi])
     cosines, sines = np.cos(angles), np.sin(angles)
     cosines[np.abs(cosines) < 1e-15] = 0.0  # along y
-    farthest = math.hypot(*(k * d for k, d in zip(centre.range, centre.spacing, strict=True)))
-    step = min(centre.spacing) / _RAY_STEPS
-    distances = step * np.arange(int(farthest / step) + 2)
-    lengths = np.full(angles.size, np.nan)
-    open_rays = np.arange(angles.size)
-    level, block = drop * centre.mean_square, max(2, _BLOCK // angles.size)
-    for start in range(0, distances.size - 1, block - 1):
-        part = distances[start : start + block]
-        # R by bilinear interpolation, NaN outside the range
-        x, y = cosines[open_rays][:, None] * part, sines[open_rays][:, None] * part
-        flip = np.where(x < 0.0, -1.0, 1.0)  # R(-r) = R(r)
-        row, column = flip * x / centre.spacing[0], flip * y / centre.spacing[1] + l_max
-        outside = (row > k_max) | (column < 0.0) | (column > 2 * l_max)
-        low_k = np.clip(np.floor(row).astype(int), 0, max(0, k_max - 1))
-        low_l = np.clip(np.floor(column).astype(int), 0, max(0, 2 * l_max - 1))
-        part_k, part_l = row - low_k, column - low_l
-        next_k, next_l = np.minimum(low_k + 1, k_max), np.minimum(low_l + 1, 2 * l_max)
-        lower = centre.values[low_k, low_l] * (1.0 - part_l) + centre.values[low_k, next_l] * part_l
-        upper = centre.values[next_k, low_l] * (1.0 - part_l) + centre.values[next_k, next_l] * part_l
-        values = np.where(outside, np.nan, lower * (1.0 - part_k) + upper * part_k)
-        below = values <= level
-        crossed = below.any(axis=1)
-        after = np.maximum(below.argmax(axis=1), 1)[crossed]
-        high, low = values[crossed, after - 1], values[crossed, after]
-        share = np.divide(high - level, high - low, out=np.zeros_like(high), where=high > low)
-        lengths[open_rays[crossed]] = part[after - 1] + share * (part[after] - part[after - 1])
-        open_rays = open_rays[~crossed]
-        if open_rays.size == 0:
-            break
+    lengths = _first_drops(centre, drop * centre.mean_square, cosines, sines)
     if autocovariance.mean_square == 0.0:
         return TextureLengths(*[math.nan] * 7)
     found = np.isfinite(lengths)
@@ -134,6 +106,42 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
         float(np.minimum(1.0, most)),
         farthest / float(reach[longest]),
     )
+
+
+def _first_drops(centre: Autocovariance, level: float, cosines: RealArray, sines: RealArray) -> RealArray:
+    """Distance in m at which R first falls to ``level`` along each ray; NaN where it does not
+    before the border."""
+    k_max, l_max = centre.range
+    farthest = math.hypot(*(k * d for k, d in zip(centre.range, centre.spacing, strict=True)))
+    step = min(centre.spacing) / _RAY_STEPS
+    distances = step * np.arange(int(farthest / step) + 2)
+    lengths = np.full(cosines.size, np.nan)
+    open_rays = np.arange(cosines.size)
+    block = max(2, _BLOCK // cosines.size)
+    for start in range(0, distances.size - 1, block - 1):
+        part = distances[start : start + block]
+        # R by bilinear interpolation, NaN outside the range
+        x, y = cosines[open_rays][:, None] * part, sines[open_rays][:, None] * part
+        flip = np.where(x < 0.0, -1.0, 1.0)  # R(-r) = R(r)
+        row, column = flip * x / centre.spacing[0], flip * y / centre.spacing[1] + l_max
+        outside = (row > k_max) | (column < 0.0) | (column > 2 * l_max)
+        low_k = np.clip(np.floor(row).astype(int), 0, max(0, k_max - 1))
+        low_l = np.clip(np.floor(column).astype(int), 0, max(0, 2 * l_max - 1))
+        part_k, part_l = row - low_k, column - low_l
+        next_k, next_l = np.minimum(low_k + 1, k_max), np.minimum(low_l + 1, 2 * l_max)
+        lower = centre.values[low_k, low_l] * (1.0 - part_l) + centre.values[low_k, next_l] * part_l
+        upper = centre.values[next_k, low_l] * (1.0 - part_l) + centre.values[next_k, next_l] * part_l
+        values = np.where(outside, np.nan, lower * (1.0 - part_k) + upper * part_k)
+        below = values <= level
+        crossed = below.any(axis=1)
+        after = np.maximum(below.argmax(axis=1), 1)[crossed]
+        high, low = values[crossed, after - 1], values[crossed, after]
+        share = np.divide(high - level, high - low, out=np.zeros_like(high), where=high > low)
+        lengths[open_rays[crossed]] = part[after - 1] + share * (part[after] - part[after - 1])
+        open_rays = open_rays[~crossed]
+        if open_rays.size == 0:
+            break
+    return lengths
 
 
 def doubts_of_texture(lengths: TextureLengths, *, periodic: bool) -> list[str]:
