@@ -378,7 +378,7 @@ class SpectralFit:
             return math.nan
         at_resolution = self.model.level * (2.0 * math.pi / self.model.rolloff_wavelength) ** exponent
         factor = math.gamma(1.0 - hurst) / (2.0 * math.pi * hurst * 4.0**hurst * math.gamma(1.0 + hurst))
-        return at_resolution * factor * resolution ** (2.0 * hurst) / resolution
+        return float(at_resolution * factor * resolution ** (2.0 * hurst) / resolution)
 
 
 def fit_spectrum(

@@ -318,6 +318,7 @@ def undefined(kind: type[T], **known: Any) -> T:
     return kind(**{item.name: known.get(item.name, _NAN) for item in fields(kind)})  # type: ignore[arg-type]
 
 
+_NO_MOMENTS = undefined(SpectralMoments)
 _TILT = 1e-3  # share of the mean square height in a plane above which a map was not levelled
 
 
@@ -421,9 +422,8 @@ def characterise(
     spectra = measured_spectra(complete, window, tip_radius=tip_radius, curves=curves, attempt=attempt)
     if not surface.periodic and (share := tilt_share(surface)) > _TILT:
         attempt.remarks.append(f"A plane contains {percent(share)} of the mean square height; level the surface first.")
-    difference = attempt("moments by differences", lambda: difference_moments(surface))
-    difference = difference or undefined(DifferenceMoments, slope_tensor=undefined(SlopeTensor))
-    spectral = undefined(SpectralMoments) if spectra.power is None else spectral_moments(spectra.power)
+    none = undefined(DifferenceMoments, slope_tensor=undefined(SlopeTensor))
+    difference = attempt("moments by differences", lambda: difference_moments(surface)) or none
     tensor, lengths, eight = difference.slope_tensor, texture_lengths(covariance), summit_statistics(found)
     attempt.remarks.extend(doubts_of_texture(lengths, periodic=surface.periodic))
     fractal = attempt.along_axes(
@@ -452,7 +452,7 @@ def characterise(
         ),
         hybrid=HybridParameters(_NAN if slope is None else slope, _NAN if area is None else area, eight.mean_curvature),
         functional=core or undefined(FunctionalParameters),
-        moments=Moments(difference, spectral),
+        moments=Moments(difference, _NO_MOMENTS if spectra.power is None else spectral_moments(spectra.power)),
         summits=SummitDensities(eight, summit_statistics(summits(surface, 4))),
         peaks_x=profile_peaks(surface, axis="x"),
         peaks_y=profile_peaks(surface, axis="y"),
