@@ -93,6 +93,9 @@ def preparation_options() -> tuple[Option, ...]:
         make("--crop", ("prepare", "crop", "range"), 'part to keep: "0um:5um,0um:4um"', PREPARATION, "X0:X1,Y0:Y1"),
         step("--despike", "despike", "threshold", "mask spikes"),
         step("--line-correct", "line_correct", "axis", "remove offsets between scan lines"),
+        step("--remove-tip", "tip", "radius", "reconstruct the surface behind the scan of a tip"),
+        step("--tip-opening", "tip", "opening", "of the tip to remove"),
+        step("--mask-uncertain", "tip", "mask_uncertain", ""),
         make(
             "--level",
             ("prepare", "level", "form"),

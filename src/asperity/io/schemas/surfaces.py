@@ -23,6 +23,7 @@ from ...surfaces.generate.power_laws import Amplitude
 from ...surfaces.prepare.extent import cropped, periodised, resampled, sliced, tapered
 from ...surfaces.prepare.filter import filtered, tip_limited
 from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, filled, levelled, line_corrected
+from ...surfaces.prepare.tip import ConicalTip, Opening, SphericalTip, reconstructed
 from ...surfaces.surface import Surface
 
 # Steps of preparation: the table of a step has the parameters of its function, which ``prepared``
@@ -62,6 +63,20 @@ def filter_waves(
     return filtered(surface, short=pairs.get("short"), long=pairs.get("long"), kind=kind, order=order)
 
 
+@checked
+def remove_tip(
+    surface: Surface,
+    *,
+    radius: Annotated[Length, "radius of the tip"],
+    opening: Annotated[Opening | None, "full opening angle of its cone; a sphere if left out"] = None,
+    mask_uncertain: Annotated[bool, "leave out the points that the tip did not touch for certain"] = False,
+) -> Surface:
+    """Reconstruct the surface behind a scan with a tip of ``radius`` and ``opening`` angle; before
+    levelling."""
+    tip = SphericalTip(radius) if opening is None else ConicalTip(radius, opening)
+    return reconstructed(surface, tip, mask_uncertain=mask_uncertain)
+
+
 STEPS: Mapping[str, Callable[..., Surface]] = MappingProxyType(
     {
         "level": level,
@@ -71,6 +86,7 @@ STEPS: Mapping[str, Callable[..., Surface]] = MappingProxyType(
         "despike": despiked,
         "line_correct": line_corrected,
         "filter": filter_waves,
+        "tip": remove_tip,
         "tip_limit": tip_limited,
         "taper": tapered,
         "periodise": periodised,
