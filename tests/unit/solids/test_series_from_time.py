@@ -18,7 +18,7 @@ from asperity.solids.relaxation import Creep, Relaxation, creep_through, relaxat
 v = asp.viscoelasticity
 TIMES = np.geomspace(1e-2, 1e3, 61)
 BETWEEN = 0.5 * math.log(10.0) / 4
-"""Half the distance of two times of a series, as a logarithm: a term between them is the sum of both
+"""Half the distance of two times of a series, as a logarithm: a term between is the sum of both
 with a difference of at most BETWEEN²/2 of its own height, whose second derivative is below 1."""
 
 
@@ -58,7 +58,8 @@ def test_power_law_over_a_band(exponent: float) -> None:
     np.testing.assert_allclose(relaxation.at(TIMES), modulus, rtol=BETWEEN**2 / 2)
     np.testing.assert_allclose(creep.at(TIMES), compliance, rtol=BETWEEN**2 / 2)
     # what happened before the band is forgotten as a power of the time since
-    inside = (TIMES > 30 * TIMES[0]) & (TIMES < TIMES[-1] / 10)
+    lowest, highest = 30 * TIMES[0], TIMES[-1] / 10
+    inside = (lowest < TIMES) & (highest > TIMES)
     missed = 30.0 ** -(1.0 - exponent)
     np.testing.assert_allclose(relaxation.creep.at(TIMES)[inside], compliance[inside], rtol=missed)
     np.testing.assert_allclose(creep.relaxation.at(TIMES)[inside], modulus[inside], rtol=missed)

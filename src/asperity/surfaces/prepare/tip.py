@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Any, Protocol
+from typing import Annotated, Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -389,7 +389,7 @@ def _peaks(scan: Surface, points: tuple[int, int]) -> Any:
     known around."""
     from scipy.ndimage import maximum_filter, minimum_filter
 
-    mode = "wrap" if scan.periodic else "constant"
+    mode: Literal["wrap", "constant"] = "wrap" if scan.periodic else "constant"
     heights = np.where(scan.mask, -np.inf, scan.heights)
     window = tuple(2 * max(1, n // 10) + 1 for n in points)
     highest, lowest = (found(heights, window, mode=mode, cval=-np.inf) for found in (maximum_filter, minimum_filter))
