@@ -351,6 +351,9 @@ def steps(given: Given) -> list[dict[str, Any]]:
         raise InputError(
             f"--filter {sieve['kind']} must be given together with --short-cutoff or --long-cutoff, but is alone."
         )
+    if "tip" in chosen and "radius" not in chosen["tip"]:
+        alone = "--tip-opening" if "opening" in chosen["tip"] else "--mask-uncertain"
+        raise InputError(f"{alone} must be given together with --remove-tip, but is alone.")
     order = list(dict.fromkeys(option.path[1] for option in preparation_options()))
     if sieve.get("kind") == "sharp":
         order.remove("filter")
@@ -396,7 +399,12 @@ def _words(step: str, key: str) -> Iterable[str]:
 
 
 _OPTIONS_OF_STEPS = MappingProxyType(
-    {("tip_limit", "step"): "--tip-radius", ("level", "degree"): "--level", ("level", "step"): "--level"}
+    {
+        ("tip", "step"): "--remove-tip",
+        ("tip_limit", "step"): "--tip-radius",
+        ("level", "degree"): "--level",
+        ("level", "step"): "--level",
+    }
 )
 
 
