@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -95,8 +95,8 @@ def plot_tip(scan: Surface, tip: Tip, ax: Axes) -> Axes:
             sides = (places, np.zeros(places.size)) if axis == 0 else (np.zeros(places.size), places)
             heights = tip.above_apex(*sides)
             shown = np.where(heights <= height, heights, np.nan)
-            label = {"label": f"along {'xy'[axis]}"} if places is fine else {}
-            ax.plot(along(places), up(shown), color=colour, **look, **label)
+            options: dict[str, Any] = look | ({"label": f"along {'xy'[axis]}"} if places is fine else {})
+            ax.plot(along(places), up(shown), color=colour, **options)
     return legend_above(ax)
 
 

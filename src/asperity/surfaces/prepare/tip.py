@@ -263,11 +263,13 @@ def reconstructed(scan: Surface, tip: Tip, *, mask_uncertain: bool = False) -> S
 
     It is the highest surface that agrees with the scan, equal to the true one wherever the tip
     touched; ``mask_uncertain`` makes all other points missing (see :func:`certain_points`). It
-    belongs before levelling, since the tip stands upright in the frame of the instrument. Time
-    grows with the number of pixels of the tip: 512² points took 0.2 s with 11² pixels and 10 s with
-    61². Noise is taken for surface: peaks of noise become narrower, pits stay. Missing points stay
-    missing. Raises InputError if the tip is as wide as the map or has other pixels, or if no point
-    is certain and the others are to be masked.
+    belongs before levelling, since the tip stands upright in the frame of the instrument. Noise is
+    taken for surface: its peaks become narrower, its pits stay. Missing points stay missing. Time
+    grows with the number of pixels of the tip within the range of heights: 512² points took 0.3 s
+    with 31² pixels and 1.1 s with 61², the certain points 1.4 and 5.7 s.
+
+    Raises InputError if the tip is as wide as the map or has other pixels, or if no point is
+    certain and the others are to be masked.
     """
     heights = _shifted_extreme(scan, _on_pixels(tip, scan), highest=False)
     step = f"reconstructed: surface behind a {tip.words}"
