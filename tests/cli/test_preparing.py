@@ -62,6 +62,16 @@ def test_order_of_the_steps() -> None:
     assert kinds(level="none", fill="none") == []
 
 
+def test_options_of_a_tip_go_together() -> None:
+    (tip,) = steps(given(estimate_tip="5x7", tip_noise="1nm", mask_uncertain=True, level="none", fill="none"))
+    assert tip == {"step": "tip", "pixels": "5x7", "noise": "1nm", "mask_uncertain": True}
+    for alone in ({"tip_opening": "40deg"}, {"tip_noise": "1nm"}, {"mask_uncertain": True}):
+        with refused(InputError, "--" + next(iter(alone)).replace("_", "-")):
+            steps(given(**alone))
+    with refused(InputError, "--estimate-tip"):
+        steps(given(remove_tip="10nm", estimate_tip="5x5"))
+
+
 def test_values_of_the_steps() -> None:
     made = steps(given(level="5", robust_level=True, short_cutoff="1um", long_cutoff="9um", filter="robust"))
     assert made[0] == {"step": "level", "degree": 5, "robust": True}

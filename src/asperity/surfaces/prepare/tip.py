@@ -154,13 +154,16 @@ class MeasuredTip:
         does not reach.
     dx, dy
         Pixel size in m, that of the scans it is used for; ``dy`` defaults to ``dx``.
+    source
+        Where the shape is from, for the history of a surface.
     """
 
     heights: RealArray
     dx: float
     dy: float
+    source: str
 
-    def __init__(self, heights: ArrayLike, dx: float, dy: float | None = None) -> None:
+    def __init__(self, heights: ArrayLike, dx: float, dy: float | None = None, *, source: str = "") -> None:
         values = np.array(heights, dtype=np.float64)
         if values.ndim != 2 or not all(n % 2 for n in values.shape):
             raise InputError(
@@ -178,11 +181,13 @@ class MeasuredTip:
         object.__setattr__(self, "heights", values)
         object.__setattr__(self, "dx", require.positive(dx, "dx of a tip (m)"))
         object.__setattr__(self, "dy", self.dx if dy is None else require.positive(dy, "dy of a tip (m)"))
+        object.__setattr__(self, "source", source)
 
     @property
     def words(self) -> str:
         """What it is."""
-        return f"tip on {self.heights.shape[0]} x {self.heights.shape[1]} pixels"
+        nx, ny = self.heights.shape
+        return f"tip on {nx} x {ny} pixels" + (f" {self.source}" if self.source else "")
 
     def above_apex(self, x: RealArray, y: RealArray) -> RealArray:
         """Height in m of its surface above the apex at the pixel nearest to ``x``, ``y`` (m);
@@ -383,7 +388,7 @@ def estimated_tip(
     shape = np.zeros(points)
     order = np.argsort(-heights[peaks[:, 0], peaks[:, 1]], kind="stable")
     sharpen(heights, np.ascontiguousarray(peaks[order]), shape, noise)
-    return MeasuredTip(shape, scan.dx, scan.dy)
+    return MeasuredTip(shape, scan.dx, scan.dy, source="estimated from the scan")
 
 
 def _peaks(scan: Surface, points: tuple[int, int]) -> Any:
