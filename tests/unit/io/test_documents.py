@@ -84,7 +84,7 @@ STEPS = st.one_of(
     st.fixed_dictionaries({"step": st.just("tip_limit"), "radius": LENGTHS}),
     st.fixed_dictionaries(
         {"step": st.just("tip"), "radius": LENGTHS},
-        optional={"opening": st.floats(0.01, 3.1), "mask_uncertain": st.booleans()},
+        optional={"opening": st.builds("{} deg".format, st.floats(1.0, 179.0)), "mask_uncertain": st.booleans()},
     ),
     st.fixed_dictionaries({"step": st.just("slice"), "y": st.just("middle")}, optional={"length": LENGTHS}),
     st.fixed_dictionaries({"step": st.just("slice"), "x": LENGTHS}),
