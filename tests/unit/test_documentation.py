@@ -156,13 +156,13 @@ def test_the_examples_of_generation(tmp_path, monkeypatch, capsys):
 
 
 def test_the_examples_of_preparation(scan, capsys):
-    first, tips, second = blocks(ROOT / "docs/how-to/prepare.md", "python")
+    first, second, tips = blocks(ROOT / "docs/how-to/prepare.md", "python")
     names = {"scan": asp.Surface(scan.heights, scan.dx)}
     assert 'asp.read("scan.di")' in first
     exec(compile(first.replace('asp.read("scan.di")', "scan"), "first block", "exec"), names)  # noqa: S102 - running the page is the test
+    exec(compile(second, "second block", "exec"), names)  # noqa: S102 - running the page is the test
     exec(compile(tips, "block of tips", "exec"), names)  # noqa: S102 - running the page is the test
     assert (names["behind"].heights <= scan.heights).all()
-    exec(compile(second, "second block", "exec"), names)  # noqa: S102 - running the page is the test
     words = ["despiked", "line-corrected", "filled", "levelled", "tip-limited", "filtered", "resampled", "periodised"]
     assert [line.split(":")[0] for line in capsys.readouterr().out.splitlines()] == words
     assert names["problem"].surface.dx == pytest.approx(scan.dx)

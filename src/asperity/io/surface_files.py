@@ -44,7 +44,7 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
     * ``.x3p``: ISO 25178-72, written by SurfaceTopography in 64-bit floats, with size, unit and
       missing points. History and period are left out, as in all that follow.
     * ``.xyz``: list of all points x, y, z in m, ten digits, with the units in the headings; ``nan``
-      marks a missing point. ``read`` takes both units as ``m``.
+      marks a missing point.
     * ``.npy``: the bare array [x, y] of heights in m; ``read`` needs size and unit.
 
     Raises

@@ -111,15 +111,14 @@ def test_gsf_has_heights_size_and_unit(tmp_path: Path, shape: tuple[int, int]) -
     np.testing.assert_allclose(found, heights, rtol=float(np.finfo(np.float32).eps))
 
 
-UNITS = {".x3p": {}, ".xyz": {"lateral_unit": "m", "height_unit": "m"}}
-
-
-@pytest.mark.parametrize(("ending", "accuracy"), [(".x3p", 1e-14), (".xyz", 1e-9)])
+@pytest.mark.parametrize(
+    ("ending", "accuracy"), [(".gsf", float(np.finfo(np.float32).eps)), (".x3p", 1e-14), (".xyz", 1e-9)]
+)
 @pytest.mark.parametrize("missing", [True, False])
 def test_other_programs_files_come_back(tmp_path: Path, ending: str, accuracy: float, missing: bool) -> None:
     before, path = surface(missing=missing, periodic=False), tmp_path / f"a{ending}"
     asp.files.save_surface(before, path)
-    after = asp.read(path, **UNITS[ending])
+    after = asp.read(path)
     np.testing.assert_array_equal(after.mask, before.mask)
     np.testing.assert_allclose(after.heights, before.heights, rtol=accuracy)
     assert after.size == pytest.approx(before.size, rel=max(accuracy, 1e-13))
