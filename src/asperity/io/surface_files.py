@@ -6,6 +6,7 @@ import itertools
 import math
 import warnings
 from collections.abc import Iterator, Mapping
+from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryFile
 
@@ -104,7 +105,9 @@ def write_x3p(heights: RealArray, size: tuple[float, float], path: Path) -> None
         from SurfaceTopography import Topography
     masked = np.ma.masked_invalid(heights[:, ::-1].astype(np.float64))  # the library counts y downwards from the top
     with path.open("wb") as file:
-        Topography(masked, size, unit="m").to_x3p(file, manufacturer="asperity", model="asperity")
+        Topography(masked, size, unit="m").to_x3p(
+            file, manufacturer="asperity", model="asperity", version=version("asperity")
+        )
 
 
 def write_points(columns: Mapping[str, RealArray], path: Path) -> None:
