@@ -6,7 +6,6 @@ import itertools
 import math
 import warnings
 from collections.abc import Iterator, Mapping
-from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryFile
 
@@ -100,6 +99,8 @@ def write_gsf(heights: RealArray, size: tuple[float, float], path: Path) -> None
 def write_x3p(heights: RealArray, size: tuple[float, float], path: Path) -> None:
     """Write ``heights`` (nx, ny) in m, NaN where missing, over ``size`` (Lx, Ly) in m as an .x3p
     file of 64-bit floats."""
+    from importlib.metadata import version
+
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the library warns where MPI is missing
         from SurfaceTopography import Topography
