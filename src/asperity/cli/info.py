@@ -87,8 +87,7 @@ def info(
             raise InputError("--full, --plot and --plots must be left out with many files: give one file.")
         raise typer.Exit(_many(entries, given, level, report, as_json=as_json, force=force))
     file = files[0]
-    tip = given.get("tip_radius")
-    radius = None if tip is None else parse(tip, "length", "--tip-radius")
+    radius = None if (tip := given.get("tip_radius")) is None else parse(tip, "length", "--tip-radius")
     surface, found = _Scan(file).read(given)
     flat, removed = levelled_as(surface, level)
     whole = characterise(flat, tip_radius=radius) if full or report or plots else None

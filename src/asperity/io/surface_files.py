@@ -99,16 +99,12 @@ def write_gsf(heights: RealArray, size: tuple[float, float], path: Path) -> None
 def write_x3p(heights: RealArray, size: tuple[float, float], path: Path) -> None:
     """Write ``heights`` (nx, ny) in m, NaN where missing, over ``size`` (Lx, Ly) in m as an .x3p
     file of 64-bit floats."""
-    from importlib.metadata import version
-
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the library warns where MPI is missing
         from SurfaceTopography import Topography
     masked = np.ma.masked_invalid(heights[:, ::-1].astype(np.float64))  # the library counts y downwards from the top
     with path.open("wb") as file:
-        Topography(masked, size, unit="m").to_x3p(
-            file, manufacturer="asperity", model="asperity", version=version("asperity")
-        )
+        Topography(masked, size, unit="m").to_x3p(file, manufacturer="asperity", model="asperity", version="unknown")
 
 
 def write_points(columns: Mapping[str, RealArray], path: Path) -> None:

@@ -326,7 +326,7 @@ def relaxation_through(time: ArrayLike, modulus: ArrayLike, *, per_decade: int =
         )
     taus = _times(t, per_decade)
     columns = np.hstack([np.exp(-t[:, None] / taus), np.full((t.size, 1), 0.0 if fluid else 1.0)])
-    *strengths, relaxed = _not_negative(columns, values)
+    *strengths, relaxed = _strengths(columns, values)
     return Relaxation(relaxed, tuple(zip(strengths, map(float, taus), strict=True)))
 
 
@@ -346,7 +346,7 @@ def creep_through(time: ArrayLike, compliance: ArrayLike, *, per_decade: int = 4
     lams = _times(t, per_decade)
     flow = t[:, None] / t[-1] if fluid else np.zeros((t.size, 1))
     columns = np.hstack([-np.expm1(-t[:, None] / lams), np.ones((t.size, 1)), flow])
-    *strengths, instantaneous, flowed = _not_negative(columns, values)
+    *strengths, instantaneous, flowed = _strengths(columns, values)
     if not instantaneous > 0.0:
         raise InputError(
             f"creep compliance must have a part at the first instant, but the {values[0]:.6g} 1/Pa at {t[0]:.6g} s "
@@ -379,10 +379,16 @@ def _times(t: RealArray, per_decade: int) -> RealArray:
     return np.asarray(t[0] * 10.0 ** (np.arange(math.ceil(decades * count - 1e-9) + 1) / count))
 
 
-def _not_negative(columns: RealArray, values: RealArray) -> list[float]:
-    """Strengths >= 0 of the ``columns`` whose sum is closest to the ``values``, relative to
-    these."""
+def not_negative(columns: RealArray, values: RealArray) -> RealArray:
+    """Numbers >= 0 (n,) by which the ``columns`` (m, n) add up closest to the ``values`` (m,)."""
     from scipy.optimize import nnls
 
-    found, _ = nnls(columns / values[:, None], np.ones(values.size), maxiter=100 * columns.shape[1])
+    found, _ = nnls(columns, values, maxiter=100 * columns.shape[1])
+    return np.asarray(found)
+
+
+def _strengths(columns: RealArray, values: RealArray) -> list[float]:
+    """Strengths >= 0 of the ``columns`` whose sum is closest to the ``values``, relative to
+    these."""
+    found = not_negative(columns / values[:, None], np.ones(values.size))
     return [float(strength) for strength in np.where(found > NEGLIGIBLE * found.max(), found, 0.0)]

@@ -14,7 +14,7 @@ from ..core import require
 from ..core.arrays import ComplexArray, RealArray
 from ..core.errors import InputError
 from .elastic import Elastic
-from .relaxation import NEGLIGIBLE, Creep, Relaxation, Terms, require_terms
+from .relaxation import NEGLIGIBLE, Creep, Relaxation, Terms, not_negative, require_terms
 
 _TOO_MUCH = 1e-12
 """Rounding by which the shares that relax may add up to more than one."""
@@ -381,8 +381,6 @@ def power_law_series(
     shortest: what a creep has missed before falls off with time to the power 1 - alpha. Those still
     slower are a constant. InputError if a value is outside its range.
     """
-    from scipy.optimize import nnls
-
     require.positive(coefficient, "coefficient of a power law (Pa)")
     alpha = require.between(exponent, 0.0, 1.0, "exponent of a power law")
     require.positive(shortest, "shortest time of a power law (s)")
@@ -399,7 +397,7 @@ def power_law_series(
     times = np.geomspace(first, last, 8 * steps)
     columns = np.exp(-times[:, None] / taus)
     relative = np.hstack([columns, np.ones((times.size, 1))]) / (times**-alpha)[:, None]
-    strengths, _ = nnls(relative, np.ones(times.size), maxiter=100 * relative.shape[1])
+    strengths = not_negative(relative, np.ones(times.size))
     terms = tuple((coefficient * g, float(tau)) for g, tau in zip(strengths[:-1], taus, strict=True))
     return Relaxation(coefficient * float(strengths[-1]), terms)
 
@@ -511,9 +509,7 @@ def fitted_solid(
     kernels = 1j * omega[:, None] * taus / (1.0 + 1j * omega[:, None] * taus)
     columns = np.hstack([kernels, np.full((f.size, 1), 0.0 if fluid else 1.0)])
     rows = np.vstack([columns.real / size[:, None], columns.imag / size[:, None]])
-    from scipy.optimize import nnls
-
-    strengths, _ = nnls(rows, np.concatenate([real / size, imaginary / size]), maxiter=100 * taus.size)
+    strengths = not_negative(rows, np.concatenate([real / size, imaginary / size]))
     least = NEGLIGIBLE * float(strengths.max())
     terms = tuple((float(g), float(tau)) for g, tau in zip(strengths[:-1], taus, strict=True) if g > least)
     solid = Viscoelastic.prony(float(strengths[-1]), terms, poisson_ratio, **more)

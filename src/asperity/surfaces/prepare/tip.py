@@ -236,12 +236,18 @@ def _on_pixels(tip: Tip, surface: Surface) -> RealArray:
     return np.where(heights <= height, heights, np.inf)
 
 
+def _filters() -> Any:
+    """The module of grey filters and morphology, which costs time to import."""
+    from scipy import ndimage
+
+    return ndimage
+
+
 def _shifted_extreme(surface: Surface, shape: RealArray, *, highest: bool) -> RealArray:
     """max_u [h(x + u) - t(u)] or min_u [h(x - u) + t(u)] in m for the heights t, ``shape``, of a
     tip; nothing beyond the border and at missing points counts."""
-    from scipy.ndimage import grey_dilation, grey_erosion
-
-    nothing, morphology = (-np.inf, grey_dilation) if highest else (np.inf, grey_erosion)
+    filters = _filters()
+    nothing, morphology = (-np.inf, filters.grey_dilation) if highest else (np.inf, filters.grey_erosion)
     heights = np.where(surface.mask, nothing, surface.heights.astype(np.float64))
     footprint = np.isfinite(shape)[::-1, ::-1]  # both take the maximum or minimum with the structure reflected
     structure = -np.where(footprint, shape[::-1, ::-1], 0.0)
@@ -394,11 +400,12 @@ def estimated_tip(
 def _peaks(scan: Surface, points: tuple[int, int]) -> Any:
     """Pixels (n, 2) of the maxima of ``scan`` within a tenth of the tip, with twice its half width
     known around."""
-    from scipy.ndimage import maximum_filter, minimum_filter
-
+    filters = _filters()
     mode: Literal["wrap", "constant"] = "wrap" if scan.periodic else "constant"
     heights = np.where(scan.mask, -np.inf, scan.heights)
     window = tuple(2 * max(1, n // 10) + 1 for n in points)
-    highest, lowest = (found(heights, window, mode=mode, cval=-np.inf) for found in (maximum_filter, minimum_filter))
-    known = minimum_filter(~scan.mask, tuple(4 * (n // 2) + 1 for n in points), mode=mode, cval=0)
+    highest, lowest = (
+        found(heights, window, mode=mode, cval=-np.inf) for found in (filters.maximum_filter, filters.minimum_filter)
+    )
+    known = filters.minimum_filter(~scan.mask, tuple(4 * (n // 2) + 1 for n in points), mode=mode, cval=0)
     return np.argwhere((heights == highest) & (lowest < highest) & known)  # a plateau tells nothing
