@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.core.arrays import RealArray
 from asperity.core.grid import Grid
-from asperity.surfaces.characterise.spectral_fit import SpectralModel
+from asperity.surfaces.characterise.spectral_model import SpectralModel
 from asperity.surfaces.surface import Surface
 
 GOLD = SpectralModel(

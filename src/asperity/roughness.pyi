@@ -9,7 +9,6 @@ from .surfaces.characterise.correlation import (
     ScaleDependence,
     StructureFunction,
     autocovariance,
-    fitted_fractal,
     fractal_parameters,
     fractal_roughness,
     mean_square_increment,
@@ -57,7 +56,8 @@ from .surfaces.characterise.slopes import (
     rms_profile_slope,
     rms_slope,
 )
-from .surfaces.characterise.spectral_fit import SpectralFit, SpectralModel, fit_spectrum
+from .surfaces.characterise.spectral_fit import SpectralFit, fit_spectrum
+from .surfaces.characterise.spectral_model import SpectralModel
 from .surfaces.characterise.spectrum import (
     PowerSpectrum,
     ProfileSpectrum,
@@ -190,7 +190,6 @@ __all__ = [
     "effective_samples",
     "expected_difference_moments",
     "fit_spectrum",
-    "fitted_fractal",
     "fractal_parameters",
     "fractal_roughness",
     "functional_parameters",

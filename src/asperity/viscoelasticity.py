@@ -1,7 +1,8 @@
 """Viscoelasticity: materials that relax, oscillating and sliding contacts, hysteretic friction.
 
-``Viscoelastic`` is the material, ``fitted_solid`` fits it to a ``MasterCurve`` (``Arrhenius``,
-``WilliamsLandelFerry``), ``Creeping`` is what a result holds. ``harmonic`` gives the
+``Viscoelastic`` is the material (times shift by ``Arrhenius`` or ``WilliamsLandelFerry``);
+``fitted_solid`` fits it to moduli as a ``MasterCurve``, ``fitted_relaxation`` and ``fitted_creep``
+to a ``TimeCurve``. ``Creeping`` is what a result holds. ``harmonic`` gives the
 ``HarmonicResponse`` of a contact, ``slide`` its ``SteadySliding`` and ``slide_in_time`` its
 ``TransientSliding``.
 """

@@ -32,6 +32,9 @@ def test_order_of_the_steps() -> None:
         "crop": "0um:5um,0um:4um",
         "despike": "6",
         "line_correct": "x",
+        "remove_tip": "10nm",
+        "tip_opening": "40deg",
+        "mask_uncertain": True,
         "tip_radius": "10nm",
         "short_cutoff": "1um",
         "resample": "64",
@@ -43,6 +46,7 @@ def test_order_of_the_steps() -> None:
         "crop",
         "despike",
         "line_correct",
+        "tip",
         "level",
         "fill",
         "tip_limit",
@@ -56,6 +60,16 @@ def test_order_of_the_steps() -> None:
     assert kinds(**everything, filter="sharp")[-2:] == ["filter", "slice"]
     assert kinds() == ["level", "fill"]
     assert kinds(level="none", fill="none") == []
+
+
+def test_options_of_a_tip_go_together() -> None:
+    (tip,) = steps(given(estimate_tip="5x7", tip_noise="1nm", mask_uncertain=True, level="none", fill="none"))
+    assert tip == {"step": "tip", "pixels": "5x7", "noise": "1nm", "mask_uncertain": True}
+    for alone in ({"tip_opening": "40deg"}, {"tip_noise": "1nm"}, {"mask_uncertain": True}):
+        with refused(InputError, "--" + next(iter(alone)).replace("_", "-")):
+            steps(given(**alone))
+    with refused(InputError, "--estimate-tip"):
+        steps(given(remove_tip="10nm", estimate_tip="5x5"))
 
 
 def test_values_of_the_steps() -> None:

@@ -36,7 +36,7 @@ FILM = ("--size", "4.8um x 3.2um", "--height-unit", "nm")
 def test_all_quantities_are_listed(run: Runner, film: Path) -> None:
     result = run("info", film, *FILM, "--full")
     assert result.exit_code == 0, result.stderr
-    assert [symbol for symbol in ("Sq", "Sk", "η", "H", "D") if f" {symbol} " not in result.stdout] == []
+    assert [symbol for symbol in ("Sq", "Sk", "η", "H", "a1") if f" {symbol} " not in result.stdout] == []
 
 
 def test_json_holds_what_python_finds(run: Runner, film: Path) -> None:

@@ -79,6 +79,8 @@ def test_saved_menisci_are_drawn_and_exported(run: Runner, scan: Path, tmp_path:
     assert drawn.exit_code == 0, drawn.stderr
     assert (tmp_path / "pictures" / "menisci.png").exists()
     assert run("export", tmp_path / "wet.nc", "--csv", tmp_path / "a.csv", "--vtk", tmp_path / "a.vti").exit_code == 0
+    assert run("export", tmp_path / "wet.nc", "--surface", tmp_path / "a.nc").exit_code == 0
+    np.testing.assert_array_equal(asp.read(tmp_path / "a.nc").heights, wet.problem.surface.heights)
     assert f"meniscus_force,{wet.menisci.meniscus_force!r},N" in (tmp_path / "a.csv").read_text("utf-8")
     assert "TianBhushan1996" in run("cite", tmp_path / "wet.nc").stdout
     dry = asp.solve(asp.ContactProblem(asp.read(scan), asp.material("DLC")), asp.MeanPressure(2e6))

@@ -39,6 +39,12 @@ PREPARATION: tuple[tuple[str, ...], ...] = (
     ("--short-cutoff", "1"),
     ("--short-cutoff", "2nm"),
     ("--tip-radius", "-1nm"),
+    ("--remove-tip", "1m"),
+    ("--remove-tip", "10nm", "--tip-opening", "190deg"),
+    ("--tip-opening", "40deg"),
+    ("--mask-uncertain",),
+    ("--remove-tip", "10nm", "--estimate-tip", "5x5"),
+    ("--estimate-tip", "4x5"),
     ("--level", "21"),
     ("--line-correct", "z"),
     ("--despike", "0"),
@@ -301,6 +307,14 @@ def _two_columns(**units: Any) -> object:
     return asp.read("trace.txt", **units)
 
 
+def _relaxation(time: list[float], modulus: list[float]) -> object:
+    return asp.viscoelasticity.fitted_relaxation(time, modulus, poisson_ratio=0.4)
+
+
+def _creep(time: list[float], compliance: list[float], *, fluid: bool = False) -> object:
+    return asp.viscoelasticity.fitted_creep(time, compliance, poisson_ratio=0.4, fluid=fluid)
+
+
 CALLS: Mapping[str, Callable[[], object]] = {
     "MeanPressure(0.0)": lambda: asp.MeanPressure(0.0),
     "MeanPressure('50 MPa')": lambda: asp.MeanPressure("50 MPa"),  # type: ignore[arg-type]
@@ -423,6 +437,24 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a cut-off of three pixels": lambda: asp.surfaces.filtered(rough((32, 32)), short=3.0),
     "a cut-off in the wrong unit": lambda: asp.surfaces.filtered(rough((32, 32)), long=1e3),
     "cut-offs in disorder": lambda: asp.surfaces.filtered(rough((32, 32)), short=20.0, long=10.0),
+    "a tip of an even number of pixels": lambda: asp.surfaces.MeasuredTip(np.zeros((3, 4)), 1.0),
+    "a tip above its apex": lambda: asp.surfaces.MeasuredTip(np.ones((3, 3)), 1.0),
+    "a tip of other pixels": lambda: asp.surfaces.scanned(
+        rough((8, 8)), asp.surfaces.MeasuredTip(np.zeros((3, 3)), 2.0)
+    ),
+    "a tip on which no point is certain": lambda: asp.surfaces.reconstructed(
+        asp.Surface(np.eye(4), 1.0), asp.surfaces.ParabolicTip(4.0), mask_uncertain=True
+    ),
+    "an even number of pixels of a tip to estimate": lambda: asp.surfaces.estimated_tip(rough((8, 8)), (4, 3)),
+    "a tip wider than what is around the peaks": lambda: asp.surfaces.estimated_tip(
+        asp.Surface(np.eye(8), 1.0), (7, 7)
+    ),
+    "a relaxation of columns of different length": lambda: _relaxation([1.0, 2.0], [2.0]),
+    "a relaxation before time zero": lambda: _relaxation([-1.0, 2.0], [2.0, 1.0]),
+    "a relaxation to a negative modulus": lambda: _relaxation([1.0, 2.0], [2.0, -1.0]),
+    "a relaxation that rises": lambda: _relaxation([1.0, 2.0], [1.0, 2.0]),
+    "a creep that falls": lambda: _creep([1.0, 2.0], [2.0, 1.0]),
+    "a creep from nothing": lambda: _creep([1.0, 2.0], [1.0, 2.0], fluid=True),
     "a plane through a line": lambda: asp.levelled(asp.Surface(np.ones((1, 8)), 1.0)),
     "a crop that ends before its start": lambda: asp.surfaces.cropped(rough((8, 8)), x=(2.0, 1.0)),
     "a crop beyond the surface": lambda: asp.surfaces.cropped(rough((8, 8)), x=(0.0, 99.0)),

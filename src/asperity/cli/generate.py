@@ -18,7 +18,7 @@ from ..core.values import Choice, Number
 from ..core.words import first_paragraph
 from ..io.atomic import require_new_files
 from ..io.schemas.surfaces import AMPLITUDES, HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnySurface, FileSurface
-from ..io.surface_files import require_ending, save_endless, save_gaussian, save_surface
+from ..io.surface_files import ENDINGS, require_ending, save_endless, save_gaussian, save_surface
 from ..io.words import surface_text
 from ..plots.contact import save_surface_plot
 from ..run.build import build_generated, build_part, large_grid, stated_points, table_grid
@@ -77,7 +77,8 @@ def _command(kind: str) -> Any:
     def run(
         given: Given,
         out: Annotated[
-            Path, typer.Option("--out", help="File to write: .nc (all that is known of it), .txt, .asc or .npy.")
+            Path,
+            typer.Option("--out", help=f"File to write: {', '.join(ENDINGS)}; .nc keeps all that is known of it."),
         ],
         plot: Annotated[Path | None, typer.Option("--plot", help="Write a picture of the heights, PNG.")] = None,
         force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,

@@ -77,6 +77,11 @@ def preparation_options() -> tuple[Option, ...]:
         make("--crop", ("prepare", "crop", "range"), 'part to keep: "0um:5um,0um:4um"', PREPARATION, "X0:X1,Y0:Y1"),
         step("--despike", "despike", "threshold", "mask spikes"),
         step("--line-correct", "line_correct", "axis", "remove offsets between scan lines"),
+        step("--remove-tip", "tip", "radius", "reconstruct the surface behind the scan of a tip"),
+        step("--tip-opening", "tip", "opening", "of the tip to remove"),
+        step("--estimate-tip", "tip", "pixels", "the same with an unknown tip"),
+        step("--tip-noise", "tip", "noise", "of the tip to estimate"),
+        step("--mask-uncertain", "tip", "mask_uncertain", ""),
         make(
             "--level",
             ("prepare", "level", "form"),
@@ -337,6 +342,7 @@ def steps(given: Given) -> list[dict[str, Any]]:
         raise InputError(
             f"--filter {sieve['kind']} must be given together with --short-cutoff or --long-cutoff, but is alone."
         )
+    _require_tip(chosen.get("tip", {}))
     order = list(dict.fromkeys(option.path[1] for option in preparation_options()))
     if sieve.get("kind") == "sharp":
         order.remove("filter")
@@ -376,13 +382,29 @@ def steps(given: Given) -> list[dict[str, Any]]:
     return [{"step": step, **values} for step in order if (values := made.get(step)) is not None]
 
 
+def _require_tip(given: Mapping[str, Any]) -> None:
+    """Refuse options of a tip that do not go together."""
+    if {"radius", "pixels"} <= given.keys():
+        raise InputError("--estimate-tip must be left out with --remove-tip: the tip is known, or estimated.")
+    for key, needed in (("opening", ("radius",)), ("noise", ("pixels",)), ("mask_uncertain", ("radius", "pixels"))):
+        if key in given and not {*needed} & given.keys():
+            named = {option.path[-1]: option.name for option in preparation_options() if option.path[1] == "tip"}
+            wanted = " or ".join(named[name] for name in needed)
+            raise InputError(f"{named[key]} must be given together with {wanted}, but is alone.")
+
+
 def _words(step: str, key: str) -> Iterable[str]:
     """Words that a parameter of a step may be."""
     return next(item.words for item in parameters(STEPS[step]) if item.name == key)
 
 
 _OPTIONS_OF_STEPS = MappingProxyType(
-    {("tip_limit", "step"): "--tip-radius", ("level", "degree"): "--level", ("level", "step"): "--level"}
+    {
+        ("tip", "step"): "--remove-tip",
+        ("tip_limit", "step"): "--tip-radius",
+        ("level", "degree"): "--level",
+        ("level", "step"): "--level",
+    }
 )
 
 

@@ -19,6 +19,7 @@ from ..io.atomic import require_new_files
 from ..io.export import export_csv, export_vtk
 from ..io.results import contact_of, document_in, load
 from ..io.schemas.problem import SolverTable
+from ..io.surface_files import ENDINGS, require_ending, save_surface
 from ..physics.stress.part import Stress, stress_request
 from ..physics.stress.survey import Planned, StressRequest
 from ..plots.contact import figures_of
@@ -90,12 +91,20 @@ def export(
     file: Result,
     csv: Annotated[Path | None, typer.Option("--csv", help="Scalars as a CSV file.")] = None,
     vtk: Annotated[Path | None, typer.Option("--vtk", help="Fields as a VTK image file (.vti).")] = None,
+    surface: Annotated[
+        Path | None,
+        typer.Option("--surface", help=f"Heights of the surface as prepared: {', '.join(ENDINGS)}."),
+    ] = None,
     force: Force = False,
 ) -> None:
     """Write a result for other programs."""
-    wanted = [path for path in (csv, vtk) if path is not None]
+    wanted = [path for path in (csv, vtk, surface) if path is not None]
     if not wanted:
-        raise InputError("export must have a file to write: give --csv FILE or --vtk FILE or both.")
+        raise InputError(
+            "export must have a file to write, but has none: give --csv FILE, --vtk FILE or --surface FILE."
+        )
+    if surface is not None:
+        require_ending(surface)
     require_new_files(wanted, overwrite=force, inputs=(file,))
     outcome = load_outcome(file)
     if csv is not None:
@@ -103,6 +112,8 @@ def export(
         export_csv(result, csv, scalars=outcome.scalars, overwrite=force)
     if vtk is not None:
         export_vtk(outcome.result, vtk, overwrite=force)
+    if surface is not None:
+        save_surface(outcome.result.problem.surface, surface, overwrite=force)
     print_files(wanted)
 
 

@@ -8,10 +8,17 @@ import numpy as np
 
 from ..core import require
 from ..core.errors import InputError
-from ..surfaces.characterise.correlation import DROP_1E, autocovariance, fractal_parameters
+from ..surfaces.characterise.correlation import (
+    DROP_1E,
+    FractalParameters,
+    autocovariance,
+    fractal_parameters,
+    fractal_roughness,
+)
 from ..surfaces.characterise.heights import deviations, height_parameters
 from ..surfaces.characterise.moments import DifferenceMoments, SpectralMoments, difference_moments, spectral_moments
-from ..surfaces.characterise.spectrum import power_spectrum, profile_spectrum, radial_spectrum
+from ..surfaces.characterise.spectral_fit import MEASURED_MODEL_ERROR, fit_spectrum
+from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum, profile_spectrum, radial_spectrum
 from ..surfaces.characterise.summits import summits
 from ..surfaces.prepare.level import filled
 from ..surfaces.profile import Profile
@@ -86,7 +93,7 @@ def roughness_of(surface: Surface | Profile, *, moments: str = "auto", neighbour
         heights=deviations(surface),
         skewness=shape.Ssk,
         kurtosis=shape.Sku,
-        fractal=_fractal(surface),
+        fractal=_fractal(surface, spectrum),
         correlation_length=0.5 * sum(covariance.correlation_length(DROP_1E, axis=axis) for axis in ("x", "y")),
     )
 
@@ -125,15 +132,35 @@ def _of_profile(profile: Profile, moments: str) -> Roughness:
     )
 
 
-def _fractal(surface: Surface) -> Fractal | None:
-    """Mean dimension and geometric mean of the fractal roughness along x and y; None unless both
-    are self-affine."""
+def _fractal(surface: Surface, spectrum: PowerSpectrum) -> Fractal | None:
+    """Dimension and roughness of self-affine profiles, in the band of the power law of the
+    ``spectrum``; None unless there is one.
+
+    Of second differences, the mean dimension and geometric mean of the fractal roughness along x
+    and y, if the roll-off leaves enough lags and both agree with the spectrum; otherwise of the
+    spectrum, which allows for the roll-off.
+    """
+    if 1 in surface.shape:
+        return None
     try:
-        found = [fractal_parameters(surface, axis=axis) for axis in ("x", "y")]
-    except InputError:  # a line, or too few lags
+        fit = fit_spectrum(spectrum, model_error=0.0 if surface.periodic else MEASURED_MODEL_ERROR)
+    except InputError:  # flat, or too few modes
         return None
-    if not all(fit.self_affine and fit.roughness > 0.0 for fit in found):
+    along: list[FractalParameters] = []
+    for axis in ("x", "y"):
+        try:
+            along.append(fractal_parameters(surface, axis=axis, lag_range=fit.lag_range))
+        except InputError:  # too few lags
+            break
+    shortest, longest = fit.band[::-1]
+    if len(along) == 2 and all(found.self_affine for found in along):
+        if not all(fit.agrees(found.hurst, found.dimension_error) for found in along):  # the lags alone
+            shortest, longest = max(found.first_lag for found in along), min(found.last_lag for found in along)
+        roughness = math.exp(0.5 * sum(math.log(found.roughness) for found in along))
+        return Fractal(0.5 * sum(found.dimension for found in along), roughness, shortest, longest)
+    margin = 1.96 * fit.hurst_error
+    if not margin < fit.hurst < 1.0 - margin:
         return None
-    roughness = math.exp(0.5 * sum(math.log(fit.roughness) for fit in found))
-    lengths = max(fit.first_lag for fit in found), min(fit.last_lag for fit in found)
-    return Fractal(0.5 * sum(fit.dimension for fit in found), roughness, *lengths)
+    dimension, pixel = 2.0 - fit.hurst, surface.dx
+    roughness = fractal_roughness(dimension, fit.structure_amplitude(pixel), pixel)
+    return Fractal(dimension, roughness, shortest, longest) if roughness > 0.0 else None

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from tempfile import TemporaryFile
 
@@ -26,7 +27,7 @@ from .atomic import atomic_file
 # Surfaces written for other programs and for later.
 
 
-ENDINGS = (".nc", ".npy", ".txt", ".asc")
+ENDINGS = (".nc", ".gsf", ".x3p", ".xyz", ".npy", ".txt", ".asc")
 """Endings of files a surface can be written to."""
 
 
@@ -38,6 +39,12 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
     * ``.txt``, ``.asc``: matrix of heights in m with a header that states size and unit, top row
       (largest y) first, as Gwyddion exports and reads it; ``read`` needs no further argument.
       ``nan`` marks a missing point. A text does not tell that a surface is periodic.
+    * ``.gsf``: Gwyddion Simple Field, 32-bit floats (seven digits of every height) with size, unit
+      and missing points.
+    * ``.x3p``: ISO 25178-72, written by SurfaceTopography in 64-bit floats, with size, unit and
+      missing points. History and period are left out, as in all that follow.
+    * ``.xyz``: list of all points x, y, z in m, ten digits, with the units in the headings; ``nan``
+      marks a missing point.
     * ``.npy``: the bare array [x, y] of heights in m; ``read`` needs size and unit.
 
     Raises
@@ -52,6 +59,14 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
     with atomic_file(target, overwrite=overwrite) as partial:
         if ending == ".nc":
             write_netcdf(surface, partial)
+        elif ending == ".gsf":
+            write_gsf(surface.heights, surface.size, partial)
+        elif ending == ".x3p":
+            write_x3p(surface.heights, surface.size, partial)
+        elif ending == ".xyz":
+            x, y = (np.arange(n) * step for n, step in zip(surface.shape, surface.grid.spacing, strict=True))
+            places = (found.ravel() for found in np.broadcast_arrays(x[:, None], y[None, :]))
+            write_points(dict(zip("xyz", (*places, surface.heights.ravel()), strict=True)), partial)
         elif ending == ".npy":
             np.save(partial, surface.heights)
         else:
@@ -62,6 +77,42 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
             )
             with partial.open("w", encoding="utf-8", newline="\n") as file:
                 np.savetxt(file, np.flipud(surface.heights.T), fmt="%.10g", delimiter="\t", header=header)
+
+
+def write_gsf(heights: RealArray, size: tuple[float, float], path: Path) -> None:
+    """Write ``heights`` (nx, ny) in m, NaN where missing, over ``size`` (Lx, Ly) in m as a Gwyddion
+    Simple Field.
+
+    Lines ``key = value``, one to four zero bytes up to a multiple of four, then 32-bit floats,
+    little end first, top row (largest y) first.
+    """
+    nx, ny = heights.shape
+    header = (
+        f"Gwyddion Simple Field 1.0\nXRes = {nx}\nYRes = {ny}\nXReal = {size[0]!r}\nYReal = {size[1]!r}\n"
+        "XYUnits = m\nZUnits = m\nTitle = heights\n"
+    ).encode("ascii")
+    with path.open("wb") as file:
+        file.write(header + b"\0" * (4 - len(header) % 4))
+        file.write(np.flipud(heights.T).astype("<f4").tobytes())
+
+
+def write_x3p(heights: RealArray, size: tuple[float, float], path: Path) -> None:
+    """Write ``heights`` (nx, ny) in m, NaN where missing, over ``size`` (Lx, Ly) in m as an .x3p
+    file of 64-bit floats."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the library warns where MPI is missing
+        from SurfaceTopography import Topography
+    masked = np.ma.masked_invalid(heights[:, ::-1].astype(np.float64))  # the library counts y downwards from the top
+    with path.open("wb") as file:
+        Topography(masked, size, unit="m").to_x3p(file, manufacturer="asperity", model="asperity", version="unknown")
+
+
+def write_points(columns: Mapping[str, RealArray], path: Path) -> None:
+    """Write ``columns`` (n,) in m, such as x, y, z of a map or x, z of a profile, with their names
+    and units in the first line."""
+    with path.open("w", encoding="utf-8", newline="\n") as file:
+        head = "\t".join(f"{name} (m)" for name in columns)
+        np.savetxt(file, np.column_stack([*columns.values()]), fmt="%.10g", delimiter="\t", header=head, comments="")
 
 
 def require_ending(path: Path, endings: tuple[str, ...] = ENDINGS) -> None:

@@ -36,6 +36,7 @@ from .surface import (
     plot_surface_view,
     save_roughness_plots,
 )
+from .tip import TIP_PLOTS, plot_certainty, plot_tip, plot_tip_section, save_tip_plots
 
 __all__ = [
     "PATH_PLOTS",
@@ -43,9 +44,11 @@ __all__ = [
     "PLOTS",
     "PROFILE_PLOTS",
     "SURFACE_PLOTS",
+    "TIP_PLOTS",
     "Plot",
     "plot_area_loop",
     "plot_autocorrelation",
+    "plot_certainty",
     "plot_contact",
     "plot_convergence",
     "plot_curves",
@@ -74,6 +77,8 @@ __all__ = [
     "plot_stress_section",
     "plot_summits",
     "plot_surface_view",
+    "plot_tip",
+    "plot_tip_section",
     "plot_transitions",
     "profile_figures",
     "render",
@@ -81,5 +86,6 @@ __all__ = [
     "save_plots",
     "save_roughness_plots",
     "save_surface_plot",
+    "save_tip_plots",
     "style",
 ]

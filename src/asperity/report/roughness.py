@@ -44,6 +44,9 @@ RELATIVE_ERRORS = {
 """Standard error relative to the number, by path of the number; that of Sq is its scatter from map
 to map."""
 
+BOUNDS = {"spatial.Sal": ("≥", "spatial.Sal_least"), "spatial.Str": ("≤", "spatial.Str_most")}
+"""Bound of a number that is not known, with its sign, by path of the number."""
+
 SHARES = ("functional.Smr1", "functional.Smr2", "hybrid.Sdr", "sampling.Sq_error")
 """Numbers given in per cent."""
 
@@ -85,7 +88,7 @@ def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, st
     What is not defined for the surface is left out.
     """
     values = {quantity.name: value for quantity, value in found.values()}
-    errors = {*ABSOLUTE_ERRORS.values(), *RELATIVE_ERRORS.values()}
+    beside = {*ABSOLUTE_ERRORS.values(), *RELATIVE_ERRORS.values(), *(path for _, path in BOUNDS.values())}
     along_y: dict[str, Quantity] = {}  # by the path of the number along x
     for quantity in QUANTITIES:
         parts = [part[:-2] + "_x" if part.endswith("_y") else part for part in quantity.name.split(".")]
@@ -93,7 +96,7 @@ def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, st
             along_y[".".join(parts)] = quantity
     groups: dict[str, list[tuple[str, str, str]]] = {}
     for quantity in QUANTITIES:
-        if quantity.name in errors or quantity in along_y.values():
+        if quantity.name in beside or quantity in along_y.values():
             continue
         text = _with_error(quantity, values)
         name = f"{quantity.label} {quantity.symbol}".rstrip()
@@ -109,17 +112,26 @@ def quantity_rows(found: Characterisation) -> list[tuple[str, list[tuple[str, st
 
 def headline_values(found: Characterisation) -> list[tuple[str, str]]:
     """Name and text of the numbers that people look for first."""
-    chosen = {quantity.name: (quantity, value) for quantity, value in found.values() if quantity.name in HEADLINE}
-    found_first = (chosen[path] for path in HEADLINE)
+    values = {quantity.name: value for quantity, value in found.values()}
+    chosen = {quantity.name: quantity for quantity in QUANTITIES if quantity.name in HEADLINE}
     return [
-        (f"{quantity.label} {quantity.symbol}".rstrip(), quantity_text(quantity, value, digits=3))
-        for quantity, value in found_first
+        (f"{quantity.label} {quantity.symbol}".rstrip(), _bounded(quantity, values, digits=3))
+        for quantity in (chosen[path] for path in HEADLINE)
     ]
 
 
+def _bounded(quantity: Quantity, values: dict[str, float], digits: int = 4) -> str:
+    """Text of a number, of a bound if that is all that is known."""
+    value = values[quantity.name]
+    if math.isnan(value) and quantity.name in BOUNDS:
+        sign, path = BOUNDS[quantity.name]
+        text = quantity_text(quantity, values[path], digits)
+        return text if text == NOT_DEFINED else f"{sign} {text} (bound)"
+    return quantity_text(quantity, value, digits)
+
+
 def _with_error(quantity: Quantity, values: dict[str, float]) -> str:
-    value, path = values[quantity.name], quantity.name
-    text = quantity_text(quantity, value)
+    path, text = quantity.name, _bounded(quantity, values)
     if text == NOT_DEFINED:
         return text
     if path in ABSOLUTE_ERRORS and math.isfinite(error := values[ABSOLUTE_ERRORS[path]]):
@@ -251,6 +263,8 @@ def summary(found: Characterisation) -> str:
     if math.isfinite(aspect):
         kind = "isotropic" if aspect > 0.5 else "anisotropic" if aspect > 0.3 else "strongly anisotropic"
         sentences.append(f"The texture is {kind} (Str {aspect:.2f}).")
+    elif found.spatial.Str_most <= 0.3:
+        sentences.append(f"The texture is strongly anisotropic (Str at most {found.spatial.Str_most:.2g}).")
     if found.spectra.fit is not None:
         spectrum = found.spectrum
         law = f"The spectrum falls as q to the power −{spectrum.exponent_1:.2f}"

@@ -80,10 +80,10 @@ from ..solids.layers import (
     unknown_strengths,
 )
 from ..solids.library import material
-from ..solids.moduli_file import read_moduli
+from ..solids.moduli_file import fitted_file
 from ..solids.plasticity import LinearHardening, Swift, Voce
 from ..solids.strength import flow_stress
-from ..solids.viscoelastic import Arrhenius, TemperatureShift, Viscoelastic, WilliamsLandelFerry, fitted_solid
+from ..solids.viscoelastic import Arrhenius, TemperatureShift, Viscoelastic, WilliamsLandelFerry
 from ..surfaces.formats import checked_size
 from ..surfaces.pair import on_common_grid, turned_over
 from ..surfaces.read import read_map
@@ -509,9 +509,9 @@ def viscoelastic(table: Relaxing, nu: float, folder: Path, **more: Any) -> Visco
         return Viscoelastic.power_law(float(table.coefficient), float(table.exponent), nu, **ends, **more)
     if not isinstance(table, MeasuredTable):
         raise InputError(f"relaxation must be one of the kinds of documents, but is {table!r}.")
-    columns = read_moduli(folder / table.moduli_file)
     more["sources"] = (*more.get("sources", ()), f"relaxation: {table.moduli_file}")
-    return fitted_solid(*columns, poisson_ratio=nu, per_decade=table.per_decade, **more).solid
+    asked = {"poisson_ratio": nu, "per_decade": table.per_decade, "fluid": table.fluid}
+    return fitted_file(folder / table.moduli_file, **asked, **more).solid
 
 
 def _known(value: float | str | None) -> float:

@@ -286,3 +286,109 @@ def _zeros_below(
             width *= 4.0
         found.append(_zero_from(poles, poles.size - 1, 1.0, width, at))
     return found
+
+
+# Series through values measured at some times: a fixed grid of times, strengths by non-negative
+# least squares (Lawson & Hanson 1974).
+
+_MOST_TERMS = 400
+"""Terms of a series that is fitted."""
+
+NEGLIGIBLE = 1e-12
+"""Strength of a term over the largest below which it is left out of a fit: rounding."""
+
+
+def require_terms(decades: float, per_decade: int) -> None:
+    """Refuse a series of more than 400 terms. InputError if ``per_decade`` terms over ``decades``
+    are more."""
+    if not decades * per_decade <= _MOST_TERMS:
+        raise InputError(
+            f"number of terms of a fitted series must be at most {_MOST_TERMS}, but is "
+            f"{decades * per_decade:.3g}: {per_decade} a decade over {decades:.3g} decades. Take fewer a "
+            "decade, or a narrower band."
+        )
+
+
+def relaxation_through(time: ArrayLike, modulus: ArrayLike, *, per_decade: int = 4, fluid: bool = False) -> Relaxation:
+    """Relaxation through the moduli (n,), Pa, > 0, measured at ``time`` (n,), s, > 0.
+
+    Relaxation times stand ``per_decade`` to a decade from the shortest measured time to ten times
+    the longest, since what relaxes later shows as a slope; strengths >= 0 make the sum of the
+    squares of the relative differences least. A ``fluid`` has no constant. InputError if the
+    columns do not fit together, hold values out of range, or the modulus rises from the first to
+    the last time.
+    """
+    t, values = _measured(time, modulus, "relaxation modulus", "Pa")
+    if not values[-1] <= values[0]:
+        raise InputError(
+            f"relaxation modulus must fall with time, but rises from {values[0]:.6g} Pa at {t[0]:.6g} s to "
+            f"{values[-1]:.6g} Pa at {t[-1]:.6g} s. Check which column is which; a compliance rises."
+        )
+    taus = _times(t, per_decade)
+    columns = np.hstack([np.exp(-t[:, None] / taus), np.full((t.size, 1), 0.0 if fluid else 1.0)])
+    *strengths, relaxed = _strengths(columns, values)
+    return Relaxation(relaxed, tuple(zip(strengths, map(float, taus), strict=True)))
+
+
+def creep_through(time: ArrayLike, compliance: ArrayLike, *, per_decade: int = 4, fluid: bool = False) -> Creep:
+    """Creep through the compliances (n,), 1/Pa, > 0, measured at ``time`` (n,), s, > 0.
+
+    As :func:`relaxation_through`; a ``fluid`` has a fluidity beside its terms. InputError if the
+    columns do not fit together, hold values out of range, the compliance falls from the first to
+    the last time, or nothing of it is there at the first instant.
+    """
+    t, values = _measured(time, compliance, "creep compliance", "1/Pa")
+    if not values[-1] >= values[0]:
+        raise InputError(
+            f"creep compliance must rise with time, but falls from {values[0]:.6g} 1/Pa at {t[0]:.6g} s to "
+            f"{values[-1]:.6g} 1/Pa at {t[-1]:.6g} s. Check which column is which; a modulus falls."
+        )
+    lams = _times(t, per_decade)
+    flow = t[:, None] / t[-1] if fluid else np.zeros((t.size, 1))
+    columns = np.hstack([-np.expm1(-t[:, None] / lams), np.ones((t.size, 1)), flow])
+    *strengths, instantaneous, flowed = _strengths(columns, values)
+    if not instantaneous > 0.0:
+        raise InputError(
+            f"creep compliance must have a part at the first instant, but the {values[0]:.6g} 1/Pa at {t[0]:.6g} s "
+            "have grown from zero. Measure from a shorter time on."
+        )
+    return Creep(instantaneous, tuple(zip(strengths, map(float, lams), strict=True)), flowed / float(t[-1]))
+
+
+def _measured(time: ArrayLike, values: ArrayLike, what: str, unit: str) -> tuple[RealArray, RealArray]:
+    """Both columns by rising times."""
+    t, found = (np.atleast_1d(np.asarray(column, dtype=float)) for column in (time, values))
+    if not (t.ndim == 1 and t.shape == found.shape and t.size >= 2):
+        raise InputError(
+            f"time and {what} must be columns of the same length of at least 2, but have the shapes {t.shape} and "
+            f"{found.shape}."
+        )
+    if not (np.isfinite(t).all() and t.min() > 0.0 and np.unique(t).size == t.size):
+        raise InputError(f"times (s) of a {what} must be finite, positive and different from each other.")
+    if not (np.isfinite(found).all() and found.min() > 0.0):
+        raise InputError(f"{what} ({unit}) must be positive and finite at all times.")
+    order = np.argsort(t)
+    return t[order], found[order]
+
+
+def _times(t: RealArray, per_decade: int) -> RealArray:
+    """Times of the terms for measurements at the rising times ``t``."""
+    count = require.integer(per_decade, 1, "number of terms a decade")
+    decades = math.log10(t[-1] / t[0]) + 1.0
+    require_terms(decades, count)
+    return np.asarray(t[0] * 10.0 ** (np.arange(math.ceil(decades * count - 1e-9) + 1) / count))
+
+
+def not_negative(columns: RealArray, values: RealArray) -> RealArray:
+    """Numbers >= 0 (n,) by which the ``columns`` (m, n) add up closest to the ``values`` (m,)."""
+    from scipy.optimize import nnls
+
+    found, _ = nnls(columns, values, maxiter=100 * columns.shape[1])
+    return np.asarray(found)
+
+
+def _strengths(columns: RealArray, values: RealArray) -> list[float]:
+    """Strengths >= 0 of the ``columns`` whose sum is closest to the ``values``, relative to
+    these."""
+    found = not_negative(columns / values[:, None], np.ones(values.size))
+    return [float(strength) for strength in np.where(found > NEGLIGIBLE * found.max(), found, 0.0)]

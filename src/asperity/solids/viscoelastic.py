@@ -14,7 +14,7 @@ from ..core import require
 from ..core.arrays import ComplexArray, RealArray
 from ..core.errors import InputError
 from .elastic import Elastic
-from .relaxation import Creep, Relaxation, Terms
+from .relaxation import NEGLIGIBLE, Creep, Relaxation, Terms, not_negative, require_terms
 
 _TOO_MUCH = 1e-12
 """Rounding by which the shares that relax may add up to more than one."""
@@ -110,7 +110,8 @@ class Viscoelastic(Elastic):
 
     Wherever only the first instant matters it acts as the ``Elastic`` with these constants. The
     usual models have makers of their own: ``prony``, ``maxwell``, ``kelvin_voigt``,
-    ``standard_linear``, ``power_law``; measured moduli are fitted by ``fitted_solid``.
+    ``standard_linear``, ``power_law``; measured moduli are fitted by ``fitted_solid``, in
+    time by ``fitted_relaxation`` and ``fitted_creep``.
 
     Parameters
     ----------
@@ -369,18 +370,6 @@ def alike(solids: tuple[Elastic, ...]) -> bool:
 # Series for functions of time and frequency: a fixed grid of times, strengths by non-negative least
 # squares.
 
-_MOST_TERMS = 400
-"""Terms of a series that is fitted."""
-
-
-def _require_terms(decades: float, per_decade: int) -> None:
-    if not decades * per_decade <= _MOST_TERMS:
-        raise InputError(
-            f"number of terms of a fitted series must be at most {_MOST_TERMS}, but is "
-            f"{decades * per_decade:.3g}: {per_decade} a decade over {decades:.3g} decades. Take fewer a "
-            "decade, or a narrower band."
-        )
-
 
 def power_law_series(
     coefficient: float, exponent: float, *, shortest: float, longest: float, per_decade: int = 3
@@ -392,8 +381,6 @@ def power_law_series(
     shortest: what a creep has missed before falls off with time to the power 1 - alpha. Those still
     slower are a constant. InputError if a value is outside its range.
     """
-    from scipy.optimize import nnls
-
     require.positive(coefficient, "coefficient of a power law (Pa)")
     alpha = require.between(exponent, 0.0, 1.0, "exponent of a power law")
     require.positive(shortest, "shortest time of a power law (s)")
@@ -403,14 +390,14 @@ def power_law_series(
         )
     count = require.integer(per_decade, 1, "number of terms a decade")
     beyond = min(2.0 / (1.0 - alpha), 8.0)
-    _require_terms(math.log10(longest) - math.log10(shortest) + beyond + 4.0, count)
+    require_terms(math.log10(longest) - math.log10(shortest) + beyond + 4.0, count)
     first, last = shortest * 10.0**-beyond, longest * 100.0
     steps = math.ceil(math.log10(last / first) * count)
     taus = first * 10.0 ** (np.arange(-count, steps + count + 1) / count)
     times = np.geomspace(first, last, 8 * steps)
     columns = np.exp(-times[:, None] / taus)
     relative = np.hstack([columns, np.ones((times.size, 1))]) / (times**-alpha)[:, None]
-    strengths, _ = nnls(relative, np.ones(times.size), maxiter=100 * relative.shape[1])
+    strengths = not_negative(relative, np.ones(times.size))
     terms = tuple((coefficient * g, float(tau)) for g, tau in zip(strengths[:-1], taus, strict=True))
     return Relaxation(coefficient * float(strengths[-1]), terms)
 
@@ -420,10 +407,6 @@ def power_law_error(series: Relaxation, coefficient: float, exponent: float, tim
     ``times`` (s)."""
     t = np.asarray(times, dtype=float)
     return float(np.abs(series.at(t) / (coefficient * t**-exponent) - 1.0).max())
-
-
-_NEGLIGIBLE = 1e-12
-"""Strength of a term over the largest below which it is left out of a fit: rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -472,6 +455,7 @@ def fitted_solid(
     *,
     poisson_ratio: float,
     per_decade: int = 4,
+    fluid: bool = False,
     **more: Any,
 ) -> MasterCurve:
     """Viscoelastic solid through measured storage and loss moduli, with the error of the fit.
@@ -490,6 +474,8 @@ def fitted_solid(
         nu.
     per_decade
         Relaxation times a decade of frequency.
+    fluid
+        Whether all of it relaxes, so that the series has no constant.
     **more
         Further parameters of ``Viscoelastic``, such as ``name`` and ``sources``.
 
@@ -513,7 +499,7 @@ def fitted_solid(
         raise InputError("storage moduli (Pa) must be positive, loss moduli (Pa) not negative, and all of them finite.")
     count = require.integer(per_decade, 1, "number of terms a decade")
     omega, size = 2.0 * np.pi * f, np.hypot(real, imaginary)
-    _require_terms(math.log10(omega.max()) - math.log10(omega.min()) + 2.0, count)
+    require_terms(math.log10(omega.max()) - math.log10(omega.min()) + 2.0, count)
     longest, shortest = 1.0 / omega.min(), 1.0 / omega.max()
     taus = np.geomspace(shortest, longest, max(2, math.ceil(math.log10(longest / shortest) * count) + 1))
     beyond = (taus[1] / taus[0]) ** np.arange(1, count + 1)
@@ -521,12 +507,10 @@ def fitted_solid(
         [taus[0] / beyond[::-1], taus, taus[-1] * beyond]
     )  # what relaxes a decade outside the band shows inside
     kernels = 1j * omega[:, None] * taus / (1.0 + 1j * omega[:, None] * taus)
-    columns = np.hstack([kernels, np.ones((f.size, 1))])
+    columns = np.hstack([kernels, np.full((f.size, 1), 0.0 if fluid else 1.0)])
     rows = np.vstack([columns.real / size[:, None], columns.imag / size[:, None]])
-    from scipy.optimize import nnls
-
-    strengths, _ = nnls(rows, np.concatenate([real / size, imaginary / size]), maxiter=100 * taus.size)
-    least = _NEGLIGIBLE * float(strengths.max())
+    strengths = not_negative(rows, np.concatenate([real / size, imaginary / size]))
+    least = NEGLIGIBLE * float(strengths.max())
     terms = tuple((float(g), float(tau)) for g, tau in zip(strengths[:-1], taus, strict=True) if g > least)
     solid = Viscoelastic.prony(float(strengths[-1]), terms, poisson_ratio, **more)
     return MasterCurve(solid, f, real, imaginary, solid.complex_modulus(omega))

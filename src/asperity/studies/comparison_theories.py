@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -39,12 +40,17 @@ class Chosen:
     left_out: tuple[LeftOut, ...]
 
 
+def _offered() -> dict[str, Any]:
+    """Theories of the catalogue that are made from the roughness of a surface, by name."""
+    from ..theories.catalogue import THEORIES
+
+    return {name: kind for name, kind in THEORIES.items() if hasattr(kind, "from_roughness")}
+
+
 def surface_theories() -> tuple[str, ...]:
     """Names of the theories that are made from the roughness of a surface, in the order of the
     catalogue."""
-    from ..theories.catalogue import THEORIES
-
-    return tuple(name for name, kind in THEORIES.items() if hasattr(kind, "from_roughness"))
+    return tuple(_offered())
 
 
 def chosen_theories(
@@ -69,15 +75,14 @@ def chosen_theories(
     InputError
         If a name is unknown or something is no theory.
     """
-    from ..theories.catalogue import THEORIES
-
     if isinstance(theories, str):
         raise InputError(
             f"theories of a comparison must be a list of names, but is {theories!r}. Write [{theories!r}]."
         )
+    offered = _offered()
     made: dict[str, SurfaceTheory] = {}
     left_out: list[LeftOut] = []
-    for item in surface_theories() if theories is None else theories:
+    for item in tuple(offered) if theories is None else theories:
         if not isinstance(item, str) and not all(
             hasattr(item, part) for part in ("at_pressure", "validity", "name", "title")
         ):
@@ -86,7 +91,7 @@ def chosen_theories(
             )
         found: SurfaceTheory
         if isinstance(item, str):
-            kind = THEORIES[require.one_of(item, surface_theories(), "name of a theory to compare")]
+            kind = offered[require.one_of(item, tuple(offered), "name of a theory to compare")]
             wanted = [part for part in parameters(kind) if part.of == "bodies" and part.name != "E_star"]
             missing = [part for part in wanted if part.required and part.name not in known]
             if missing:
@@ -95,7 +100,7 @@ def chosen_theories(
                 continue
             values = {part.name: known[part.name] for part in wanted if part.name in known}
             try:
-                found = kind.from_roughness(roughness, E_star, **values)  # type: ignore[attr-defined]
+                found = kind.from_roughness(roughness, E_star, **values)
             except InputError as error:
                 left_out.append(LeftOut(item, kind.title, str(error)))
                 continue

@@ -4,6 +4,10 @@
 ``line_corrected``, ``despiked``, ``filled``, ``filtered``, ``tip_limited``, ``cropped``,
 ``sliced``, ``resampled``, ``tapered`` and ``periodised``; pair two in a ``SurfacePair`` by
 ``composite``, ``on_common_grid`` and ``turned_over``. ``Grid`` is what heights stand on.
+
+A tip is a ``SphericalTip``, ``ParabolicTip``, ``ConicalTip`` or ``MeasuredTip``; ``scanned`` gives
+its scan of a surface, ``reconstructed`` the surface behind a scan, ``certain_points`` where that is
+certain, and ``estimated_tip`` the tip from a scan.
 """
 
 from ..core.late import late_names

@@ -3,20 +3,36 @@ from .pair import SurfacePair, composite, on_common_grid, turned_over
 from .prepare.extent import cropped, periodised, resampled, sliced, tapered
 from .prepare.filter import filtered, reliability_cutoff, tip_limited
 from .prepare.level import despiked, filled, levelled, line_corrected
+from .prepare.tip import (
+    ConicalTip,
+    MeasuredTip,
+    ParabolicTip,
+    SphericalTip,
+    certain_points,
+    estimated_tip,
+    reconstructed,
+    scanned,
+)
 from .profile import Instrument, Profile
 from .read import channels, read
 from .surface import Surface, strip
 
 __all__ = [
+    "ConicalTip",
     "Grid",
     "Instrument",
+    "MeasuredTip",
+    "ParabolicTip",
     "Profile",
+    "SphericalTip",
     "Surface",
     "SurfacePair",
+    "certain_points",
     "channels",
     "composite",
     "cropped",
     "despiked",
+    "estimated_tip",
     "filled",
     "filtered",
     "levelled",
@@ -24,8 +40,10 @@ __all__ = [
     "on_common_grid",
     "periodised",
     "read",
+    "reconstructed",
     "reliability_cutoff",
     "resampled",
+    "scanned",
     "sliced",
     "strip",
     "tapered",

@@ -19,6 +19,7 @@ from ..core.units import show
 from .characterise.heights import rms_height
 from .characterise.moments import nayak_parameter
 from .characterise.slopes import rms_profile_curvature, rms_profile_slope
+from .characterise.expectation import RingExpectation
 from .characterise.spectral_fit import SHAPES, fitted_shape
 from .characterise.spectrum import LOST_MODES, ProfileSpectrum, RadialSpectrum, profile_spectrum
 from .characterise.summits import ProfilePeaks
@@ -252,11 +253,12 @@ def _pieces(rings: RadialSpectrum, lost: float) -> _Fit:
     """Power-law pieces without floor with the best criterion, by the same fit as the spectra of
     maps."""
     found, count = [], 0.5 * rings.modes
+    plain = RingExpectation(rings.q, np.eye(rings.q.size))
     first, last = float(rings.q[0]), float(rings.q[-1])
     for shape in SHAPES:
-        if shape.floor or shape.parameters >= rings.q.size:
+        if shape.floor or shape.rounded or shape.folded or shape.parameters >= rings.q.size:
             continue
-        solution = fitted_shape(rings, shape)
+        solution = fitted_shape(rings, shape, plain)
         model = solution.model(2.0 * math.pi / first)
         bends = [2.0 * math.pi / model.rolloff_wavelength]
         if len(model.exponents) == 2:

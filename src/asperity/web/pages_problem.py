@@ -16,8 +16,7 @@ from ..core.units import parse, show
 from ..io.schemas.bodies import BESIDE, body_from_text
 from ..run.document import document_model
 from ..solids.library import materials
-from ..solids.moduli_file import read_moduli
-from ..solids.viscoelastic import fitted_solid
+from ..solids.moduli_file import fitted_file
 from .draft import Keys, moduli_files
 from .forms import Asked, asked_of
 from .layout import drop
@@ -129,8 +128,8 @@ def _library() -> None:
 
 
 def _own_files(key: str, session: Session) -> None:
-    """Takes a file of own materials, for every body that names one, or of storage and loss moduli,
-    for every relaxation that is measured.
+    """Takes a file of own materials, for every body that names one, or of measured moduli, for
+    every relaxation that is measured.
 
     The file is read once, so that it is refused here.
     """
@@ -149,7 +148,7 @@ def _own_files(key: str, session: Session) -> None:
                 ]
                 places = [(name, "materials_file") for name in named]
             else:
-                fitted_solid(*read_moduli(Path(path)), poisson_ratio=0.5)
+                fitted_file(Path(path), poisson_ratio=0.5)
                 places = [keys for name, body in bodies.items() for keys in moduli_files(body, (name,))]
                 if not places:
                     raise InputError(
@@ -166,8 +165,8 @@ def _own_files(key: str, session: Session) -> None:
 
     text = "Drop a file of own materials or of moduli here, or press to choose"
     hint = (
-        "TOML with a table for each material; or CSV with frequency, storage and loss modulus, for a "
-        "relaxation that is measured; see the how-to"
+        "TOML with a table for each material; or CSV with frequency, storage and loss modulus, or with time and "
+        "relaxation modulus or creep compliance, for a relaxation that is measured; see the how-to"
     )
     drop(key, "drop a file of own materials or of moduli, or choose it", text, hint)
     ui.on("asperity-uploaded", uploaded)

@@ -82,6 +82,10 @@ STEPS = st.one_of(
         optional={"long": LENGTHS, "short_y": LENGTHS, "order": st.integers(0, 2)},
     ),
     st.fixed_dictionaries({"step": st.just("tip_limit"), "radius": LENGTHS}),
+    st.fixed_dictionaries(
+        {"step": st.just("tip"), "radius": LENGTHS},
+        optional={"opening": st.builds("{} deg".format, st.floats(1.0, 179.0)), "mask_uncertain": st.booleans()},
+    ),
     st.fixed_dictionaries({"step": st.just("slice"), "y": st.just("middle")}, optional={"length": LENGTHS}),
     st.fixed_dictionaries({"step": st.just("slice"), "x": LENGTHS}),
 )

@@ -514,6 +514,20 @@ def test_files_start_at_the_folder_of_the_document(tmp_path: Path) -> None:
             lambda s: asp.surfaces.filtered(s, short=(1e-6, 1.5e-6), long=3e-6, kind="robust", order=1),
         ),
         ({"step": "tip_limit", "radius": "30 um"}, lambda s: asp.surfaces.tip_limited(s, 30e-6)),
+        (
+            {"step": "tip", "radius": "30 um"},
+            lambda s: asp.surfaces.reconstructed(s, asp.surfaces.SphericalTip(30e-6)),
+        ),
+        (
+            {"step": "tip", "pixels": [3, 5], "noise": "0.1 nm"},
+            lambda s: asp.surfaces.reconstructed(s, asp.surfaces.estimated_tip(s, (3, 5), noise=1e-10)),
+        ),
+        (
+            {"step": "tip", "radius": "1 nm", "opening": "170 deg", "mask_uncertain": True},
+            lambda s: asp.surfaces.reconstructed(
+                s, asp.surfaces.ConicalTip(1e-9, np.radians(170.0)), mask_uncertain=True
+            ),
+        ),
     ],
 )
 def test_steps_do_what_the_functions_do(tmp_path: Path, step: dict[str, Any], expected: Any) -> None:

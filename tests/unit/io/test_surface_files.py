@@ -85,6 +85,61 @@ def test_array_is_bare(tmp_path: Path) -> None:
     np.testing.assert_array_equal(after.heights, before.heights)
 
 
+def gsf(path: Path) -> tuple[np.ndarray, tuple[float, float]]:
+    """Heights [x, y] and size of a Gwyddion Simple Field, by its specification."""
+    content = path.read_bytes()
+    magic, *lines = content[: content.index(b"\0")].decode("utf-8").splitlines()
+    assert magic == "Gwyddion Simple Field 1.0"
+    fields = {key.strip(): text.strip() for key, _, text in (line.partition("=") for line in lines)}
+    assert (fields["XYUnits"], fields["ZUnits"]) == ("m", "m")
+    nx, ny = int(fields["XRes"]), int(fields["YRes"])
+    values = np.frombuffer(content[-4 * nx * ny :], "<f4").reshape(ny, nx)
+    padding = content[content.index(b"\0") : -4 * nx * ny]
+    assert padding in (b"\0", b"\0\0", b"\0\0\0", b"\0\0\0\0")
+    assert (len(content) - 4 * nx * ny) % 4 == 0
+    return values[::-1].T, (float(fields["XReal"]), float(fields["YReal"]))
+
+
+@pytest.mark.parametrize("shape", [(12, 9), (7, 30), (101, 3)])
+def test_gsf_has_heights_size_and_unit(tmp_path: Path, shape: tuple[int, int]) -> None:
+    heights = np.random.default_rng(2).standard_normal(shape) * 1e-8
+    heights[1, 2] = np.nan
+    before = asp.Surface(heights, 1.1e-8, 0.7e-8)
+    asp.files.save_surface(before, tmp_path / "a.gsf")
+    found, size = gsf(tmp_path / "a.gsf")
+    assert size == before.size
+    np.testing.assert_allclose(found, heights, rtol=float(np.finfo(np.float32).eps))
+
+
+@pytest.mark.parametrize(
+    ("ending", "accuracy"), [(".gsf", float(np.finfo(np.float32).eps)), (".x3p", 1e-14), (".xyz", 1e-9)]
+)
+@pytest.mark.parametrize("missing", [True, False])
+def test_other_programs_files_come_back(tmp_path: Path, ending: str, accuracy: float, missing: bool) -> None:
+    before, path = surface(missing=missing, periodic=False), tmp_path / f"a{ending}"
+    asp.files.save_surface(before, path)
+    after = asp.read(path)
+    np.testing.assert_array_equal(after.mask, before.mask)
+    np.testing.assert_allclose(after.heights, before.heights, rtol=accuracy)
+    assert after.size == pytest.approx(before.size, rel=max(accuracy, 1e-13))
+
+
+@pytest.mark.parametrize(("ending", "accuracy"), [(".x3p", 1e-14), (".xyz", 1e-9)])
+def test_the_reader_library_agrees(tmp_path: Path, ending: str, accuracy: float) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the library warns where MPI is missing
+        from SurfaceTopography import read_topography
+
+        before, path = surface(), tmp_path / f"a{ending}"
+        asp.files.save_surface(before, path)
+        theirs = read_topography(str(path))
+    heights = np.ma.filled(theirs.heights(), np.nan)
+    # y counts downwards from the top row in its maps, upwards in its lists of points
+    np.testing.assert_allclose(heights if ending == ".xyz" else heights[:, ::-1], before.heights, rtol=accuracy)
+    assert theirs.physical_sizes == pytest.approx(before.size, rel=max(accuracy, 1e-13))
+    assert theirs.unit == ("m" if ending == ".x3p" else None)
+
+
 def test_refusals(tmp_path: Path) -> None:
     before = surface()
     with refused(asp.errors.OutputError, "file of a surface"):

@@ -19,7 +19,7 @@ from asperity.io.schemas.bodies import BodyTable, body_from_text
 from asperity.run.build import body_of_text, build_body
 from asperity.run.document import checked, dumps, loads, relocated
 from asperity.solids.library import MaterialRecord, material, materials
-from asperity.solids.moduli_file import read_moduli
+from asperity.solids.moduli_file import read_measured
 
 TERMS = ((10e6, 1e-2), (3e6, 0.1))
 DOCUMENT: dict[str, Any] = {
@@ -187,7 +187,7 @@ def moduli(folder: Path, head: str, scale: float = 1.0, unit: float = 1.0) -> Pa
 )
 def test_measured_moduli_are_fitted_from_their_file(tmp_path: Path, head: str, scale: float, unit: float) -> None:
     file = moduli(tmp_path, head, scale, unit)
-    f, storage, loss = read_moduli(file)
+    f, storage, loss = read_measured(file).columns
     wanted = asp.Viscoelastic.prony(3e6, TERMS, 0.5).complex_modulus(2.0 * np.pi * f)
     assert f == pytest.approx(np.geomspace(1e-2, 1e4, 25), rel=1e-12)
     assert storage + 1j * loss == pytest.approx(wanted, rel=1e-12)
@@ -227,9 +227,9 @@ def test_what_is_no_file_of_moduli_is_refused(tmp_path: Path, text: str) -> None
     file = tmp_path / "moduli.csv"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(FileFormatError):
-        read_moduli(file)
+        read_measured(file)
     with pytest.raises(FileFormatError):
-        read_moduli(tmp_path / "missing.csv")
+        read_measured(tmp_path / "missing.csv")
 
 
 OWN_FILE = """

@@ -15,7 +15,7 @@ from spectra_cases import with_fixed_amplitudes
 import asperity as asp
 from asperity.core.errors import InputError
 from asperity.surfaces.characterise.moments import difference_moments
-from asperity.surfaces.characterise.spectral_fit import SpectralModel
+from asperity.surfaces.characterise.spectral_model import SpectralModel
 from asperity.surfaces.characterise.spectrum import (
     effective_samples,
     expected_difference_moments,

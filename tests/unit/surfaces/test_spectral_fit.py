@@ -20,7 +20,9 @@ import asperity as asp
 from asperity.core.errors import InputError
 from asperity.core.spectral import mode_sum
 from asperity.surfaces.characterise.moments import difference_moments, spectral_moments
-from asperity.surfaces.characterise.spectral_fit import Shape, SpectralModel, _log_psd, fit_spectrum
+from asperity.surfaces.characterise.spectral_fit import SHAPES as SHAPES_TRIED
+from asperity.surfaces.characterise.spectral_fit import Shape, expected_rings, fit_spectrum
+from asperity.surfaces.characterise.spectral_model import SpectralModel
 from asperity.surfaces.characterise.spectrum import PowerSpectrum, power_spectrum
 
 GRID = asp.Grid((256, 256), (1.0, 1.0))
@@ -53,6 +55,9 @@ SHAPES = {
     "F3": {"plateau": True, "slopes": 1, "floor": True},
     "F4": {"plateau": True, "slopes": 2, "floor": False},
 }
+
+
+UNCERTAIN = {"F2": ("power law", "rounded plateau + power law"), "F3": ("plateau + power law, folded",)}
 
 
 @pytest.fixture(scope="module", params=SHAPES)
@@ -95,8 +100,9 @@ def test_the_criterion_finds_the_shape(spectra):
     found = [fit_spectrum(spectrum) for spectrum in measured[:5]]
     names = [next(name for name, criterion in fit.candidates.items() if criterion == 0.0) for fit in found]
     right = Shape(*SHAPES[case].values()).name
-    # the plateau of the windowed map holds some thirty independent modes and may go unseen
-    allowed = {right, "power law"} if case == "F2" else {right}
+    # the plateau of the windowed map holds some thirty independent modes and may go unseen, or its
+    # corner; white noise of a tenth of the rms height looks much like waves that fold back
+    allowed = {right, *UNCERTAIN.get(case, ())}
     assert set(names) <= allowed
     assert right in names
     assert all(math.isnan(fit.short_cutoff) for fit in found)
@@ -166,19 +172,18 @@ def test_scaling_of_heights_and_lengths(first_map, scale, stretch):
     assert model.exponents[0] == pytest.approx(base.exponents[0], rel=1e-5)
 
 
-@pytest.mark.parametrize("plateau", [True, False])
-@pytest.mark.parametrize("slopes", [1, 2])
-@pytest.mark.parametrize("floor", [True, False])
-def test_gradient_of_the_model(plateau, slopes, floor):
-    shape = Shape(plateau, slopes, floor)
+@pytest.mark.parametrize("shape", SHAPES_TRIED, ids=lambda shape: shape.name)
+def test_gradient_of_the_expectation(shape):
     log_q = np.linspace(-2.0, 2.0, 41) + 0.0123
-    values = np.array([0.3] + [-0.7] * plateau + [0.9] * (slopes == 2) + [3.1, 1.7][:slopes] + [-4.0] * floor)
-    _, gradient = _log_psd(shape, values, log_q)
+    weights = np.abs(np.random.default_rng(3).standard_normal((7, 41)))
+    first = [0.3] + [-0.7] * shape.plateau + [0.9] * (shape.slopes == 2)
+    values = np.array(first + [3.1, 1.7][: shape.slopes] + [-4.0] * shape.floor)
+    _, gradient = expected_rings(shape, values, log_q, weights)
     step = 1e-6
     for number in range(values.size):
         shift = step * (np.arange(values.size) == number)
-        numeric = (_log_psd(shape, values + shift, log_q)[0] - _log_psd(shape, values - shift, log_q)[0]) / (2.0 * step)
-        assert gradient[number] == pytest.approx(numeric, abs=1e-8)
+        up, down = (expected_rings(shape, values + sign * shift, log_q, weights)[0] for sign in (1.0, -1.0))
+        assert gradient[number] == pytest.approx((np.log(up) - np.log(down)) / (2.0 * step), abs=1e-8)
 
 
 def model_of(row) -> SpectralModel:

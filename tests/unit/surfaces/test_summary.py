@@ -23,6 +23,12 @@ SPECTRUM = asp.generate.SelfAffine(
 )
 
 
+GRID_OF_ONE_LAW = asp.Grid((192, 192), (2e-9, 2e-9))
+SPECTRUM_OF_ONE_LAW = asp.generate.SelfAffine(
+    amplitude=asp.generate.RmsHeight(1e-9), hurst=0.7, rolloff_wavelength=384e-9, shortest_wavelength=0.0
+)
+
+
 @pytest.fixture(scope="module")
 def periodic() -> asp.roughness.Characterisation:
     return asp.characterise(asp.generate.gaussian(GRID, SPECTRUM, seed=3))
@@ -63,7 +69,11 @@ def test_groups_agree_with_the_functions(periodic):
     assert periodic.hybrid.Ssc == periodic.summits.eight.mean_curvature
     assert periodic.summits.four.density == r.summit_statistics(r.summits(surface, 4)).density
     assert periodic.moments.spectral.m0 == pytest.approx(periodic.heights.Sq**2, rel=1e-10)
-    assert periodic.fractal_x == r.fractal_parameters(surface, axis="x")
+    assert math.isnan(periodic.fractal_x.dimension)  # a tenth of the roll-off is 4 pixels
+    wide = GRID_OF_ONE_LAW, SPECTRUM_OF_ONE_LAW
+    one_law = asp.characterise(asp.generate.gaussian(*wide, seed=3))
+    lags = one_law.spectra.fit.lag_range
+    assert one_law.fractal_x == r.fractal_parameters(one_law.surface, axis="x", lag_range=lags)
     assert periodic.functional == r.functional_parameters(r.material_ratio_curve(surface))
     direct = r.difference_moments(surface)
     assert periodic.moments.difference == direct
@@ -79,7 +89,11 @@ def test_the_parameters_of_the_generated_surface_are_found(periodic):
     assert periodic.heights.Ssk == pytest.approx(0.0, abs=0.3)
     assert periodic.heights.Sku == pytest.approx(3.0, abs=0.5)
     assert periodic.spatial.Str > 0.6
-    assert periodic.remarks == ()
+    assert [remark.split(":")[0] for remark in periodic.remarks] == [
+        "No fractal dimension along x",
+        "No fractal dimension along y",
+    ]
+    assert periodic.self_affine
 
 
 def test_two_slopes_are_found():
@@ -120,9 +134,9 @@ def test_a_surface_that_was_not_levelled_is_told(with_holes, found_with_holes):
     assert not any("level the surface first" in remark for remark in found_with_holes.remarks)
 
 
-@pytest.mark.parametrize("shape", [(200, 1), (1, 200)])
+@pytest.mark.parametrize("shape", [(2000, 1), (1, 2000)])
 def test_profiles(shape):
-    profile = np.cumsum(np.random.default_rng(2).standard_normal(200)).reshape(shape)
+    profile = np.cumsum(np.random.default_rng(2).standard_normal(2000)).reshape(shape)
     found = asp.characterise(asp.Surface(profile - profile.mean(), 1e-6))
     axis = "x" if shape[0] > 1 else "y"
     other = "y" if axis == "x" else "x"

@@ -5,7 +5,7 @@ E=3MPa+10MPa@10ms+3MPa@0.1s,nu=0.5       3 MPa and two terms that relax, each wi
 E=1MPa@10s,nu=0.5                        Maxwell: all of it relaxes
 E=3MPa,retardation=1s,nu=0.5             Kelvin-Voigt
 E=2GPa,power=0.1,shortest=1ms,longest=1e4s,nu=0.4     E = 2 GPa (t/s)^-0.1
-moduli=rubber.csv,nu=0.5                 storage and loss modulus measured against frequency
+moduli=rubber.csv,nu=0.5                 moduli measured against frequency or time
 …,bulk=elastic                           shear alone relaxes
 …,WLF=298K;8.86;101.6K                   reference, c1 and c2 of the shift with temperature
 …,Arrhenius=298K;80000J/mol              reference and activation energy of the shift
@@ -121,14 +121,16 @@ class PowerLawTable(Relaxing):
 
 
 class MeasuredTable(Relaxing):
-    """Storage and loss modulus (Young's) against frequency in a text file, fitted by a Prony
-    series."""
+    """Storage and loss modulus (Young's) against frequency, or relaxation modulus or creep
+    compliance against time, in a text file, fitted by a Prony series."""
 
     kind: Literal["measured"]
     moduli_file: NonEmpty = setting(
-        help="columns with units: frequency (Hz), storage modulus (MPa), loss modulus (MPa)"
+        help="columns with units: frequency (Hz), storage modulus (MPa), loss modulus (MPa); or time (s) and "
+        "relaxation modulus (MPa) or creep compliance (1/MPa)"
     )
-    per_decade: Count = setting(4, help="relaxation times in a decade of frequency")
+    per_decade: Count = setting(4, help="relaxation times in a decade of frequency or time")
+    fluid: bool = setting(False, help="all of it relaxes: the series has no constant, the compliance no limit")
 
 
 RelaxationTable: TypeAlias = Annotated[

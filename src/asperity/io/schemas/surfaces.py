@@ -14,7 +14,18 @@ from ...core import units
 from ...core.errors import InputError
 from ...core.parameters import checked, parameters
 from ...core.settings import Settings, setting, table_of
-from ...core.values import Angle, Length, NonEmpty, Points, Psd, SignedLength, Size, Values, Whole
+from ...core.values import (
+    Angle,
+    Length,
+    NonEmpty,
+    NonNegativeLength,
+    Points,
+    Psd,
+    SignedLength,
+    Size,
+    Values,
+    Whole,
+)
 from ...surfaces.generate import autocorrelation, bimodal, digital_filter, gaussian, non_gaussian, power_laws, spectra
 from ...surfaces.generate import deterministic as shapes
 from ...surfaces.generate.gaussian import Spectrum
@@ -23,6 +34,7 @@ from ...surfaces.generate.power_laws import Amplitude
 from ...surfaces.prepare.extent import cropped, periodised, resampled, sliced, tapered
 from ...surfaces.prepare.filter import filtered, tip_limited
 from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, filled, levelled, line_corrected
+from ...surfaces.prepare.tip import ConicalTip, Opening, SphericalTip, Tip, estimated_tip, reconstructed
 from ...surfaces.surface import Surface
 
 # Steps of preparation: the table of a step has the parameters of its function, which ``prepared``
@@ -62,6 +74,28 @@ def filter_waves(
     return filtered(surface, short=pairs.get("short"), long=pairs.get("long"), kind=kind, order=order)
 
 
+@checked
+def remove_tip(
+    surface: Surface,
+    *,
+    radius: Annotated[Length | None, "radius of the tip"] = None,
+    opening: Annotated[Opening | None, "full opening angle of its cone; a sphere if left out"] = None,
+    pixels: Annotated[Points | None, "odd numbers of pixels of a tip that is estimated from the scan itself"] = None,
+    noise: Annotated[NonNegativeLength, "height by which noise may change differences of the scan"] = 0.0,
+    mask_uncertain: Annotated[bool, "leave out the points that the tip did not touch for certain"] = False,
+) -> Surface:
+    """Reconstruct the surface behind a scan with a tip of ``radius`` and ``opening`` angle, or with
+    one estimated on ``pixels``; before levelling."""
+    tip: Tip
+    if pixels is not None:
+        tip = estimated_tip(surface, pixels, noise=noise)
+    elif radius is not None:
+        tip = SphericalTip(radius) if opening is None else ConicalTip(radius, opening)
+    else:
+        raise InputError("tip to remove must be given by its radius or by pixels to estimate it on, but is not.")
+    return reconstructed(surface, tip, mask_uncertain=mask_uncertain)
+
+
 STEPS: Mapping[str, Callable[..., Surface]] = MappingProxyType(
     {
         "level": level,
@@ -71,6 +105,7 @@ STEPS: Mapping[str, Callable[..., Surface]] = MappingProxyType(
         "despike": despiked,
         "line_correct": line_corrected,
         "filter": filter_waves,
+        "tip": remove_tip,
         "tip_limit": tip_limited,
         "taper": tapered,
         "periodise": periodised,
@@ -83,7 +118,14 @@ _AT_LEAST_ONE = {
     "crop": (("x", "y"), 'x = ["0 um", "5 um"]'),
     "filter": (("short", "long"), 'short = "1 um"'),
 }
-_TOGETHER = {"filter": (("short", "short_y"), ("long", "long_y"))}
+_EXACTLY_ONE = {
+    "slice": (("x", "y"), 'y = "middle"'),
+    "tip": (("radius", "pixels"), 'radius = "10 nm"'),
+}
+_TOGETHER = {
+    "filter": (("short", "short_y"), ("long", "long_y")),
+    "tip": (("radius", "opening"), ("pixels", "noise")),
+}
 
 
 class AnyStep(Settings):
@@ -98,9 +140,13 @@ class AnyStep(Settings):
                 raise InputError(f" must give {' or '.join(keys)} or both, such as {example}, but gives neither.")
         if step == "level" and "form" in given and "degree" in given:
             raise InputError(" must give form or degree, but gives both.")
-        if step == "slice" and ("x" in given) == ("y" in given):
-            both = "both" if "x" in given else "none"
-            raise InputError(f' must give exactly one of x and y, such as y = "middle", but gives {both}.')
+        if step in _EXACTLY_ONE:
+            (first, second), example = _EXACTLY_ONE[step]
+            if (first in given) == (second in given):
+                both = "both" if first in given else "none"
+                raise InputError(
+                    f" must give exactly one of {first} and {second}, such as {example}, but gives {both}."
+                )
         for key, other in _TOGETHER.get(step, ()):
             if other in given and key not in given:
                 raise InputError(f" must give {key} together with {other}, but gives only {other}.")

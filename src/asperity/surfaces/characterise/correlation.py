@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, TypeAlias
 
 import numpy as np
@@ -273,26 +273,36 @@ def geometric_lags(largest: int, per_octave: int = 5) -> tuple[int, ...]:
     return tuple(int(lag) for lag in spaced if lag <= max(1, largest))
 
 
-# Fractal dimension and amplitude of the profiles of a surface, from the structure function.
+# Fractal dimension and amplitude of the profiles of a surface, from their second differences.
 
 
 GAMMA = 1.5
 """Ratio γ of neighbouring frequencies of the Weierstrass-Mandelbrot profile that defines G
 (Majumdar & Bhushan 1990)."""
 
-_FIRST_LAGS = (4, 2)  # pixels; shorter lags are affected by the instrument and by interpolation
-_MARGIN = 0.04  # accuracy of D on sampled Weierstrass-Mandelbrot profiles; smooth profiles give 1 within it
-_FEWEST = 3  # smallest number of lags of a line with a residual
+_FIRST_LAG = 2  # pixels; shorter lags are affected by the instrument and by interpolation
+_OCTAVES = 4  # least ratio of the lags, two octaves, that shows a power beside a constant
+_SHARE = 20  # of the map that the longest lag is; longer ones hold too few independent stretches
+_FEWEST = 4  # lags of a fit of three numbers with a residual
+_BLOCKS = 16  # parts of the map that the jackknife leaves out in turn
+_WIDE = 64  # lines at least for parts of a quarter of them
+_POWERS = np.arange(0.02, 1.3001, 0.005)  # Hurst exponents tried
+_INSIDE = 1.96  # standard errors between D and the dimensions 1 and 2 of a fractal profile
 
 
 @dataclass(frozen=True)
 class FractalParameters:
-    """Fit of a power law to the structure function along ``axis``: S(τ) = C η^(2D-3) τ^(4-2D)
-    (Ganti & Bhushan 1995). ``dimension`` D of the profile (that of the surface is D + 1) and
-    ``dimension_error``, the standard error of the straight line, which shows curvature rather than
-    sampling error, since the lags are correlated; ``amplitude`` C and ``resolution`` η (= pixel) in
-    m; ``roughness`` G in m for γ = 1.5, NaN if not self-affine; ``first_lag``, ``last_lag`` of the
-    fit in m; ``residual`` rms of ln S about the line.
+    """Power law of the profiles along ``axis`` from their second differences: V(τ) = <[h(x+τ) -
+    2h(x) + h(x-τ)]²> = a τ^(2H) + b (Istas & Lang 1997; Kent & Wood 1997).
+
+    A tilt and waves much longer than τ do not enter, nor does the constant b, which is positive for
+    noise and negative for a surface whose short waves are missing. ``dimension`` D = 2 - H of the
+    profile (that of the surface is D + 1) and ``dimension_error``, its standard error from the
+    scatter between 16 parts of the map (jackknife); ``amplitude`` C and ``resolution`` η (= pixel)
+    in m of the structure function S(τ) = C η^(2D-3) τ^(4-2D) that belongs to it (Ganti & Bhushan
+    1995), a = (4 - 4^H) S(τ)/τ^(2H); ``roughness`` G in m for γ = 1.5, NaN if not self-affine;
+    ``constant`` b in m²; ``first_lag``, ``last_lag`` of the fit in m; ``residual`` rms of V
+    relative to the fit.
     """
 
     axis: str
@@ -301,10 +311,11 @@ class FractalParameters:
     amplitude: float
     resolution: float
     roughness: float
+    constant: float
     first_lag: float
     last_lag: float
     residual: float
-    citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Ganti1995", "Majumdar1990")
+    citation_keys: ClassVar[tuple[str, ...]] = ("Bhushan1998", "Ganti1995", "Istas1997", "Kent1997", "Majumdar1990")
 
     @property
     def hurst(self) -> float:
@@ -313,9 +324,10 @@ class FractalParameters:
 
     @property
     def self_affine(self) -> bool:
-        """Whether D lies between 1 and 2 by more than its accuracy, so that the profile is fractal
-        in this range."""
-        return 1.0 + _MARGIN < self.dimension < 2.0 - _MARGIN
+        """Whether D lies between 1 and 2 by more than 1.96 standard errors, so that the profile is
+        fractal in this range."""
+        margin = _INSIDE * self.dimension_error
+        return 1.0 + margin < self.dimension < 2.0 - margin
 
 
 @of_lines
@@ -325,72 +337,174 @@ def fractal_parameters(
     axis: str = "x",
     lags: Sequence[int] | None = None,
     structure: StructureFunction | None = None,
+    lag_range: tuple[float, float] | None = None,
 ) -> FractalParameters:
-    """Fit the structure function of ``surface`` along ``axis`` by a power law.
+    """Fit the second differences of ``surface`` along ``axis`` by a power law and a constant.
 
-    Raises InputError if fewer than three lags remain, or the surface is flat.
+    Raises InputError if the lags are fewer than four or span less than two octaves, if the second
+    differences are zero, or if they do not grow as a power of the lag.
 
     Parameters
     ----------
     surface
-        Levelled surface; missing points are left out.
+        Surface; missing points are left out.
     axis
         ``x`` or ``y``.
     lags
-        Lags of the fit in pixels; by default geometrically spaced from 4 pixels (2 if fewer than
-        three would remain) to a tenth of the map, or to the lag where the structure function
-        reaches the mean square height, half of its limit.
+        Lags of the fit in pixels; by default geometrically spaced from 2 pixels to a twentieth of
+        the map, or to half the lag where the structure function reaches the mean square height,
+        half of its limit: about a tenth of the roll-off wavelength, if that is not known.
     structure
-        Structure function along the axis, if already computed; its lags in the default range are
-        fitted.
+        Structure function along the axis, if already computed, which shows that lag.
+    lag_range
+        Shortest and longest default lag in m, if the ends of the power law are known: see
+        ``SpectralFit.lag_range``.
     """
     number = axis_index(axis)
-    if lags is not None:
-        return fitted_fractal(structure_function(surface, axis=axis, lags=lags), surface.grid.spacing[number])
     spacing, points = surface.grid.spacing[number], surface.shape[number]
-    if structure is None:
-        structure = structure_function(surface, axis=axis, lags=geometric_lags(points // 10))
-    pixels = structure.lag / spacing
-    below = int(np.argmax(np.append(structure.value > rms_height(surface) ** 2, True)))
-    upper = (pixels < points // 10 + 0.5) & (np.arange(pixels.size) < below)
-    ranges = [upper & (pixels > first - 0.5) for first in _FIRST_LAGS]
-    part = next((chosen for chosen in ranges if np.count_nonzero(chosen) >= _FEWEST), ranges[-1])
-    return fitted_fractal(StructureFunction(axis, structure.lag[part], structure.value[part]), spacing)
-
-
-def fitted_fractal(curve: StructureFunction, resolution: float) -> FractalParameters:
-    """Least-squares line through ln S over ln τ of ``curve``; ``resolution`` η in m.
-
-    Raises InputError if the curve has fewer than three lags or is zero somewhere.
-    """
-    require.positive(resolution, "resolution (m)")
-    if curve.lag.size < _FEWEST or not np.all(curve.value > 0.0):
+    chosen = _default_lags(surface, axis, structure, lag_range) if lags is None else tuple(lags)
+    if len(chosen) < _FEWEST:
         raise InputError(
-            "structure function must be positive at three lags or more for a fractal dimension, but has only "
-            f"{curve.lag.size} along {curve.axis} between {_FIRST_LAGS[-1]} pixels and the correlation length. "
-            "Name the lags, or use a finer map."
+            f"lags of a fractal dimension must be at least {_FEWEST} along {axis}, but are {len(chosen)}. "
+            "Name more, or use a finer map."
         )
-    x, y = np.log(curve.lag / resolution), np.log(curve.value)
-    centred = x - x.mean()
-    slope = float(centred @ y / (centred @ centred))
-    rest = y - y.mean() - slope * centred
-    square = float(rest @ rest)
-    error = math.sqrt(square / (x.size - 2) / float(centred @ centred))
-    dimension = 0.5 * (4.0 - slope)
-    # S = C η^(2D-3) τ^(4-2D) = C η (τ/η)^(4-2D)
-    amplitude = math.exp(float(y.mean()) - slope * float(x.mean())) / resolution
-    is_fractal = 1.0 + _MARGIN < dimension < 2.0 - _MARGIN
-    return FractalParameters(
-        curve.axis,
+    for lag in chosen:
+        require.integer(lag, 1, "lag of a second difference (pixels)")
+    if not surface.periodic and 2 * max(chosen) >= points:
+        raise InputError(
+            f"lags of a fractal dimension must be shorter than half of the {points} points along {axis}, "
+            f"but one is {max(chosen)} pixels."
+        )
+    sums, counts = (np.array(part) for part in zip(*(_block_sums(surface, number, lag) for lag in chosen), strict=True))
+    filled = (counts > 0.0).all(axis=0)
+    if not filled.any() or not (sums.sum(axis=1) > 1e-20 * counts.sum(axis=1) * rms_height(surface) ** 2).all():
+        raise InputError(
+            f"second differences along {axis} must be positive at every lag for a fractal dimension, but are zero at "
+            f"one of {chosen[0]} to {chosen[-1]} pixels. Use a surface that is rough and has fewer missing points."
+        )
+    values = _with_parts_left_out(sums[:, filled], counts[:, filled])
+    unit = float(np.exp(np.mean(np.log(values[:, 0]))))
+    x = np.array(chosen, dtype=float)
+    powers = _fitted_powers(x, values / unit)
+    hurst = float(powers[0])
+    if not _POWERS[0] < hurst < _POWERS[-1]:
+        raise InputError(
+            f"second differences along {axis} must grow as a power of the lag between {2.0 * _POWERS[0]:.2g} and "
+            f"{2.0 * _POWERS[-1]:.2g} for a fractal dimension, but the best power of {chosen[0]} to {chosen[-1]} "
+            "pixels is not between them: the profile is smooth, or has no long waves."
+        )
+    # of the jackknife
+    error = math.sqrt((powers.size - 2.0) * float(np.var(powers[1:]))) if powers.size > 2 else math.nan
+    (slope, constant), misfit = _with_power(x, values[:, 0] / unit, hurst)
+    dimension = 2.0 - hurst
+    # S at one pixel over the pixel
+    amplitude = unit * slope / (4.0 - 4.0**hurst) / spacing if hurst < 1.0 and slope > 0.0 else math.nan
+    found = FractalParameters(
+        axis,
         dimension=dimension,
-        dimension_error=0.5 * error,
+        dimension_error=error,
         amplitude=amplitude,
-        resolution=resolution,
-        roughness=fractal_roughness(dimension, amplitude, resolution) if is_fractal else math.nan,
-        first_lag=float(curve.lag[0]),
-        last_lag=float(curve.lag[-1]),
-        residual=math.sqrt(square / x.size),
+        resolution=spacing,
+        roughness=fractal_roughness(dimension, amplitude, spacing),
+        constant=unit * constant,
+        first_lag=chosen[0] * spacing,
+        last_lag=chosen[-1] * spacing,
+        residual=misfit,
     )
+    return found if found.self_affine else replace(found, roughness=math.nan)
+
+
+def _default_lags(
+    surface: Surface, axis: str, structure: StructureFunction | None, lag_range: tuple[float, float] | None
+) -> tuple[int, ...]:
+    """Lags from two pixels to a twentieth of the map, within the ``lag_range`` in m and below the
+    lag where S reaches Sq², half of it if the range is not known.
+
+    Raises InputError if they span less than two octaves.
+    """
+    number = axis_index(axis)
+    spacing, points = surface.grid.spacing[number], surface.shape[number]
+    shortest, longest = (0.0, math.inf) if lag_range is None else (lag / spacing for lag in lag_range)
+    first = max(_FIRST_LAG, math.ceil(shortest * (1.0 - 1e-9)))
+    farthest, reason = points / _SHARE, f"a twentieth of the {points} points"
+    if farthest >= _OCTAVES * first:
+        if structure is None:
+            structure = structure_function(surface, axis=axis, lags=geometric_lags(points // 10))
+        reached = int(np.argmax(np.append(structure.value > rms_height(surface) ** 2, True)))
+        half = math.inf
+        if reached < structure.lag.size:
+            near = slice(max(0, reached - 1), reached + 1)
+            half = float(np.interp(rms_height(surface) ** 2, structure.value[near], structure.lag[near])) / spacing
+        half *= 0.5 if lag_range is None else 1.0
+        if min(half, longest) < farthest:
+            farthest, reason = min(half, longest), "a share of the roll-off wavelength"
+    if farthest < _OCTAVES * first:
+        raise InputError(
+            f"lags of a fractal dimension along {axis} must span two octaves, from {first} to {_OCTAVES * first} "
+            f"pixels, but end at {farthest:.3g} pixels, {reason}. Use a finer or larger map, or take the Hurst "
+            "exponent of the spectrum, which allows for the roll-off."
+        )
+    return tuple(lag for lag in geometric_lags(int(farthest)) if lag >= first)
+
+
+def _block_sums(surface: Surface, number: int, lag: int) -> tuple[RealArray, RealArray]:
+    """Sum of the squared second differences over ``lag`` pixels in each part of the map, and their
+    number."""
+    h = surface.heights.astype(np.float64, copy=False)
+    if surface.periodic:
+        values = np.roll(h, lag, number) + np.roll(h, -lag, number) - 2.0 * h
+    else:
+        n = h.shape[number]
+        near, middle, far = (
+            h[(slice(None),) * number + (slice(start, n - 2 * lag + start),)] for start in (0, lag, 2 * lag)
+        )
+        values = (far - middle) - (middle - near)
+    across = 4 if values.shape[1 - number] >= _WIDE else 1
+    along = min(_BLOCKS // across, values.shape[number])
+    parts = (along, across) if number == 0 else (across, along)
+    edges = [np.arange(count) * n // count for n, count in zip(values.shape, parts, strict=True)]
+
+    def by_part(field: RealArray) -> RealArray:
+        return np.add.reduceat(np.add.reduceat(field, edges[0], axis=0), edges[1], axis=1).ravel()
+
+    valid = ~np.isnan(values) if surface.n_missing else np.ones(values.shape, dtype=bool)
+    return by_part(np.where(valid, values, 0.0) ** 2), by_part(valid.astype(np.float64))
+
+
+def _with_parts_left_out(sums: RealArray, counts: RealArray) -> RealArray:
+    """Mean square of all parts, then without each of them, (lags, 1 + parts), of their ``sums`` and
+    ``counts`` (lags, parts); the first alone of a single part."""
+    whole, total = sums.sum(axis=1, keepdims=True), counts.sum(axis=1, keepdims=True)
+    if sums.shape[1] == 1:
+        return np.asarray(whole / total)
+    return np.concatenate([whole / total, (whole - sums) / (total - counts)], axis=1)
+
+
+def _with_power(x: RealArray, values: RealArray, power: float) -> tuple[tuple[float, float], float]:
+    """a and b of a x^(2 ``power``) + b by relative least squares, and the rms misfit."""
+    matrix = np.array([x ** (2.0 * power), np.ones(x.size)]).T / values[:, None]
+    found = np.linalg.lstsq(matrix, np.ones(x.size), rcond=None)[0]
+    misfit = matrix @ found - 1.0
+    return (float(found[0]), float(found[1])), math.sqrt(float(misfit @ misfit) / x.size)
+
+
+def _fitted_powers(x: RealArray, values: RealArray) -> RealArray:
+    """Best H of a x^(2H) + b, a > 0, for each column of ``values`` (lags, columns) by relative
+    least squares; at an end of the tried range where the best lies beyond."""
+    t = (x / np.exp(np.mean(np.log(x)))) ** (2.0 * _POWERS[:, None])  # (powers, lags)
+    inverse = 1.0 / values
+    xx, xy, yy = t**2 @ inverse**2, t @ inverse**2, (inverse**2).sum(axis=0)
+    bx, by = t @ inverse, inverse.sum(axis=0)
+    determinant = xx * yy - xy**2
+    slope, constant = (bx * yy - by * xy) / determinant, (by * xx - bx * xy) / determinant
+    misfit = np.where(slope > 0.0, x.size - slope * bx - constant * by, np.inf)
+    best = np.argmin(misfit, axis=0)
+    inner, columns = np.clip(best, 1, _POWERS.size - 2), np.arange(values.shape[1])
+    left, middle, right = (misfit[inner + step, columns] for step in (-1, 0, 1))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        shift = 0.5 * (left - right) / (left - 2.0 * middle + right)
+    shift = np.where((best == inner) & np.isfinite(shift), np.clip(shift, -0.5, 0.5), best - inner)
+    return np.asarray(_POWERS[inner] + shift * (_POWERS[1] - _POWERS[0]))
 
 
 def structure_coefficient(dimension: float) -> float:

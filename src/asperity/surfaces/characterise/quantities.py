@@ -5,10 +5,10 @@ from __future__ import annotations
 from ...core.quantity import Quantity
 
 _ISO = "ISO 25178-2"
-_SPECTRUM = "Jacobs, Junge & Pastewka (2017); Whittle (1953)"
+_SPECTRUM = "Jacobs, Junge & Pastewka (2017); Whittle (1953); Sykulski et al. (2019)"
 _SUMMITS = "Nayak (1971); McCool (1987)"
 _PEAKS = "Whitehouse & Archard (1970)"
-_FRACTAL = "Ganti & Bhushan (1995)"
+_FRACTAL = "Kent & Wood (1997); Ganti & Bhushan (1995)"
 
 
 def _number(name: str, symbol: str, label: str, unit: str, description: str, source: str) -> Quantity:
@@ -45,6 +45,10 @@ QUANTITIES = (
             "map", _ISO),
     _number("spatial.Str", "Str", "texture aspect ratio", "1", "Sal over the longest such distance; 1 is "
             "isotropic", _ISO),
+    _number("spatial.Sal_least", "", "lower bound of Sal", "m", "shortest distance at which a ray drops to 0.2 or "
+            "ends", _ISO),
+    _number("spatial.Str_most", "", "upper bound of Str", "1", "shortest drop to 0.2 that was found over the longest "
+            "drop or ray", _ISO),
     _number("spatial.Std", "Std", "direction of the strongest waves", "rad", "peak of the angular spectrum, from +x "
             "towards +y", _ISO),
     _number("spatial.lay", "", "direction of the lay", "rad", "across the steepest axis of the tensor "
@@ -135,10 +139,10 @@ QUANTITIES = (
         for axis in "xy"
         for item in (
             _number(f"fractal_{axis}.dimension", f"D_{axis}", "fractal dimension of profiles along "
-                    f"{axis}", "1", "2 - (slope of ln S over ln τ)/2 from 4 pixels (2 if need be) to a tenth of the "
-                            "map or S = Sq²", _FRACTAL),
-            _number(f"fractal_{axis}.dimension_error", "", f"standard error of D along {axis}", "1", "of the straight line, not of the "
-                    "sampling", _FRACTAL),
+                    f"{axis}", "1", "2 - H of the second differences, V = a τ^(2H) + b, from 2 pixels to a twentieth "
+                            "of the map or a tenth of the roll-off", _FRACTAL),
+            _number(f"fractal_{axis}.dimension_error", "", f"standard error of D along {axis}", "1", "jackknife over 16 parts of the "
+                    "map", _FRACTAL),
             _number(f"fractal_{axis}.amplitude", f"C_{axis}", f"fractal amplitude along {axis}", "m", "S = C η^(2D-3) τ^(4-2D), η = pixel", _FRACTAL),
             _number(f"fractal_{axis}.roughness", f"G_{axis}", f"fractal roughness along {axis}", "m", "of the Weierstrass-Mandelbrot profile "
                     "with γ = 1.5; NaN if not self-affine", "Majumdar & Bhushan (1990)"),
@@ -150,19 +154,22 @@ QUANTITIES = (
             "it lies between 0 and 1 to two standard "
             "errors", _SPECTRUM),
     _number("spectrum.hurst_error", "", "standard error of H", "1", "Fisher information of the Whittle "
-            "likelihood", _SPECTRUM),
+            "likelihood, and differences between shapes of the roll-off that the data allow", _SPECTRUM),
+    _number("spectrum.longest_wave", "", "longest wave of the power law", "m", "beginning of the band of H: the roll-off, "
+            "or the longest wave that was fitted", _SPECTRUM),
+    _number("spectrum.shortest_wave", "", "shortest wave of the power law", "m", "end of the band of H: the crossover, "
+            "or the shortest wave that was fitted", _SPECTRUM),
     _number("spectrum.exponent_1", "a1", "exponent of the spectrum", "1", "C ~ q^-a1 beyond the roll-off", _SPECTRUM),
-    _number("spectrum.exponent_1_error", "", "standard error of a1", "1", "Fisher information of the Whittle "
-            "likelihood", _SPECTRUM),
+    _number("spectrum.exponent_1_error", "", "standard error of a1", "1", "twice the standard error of H", _SPECTRUM),
     _number("spectrum.exponent_2", "a2", "second exponent of the spectrum", "1", "C ~ q^-a2 beyond the crossover, if two "
             "power laws are found", _SPECTRUM),
     _number("spectrum.exponent_2_error", "", "standard error of a2", "1", "Fisher information of the Whittle "
             "likelihood", _SPECTRUM),
     _number("spectrum.plateau", "C0", "plateau of the spectrum", "m**4", "<h²> = (1/4π²) ∫ C d²q; if ten modes or "
-            "more hold it", _SPECTRUM),
+            "more hold it and λ_r is known to a factor of 1.65", _SPECTRUM),
     _number("spectrum.plateau_error", "", "relative standard error of C0", "1", "Fisher information of the Whittle "
             "likelihood", _SPECTRUM),
-    _number("spectrum.rolloff_wavelength", "λ_r", "roll-off wavelength", "m", "longest wave of the first power law", _SPECTRUM),
+    _number("spectrum.rolloff_wavelength", "λ_r", "roll-off wavelength", "m", "longest wave of the first power law, or 2π/q_r of a rounded plateau C0 (1 + q²/q_r²)^(-a1/2)", _SPECTRUM),
     _number("spectrum.rolloff_error", "", "relative standard error of λ_r", "1", "Fisher information of the Whittle "
             "likelihood", _SPECTRUM),
     _number("spectrum.crossover_wavelength", "λ_c", "crossover wavelength", "m", "between two power laws", _SPECTRUM),

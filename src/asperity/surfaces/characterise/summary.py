@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, fields
 from operator import attrgetter
 from typing import Any, ClassVar, TypeVar
@@ -42,7 +42,7 @@ from .heights import (
 from .moments import DifferenceMoments, SlopeTensor, SpectralMoments, difference_moments, spectral_moments
 from .quantities import QUANTITIES
 from .slopes import developed_area_ratio, rms_slope
-from .spectral_fit import SpectralFit, fit_spectrum
+from .spectral_fit import MEASURED_MODEL_ERROR, SpectralFit, fit_spectrum
 from .spectrum import (
     PowerSpectrum,
     ProfileSpectrum,
@@ -54,7 +54,7 @@ from .spectrum import (
     radial_spectrum,
 )
 from .summits import ProfilePeaks, Summits, SummitStatistics, profile_peaks, summit_statistics, summits
-from .texture import AngularSpectrum, angular_spectrum, texture_lengths
+from .texture import AngularSpectrum, angular_spectrum, doubts_of_texture, texture_lengths
 
 # Quantities that are not defined on every surface.
 
@@ -86,9 +86,6 @@ class Attempts:
 # Functions from which the quantities follow, each computed once.
 
 
-_MODEL_ERROR = 0.1  # of power laws fitted to measured maps, which are not periodic
-
-
 @dataclass(frozen=True, eq=False)
 class Curves:
     """Functions of a surface; tuples hold those along x and y. None where a function is not
@@ -118,6 +115,14 @@ class SpectralCurves:
     fit: SpectralFit | None
     tip_cutoff: float
 
+    @property
+    def lag_range(self) -> tuple[float, float] | None:
+        """Lags in m between which second differences follow one power law; None if not known."""
+        if self.fit is None:
+            return None
+        shortest, longest = self.fit.lag_range
+        return max(shortest, 0.0 if math.isnan(self.tip_cutoff) else self.tip_cutoff), longest
+
 
 def measured_spectra(
     surface: Surface, window: str, *, tip_radius: float | None, curves: Curves, attempt: Attempts
@@ -135,7 +140,7 @@ def measured_spectra(
     if power is None:
         return SpectralCurves(None, None, profiles, None, None, cutoff)
     reliable = 0.0 if math.isnan(cutoff) else cutoff
-    error = 0.0 if surface.periodic else _MODEL_ERROR
+    error = 0.0 if surface.periodic else MEASURED_MODEL_ERROR
     return SpectralCurves(
         power,
         radial=radial_spectrum(power),
@@ -168,7 +173,8 @@ class SpatialParameters:
     """Lengths over which heights are correlated (m) and directions of the texture (rad from +x
     towards +y, [0, π)).
 
-    ``Sal``, ``Str``, ``Std`` of ISO 25178-2; ``lay`` across the steepest axis of the slope tensor,
+    ``Sal``, ``Str``, ``Std`` of ISO 25178-2, with a lower bound of Sal and an upper one of Str,
+    which are known where these are not; ``lay`` across the steepest axis of the slope tensor,
     which is less sensitive to noise than Std; ``beta_e_x``, ``beta_e_y`` distance of R/R(0) = 1/e
     and ``beta_01_x``, ``beta_01_y`` (β*) of 0.1 along the axes. NaN where the correlation does not
     fall that far inside the map.
@@ -176,6 +182,8 @@ class SpatialParameters:
 
     Sal: float
     Str: float
+    Sal_least: float
+    Str_most: float
     Std: float
     lay: float
     beta_e_x: float
@@ -217,7 +225,8 @@ class SpectralParameters:
     are absolute.
 
     ``exponent_1``, ``exponent_2`` of C ~ q^-a; ``hurst`` = (a1 - 2)/2 where that is a Hurst
-    exponent, between 0 and 1 to two standard errors; ``plateau`` C0 (m⁴) and ``rolloff_wavelength``
+    exponent, between 0 and 1 to two standard errors; ``longest_wave``, ``shortest_wave`` (m)
+    between which it was found; ``plateau`` C0 (m⁴) and ``rolloff_wavelength``
     (m), NaN if the scan shows no roll-off; ``crossover_wavelength`` (m) between two power laws;
     ``floor`` (m⁴) of white noise; ``short_cutoff`` wavelength (m) at which the spectrum ends. NaN
     for what the spectrum does not have.
@@ -225,6 +234,8 @@ class SpectralParameters:
 
     hurst: float = _NAN
     hurst_error: float = _NAN
+    longest_wave: float = _NAN
+    shortest_wave: float = _NAN
     exponent_1: float = _NAN
     exponent_1_error: float = _NAN
     exponent_2: float = _NAN
@@ -258,18 +269,20 @@ def spectral_parameters(fit: SpectralFit) -> SpectralParameters:
     """The numbers of ``fit``."""
     model, errors = fit.model, fit.errors
     two = len(model.exponents) == 2
-    self_affine = 0.0 < model.hurst[0] <= 1.0 + 2.0 * fit.hurst_error
+    longest, shortest = fit.band
     return SpectralParameters(
-        hurst=model.hurst[0] if self_affine else _NAN,
-        hurst_error=fit.hurst_error if self_affine else _NAN,
+        hurst=fit.hurst,
+        hurst_error=_NAN if math.isnan(fit.hurst) else fit.hurst_error,
+        longest_wave=_NAN if math.isnan(fit.hurst) else longest,
+        shortest_wave=_NAN if math.isnan(fit.hurst) else shortest,
         exponent_1=model.exponents[0],
         exponent_1_error=errors["exponent_1"],
         exponent_2=model.exponents[1] if two else _NAN,
         exponent_2_error=errors.get("exponent_2", _NAN),
-        plateau=model.level if model.has_plateau else _NAN,
-        plateau_error=errors["level"] if model.has_plateau else _NAN,
-        rolloff_wavelength=model.rolloff_wavelength if model.has_plateau else _NAN,
-        rolloff_error=errors.get("rolloff_wavelength", _NAN),
+        plateau=model.level if fit.has_rolloff else _NAN,
+        plateau_error=errors["level"] if fit.has_rolloff else _NAN,
+        rolloff_wavelength=model.rolloff_wavelength if fit.has_rolloff else _NAN,
+        rolloff_error=errors["rolloff_wavelength"] if fit.has_rolloff else _NAN,
         crossover_wavelength=model.crossover_wavelength,
         crossover_error=errors.get("crossover_wavelength", _NAN),
         floor=model.floor if "floor" in errors else _NAN,
@@ -278,11 +291,34 @@ def spectral_parameters(fit: SpectralFit) -> SpectralParameters:
     )
 
 
+_DECADE = 10.0  # ratio of the wavelengths that a self-affine surface shows at least
+
+
+def doubts_of_self_affinity(fit: SpectralFit | None, along: Sequence[FractalParameters]) -> list[str]:
+    """Why the profiles are not taken as self-affine, a sentence for each reason; empty if they
+    are."""
+    if fit is None or math.isnan(fit.hurst):
+        return ["Not self-affine: the spectrum has no Hurst exponent between 0 and 1."]
+    found = [
+        f"Not self-affine: the Hurst exponents {item.hurst:.2f} ± {item.dimension_error:.2g} of second differences "
+        f"along {item.axis} and {fit.hurst:.2f} ± {fit.hurst_error:.2g} of the spectrum differ by more than twice "
+        "their standard error."
+        for item in along
+        if item.dimension_error > 0.0 and not fit.agrees(item.hurst, item.dimension_error)
+    ]
+    longest, shortest = fit.band
+    if longest < _DECADE * shortest:
+        ratio = longest / shortest
+        found.append(f"Not self-affine: one power law holds over a factor {ratio:.2g} of wavelengths, not a decade.")
+    return found
+
+
 def undefined(kind: type[T], **known: Any) -> T:
     """Instance of the dataclass ``kind`` with NaN for all fields that are not ``known``."""
     return kind(**{item.name: known.get(item.name, _NAN) for item in fields(kind)})  # type: ignore[arg-type]
 
 
+_NO_MOMENTS = undefined(SpectralMoments)
 _TILT = 1e-3  # share of the mean square height in a plane above which a map was not levelled
 
 
@@ -320,11 +356,14 @@ class Characterisation(Drawn):
         "Bhushan1998",
         "Ganti1995",
         "ISO25178",
+        "Istas1997",
         "Jacobs2017",
+        "Kent1997",
         "Majumdar1990",
         "McCool1987",
         "Nayak1971",
         "Sanner2022",
+        "Sykulski2019",
         "Whitehouse1970",
         "Whittle1953",
     )
@@ -333,6 +372,12 @@ class Characterisation(Drawn):
     def citation_keys(self) -> tuple[str, ...]:
         """Papers behind the definitions, the surface and its preparation."""
         return tuple(sorted({*self._KEYS, *self.surface.citation_keys}))
+
+    @property
+    def self_affine(self) -> bool:
+        """Whether one power law holds: the Hurst exponents of second differences and of the
+        spectrum agree, over a decade of wavelengths or more; if not, ``remarks`` say why."""
+        return not doubts_of_self_affinity(self.spectra.fit, (self.fractal_x, self.fractal_y))
 
     def values(self) -> tuple[tuple[Quantity, float], ...]:
         """Every quantity with its value, in the order of ``QUANTITIES``."""
@@ -378,13 +423,15 @@ def characterise(
     spectra = measured_spectra(complete, window, tip_radius=tip_radius, curves=curves, attempt=attempt)
     if not surface.periodic and (share := tilt_share(surface)) > _TILT:
         attempt.remarks.append(f"A plane contains {percent(share)} of the mean square height; level the surface first.")
-    difference = attempt("moments by differences", lambda: difference_moments(surface))
-    difference = difference or undefined(DifferenceMoments, slope_tensor=undefined(SlopeTensor))
-    spectral = undefined(SpectralMoments) if spectra.power is None else spectral_moments(spectra.power)
+    none = undefined(DifferenceMoments, slope_tensor=undefined(SlopeTensor))
+    difference = attempt("moments by differences", lambda: difference_moments(surface)) or none
     tensor, lengths, eight = difference.slope_tensor, texture_lengths(covariance), summit_statistics(found)
+    attempt.remarks.extend(doubts_of_texture(lengths, periodic=surface.periodic))
     fractal = attempt.along_axes(
-        "fractal dimension", lambda axis: fractal_parameters(surface, axis=axis, structure=known[axis])
+        "fractal dimension",
+        lambda axis: fractal_parameters(surface, axis=axis, structure=known[axis], lag_range=spectra.lag_range),
     )
+    attempt.remarks.extend(doubts_of_self_affinity(spectra.fit, [item for item in fractal if item is not None]))
     samples = math.nan if spectra.power is None else effective_samples(spectra.power)
     core = attempt("core of the material ratio curve", lambda: functional_parameters(curves.material_ratio))
     slope = attempt("rms gradient Sdq", lambda: rms_slope(surface))
@@ -395,6 +442,8 @@ def characterise(
         spatial=SpatialParameters(
             Sal=lengths.Sal,
             Str=lengths.Str,
+            Sal_least=lengths.Sal_least,
+            Str_most=lengths.Str_most,
             Std=math.nan if spectra.angular is None else spectra.angular.peak,
             lay=(tensor.direction + 0.5 * math.pi) % math.pi if tensor.xx + tensor.yy > 0.0 else math.nan,
             beta_e_x=covariance.correlation_length(DROP_1E, axis="x"),
@@ -402,11 +451,9 @@ def characterise(
             beta_01_x=covariance.correlation_length(DROP_TENTH, axis="x"),
             beta_01_y=covariance.correlation_length(DROP_TENTH, axis="y"),
         ),
-        hybrid=HybridParameters(
-            math.nan if slope is None else slope, math.nan if area is None else area, Ssc=eight.mean_curvature
-        ),
+        hybrid=HybridParameters(_NAN if slope is None else slope, _NAN if area is None else area, eight.mean_curvature),
         functional=core or undefined(FunctionalParameters),
-        moments=Moments(difference, spectral),
+        moments=Moments(difference, _NO_MOMENTS if spectra.power is None else spectral_moments(spectra.power)),
         summits=SummitDensities(eight, summit_statistics(summits(surface, 4))),
         peaks_x=profile_peaks(surface, axis="x"),
         peaks_y=profile_peaks(surface, axis="y"),

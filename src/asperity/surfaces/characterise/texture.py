@@ -9,6 +9,7 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.units import show
 from .correlation import DROP_ISO, Autocovariance
 from .spectrum import PowerSpectrum
 
@@ -17,6 +18,7 @@ _TIE = (
 )
 _RAY_STEPS = 2  # samples per pixel along a ray
 _BLOCK = 1 << 20  # samples taken at once
+_SHARE = 0.5  # of a ray, half the map: autocorrelations about the mean of a map fall too early beyond
 
 
 @dataclass(frozen=True)
@@ -25,14 +27,21 @@ class TextureLengths:
     distance (0 to 1).
 
     ``Sal_direction``, ``longest_direction`` are the angles of both in rad from +x towards +y, in
-    [0, π). NaN where no direction decays inside the map, or (Str and the longest direction) where
-    one does not.
+    [0, π). Rays end at the border of half the map. Sal is NaN where a ray without a drop ends
+    before the shortest drop that was found, Str where any ray has none; the other direction is then
+    the one that reaches farthest. ``Sal_least`` and ``Str_most`` are bounds that hold all the same,
+    equal to Sal and Str where these are known. ``farthest_share``: the longest distance over the
+    length of its ray; R is about the mean of the map, which makes it fall too early near one. All
+    are NaN for a flat map, Str and its bound for a profile.
     """
 
     Sal: float
     Str: float
     Sal_direction: float
     longest_direction: float
+    Sal_least: float
+    Str_most: float
+    farthest_share: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,16 +76,52 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
     centre = autocovariance.within((half[0], half[1]))
     k_max, l_max = centre.range
     angles = np.deg2rad(np.arange(180.0))
+    if 0 in centre.range:  # a profile
+        angles = np.array([0.0 if k_max else 0.5 * math.pi])
+    cosines, sines = np.cos(angles), np.sin(angles)
+    cosines[np.abs(cosines) < 1e-15] = 0.0  # along y
+    lengths = _first_drops(centre, drop * centre.mean_square, cosines, sines)
+    if autocovariance.mean_square == 0.0:
+        return TextureLengths(*[math.nan] * 7)
+    found = np.isfinite(lengths)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        reach = np.fmin(k_max * centre.spacing[0] / np.abs(cosines), l_max * centre.spacing[1] / np.abs(sines))
+    # a ray without a drop decays beyond its end
+    least = np.where(found, lengths, reach)
+    longest = int(np.argmax(least))
+    least_Sal, farthest = float(least.min()), float(least[longest])
+    if not found.any():
+        most = 1.0 if angles.size > 1 else math.nan
+        return TextureLengths(math.nan, math.nan, math.nan, float(angles[longest]), least_Sal, most, math.nan)
+    shortest = int(np.nanargmin(lengths))
+    shown = float(lengths[shortest])
+    Sal = shown if shown <= least_Sal else math.nan
+    most = shown / farthest if angles.size > 1 else math.nan
+    return TextureLengths(
+        Sal,
+        most if found.all() else math.nan,
+        float(angles[shortest]),
+        float(angles[longest]),
+        least_Sal,
+        float(np.minimum(1.0, most)),
+        farthest / float(reach[longest]),
+    )
+
+
+def _first_drops(centre: Autocovariance, level: float, cosines: RealArray, sines: RealArray) -> RealArray:
+    """Distance in m at which R first falls to ``level`` along each ray; NaN where it does not
+    before the border."""
+    k_max, l_max = centre.range
     farthest = math.hypot(*(k * d for k, d in zip(centre.range, centre.spacing, strict=True)))
     step = min(centre.spacing) / _RAY_STEPS
     distances = step * np.arange(int(farthest / step) + 2)
-    lengths = np.full(angles.size, np.nan)
-    open_rays = np.arange(angles.size)
-    level, block = drop * centre.mean_square, max(2, _BLOCK // angles.size)
+    lengths = np.full(cosines.size, np.nan)
+    open_rays = np.arange(cosines.size)
+    block = max(2, _BLOCK // cosines.size)
     for start in range(0, distances.size - 1, block - 1):
         part = distances[start : start + block]
         # R by bilinear interpolation, NaN outside the range
-        x, y = np.cos(angles[open_rays])[:, None] * part, np.sin(angles[open_rays])[:, None] * part
+        x, y = cosines[open_rays][:, None] * part, sines[open_rays][:, None] * part
         flip = np.where(x < 0.0, -1.0, 1.0)  # R(-r) = R(r)
         row, column = flip * x / centre.spacing[0], flip * y / centre.spacing[1] + l_max
         outside = (row > k_max) | (column < 0.0) | (column > 2 * l_max)
@@ -96,15 +141,34 @@ def texture_lengths(autocovariance: Autocovariance, drop: float = DROP_ISO) -> T
         open_rays = open_rays[~crossed]
         if open_rays.size == 0:
             break
-    found = np.isfinite(lengths)
-    if not found.any() or autocovariance.mean_square == 0.0:
-        return TextureLengths(math.nan, math.nan, math.nan, math.nan)
-    shortest = int(np.nanargmin(lengths))
-    Sal = float(lengths[shortest])
-    if not found.all():
-        return TextureLengths(Sal, math.nan, float(angles[shortest]), math.nan)
-    longest = int(np.argmax(lengths))
-    return TextureLengths(Sal, Sal / float(lengths[longest]), float(angles[shortest]), float(angles[longest]))
+    return lengths
+
+
+def doubts_of_texture(lengths: TextureLengths, *, periodic: bool) -> list[str]:
+    """Why Sal or Str of a map is not known or is only a bound, a sentence for each; empty where
+    both are."""
+    if math.isnan(lengths.Sal_least):
+        return ["No autocorrelation length and no texture aspect ratio: the map is flat."]
+    if math.isnan(lengths.Str_most):
+        return ["No texture aspect ratio Str: a profile has one direction."]
+    direction, found = f"{math.degrees(lengths.longest_direction):.0f}°", []
+    if math.isnan(lengths.Sal):
+        found.append(
+            "No autocorrelation length Sal: a direction along which the autocorrelation does not fall to 0.2 within "
+            f"half the map ends first; Sal is at least {show(lengths.Sal_least, 'm', 3)}. Use a larger map."
+        )
+    if math.isnan(lengths.Str):
+        found.append(
+            f"No texture aspect ratio Str: the autocorrelation does not fall to 0.2 along {direction} within half the "
+            f"map; Str is at most {lengths.Str_most:.3g}. Use a longer map along it."
+        )
+    elif not periodic and lengths.farthest_share > _SHARE:
+        found.append(
+            f"Texture aspect ratio Str is an upper bound: along {direction} the autocorrelation falls to 0.2 beyond a "
+            "quarter of the map, where it does so too early, since it is taken about the mean of the map. "
+            "Use a longer map along it."
+        )
+    return found
 
 
 def angular_spectrum(spectrum: PowerSpectrum) -> AngularSpectrum:

@@ -4,8 +4,9 @@ ranks put in order."""
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Annotated, ClassVar, Literal, Protocol, TypeAlias, get_args
+from typing import Annotated, Any, ClassVar, Literal, Protocol, TypeAlias, get_args
 
 import numpy as np
 
@@ -89,12 +90,10 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
         if other.kind == "lognormal":  # -z(-G) = -ξ - λ exp(-(G + γ)/δ)
             return replace(other, gamma=-other.gamma, delta=-other.delta, xi=-other.xi, scale=-other.scale)
         return other
-    from scipy.optimize import brentq
-
     # w = exp(1/δ²) >= 1 of the lognormal, (w - 1)(w + 2)² = skewness²; the bracket from (w + 2)² >=
     # 9
     top = 1.0 + skewness**2 / 9.0 + 1e-15
-    w = float(brentq(lambda w: (w - 1.0) * (w + 2.0) ** 2 - skewness**2, 1.0, top, xtol=1e-15, rtol=1e-14))
+    w = _root(lambda w: (w - 1.0) * (w + 2.0) ** 2 - skewness**2, 1.0, top, xtol=1e-15, rtol=1e-14)
     line = w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0
     if abs(kurtosis - line) <= _ON_LINE * line:
         if skewness == 0.0:
@@ -104,24 +103,27 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
     return _unbounded(skewness, kurtosis) if kurtosis > line else _bounded(skewness, kurtosis, w)
 
 
+def _root(function: Callable[[float], float], low: float, high: float, **accuracy: Any) -> float:
+    """Where ``function`` is zero between ``low`` and ``high``."""
+    from scipy.optimize import brentq
+
+    return float(brentq(function, low, high, **accuracy))
+
+
 def _unbounded(skewness: float, kurtosis: float) -> Johnson:
     """Tuenter (2001): skewness² as a function of w alone, at the given kurtosis, and its one
     root."""
-    from scipy.optimize import brentq
-
     square = skewness**2
 
     def m(w: float) -> float:
         return -2.0 + math.sqrt(max(0.0, 4.0 + 2.0 * (w * w - (kurtosis + 3.0) / (w * w + 2.0 * w + 3.0))))
 
     # the lognormal with this kurtosis, m = 0
-    low = float(brentq(lambda w: w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0 - kurtosis, 1.0, kurtosis**0.25 + 1.0))
+    low = _root(lambda w: w**4 + 2.0 * w**3 + 3.0 * w**2 - 3.0 - kurtosis, 1.0, kurtosis**0.25 + 1.0)
     high = math.sqrt(math.sqrt(2.0 * kurtosis - 2.0) - 1.0)  # the symmetric one, m = w - 1
     w, omega = high, 0.0
     if square > 0.0:
-        w = float(
-            brentq(lambda w: (w - 1.0 - m(w)) * (w + 2.0 + 0.5 * m(w)) ** 2 - square, low, high, xtol=1e-15, rtol=1e-14)
-        )
+        w = _root(lambda w: (w - 1.0 - m(w)) * (w + 2.0 + 0.5 * m(w)) ** 2 - square, low, high, xtol=1e-15, rtol=1e-14)
         sinh_square = (w + 1.0) / (2.0 * w) * max(0.0, (w - 1.0) / m(w) - 1.0)
         omega = -math.asinh(math.sqrt(sinh_square))  # negative for positive skewness
     variance = 0.5 * (w - 1.0) * (w * math.cosh(2.0 * omega) + 1.0)
