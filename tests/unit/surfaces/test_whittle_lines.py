@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import math
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from reference_data import FOLDER, Row, every_row, reference
+from scipy.integrate import quad
 
 from asperity.core.arrays import RealArray
+from asperity.surfaces.characterise.scans_corners import Rounded, Sharp
 from asperity.surfaces.characterise.whittle_lines import (
     LineFit,
     LineModes,
-    Rounded,
     corner_bound,
     expected_periodogram,
     fit_lines,
     independent_line_factor,
     levelled_expectation,
-    matern,
     window_correlation,
 )
 
@@ -62,7 +63,7 @@ def test_levelling_and_windows_bias_a_periodogram_as_the_covariance_says(row: Ro
     n, H, mode = 512, float(row["hurst"]), int(row["mode"])
     q0 = 2.0 * math.pi * float(row["q0_L_over_2pi"]) / n
     weights = np.ones(n) if row["window"] == "none" else hann(n)
-    R = matern(q0 * np.arange(n), H)
+    R = Rounded(1.0, q0, H).autocovariance(np.arange(n))
     found = levelled_expectation(R, weights, 1.0, [mode], str(row["detrend"]))[0]
     C1D = float(Rounded(1.0, q0, H).profile_psd(2.0 * math.pi * mode / n))
     digits = 5e-6  # the table has six digits
@@ -73,10 +74,40 @@ def test_levelling_and_windows_bias_a_periodogram_as_the_covariance_says(row: Ro
 def test_one_transform_gives_the_expectation_of_the_covariance(window: str) -> None:
     n = 96
     weights = np.ones(n) if window == "none" else hann(n)
-    R = matern(0.05 * np.arange(n), 0.7)
+    R = Rounded(1.0, 0.05, 0.7).autocovariance(np.arange(n))
     fast = expected_periodogram(R, window_correlation(weights), 0.3)
     dense = levelled_expectation(R, weights, 0.3, range(n // 2 + 1), "none")
     assert fast == pytest.approx(dense, rel=1e-11)
+
+
+def transformed(model: Rounded | Sharp, lag: float) -> float:
+    """(1/π) ∫ C1D(k) cos(k ``lag``) dk."""
+    near = quad(lambda k: float(model.profile_psd(k)) * math.cos(k * lag), 0.0, 1.0, limit=400, epsabs=1e-12)[0]
+    far = quad(lambda k: float(model.profile_psd(k)), 1.0, np.inf, weight="cos", wvar=lag, limlst=200, epsabs=1e-12)
+    return (near + far[0]) / math.pi
+
+
+@pytest.mark.parametrize("H", [0.3, 0.8])
+@pytest.mark.parametrize("corner", [Rounded, Sharp])
+def test_covariance_is_the_transform_of_the_profile_spectrum(corner: type[Rounded] | type[Sharp], H: float) -> None:
+    model = corner(1.0, 1.0, H)
+    lags = np.array([0.3, 9.999, 10.001, 20.0, 44.999, 45.001])
+    wanted = [transformed(model, float(lag)) for lag in lags]
+    assert model.autocovariance(lags) == pytest.approx(wanted, abs=1e-10)  # the quadrature keeps ten digits
+
+
+@pytest.mark.parametrize("H", [0.3, 0.8])
+@pytest.mark.parametrize("corner", [Rounded, Sharp])
+def test_profile_spectrum_is_the_projection_of_the_map(corner: type[Rounded] | type[Sharp], H: float) -> None:
+    model = corner(2.0, 1.0, H)
+    for k in (0.01, 0.7, 3.0):
+        kinks = np.append(0.0, math.sqrt(max(1.0 - k * k, 0.0)))
+        parts = [
+            quad(lambda y, k=k: float(model.psd(math.hypot(k, y))), low, high, epsabs=0.0, epsrel=1e-11)[0]
+            for low, high in pairwise([*np.unique(kinks), np.inf])
+        ]
+        assert float(model.profile_psd(k)) == pytest.approx(sum(parts) / math.pi, rel=1e-9)
+    assert float(model.autocovariance(np.array([0.0]))[0]) == 2.0
 
 
 @every_row(reference("profiles/band_cut"), lambda row: str(row["case"]))
@@ -105,3 +136,31 @@ def test_truth_lies_within_the_errors_of_the_fit() -> None:
     assert abs(math.log(fit.model.corner / float(row["q0_rad_per_m"]))) < 1.96 * fit.error("ln q0")
     assert fit.clusters == 18
     assert corner_bound(scans(), fit) > float(row["q0_rad_per_m"])
+
+
+def test_rounded_corner_is_told_from_a_sharp_one() -> None:
+    heights = surface(Rounded(1e-12, 2.0 * math.pi / 32e-6, 0.6))
+    rounded, sharp = (fit_lines([heights], corner=name) for name in ("rounded", "sharp"))
+    assert rounded.deviance < sharp.deviance
+
+
+def surface(model: Rounded | Sharp) -> LineModes:
+    """Modes of 200 independent lines of a surface with this spectrum, drawn with their exact
+    covariance."""
+    n, spacing, modes = 256, 1e-6, np.arange(3, 64)
+    R = model.autocovariance(spacing * np.arange(n))
+    root = np.linalg.cholesky(R[np.abs(np.arange(n)[:, None] - np.arange(n)[None, :])])
+    heights = np.random.default_rng(3).standard_normal((200, n)) @ root.T
+    weights = hann(n)
+    power = spacing / n * np.abs(np.fft.rfft(heights * weights, axis=1)) ** 2
+    correlation = window_correlation(weights)
+    return LineModes(power[:, modes], modes.astype(float), n, spacing, correlation, "hann", np.ones(modes.size))
+
+
+def test_sharp_corner_is_told_from_a_rounded_one() -> None:
+    model = Sharp(1e-12, 2.0 * math.pi / 32e-6, 0.6)
+    heights = surface(model)
+    rounded, sharp = (fit_lines([heights], corner=name) for name in ("rounded", "sharp"))
+    assert sharp.deviance < rounded.deviance
+    assert sharp.model.hurst == pytest.approx(0.6, abs=3.0 * sharp.error("H"))
+    assert math.log(sharp.model.corner / model.corner) == pytest.approx(0.0, abs=3.0 * sharp.error("ln q0"))

@@ -14,10 +14,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...core import require
 from ...core.arrays import RealArray
+from .scans_corners import CORNERS, Corner
 from .spectrum import LOST_MODES
 
 # Expectation.
@@ -80,17 +80,6 @@ def levelled_expectation(
     return found
 
 
-def matern(lag: ArrayLike, hurst: float) -> RealArray:
-    """Autocorrelation ρ = 2^(1-H)/Γ(H) x^H K_H(x) of the rounded spectrum, at x = q0 r >= 0 (any
-    shape)."""
-    from scipy.special import kv
-
-    x = np.asarray(lag, dtype=float)
-    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
-        value = 2.0 ** (1.0 - hurst) / math.gamma(hurst) * x**hurst * kv(hurst, x)
-    return np.where(x > 0.0, np.nan_to_num(value, posinf=1.0), 1.0)
-
-
 def independent_line_factor(hurst: float) -> float:
     """c_H of the distance c_H/q of independent lines of an isotropic surface at the wavenumber q.
 
@@ -148,58 +137,22 @@ class LineModes:
         return LOST_MODES[self.window]
 
     def independent(self, hurst: float, corner: float) -> RealArray:
-        """Number ν of independent lines at each mode of a rounded spectrum, (modes,); ``corner`` q0
-        in rad/m."""
+        """Number ν of independent lines at each mode, exactly of a rounded spectrum, (modes,);
+        ``corner`` q0 in rad/m."""
         if not self.is_map:
             return np.full(self.modes.size, float(self.lines))
         across = self.lines * self.distance * np.sqrt(self.q**2 + corner**2)
         return np.clip(across / independent_line_factor(hurst), 1.0, float(self.lines))
 
-    def expectation(self, model: Rounded) -> RealArray:
+    def expectation(self, model: Corner) -> RealArray:
         """Expected periodogram in m³ at the modes, (modes,)."""
         if self.periodic:
             found = model.profile_psd(self.q)
         else:
-            R = model.variance * matern(model.corner * self.spacing * np.arange(self.points), model.hurst)
+            R = model.autocovariance(self.spacing * np.arange(self.points))
             found = expected_periodogram(R, self.correlation, self.spacing)[self.modes.astype(int)]
         # rounding of a spectrum that falls by sixteen decades must not become a negative power
         return np.asarray(self.transfer * np.maximum(found, 1e-300) + self.floor)
-
-
-@dataclass(frozen=True)
-class Rounded:
-    """Rounded spectrum C = A/(1 + q²/q0²)^(1+H) by the ``variance`` m0 in m², the ``corner`` q0 in
-    rad/m and ``hurst`` H."""
-
-    variance: float
-    corner: float
-    hurst: float
-
-    @classmethod
-    def of(cls, values: RealArray) -> Rounded:
-        """From the parameters (ln m0, ln q0, H)."""
-        return cls(math.exp(values[0]), math.exp(values[1]), float(values[2]))
-
-    @property
-    def values(self) -> RealArray:
-        """The parameters (ln m0, ln q0, H)."""
-        return np.array([math.log(self.variance), math.log(self.corner), self.hurst])
-
-    @property
-    def level(self) -> float:
-        """A in m⁴."""
-        return 4.0 * math.pi * self.hurst * self.variance / self.corner**2
-
-    def psd(self, q: RealArray | float) -> RealArray:
-        """C in m⁴ of the isotropic surface at the wavenumbers ``q`` (rad/m, any shape)."""
-        x = np.asarray(q, dtype=float) / self.corner
-        return np.asarray(self.level * (1.0 + x**2) ** -(1.0 + self.hurst))
-
-    def profile_psd(self, k: RealArray | float) -> RealArray:
-        """Two-sided C1D in m³ at the wavenumbers ``k`` (rad/m, any shape)."""
-        x, H = np.asarray(k, dtype=float) / self.corner, self.hurst
-        factor = math.exp(math.lgamma(H + 0.5) - math.lgamma(H + 1.0)) / (2.0 * math.sqrt(math.pi))
-        return np.asarray(self.level * self.corner * factor * (1.0 + x**2) ** -(0.5 + H))
 
 
 PARAMETERS = ("ln m0", "ln q0", "H")
@@ -209,22 +162,22 @@ _STEP = 1e-4  # of derivatives by parameters of order one
 _ROUNDS = 200  # of damped scoring at most; ten are usual
 _SETTLED = 1e-9  # gain of the likelihood, relative to the number of modes, at which it ends
 _NARROW = 1e-8  # of a parameter's last step
-_HURST = (0.02, 2.0)
+_LEAST_HURST = 0.02
 _BEYOND = 30.0  # longest line over the roll-off wavelength 2π/q0 and back, within which q0 is sought
 
 
 @dataclass(frozen=True, eq=False)
 class LineFit:
-    """Rounded spectrum with the largest likelihood of all scans together.
+    """Spectrum with the largest likelihood of all scans together.
 
-    ``model``; ``fisher`` covariance (3, 3) of (ln m0, ln q0, H) if the model holds for every line;
-    ``sandwich`` the same from the scatter of the lines (of the maps, where lines are not
-    independent), NaN with three or fewer; ``objective`` F = Σ ν [I/C + ln C]; ``deviance`` -2 ln L
-    with the modes that windows cost; ``clusters`` number of independent lines and maps;
+    ``model`` with its corner; ``fisher`` covariance (3, 3) of (ln m0, ln q0, H) if the model holds
+    for every line; ``sandwich`` the same from the scatter of the lines (of the maps, where lines
+    are not independent), NaN with three or fewer; ``objective`` F = Σ ν [I/C + ln C]; ``deviance``
+    -2 ln L with the modes that windows cost; ``clusters`` number of independent lines and maps;
     ``at_bound`` names of parameters that stopped at the end of their range.
     """
 
-    model: Rounded
+    model: Corner
     fisher: RealArray
     sandwich: RealArray
     objective: float
@@ -235,7 +188,7 @@ class LineFit:
     def error(self, name: str, *, by: str = "fisher") -> float:
         """Standard error of a parameter, ``ln m0``, ``ln q0`` or ``H``, ``by`` fisher or
         sandwich."""
-        number = PARAMETERS.index(require.one_of(name, PARAMETERS, "parameter of a rounded spectrum"))
+        number = PARAMETERS.index(require.one_of(name, PARAMETERS, "parameter of a spectrum"))
         matrix = self.fisher if by == "fisher" else self.sandwich
         return (
             math.sqrt(max(float(matrix[number, number]), 0.0))
@@ -244,29 +197,33 @@ class LineFit:
         )
 
 
-def fit_lines(scans: Sequence[LineModes], *, fixed: dict[str, float] | None = None) -> LineFit:
-    """Rounded spectrum of the largest Whittle likelihood of all ``scans`` together.
+def fit_lines(scans: Sequence[LineModes], *, corner: str = "rounded", fixed: dict[str, float] | None = None) -> LineFit:
+    """Spectrum with a rounded or sharp ``corner`` of the largest Whittle likelihood of all
+    ``scans`` together.
 
     Minimises F = Σ_s Σ_k ν_s [I_s/C_s + ln C_s], C_s the expectation of the scan's periodogram, by
     damped scoring from the best of a grid of starts. ``fixed`` holds parameters, by name, at a
     value. The numbers ν of independent lines of a map follow the fit and are renewed once.
     """
+    kind = CORNERS[require.one_of(corner, CORNERS, "corner of a spectrum")]
     longest = max(scan.points * scan.spacing for scan in scans)
-    bounds = np.array([[-math.inf, math.inf], [0.0, 0.0], [*_HURST]])
+    bounds = np.array([[-math.inf, math.inf], [0.0, 0.0], [_LEAST_HURST, kind.largest_hurst]])
     bounds[1] = math.log(2.0 * math.pi / longest) + math.log(_BEYOND) * np.array([-1.0, 1.0])
     held = {PARAMETERS.index(name): value for name, value in (fixed or {}).items()}
     for number, value in held.items():
         bounds[number] = value
-    values = _best_start(scans, bounds, held)
+    values = _best_start(kind, scans, bounds, held)
     for _ in range(2 if any(scan.is_map for scan in scans) else 1):
-        model = Rounded.of(values)
+        model = kind.of(values)
         weights = [scan.independent(model.hurst, model.corner) for scan in scans]
-        values = _scored(scans, weights, values, bounds, held)
-    return _judged(scans, weights, values, bounds, held)
+        values = _scored(kind, scans, weights, values, bounds, held)
+    return _judged(kind, scans, weights, values, bounds, held)
 
 
-def _objective(scans: Sequence[LineModes], weights: Sequence[RealArray], values: RealArray) -> float:
-    model = Rounded.of(values)
+def _objective(
+    kind: type[Corner], scans: Sequence[LineModes], weights: Sequence[RealArray], values: RealArray
+) -> float:
+    model = kind.of(values)
     total = 0.0
     for scan, nu in zip(scans, weights, strict=True):
         expected = scan.expectation(model)
@@ -274,19 +231,19 @@ def _objective(scans: Sequence[LineModes], weights: Sequence[RealArray], values:
     return total
 
 
-def _gradients(scan: LineModes, values: RealArray) -> tuple[RealArray, RealArray]:
+def _gradients(kind: type[Corner], scan: LineModes, values: RealArray) -> tuple[RealArray, RealArray]:
     """ln C (modes,) and its derivatives (3, modes) by the parameters."""
-    middle = np.log(scan.expectation(Rounded.of(values)))
+    middle = np.log(scan.expectation(kind.of(values)))
     rows = []
     for number in range(3):
         step = np.zeros(3)
         step[number] = _STEP
-        high, low = (scan.expectation(Rounded.of(values + sign * step)) for sign in (1.0, -1.0))
+        high, low = (scan.expectation(kind.of(values + sign * step)) for sign in (1.0, -1.0))
         rows.append((np.log(high) - np.log(low)) / (2.0 * _STEP))
     return middle, np.array(rows)
 
 
-def _best_start(scans: Sequence[LineModes], bounds: RealArray, held: dict[int, float]) -> RealArray:
+def _best_start(kind: type[Corner], scans: Sequence[LineModes], bounds: RealArray, held: dict[int, float]) -> RealArray:
     best, least = np.zeros(3), math.inf
     for log_q0 in np.unique(np.linspace(bounds[1, 0], bounds[1, 1], 9)):
         for hurst in np.unique(np.clip((0.2, 0.5, 0.8, 1.2), *bounds[2])):
@@ -294,17 +251,18 @@ def _best_start(scans: Sequence[LineModes], bounds: RealArray, held: dict[int, f
             weights = [scan.independent(float(hurst), math.exp(log_q0)) for scan in scans]
             if 0 not in held:  # the amplitude of the largest likelihood, as if there were no floors
                 ratio = [
-                    nu @ (scan.periodograms.mean(axis=0) / scan.expectation(Rounded.of(values)))
+                    nu @ (scan.periodograms.mean(axis=0) / scan.expectation(kind.of(values)))
                     for scan, nu in zip(scans, weights, strict=True)
                 ]
                 values[0] = math.log(sum(ratio) / sum(nu.sum() for nu in weights))
-            reached = _objective(scans, weights, values)
+            reached = _objective(kind, scans, weights, values)
             if reached < least:
                 best, least = values, reached
     return best
 
 
 def _scored(
+    kind: type[Corner],
     scans: Sequence[LineModes],
     weights: Sequence[RealArray],
     values: RealArray,
@@ -315,11 +273,11 @@ def _scored(
     follows their success."""
     free = [number for number in range(3) if number not in held]
     scale, damping = float(sum(nu.sum() for nu in weights)), 1e-3
-    least = _objective(scans, weights, values)
+    least = _objective(kind, scans, weights, values)
     for _ in range(_ROUNDS):
         slope, information = np.zeros(3), np.zeros((3, 3))
         for scan, nu in zip(scans, weights, strict=True):
-            log_c, rows = _gradients(scan, values)
+            log_c, rows = _gradients(kind, scan, values)
             slope += rows @ (nu * (scan.periodograms.mean(axis=0) * np.exp(-log_c) - 1.0))
             information += (rows * nu) @ rows.T
         part = np.ix_(free, free)
@@ -328,7 +286,7 @@ def _scored(
             damped = information[part] + damping * np.diag(np.diag(information[part]) + 1e-12 * scale)
             trial = values.copy()
             trial[free] = np.clip(values[free] + np.linalg.solve(damped, slope[free]), *bounds[free].T)
-            reached = _objective(scans, weights, trial)
+            reached = _objective(kind, scans, weights, trial)
             if reached <= least:
                 gain, moved = least - reached, float(np.abs(trial - values).max())
                 values, least, damping = trial, reached, max(0.1 * damping, 1e-9)
@@ -342,6 +300,7 @@ def _scored(
 
 
 def _judged(
+    kind: type[Corner],
     scans: Sequence[LineModes],
     weights: Sequence[RealArray],
     values: RealArray,
@@ -352,7 +311,7 @@ def _judged(
     information, noise, spread = np.zeros((3, 3)), np.zeros((3, 3)), np.zeros((3, 3))
     clusters, deviance = 0, 0.0
     for scan, nu in zip(scans, weights, strict=True):
-        log_c, rows = _gradients(scan, values)
+        log_c, rows = _gradients(kind, scan, values)
         information += (rows * nu) @ rows.T
         noise += scan.lost * (rows * nu) @ rows.T
         relative = scan.periodograms * np.exp(-log_c)
@@ -374,8 +333,8 @@ def _judged(
         for number, name in enumerate(PARAMETERS)
         if number in free and min(abs(values[number] - bounds[number])) < 1e-6
     ]
-    objective = _objective(scans, weights, values)
-    return LineFit(Rounded.of(values), fisher, sandwich, objective, deviance, clusters, tuple(ends))
+    objective = _objective(kind, scans, weights, values)
+    return LineFit(kind.of(values), fisher, sandwich, objective, deviance, clusters, tuple(ends))
 
 
 def corner_bound(scans: Sequence[LineModes], fit: LineFit, *, gain: float = 2.71) -> float:
@@ -383,10 +342,10 @@ def corner_bound(scans: Sequence[LineModes], fit: LineFit, *, gain: float = 2.71
     its least there."""
     from scipy.optimize import brentq
 
-    start = fit.model.values[1]
+    start = math.log(fit.model.corner)
 
     def excess(log_q0: float) -> float:
-        return fit_lines(scans, fixed={"ln q0": log_q0}).deviance - fit.deviance - gain
+        return fit_lines(scans, corner=fit.model.name, fixed={"ln q0": log_q0}).deviance - fit.deviance - gain
 
     high = start
     for _ in range(12):
