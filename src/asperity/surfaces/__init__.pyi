@@ -4,10 +4,13 @@ from .prepare.extent import cropped, periodised, resampled, sliced, tapered
 from .prepare.filter import filtered, reliability_cutoff, tip_limited
 from .prepare.level import despiked, filled, levelled, line_corrected
 from .read import channels, read
+from .scans import Scan, Scans
 from .surface import Surface
 
 __all__ = [
     "Grid",
+    "Scan",
+    "Scans",
     "Surface",
     "SurfacePair",
     "channels",

@@ -142,7 +142,7 @@ class LineModes:
         if not self.is_map:
             return np.full(self.modes.size, float(self.lines))
         across = self.lines * self.distance * np.sqrt(self.q**2 + corner**2)
-        return np.clip(across / independent_line_factor(hurst), 1.0, float(self.lines))
+        return np.asarray(np.clip(across / independent_line_factor(hurst), 1.0, float(self.lines)))
 
     def expectation(self, model: Corner) -> RealArray:
         """Expected periodogram in m³ at the modes, (modes,)."""
@@ -174,7 +174,8 @@ class LineFit:
     for every line; ``sandwich`` the same from the scatter of the lines (of the maps, where lines
     are not independent), NaN with three or fewer; ``objective`` F = Σ ν [I/C + ln C]; ``deviance``
     -2 ln L with the modes that windows cost; ``clusters`` number of independent lines and maps;
-    ``at_bound`` names of parameters that stopped at the end of their range.
+    ``weights`` ν of every scan; ``at_bound`` names of parameters that stopped at the end of their
+    range.
     """
 
     model: Corner
@@ -183,6 +184,7 @@ class LineFit:
     objective: float
     deviance: float
     clusters: int
+    weights: tuple[RealArray, ...] = ()
     at_bound: tuple[str, ...] = ()
 
     def error(self, name: str, *, by: str = "fisher") -> float:
@@ -197,13 +199,21 @@ class LineFit:
         )
 
 
-def fit_lines(scans: Sequence[LineModes], *, corner: str = "rounded", fixed: dict[str, float] | None = None) -> LineFit:
+def fit_lines(
+    scans: Sequence[LineModes],
+    *,
+    corner: str = "rounded",
+    fixed: dict[str, float] | None = None,
+    start: Corner | None = None,
+    weights: Sequence[RealArray] | None = None,
+) -> LineFit:
     """Spectrum with a rounded or sharp ``corner`` of the largest Whittle likelihood of all
     ``scans`` together.
 
     Minimises F = Σ_s Σ_k ν_s [I_s/C_s + ln C_s], C_s the expectation of the scan's periodogram, by
-    damped scoring from the best of a grid of starts. ``fixed`` holds parameters, by name, at a
-    value. The numbers ν of independent lines of a map follow the fit and are renewed once.
+    damped scoring from the best of a grid of starts, or from ``start``. ``fixed`` holds parameters,
+    by name, at a value. The numbers ν of independent lines of a map follow the fit and are renewed
+    once, unless ``weights`` holds them (modes,) for each scan: only then likelihoods compare.
     """
     kind = CORNERS[require.one_of(corner, CORNERS, "corner of a spectrum")]
     longest = max(scan.points * scan.spacing for scan in scans)
@@ -212,12 +222,19 @@ def fit_lines(scans: Sequence[LineModes], *, corner: str = "rounded", fixed: dic
     held = {PARAMETERS.index(name): value for name, value in (fixed or {}).items()}
     for number, value in held.items():
         bounds[number] = value
-    values = _best_start(kind, scans, bounds, held)
+    if start is None:
+        values = _best_start(kind, scans, bounds, held)
+    else:
+        values = np.array([math.log(start.variance), math.log(start.corner), start.hurst])
+        values[list(held)] = list(held.values())
+    if weights is not None:
+        values = _scored(kind, scans, weights, values, bounds, held)
+        return _judged(kind, scans, weights, values, bounds, held)
     for _ in range(2 if any(scan.is_map for scan in scans) else 1):
         model = kind.of(values)
-        weights = [scan.independent(model.hurst, model.corner) for scan in scans]
-        values = _scored(kind, scans, weights, values, bounds, held)
-    return _judged(kind, scans, weights, values, bounds, held)
+        used = [scan.independent(model.hurst, model.corner) for scan in scans]
+        values = _scored(kind, scans, used, values, bounds, held)
+    return _judged(kind, scans, used, values, bounds, held)
 
 
 def _objective(
@@ -334,7 +351,7 @@ def _judged(
         if number in free and min(abs(values[number] - bounds[number])) < 1e-6
     ]
     objective = _objective(kind, scans, weights, values)
-    return LineFit(kind.of(values), fisher, sandwich, objective, deviance, clusters, tuple(ends))
+    return LineFit(kind.of(values), fisher, sandwich, objective, deviance, clusters, tuple(weights), tuple(ends))
 
 
 def corner_bound(scans: Sequence[LineModes], fit: LineFit, *, gain: float = 2.71) -> float:
@@ -342,12 +359,11 @@ def corner_bound(scans: Sequence[LineModes], fit: LineFit, *, gain: float = 2.71
     its least there."""
     from scipy.optimize import brentq
 
-    start = math.log(fit.model.corner)
-
     def excess(log_q0: float) -> float:
-        return fit_lines(scans, corner=fit.model.name, fixed={"ln q0": log_q0}).deviance - fit.deviance - gain
+        held = fit_lines(scans, corner=fit.model.name, fixed={"ln q0": log_q0}, start=fit.model, weights=fit.weights)
+        return held.deviance - fit.deviance - gain
 
-    high = start
+    high = math.log(fit.model.corner)
     for _ in range(12):
         low, high = high, high + 0.5
         if excess(high) > 0.0:
