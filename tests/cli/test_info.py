@@ -113,3 +113,21 @@ def test_many_files_are_one_table(run: Runner, matrix: Path, tmp_path: Path) -> 
     assert [record["shape"] for record in json.loads(machine.stdout)] == [[32, 24]]
     assert "broken.txt" in machine.stderr
     assert run("info", *files, *SCALE, "--full").exit_code == 2
+
+
+def test_files_of_one_surface_give_one_spectrum(run: Runner, tmp_path: Path) -> None:
+    made = ("generate", "rough", "--points", "64", "--spectrum", "exponential", "--rms", "1nm")
+    files = [tmp_path / "large.nc", tmp_path / "small.nc"]
+    for file, size in zip(files, ("8um", "2um"), strict=True):
+        more = ("--size", size, "--seed", "1", "--correlation-length", "200nm", "--out", file)
+        assert run(*made, *more).exit_code == 0
+    shown = run("info", *files, "--one-surface", "--plots", tmp_path / "pictures")
+    assert shown.exit_code == 0, shown.stderr
+    assert [name for name in ("large.nc", "small.nc", "sampling") if name not in shown.stdout] == []
+    assert (tmp_path / "pictures" / "spectrum.png").read_bytes().startswith(b"\x89PNG")
+    found = json.loads(run("info", *files, "--one-surface", "--json").stdout)
+    assert found["hurst"] == pytest.approx(0.5, abs=3.0 * found["hurst_error"])
+    assert len(found["bands"]) == 2
+    assert len(found["q"]) == len(found["profile_psd_error"])
+    refused = run("info", *files, "--one-surface", "--full")
+    assert subject_of(refused) == "--full, --plot and --report"

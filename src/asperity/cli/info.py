@@ -30,6 +30,7 @@ from ..surfaces.read import channels
 from ..surfaces.surface import Surface
 from .declared import FILE, Given, Option, offers
 from .main import NOT_CONVERGED, OK
+from .one_surface import one_surface
 from .options import levelled_as, own_option, read_surface, reading_options
 from .show import console, print_files, say, short_names, silence, table
 
@@ -61,10 +62,14 @@ def info(
     ] = "auto",
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
+    together: Annotated[
+        bool, typer.Option("--one-surface", help="All files are scans of one surface: one spectrum with errors.")
+    ] = False,
 ) -> None:
     """Tell what is in files with heights: channels, size, pixel, units, roughness.
 
-    Examples: asperity info scan.di --full; asperity info scans/*.di --report page.html
+    Examples: asperity info scan.di --full; asperity info scans/*.di --report page.html;
+    asperity info optical/*.opd afm/*.di --one-surface --plots pictures
 
     Roughness values are those after levelling: by the least-squares plane, of a periodic surface by
     its mean, unless another level is chosen.
@@ -80,13 +85,18 @@ def info(
             raise InputError(f"{name} must be the name of a {kind} file, such as {example}, but is {str(path)!r}.")
         if path is not None:
             require_new_file(path, overwrite=force)
+    tip = given.get("tip_radius")
+    radius = None if tip is None else parse(tip, "length", "--tip-radius")
+    if together:
+        if full or plot or report:
+            raise InputError("--full, --plot and --report must be left out with --one-surface: use --plots or --json.")
+        one_surface(files, given, radius, plots, as_json=as_json, force=force)
+        return
     if len(files) > 1:
         if full or plot or plots:
             raise InputError("--full, --plot and --plots must be left out with many files: give one file.")
         raise typer.Exit(_many(files, given, level, report, as_json=as_json, force=force))
     file = files[0]
-    tip = given.get("tip_radius")
-    radius = None if tip is None else parse(tip, "length", "--tip-radius")
     surface = read_surface(file, given)
     found, (flat, removed) = channels(file), levelled_as(surface, level)
     whole = characterise(flat, tip_radius=radius) if full or report or plots else None

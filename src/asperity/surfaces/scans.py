@@ -16,6 +16,7 @@ from ..core.errors import InputError
 from ..core.late import Shown
 from ..core.units import show
 from .characterise.correlation import scale_dependence, tip_cutoff
+from .characterise.scans_scales import QUANTITIES, LevelLines, ScaleCurve, scale_curve
 from .characterise.scans_spectrum import ScansSpectrum, spectrum_of_scans
 from .characterise.slopes import axis_index
 from .characterise.whittle_lines import LineModes, window_correlation
@@ -312,6 +313,19 @@ class Scans(Shown):
         return spectrum_of_scans(
             modes, [names[number] for number in used], corner=corner, per_decade=per_decade, unused=unused
         )
+
+    def scale_curves(self, spectrum: ScansSpectrum | None = None) -> dict[str, ScaleCurve]:
+        """Rms ``height`` in windows, rms ``slope`` and ``curvature`` of profiles against the length
+        they are measured over; ``spectrum`` of these scans if it is known already."""
+        fit = self.spectrum() if spectrum is None else spectrum
+        parts = []
+        for scan in self.scans:
+            band = scan.limits()
+            if band.usable:
+                together = math.isfinite(scan.line_distance)
+                lines = scan.levelled_lines()
+                parts.append(LevelLines(lines, scan.spacing, band.shortest, together, not scan.periodic))
+        return {quantity: scale_curve(parts, fit.model, quantity) for quantity in QUANTITIES}
 
     def limits(self) -> dict[str, ScanLimits]:
         """Reliable waves by the name of the scan."""

@@ -175,6 +175,26 @@ def test_missing_points_are_bridged_and_poor_lines_left_out() -> None:
     assert np.isfinite(scan.levelled_lines()).all()
 
 
+def test_scale_curves_follow_the_fitted_spectrum() -> None:
+    curves = Scans(reference_scans()).scale_curves(combined())
+    for name, curve in curves.items():
+        assert (np.diff(curve.length) > 0.0).all(), name
+        assert curve.lines.max() >= 12, name
+        # the same lines as those of the fit: no length is off by much more than its own error
+        off = np.log(curve.value / curve.expected) / curve.error
+        assert np.median(np.abs(off)) < 2.0, name
+    rms = 2.0 * math.pi / combined().model.corner
+    assert curves["height"].value[-1] < math.sqrt(combined().model.variance)
+    assert curves["height"].length[-1] < rms
+
+
+def test_scale_curves_do_not_see_a_tilt() -> None:
+    tilted = [Scan(scan.heights + 1e-2 * scan.spacing * np.arange(256), scan.spacing) for scan in reference_scans()]
+    plain = Scans(reference_scans()).scale_curves(combined())
+    for name, curve in Scans(tilted).scale_curves(combined()).items():
+        assert curve.value == pytest.approx(plain[name].value, rel=1e-6)  # heights are differences of larger ones
+
+
 def test_refusals() -> None:
     with refused(InputError, "scans of a surface"):
         Scans([])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -87,11 +87,9 @@ class Rounded:
     def autocovariance(self, lag: ArrayLike) -> RealArray:
         """R = m0 2^(1-H)/Γ(H) x^H K_H(x) in m², x = q0 ``lag``, at the ``lag`` in m >= 0 (any
         shape)."""
-        from scipy.special import kv
-
         x, H = self.corner * np.asarray(lag, dtype=float), self.hurst
         with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
-            value = 2.0 ** (1.0 - H) / math.gamma(H) * x**H * kv(H, x)
+            value = 2.0 ** (1.0 - H) / math.gamma(H) * x**H * _special().kv(H, x)
         return self.variance * np.where(x > 0.0, np.nan_to_num(value, posinf=1.0), 1.0)
 
 
@@ -135,10 +133,8 @@ class Sharp:
         A plateau gives (A/π) sqrt(q0² - k²), the power law beyond a' = max(k, q0) the incomplete
         beta function B_(k²/a'²)(1/2 + H, 1/2).
         """
-        from scipy.special import beta, betainc
-
         x, H = np.asarray(k, dtype=float) / self.corner, self.hurst
-        share = betainc(0.5 + H, 0.5, np.minimum(x, 1.0) ** 2) * beta(0.5 + H, 0.5)
+        share = _special().betainc(0.5 + H, 0.5, np.minimum(x, 1.0) ** 2) * _special().beta(0.5 + H, 0.5)
         tail = np.where(x > 0.0, x, 1.0) ** (-1.0 - 2.0 * H) * share / (2.0 * math.pi)
         flat = np.sqrt(np.maximum(1.0 - x**2, 0.0)) / math.pi
         return np.asarray(self.level * self.corner * (tail + flat))
@@ -146,18 +142,14 @@ class Sharp:
     def autocovariance(self, lag: ArrayLike) -> RealArray:
         """R = (A q0²/2π) [J1(x)/x + x^(2H) ∫_x^∞ v^(-1-2H) J0(v) dv] in m², x = q0 ``lag``, at the
         ``lag`` in m >= 0 (any shape)."""
-        from scipy.special import j1
-
         x = self.corner * np.asarray(lag, dtype=float)
         safe = np.where(x > 0.0, x, 1.0)
-        plateau = np.where(x > 0.0, j1(safe) / safe, 0.5)
+        plateau = np.where(x > 0.0, _special().j1(safe) / safe, 0.5)
         value = self.level * self.corner**2 / (2.0 * math.pi) * (plateau + self._tail(x))
         return np.where(x > 0.0, value, self.variance)
 
     def _tail(self, x: RealArray) -> RealArray:
         """x^(2H) ∫_x^∞ v^(-1-2H) J0(v) dv: a power series, a table, an asymptotic series."""
-        from scipy.special import gamma
-
         H, found = self.hurst, np.empty_like(x)
         near, far = x < _SERIES_TO, x > _FAR
         quarter = np.square(0.5 * x[near])
@@ -165,7 +157,9 @@ class Sharp:
         for m in range(1, _TERMS):
             term = term * -quarter / m**2
             total += term / (2.0 * H - 2.0 * m)
-        found[near] = x[near] ** (2.0 * H) * 2.0 ** (-1.0 - 2.0 * H) * gamma(-H) / gamma(1.0 + H) + total
+        found[near] = (
+            x[near] ** (2.0 * H) * 2.0 ** (-1.0 - 2.0 * H) * _special().gamma(-H) / math.gamma(1.0 + H) + total
+        )
         found[far] = x[far] ** (2.0 * H) * _bessel_tail(x[far], 1.0 + 2.0 * H)
         between = ~(near | far)
         if between.any():
@@ -175,28 +169,32 @@ class Sharp:
     def _tabulated(self, x: RealArray) -> RealArray:
         """∫_x^∞ v^(-1-2H) J0(v) dv between the two series, by a Hermite spline through sums."""
         from scipy.interpolate import CubicHermiteSpline
-        from scipy.special import j0
 
         power = -1.0 - 2.0 * self.hurst
         edges = np.linspace(_SERIES_TO, _FAR, _PANELS + 1)
         v, weight = gauss(edges, _NODES)
-        parts = (weight * v**power * j0(v)).reshape(-1, _NODES).sum(axis=1)
+        parts = (weight * v**power * _special().j0(v)).reshape(-1, _NODES).sum(axis=1)
         last = _bessel_tail(edges[-1:], -power)[0]
         sums = np.concatenate([np.cumsum(parts[::-1])[::-1], [0.0]]) + last
-        return np.asarray(CubicHermiteSpline(edges, sums, -(edges**power) * j0(edges))(x))
+        return np.asarray(CubicHermiteSpline(edges, sums, -(edges**power) * _special().j0(edges))(x))
 
 
 def _bessel_tail(x: RealArray, a: float) -> RealArray:
     """∫_x^∞ v^-a J0(v) dv for large ``x`` by repeated integration by parts."""
-    from scipy.special import j0, j1
-
-    zero, one = j0(x), j1(x)
+    zero, one = _special().j0(x), _special().j1(x)
     total, factor = np.zeros_like(x), np.ones_like(x)
     for _ in range(12):
         total += factor * x**-a * ((a + 1.0) / x * zero - one)
         factor *= -((a + 1.0) ** 2)
         a += 2.0
     return total
+
+
+def _special() -> Any:
+    """Bessel and beta functions of SciPy, which is loaded when the first spectrum is fitted."""
+    from scipy import special
+
+    return special
 
 
 CORNERS: dict[str, type[Rounded] | type[Sharp]] = {"rounded": Rounded, "sharp": Sharp}

@@ -194,10 +194,12 @@ class ScansSpectrum(Drawn):
 
     def in_words(self) -> tuple[str, list[tuple[str, str]]]:
         """Heading and main numbers."""
+        modes, lines = self.fit.error("H"), self.fit.error("H", by="sandwich")
+        by_lines = "too few lines to tell more" if math.isnan(lines) else f"{lines:.2g} by lines"
         rows = [
             ("scans", ", ".join(self.scans)),
             ("Hurst exponent H", f"{self.hurst:.3g} ± {self.hurst_error:.2g}"),
-            ("errors of H", f"{self.fit.error('H'):.2g} by modes, {self.fit.error('H', by='sandwich'):.2g} by lines"),
+            ("errors of H", f"{modes:.2g} by modes, {by_lines}"),
             ("roll-off", self._rolloff_words()),
         ]
         if self.rolloff_seen:
@@ -273,7 +275,7 @@ def _findings(found: ScansSpectrum, unused: Sequence[tuple[str, str]]) -> list[A
             f"No roll-off is seen in waves up to {show(longest, 'm')}: rms height and mean gap depend on the scan size."
         )
         remedy = "Take a scan that is at least four times as long."
-        made.append(Advice("warning", "roll-off", fact, remedy, {"longest_wave": longest}, ("m0", "mean_gap")))
+        made.append(Advice("warning", "roll-off", fact, remedy, {"longest_wave": longest}))
     fisher, sandwich = found.fit.error("H"), found.fit.error("H", by="sandwich")
     if sandwich > _SCATTERED * fisher:
         fact = (
