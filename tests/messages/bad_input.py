@@ -220,6 +220,7 @@ INFO: tuple[tuple[str, ...], ...] = (
     ("--size", "8um x 6um", "--height-unit", "nm", "--plot", "map.jpg"),
     ("--size", "8um x 6um", "--height-unit", "nm", "--level", "cubic"),
     ("--size", "8um x 6um", "--height-unit", "nm", "--one-surface", "--full"),
+    ("--size", "8um x 6um", "--height-unit", "nm", "--one-surface"),
 )
 """Options of ``asperity info`` on a matrix that states neither size nor unit."""
 

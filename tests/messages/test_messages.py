@@ -35,7 +35,6 @@ RELAXING = ("--body", "E=3MPa+297MPa@1ms,nu=0.5")
 ANSWERS: tuple[tuple[str, ...], ...] = (
     ("info", "rough.txt", *SCALE),
     ("info", "rough.txt", *SCALE, "--full"),
-    ("info", "rough.txt", *SCALE, "--one-surface"),
     ("materials", "DLC"),
     ("liquids", "zdol"),
     ("theory", "hertz", "--E-star", "115GPa", "--radius", "5mm", "--load", "1N,2N"),

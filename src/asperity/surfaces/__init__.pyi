@@ -5,6 +5,7 @@ from .prepare.filter import filtered, reliability_cutoff, tip_limited
 from .prepare.level import despiked, filled, levelled, line_corrected
 from .read import channels, read
 from .scans import Scan, Scans
+from .scans_two_scales import with_fine_detail, with_registered_detail
 from .surface import Surface
 
 __all__ = [
@@ -30,4 +31,6 @@ __all__ = [
     "tapered",
     "tip_limited",
     "turned_over",
+    "with_fine_detail",
+    "with_registered_detail",
 ]
