@@ -1,4 +1,5 @@
 from .contact.roughness import roughness_of
+from .contact.scan_ensemble import EnsembleContact, deciding_waves_of, ensemble_contact
 from .core.quantity import Quantity
 from .surfaces.characterise.correlation import (
     DROP_1E,
@@ -50,6 +51,8 @@ from .surfaces.characterise.moments import (
 )
 from .surfaces.characterise.quantities import QUANTITIES
 from .surfaces.characterise.sampling_study import SamplingStudy, sampling_interval_study, scan_size_study
+from .surfaces.characterise.scans_scales import ScaleCurve
+from .surfaces.characterise.scans_spectrum import ScansSpectrum
 from .surfaces.characterise.slopes import (
     developed_area_ratio,
     rms_laplacian,
@@ -88,6 +91,7 @@ from .surfaces.characterise.summits import (
     summits,
 )
 from .surfaces.characterise.texture import AngularSpectrum, TextureLengths, angular_spectrum, texture_lengths
+from .theories.rough.deciding_waves import DecidingWaves, deciding_waves
 from .theories.statistics.roughness import Roughness
 
 __all__ = [
@@ -99,7 +103,9 @@ __all__ = [
     "Autocovariance",
     "Characterisation",
     "Core",
+    "DecidingWaves",
     "DifferenceMoments",
+    "EnsembleContact",
     "FractalParameters",
     "FunctionalParameters",
     "HeightDistribution",
@@ -115,7 +121,9 @@ __all__ = [
     "Roughness",
     "Sampling",
     "SamplingStudy",
+    "ScaleCurve",
     "ScaleDependence",
+    "ScansSpectrum",
     "SlopeTensor",
     "SpatialParameters",
     "SpectralFit",
@@ -131,10 +139,13 @@ __all__ = [
     "autocovariance",
     "characterise",
     "core",
+    "deciding_waves",
+    "deciding_waves_of",
     "deepest_valley",
     "developed_area_ratio",
     "difference_moments",
     "effective_samples",
+    "ensemble_contact",
     "expected_difference_moments",
     "fit_spectrum",
     "fitted_fractal",
