@@ -129,5 +129,12 @@ def test_files_of_one_surface_give_one_spectrum(run: Runner, tmp_path: Path) -> 
     assert found["hurst"] == pytest.approx(0.5, abs=3.0 * found["hurst_error"])
     assert len(found["bands"]) == 2
     assert len(found["q"]) == len(found["profile_psd_error"])
+    asked = ("--one-surface", "--E-star", "100GPa", "--pressure", "1MPa")
+    waves = json.loads(run("info", *files, *asked, "--hardness", "5GPa", "--json").stdout)
+    assert sum(waves["shares"]["mean_gap"]) == pytest.approx(1.0, rel=1e-9)
+    assert waves["needs"]["area"]["interval"] > 0.0
+    assert "compliance" in run("info", *files, *asked).stdout
+    assert subject_of(run("info", *files, "--one-surface", "--pressure", "1MPa")) == "--E-star"
+    assert subject_of(run("info", *files, "--pressure", "1MPa")) == "--E-star, --pressure and --hardness"
     refused = run("info", *files, "--one-surface", "--full")
     assert subject_of(refused) == "--full, --plot and --report"

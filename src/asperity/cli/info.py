@@ -30,17 +30,23 @@ from ..surfaces.read import channels
 from ..surfaces.surface import Surface
 from .declared import FILE, Given, Option, offers
 from .main import NOT_CONVERGED, OK
-from .one_surface import one_surface
+from .one_surface import CONTACT, one_surface
 from .options import levelled_as, own_option, read_surface, reading_options
 from .show import console, print_files, say, short_names, silence, table
+
+PANEL = "Contact of one surface (with --one-surface)"
 
 
 def _options() -> list[Option]:
     output = {"report": "write a page on the roughness, HTML", "plot": "write a picture of the heights, PNG"}
     output["plots"] = "write all pictures into this folder"
     tip = own_option("--tip-radius", ("tip_radius",), "radius of the tip: shorter waves are not fitted", None, "LENGTH")
+    contact = [
+        own_option(name, ("contact", key), text, PANEL, kind.upper()) for key, (name, kind, text) in CONTACT.items()
+    ]
     return [
         tip,
+        *contact,
         *(own_option(f"--{name}", ("output", name), text, None, FILE) for name, text in output.items()),
         *reading_options(),
     ]
@@ -92,6 +98,10 @@ def info(
             raise InputError("--full, --plot and --report must be left out with --one-surface: use --plots or --json.")
         one_surface(files, given, radius, plots, as_json=as_json, force=force)
         return
+    if any(given.get("contact", key) for key in CONTACT):
+        raise InputError(
+            "--E-star, --pressure and --hardness must be given with --one-surface: they ask for its waves."
+        )
     if len(files) > 1:
         if full or plot or plots:
             raise InputError("--full, --plot and --plots must be left out with many files: give one file.")

@@ -5,16 +5,21 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ..core.units import percent, show
+from ..contact.scan_ensemble import deciding_waves_of
+from ..core.errors import InputError
+from ..core.status import Advice
+from ..core.units import parse, percent, show
 from ..plots.picture import figures_by
 from ..plots.scans import SCANS_PLOTS
 from ..plots.together import save_pictures
 from ..surfaces.characterise.scans_scales import ScaleCurve
 from ..surfaces.characterise.scans_spectrum import ScansSpectrum
 from ..surfaces.scans import Scan, Scans
+from ..theories.rough.deciding_waves import POINTS_PER_WAVE, DecidingWaves
 from .declared import Given
 from .options import read_surface
 from .show import console, print_advice, print_files, short_names, table
@@ -34,7 +39,7 @@ def one_surface(
 ) -> None:
     """Print one spectrum of all ``files`` and the scale-dependent parameters, and save its
     picture."""
-    known = {} if tip_radius is None else {"tip_radius": tip_radius}
+    known: dict[str, Any] = {} if tip_radius is None else {"tip_radius": tip_radius}
     read = [
         Scan.of(read_surface(file, given), name=name, **known)
         for file, name in zip(files, short_names(files), strict=True)
@@ -42,8 +47,13 @@ def one_surface(
     scans = Scans(read)
     found = scans.spectrum()
     curves = scans.scale_curves(found)
+    waves = _deciding(found, given)
+    advice = found.findings
+    if waves is not None:
+        longest = max(scan.length for scan in scans.scans)
+        advice += waves.findings(longest, found.shortest_wavelength / POINTS_PER_WAVE)
     if as_json:
-        console().out(json.dumps(_record(found, curves), indent=2), highlight=False)
+        console().out(json.dumps(_record(found, curves, waves, advice), indent=2), highlight=False)
     else:
         heading, rows = found.in_words()
         console().print(table(heading, rows[1:]))
@@ -53,11 +63,54 @@ def one_surface(
         ]
         console().print(table("Reliable waves", bands, ("scan", "longest", "shortest", "limited by", "used")))
         console().print(table("Scale-dependent parameters", _scale_rows(curves), SCALES))
-        print_advice(found.findings)
+        if waves is not None:
+            _print_waves(waves)
+        print_advice(advice)
     if plots is not None:
         written = save_pictures(figures_by(SCANS_PLOTS, found), plots, overwrite=force)
         if not as_json:
             print_files(list(written))
+
+
+CONTACT = {
+    "E_star": ("--E-star", "pressure", "contact modulus E*, to ask which waves decide the contact"),
+    "pressure": ("--pressure", "pressure", "nominal pressure of that contact"),
+    "hardness": ("--hardness", "pressure", "hardness in that contact; elastic without"),
+}
+"""Options of the contact whose deciding waves are asked for: name, dimension, help."""
+
+
+def _deciding(found: ScansSpectrum, given: Given) -> DecidingWaves | None:
+    """Waves that decide the contact that is asked for; None if none is."""
+    texts = {key: given.get("contact", key) for key in CONTACT}
+    if not any(texts.values()):
+        return None
+    for key in ("E_star", "pressure"):
+        if texts[key] is None:
+            raise InputError(f"{CONTACT[key][0]} must be given to tell which waves decide a contact, but is not.")
+    values = {key: parse(text, CONTACT[key][1], CONTACT[key][0]) for key, text in texts.items() if text is not None}
+    return deciding_waves_of(found, values["E_star"], values["pressure"], hardness=values.get("hardness", math.inf))
+
+
+def _print_waves(waves: DecidingWaves) -> None:
+    """Print the share of every octave, and what scan each question needs."""
+    names = list(waves.shares)
+    octaves = [
+        (show(float(long), "m", 3), *(percent(float(waves.shares[name][number]), 2) for name in names))
+        for number, long in enumerate(waves.longest)
+    ]
+    labels = [name.replace("_", " ") for name in names]
+    console().print(table("Share of each octave", octaves, ("waves below", *labels)))
+    needs = [
+        (
+            label,
+            show(need.size, "m", 3),
+            show(need.interval, "m", 3),
+            "yes" if need.settled else "no: the cut-off decides",
+        )
+        for label, need in zip(labels, (waves.needs[name] for name in names), strict=True)
+    ]
+    console().print(table("Scans that suffice", needs, ("question", "size", "interval", "settled")))
 
 
 def _scale_rows(curves: dict[str, ScaleCurve]) -> list[tuple[str, ...]]:
@@ -74,10 +127,12 @@ def _scale_rows(curves: dict[str, ScaleCurve]) -> list[tuple[str, ...]]:
     return [tuple(by_band[band]) for band in sorted(by_band)]
 
 
-def _record(found: ScansSpectrum, curves: dict[str, ScaleCurve]) -> dict[str, Any]:
+def _record(
+    found: ScansSpectrum, curves: dict[str, ScaleCurve], waves: DecidingWaves | None, advice: Sequence[Advice]
+) -> dict[str, Any]:
     """Spectrum and parameters in SI units."""
     m0, m2, m4 = found.moments()
-    table = {
+    table: dict[str, Any] = {
         "scans": found.scans,
         "bands": found.bands,
         "corner": found.model.name,
@@ -92,8 +147,13 @@ def _record(found: ScansSpectrum, curves: dict[str, ScaleCurve]) -> dict[str, An
         "q": found.curve.q,
         "profile_psd": found.curve.profile_psd,
         "profile_psd_error": found.curve.error,
-        "findings": [item.message for item in found.findings],
+        "findings": [item.message for item in advice],
     }
+    if waves is not None:
+        table["waves"] = waves.longest
+        table["shares"] = {name: _plain(share) for name, share in waves.shares.items()}
+        table["needs"] = {name: asdict(need) for name, need in waves.needs.items()}
+        table["leak_wavelength"] = waves.leak_wavelength
     for name, curve in curves.items():
         table |= {f"{name}_length": curve.length, name: curve.value, f"{name}_error": curve.error}
     return {key: _plain(value) for key, value in table.items()}

@@ -113,7 +113,8 @@ def test_findings_recommend_size_and_interval() -> None:
     assert [item.numbers["size"] for item in short] == [need.size]
     assert [item.numbers["interval"] for item in coarse] == [need.interval]
     cut = [item for item in enough if item.criterion == "waves of the rms slope"]
-    assert cut[0].level == "warning"
+    assert cut[0].level == "note"
+    assert {item.level for item in enough if item.criterion == "waves of the real area"} == {"warning"}
 
 
 def test_throats_of_the_leak_stand_where_contact_percolates() -> None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -94,7 +94,7 @@ class DecidingWaves:
         require.positive(interval, "sampling interval of a scan (m)")
         made = []
         for question, need in self.needs.items():
-            name = _NAMES[question]
+            name, level = _NAMES[question], _LEVELS.get(question, _WARNING)
             numbers = {"size": need.size, "interval": need.interval}
             if not need.settled:
                 fact = (
@@ -102,20 +102,24 @@ class DecidingWaves:
                     f"the last octave decides {percent(float(self.shares[question][-1]), 3)}, so that it is a result "
                     "of the cut-off."
                 )
-                made.append(Advice("warning", f"waves of the {name}", fact, "State the cut-off with it.", numbers))
+                made.append(
+                    Advice(level, f"waves of the {name}", fact, "Sample finer, or state the cut-off with it.", numbers)
+                )
             elif interval > need.interval:
                 fact = f"The {name} needs waves down to {show(need.shortest, 'm', 3)}, which an interval of "
                 fact += f"{show(interval, 'm', 3)} does not show."
                 remedy = f"Sample at {show(need.interval, 'm', 3)} or less."
-                made.append(Advice("warning", f"waves of the {name}", fact, remedy, numbers))
+                made.append(Advice(level, f"waves of the {name}", fact, remedy, numbers))
             if size < need.size:
                 fact = f"The {name} needs waves up to {show(need.longest, 'm', 3)}, of which a scan of "
                 fact += f"{show(size, 'm', 3)} holds too few."
                 remedy = f"Scan {show(need.size, 'm', 3)} or more."
-                made.append(Advice("warning", f"waves of the {name}", fact, remedy, numbers))
+                made.append(Advice(level, f"waves of the {name}", fact, remedy, numbers))
         return tuple(made)
 
 
+_WARNING: Literal["warning"] = "warning"
+_LEVELS: dict[str, Literal["note"]] = dict.fromkeys(("height", "slope", "curvature"), "note")  # not of the contact
 _NAMES = {
     "height": "rms height",
     "slope": "rms slope",
