@@ -13,7 +13,7 @@ from typing import Annotated, Any
 import typer
 
 from ..core.errors import AsperityError, InputError
-from ..core.units import parse, percent, show
+from ..core.units import percent, show
 from ..io.atomic import require_new_file
 from ..io.records import roughness_record
 from ..io.words import surface_text
@@ -30,23 +30,18 @@ from ..surfaces.read import channels
 from ..surfaces.surface import Surface
 from .declared import FILE, Given, Option, offers
 from .main import NOT_CONVERGED, OK
-from .one_surface import CONTACT, one_surface
+from .one_surface import one_surface, one_surface_options, require_one_surface, tip_radius
 from .options import levelled_as, own_option, read_surface, reading_options
 from .show import console, print_files, say, short_names, silence, table
-
-PANEL = "Contact of one surface (with --one-surface)"
 
 
 def _options() -> list[Option]:
     output = {"report": "write a page on the roughness, HTML", "plot": "write a picture of the heights, PNG"}
     output["plots"] = "write all pictures into this folder"
     tip = own_option("--tip-radius", ("tip_radius",), "radius of the tip: shorter waves are not fitted", None, "LENGTH")
-    contact = [
-        own_option(name, ("contact", key), text, PANEL, kind.upper()) for key, (name, kind, text) in CONTACT.items()
-    ]
     return [
         tip,
-        *contact,
+        *one_surface_options(),
         *(own_option(f"--{name}", ("output", name), text, None, FILE) for name, text in output.items()),
         *reading_options(),
     ]
@@ -68,9 +63,6 @@ def info(
     ] = "auto",
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON, all values in SI.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
-    together: Annotated[
-        bool, typer.Option("--one-surface", help="All files are scans of one surface: one spectrum with errors.")
-    ] = False,
 ) -> None:
     """Tell what is in files with heights: channels, size, pixel, units, roughness.
 
@@ -91,17 +83,10 @@ def info(
             raise InputError(f"{name} must be the name of a {kind} file, such as {example}, but is {str(path)!r}.")
         if path is not None:
             require_new_file(path, overwrite=force)
-    tip = given.get("tip_radius")
-    radius = None if tip is None else parse(tip, "length", "--tip-radius")
-    if together:
-        if full or plot or report:
-            raise InputError("--full, --plot and --report must be left out with --one-surface: use --plots or --json.")
-        one_surface(files, given, radius, plots, as_json=as_json, force=force)
+    if given.get("one_surface"):
+        one_surface(files, given, paths, full=full, as_json=as_json, force=force)
         return
-    if any(given.get("contact", key) for key in CONTACT):
-        raise InputError(
-            "--E-star, --pressure and --hardness must be given with --one-surface: they ask for its waves."
-        )
+    require_one_surface(given)
     if len(files) > 1:
         if full or plot or plots:
             raise InputError("--full, --plot and --plots must be left out with many files: give one file.")
@@ -109,7 +94,7 @@ def info(
     file = files[0]
     surface = read_surface(file, given)
     found, (flat, removed) = channels(file), levelled_as(surface, level)
-    whole = characterise(flat, tip_radius=radius) if full or report or plots else None
+    whole = characterise(flat, tip_radius=tip_radius(given)) if full or report or plots else None
     shown = whole if full else None
     levelling = f"degree-{removed} levelling" if removed.isdigit() else f"{removed} levelling"
     if as_json:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ from ..contact.scan_ensemble import deciding_waves_of
 from ..core.errors import InputError
 from ..core.status import Advice
 from ..core.units import parse, percent, show
+from ..core.values import Flag
 from ..plots.picture import figures_by
 from ..plots.scans import SCANS_PLOTS
 from ..plots.together import save_pictures
@@ -20,26 +21,57 @@ from ..surfaces.characterise.scans_scales import ScaleCurve
 from ..surfaces.characterise.scans_spectrum import ScansSpectrum
 from ..surfaces.scans import Scan, Scans
 from ..theories.rough.deciding_waves import POINTS_PER_WAVE, DecidingWaves
-from .declared import Given
-from .options import read_surface
+from .declared import Given, Option
+from .options import own_option, read_surface
 from .show import console, print_advice, print_files, short_names, table
 
 SCALES = ("length", "rms height", "±", "rms slope", "±", "rms curvature", "±")
 """Headings of the scale-dependent parameters."""
 
 
+CONTACT = {
+    "E_star": ("--E-star", "pressure", "contact modulus E*, to ask which waves decide the contact"),
+    "pressure": ("--pressure", "pressure", "nominal pressure of that contact"),
+    "hardness": ("--hardness", "pressure", "hardness in that contact; elastic without"),
+}
+"""Options of the contact whose deciding waves are asked for: name, dimension, help."""
+
+PANEL = "Many scans, one surface"
+
+
+def one_surface_options() -> list[Option]:
+    """Options of many scans of one surface."""
+    text = "all files are scans of one surface: one spectrum with errors"
+    together = own_option("--one-surface", ("one_surface",), text, PANEL, values=Flag())
+    contact = [
+        own_option(name, ("contact", key), text, PANEL, kind.upper()) for key, (name, kind, text) in CONTACT.items()
+    ]
+    return [together, *contact]
+
+
+def require_one_surface(given: Given) -> None:
+    """Raise InputError if the waves of a contact are asked for without ``--one-surface``."""
+    if any(given.get("contact", key) for key in CONTACT):
+        raise InputError(
+            "--E-star, --pressure and --hardness must be given with --one-surface: they ask for its waves."
+        )
+
+
+def tip_radius(given: Given) -> float | None:
+    """Radius of the tip in m that is given; None if none is."""
+    tip = given.get("tip_radius")
+    return None if tip is None else parse(tip, "length", "--tip-radius")
+
+
 def one_surface(
-    files: Sequence[Path],
-    given: Given,
-    tip_radius: float | None,
-    plots: Path | None,
-    *,
-    as_json: bool,
-    force: bool,
+    files: Sequence[Path], given: Given, paths: Mapping[str, Path], *, full: bool, as_json: bool, force: bool
 ) -> None:
-    """Print one spectrum of all ``files`` and the scale-dependent parameters, and save its
-    picture."""
-    known: dict[str, Any] = {} if tip_radius is None else {"tip_radius": tip_radius}
+    """Print one spectrum of all ``files`` and the scale-dependent parameters, and save its picture
+    in the folder ``plots`` of the ``paths``."""
+    if full or "plot" in paths or "report" in paths:
+        raise InputError("--full, --plot and --report must be left out with --one-surface: use --plots or --json.")
+    radius, plots = tip_radius(given), paths.get("plots")
+    known: dict[str, Any] = {} if radius is None else {"tip_radius": radius}
     read = [
         Scan.of(read_surface(file, given), name=name, **known)
         for file, name in zip(files, short_names(files), strict=True)
@@ -70,14 +102,6 @@ def one_surface(
         written = save_pictures(figures_by(SCANS_PLOTS, found), plots, overwrite=force)
         if not as_json:
             print_files(list(written))
-
-
-CONTACT = {
-    "E_star": ("--E-star", "pressure", "contact modulus E*, to ask which waves decide the contact"),
-    "pressure": ("--pressure", "pressure", "nominal pressure of that contact"),
-    "hardness": ("--hardness", "pressure", "hardness in that contact; elastic without"),
-}
-"""Options of the contact whose deciding waves are asked for: name, dimension, help."""
 
 
 def _deciding(found: ScansSpectrum, given: Given) -> DecidingWaves | None:
