@@ -60,7 +60,8 @@ class Scan(Shown):
     tip_radius, resolution, noise
         Radius of the tip, lateral resolution and rms noise of the heights in m; NaN where unknown.
     short_cutoff
-        Wavelength in m below which waves have been filtered; 0 if none.
+        Wavelength in m below which waves have been filtered, or at which the spectrum of a
+        generated map ends; 0 if none.
     """
 
     heights: RealArray
