@@ -1,4 +1,5 @@
 from .contact.roughness import roughness_of
+from .contact.scan_ensemble import EnsembleContact, deciding_waves_of, ensemble_contact
 from .core.quantity import Quantity
 from .surfaces.characterise.correlation import (
     DROP_1E,
@@ -49,6 +50,8 @@ from .surfaces.characterise.moments import (
 )
 from .surfaces.characterise.quantities import QUANTITIES
 from .surfaces.characterise.sampling_study import SamplingStudy, sampling_interval_study, scan_size_study
+from .surfaces.characterise.scans_scales import ScaleCurve
+from .surfaces.characterise.scans_spectrum import ScansSpectrum
 from .surfaces.characterise.slopes import (
     developed_area_ratio,
     rms_laplacian,
@@ -122,6 +125,7 @@ from .surfaces.profile_spectra import (
     independent_line_distance,
 )
 from .surfaces.profile_summary import ProfileCharacterisation, characterise_profile
+from .theories.rough.deciding_waves import DecidingWaves, deciding_waves
 from .theories.statistics.roughness import Roughness
 
 __all__ = [
@@ -135,8 +139,10 @@ __all__ = [
     "Characterisation",
     "ConvertedSpectrum",
     "Core",
+    "DecidingWaves",
     "DifferenceMoments",
     "Directions",
+    "EnsembleContact",
     "FractalParameters",
     "FunctionalParameters",
     "HeightDistribution",
@@ -160,7 +166,9 @@ __all__ = [
     "RoundedSpectrum",
     "Sampling",
     "SamplingStudy",
+    "ScaleCurve",
     "ScaleDependence",
+    "ScansSpectrum",
     "SectionParameters",
     "SettingsClass",
     "SlopeTensor",
@@ -184,10 +192,13 @@ __all__ = [
     "components",
     "core",
     "cut_ratio",
+    "deciding_waves",
+    "deciding_waves_of",
     "deepest_valley",
     "developed_area_ratio",
     "difference_moments",
     "effective_samples",
+    "ensemble_contact",
     "expected_difference_moments",
     "fit_spectrum",
     "fractal_parameters",

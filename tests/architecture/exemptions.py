@@ -19,6 +19,7 @@ LIMITS: dict[str, dict[str, str]] = {
     "parameters": {
         "app": "one for each option of the command line",
         "indentation": "independent keyword-only choices of the user, each with a default",
+        "Scan.__init__": "independent keyword-only facts of a scan and its instrument, each with a default",
         "Indentation.of": "the same choices as those of the function",
         "Profile.__init__": "independent keyword-only facts of a line scan, each with a default",
         "StressPlanes.__init__": (

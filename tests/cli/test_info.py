@@ -187,3 +187,28 @@ def test_each_file_has_one_line(width: int) -> None:
     assert next(line.split()[0] for line in text.getvalue().splitlines() if " × " in line).startswith("afm")
     assert sum(" × " in line for line in text.getvalue().splitlines()) == 2
     assert ("Sq" in headings) == (width >= 60)
+
+
+def test_files_of_one_surface_give_one_spectrum(run: Runner, tmp_path: Path) -> None:
+    made = ("generate", "rough", "--points", "64", "--spectrum", "exponential", "--rms", "1nm")
+    files = [tmp_path / "large.nc", tmp_path / "small.nc"]
+    for file, size in zip(files, ("8um", "2um"), strict=True):
+        more = ("--size", size, "--seed", "1", "--correlation-length", "200nm", "--out", file)
+        assert run(*made, *more).exit_code == 0
+    shown = run("info", *files, "--one-surface", "--plots", tmp_path / "pictures")
+    assert shown.exit_code == 0, shown.stderr
+    assert [name for name in ("large.nc", "small.nc", "sampling") if name not in shown.stdout] == []
+    assert (tmp_path / "pictures" / "spectrum.png").read_bytes().startswith(b"\x89PNG")
+    found = json.loads(run("info", *files, "--one-surface", "--json").stdout)
+    assert found["hurst"] == pytest.approx(0.5, abs=3.0 * found["hurst_error"])
+    assert len(found["bands"]) == 2
+    assert len(found["q"]) == len(found["profile_psd_error"])
+    asked = ("--one-surface", "--E-star", "100GPa", "--pressure", "1MPa")
+    waves = json.loads(run("info", *files, *asked, "--hardness", "5GPa", "--json").stdout)
+    assert sum(waves["shares"]["mean_gap"]) == pytest.approx(1.0, rel=1e-9)
+    assert waves["needs"]["area"]["interval"] > 0.0
+    assert "compliance" in run("info", *files, *asked).stdout
+    assert subject_of(run("info", *files, "--one-surface", "--pressure", "1MPa")) == "--E-star"
+    assert subject_of(run("info", *files, "--pressure", "1MPa")) == "--E-star, --pressure and --hardness"
+    refused = run("info", *files, "--one-surface", "--full")
+    assert subject_of(refused) == "--full, --plot and --report"

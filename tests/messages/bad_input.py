@@ -227,6 +227,10 @@ INFO: tuple[tuple[str, ...], ...] = (
     ("--size", "8um x 6um", "--height-unit", "nm", "--plot", "map.jpg"),
     ("--size", "8um x 6um", "--height-unit", "nm", "--level", "cubic"),
     ("--size", "8um x 6um", "--height-unit", "nm", "--lambda-c", "1mm"),
+    ("--size", "8um x 6um", "--height-unit", "nm", "--one-surface", "--full"),
+    ("--size", "8um x 6um", "--height-unit", "nm", "--one-surface"),
+    ("--size", "8um x 6um", "--height-unit", "nm", "--one-surface", "--pressure", "1MPa"),
+    ("--size", "8um x 6um", "--height-unit", "nm", "--pressure", "1MPa"),
 )
 """Options of ``asperity info`` on a matrix that states neither size nor unit."""
 

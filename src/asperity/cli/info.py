@@ -33,6 +33,7 @@ from ..surfaces.surface import Surface, strip
 from .declared import FILE, Given, Option, offers
 from .info_line import info_line, require_no_cutoffs, tip_radius
 from .main import NOT_CONVERGED, OK
+from .one_surface import one_surface, one_surface_options, require_one_surface
 from .options import levelled_as, own_option, reading_options, reading_table
 from .show import console, print_files, say, short_names, silence, table
 
@@ -48,6 +49,7 @@ def _options() -> list[Option]:
     return [
         tip,
         *(own_option(f"--{key}", (key.replace("-", "_"),), text, None, "LENGTH") for key, text in lengths.items()),
+        *one_surface_options(),
         *(own_option(f"--{name}", ("output", name), text, None, FILE) for name, text in output.items()),
         *reading_options(),
     ]
@@ -72,7 +74,8 @@ def info(
 ) -> None:
     """Tell what is in files with heights: channels, size, pixel, units, roughness.
 
-    Examples: asperity info scan.di --full; asperity info scans/*.di --report page.html
+    Examples: asperity info scan.di --full; asperity info scans/*.di --report page.html;
+    asperity info optical/*.opd afm/*.di --one-surface --plots pictures
 
     Roughness values are those after levelling: by the least-squares plane, of a periodic surface by
     its mean, unless another level is chosen.
@@ -81,6 +84,17 @@ def info(
     report, plot, plots = (paths.get(name) for name in ("report", "plot", "plots"))
     _require_outputs(report, plot, overwrite=force)
     entries = [scan for file in files for scan in _scans(file, given)]
+    if given.get("one_surface"):
+        one_surface(
+            [(str(scan), scan.read(given)[0]) for scan in entries],
+            given,
+            paths,
+            full=full,
+            as_json=as_json,
+            force=force,
+        )
+        return
+    require_one_surface(given)
     if len(entries) > 1:
         if full or plot or plots:
             raise InputError("--full, --plot and --plots must be left out with many files: give one file.")

@@ -41,6 +41,7 @@ REFERENCES = {
     "Cole1992": "Cole, S. J., Sayles, R. S. (1992). A numerical model for the contact of layered elastic bodies with real rough surfaces. Journal of Tribology 114, 334-340.",
     "Cottle1992": "Cottle, R. W., Pang, J.-S., Stone, R. E. (1992). The Linear Complementarity Problem. Academic Press, Boston.",
     "DeSaxce1998": "De Saxce, G., Feng, Z.-Q. (1998). The bipotential method: a constructive approach to design the complete contact law with friction and improved numerical algorithms. Mathematical and Computer Modelling 28, 225-245.",
+    "DerSimonian1986": "DerSimonian, R., Laird, N. (1986). Meta-analysis in clinical trials. Controlled Clinical Trials 7, 177-188.",
     "Derjaguin1975": "Derjaguin, B. V., Muller, V. M., Toporov, Y. P. (1975). Effect of contact deformations on the adhesion of particles. Journal of Colloid and Interface Science 53, 314-326.",
     "Dieterich1979": "Dieterich, J. H. (1979). Modeling of rock friction: 1. Experimental results and constitutive equations. Journal of Geophysical Research 84, 2161-2168.",
     "Dietrich1997": "Dietrich, C. R., Newsam, G. N. (1997). Fast and exact simulation of stationary Gaussian processes through circulant embedding of the covariance matrix. SIAM Journal on Scientific Computing 18, 1088-1107.",

@@ -17,6 +17,7 @@ from ..core.registry import DRAWN, MORE_FIGURES, PATH_FIGURES, home
 from ..core.words import printable
 from ..io.description import kind_name
 from ..io.words import heading_and_rows
+from ..surfaces.characterise.scans_spectrum import ScansSpectrum
 from ..surfaces.characterise.summary import Characterisation
 from ..surfaces.profile import Profile
 from ..surfaces.profile_summary import ProfileCharacterisation
@@ -27,6 +28,7 @@ from .contact import PATH_PLOTS, PLASTIC_PLOTS, PLOTS, physics_plots
 from .maps import plot_heights
 from .picture import CURVE_SIZE, VIEW_SIZE, Plot, map_size, png, style, uncrowd
 from .profile import PROFILE_PLOTS, plot_profile
+from .scans import SCANS_PLOTS
 from .surface import SURFACE_PLOTS, plot_surface_view
 
 if TYPE_CHECKING:
@@ -103,6 +105,8 @@ def _chosen(thing: Any, kind: str) -> _Chosen:
         what, first, plots = "a characterised line scan", "trace", PROFILE_PLOTS
     elif isinstance(thing, Characterisation):
         what, first, plots = "a characterisation", "distribution", SURFACE_PLOTS
+    elif isinstance(thing, ScansSpectrum):
+        what, first, plots = "a spectrum of scans", "spectrum", SCANS_PLOTS
     elif isinstance(thing, ContactResult):
         more = (*physics_plots(), *map(home, MORE_FIGURES))
         what, first, plots = "a result", "pressure", (*PLOTS, *PLASTIC_PLOTS, *chain.from_iterable(more))

@@ -15,6 +15,8 @@ from .prepare.tip import (
 )
 from .profile import Instrument, Profile
 from .read import channels, read
+from .scans import Scan, Scans
+from .scans_two_scales import with_fine_detail, with_registered_detail
 from .surface import Surface, strip
 
 __all__ = [
@@ -24,6 +26,8 @@ __all__ = [
     "MeasuredTip",
     "ParabolicTip",
     "Profile",
+    "Scan",
+    "Scans",
     "SphericalTip",
     "Surface",
     "SurfacePair",
@@ -49,4 +53,6 @@ __all__ = [
     "tapered",
     "tip_limited",
     "turned_over",
+    "with_fine_detail",
+    "with_registered_detail",
 ]

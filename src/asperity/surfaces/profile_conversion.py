@@ -16,10 +16,10 @@ from ..core.grid import Grid
 from ..core.late import Shown
 from ..core.parameters import checked
 from ..core.units import show
+from .characterise.expectation import RingExpectation
 from .characterise.heights import rms_height
 from .characterise.moments import nayak_parameter
 from .characterise.slopes import rms_profile_curvature, rms_profile_slope
-from .characterise.expectation import RingExpectation
 from .characterise.spectral_fit import SHAPES, fitted_shape
 from .characterise.spectrum import LOST_MODES, ProfileSpectrum, RadialSpectrum, profile_spectrum
 from .characterise.summits import ProfilePeaks

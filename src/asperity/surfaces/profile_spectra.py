@@ -356,9 +356,15 @@ def independent_line_distance(hurst: float, q: float) -> float:
     not positive.
     """
     H = require.between(hurst, 0.0, 1.0, "Hurst exponent of a power law")
-    logs = math.lgamma(2.0 * H + 1.5) - math.lgamma(2.0 * H + 2.0)
-    logs += 2.0 * (math.lgamma(H + 1.0) - math.lgamma(H + 0.5))
-    return 2.0 * math.sqrt(math.pi) * math.exp(logs) / require.positive(q, "wavenumber (rad/m)")
+    return independent_line_factor(H) / require.positive(q, "wavenumber (rad/m)")
+
+
+def independent_line_factor(hurst: float) -> float:
+    """c_H of the distance c_H/q of independent lines; of the rounded spectrum with sqrt(q² + q0²)
+    in place of q, there for any ``hurst`` > 0."""
+    logs = math.lgamma(2.0 * hurst + 1.5) - math.lgamma(2.0 * hurst + 2.0)
+    logs += 2.0 * (math.lgamma(hurst + 1.0) - math.lgamma(hurst + 0.5))
+    return 2.0 * math.sqrt(math.pi) * math.exp(logs)
 
 
 def alias_factor(exponent: float, k: ArrayLike, spacing: float) -> RealArray:
