@@ -117,6 +117,15 @@ def _deciding(found: ScansSpectrum, given: Given) -> DecidingWaves | None:
     return deciding_waves_of(found, values["E_star"], values["pressure"], hardness=values.get("hardness", math.inf))
 
 
+_SETTLED = {
+    (True, True): "yes",
+    (True, False): "no: the shortest wave decides",
+    (False, True): "no: the longest wave decides",
+    (False, False): "no: both ends decide",
+}
+"""Whether the waves of a spectrum settle an answer, by its long and its short end."""
+
+
 def _print_waves(waves: DecidingWaves) -> None:
     """Print the share of every octave, and what scan each question needs."""
     names = list(waves.shares)
@@ -129,9 +138,9 @@ def _print_waves(waves: DecidingWaves) -> None:
     needs = [
         (
             label,
-            show(need.size, "m", 3),
+            show(need.size, "m", 3) if need.bounded else "no roll-off seen",
             show(need.interval, "m", 3),
-            "yes" if need.settled else "no: the cut-off decides",
+            _SETTLED[need.bounded, need.settled],
         )
         for label, need in zip(labels, (waves.needs[name] for name in names), strict=True)
     ]
@@ -176,7 +185,7 @@ def _record(
     }
     if waves is not None:
         table["waves"] = waves.longest
-        table["shares"] = {name: _plain(share) for name, share in waves.shares.items()}
+        table["shares"] = dict(waves.shares)
         table["needs"] = {name: asdict(need) for name, need in waves.needs.items()}
         table["leak_wavelength"] = waves.leak_wavelength
     for name, curve in curves.items():
@@ -185,7 +194,9 @@ def _record(
 
 
 def _plain(value: Any) -> Any:
-    """Lists for arrays, and None for what is not a number."""
+    """Lists for arrays, and None for what is not a finite number."""
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
     if hasattr(value, "tolist"):
         return [_plain(item) for item in value.tolist()]
     return None if isinstance(value, float) and not math.isfinite(value) else value

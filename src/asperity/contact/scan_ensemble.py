@@ -71,15 +71,19 @@ class EnsembleContact:
 
 def spectrum_table(spectra: ScansSpectrum | Sequence[ScansSpectrum]) -> IsotropicSpectrum:
     """Composite spectrum of one or two surfaces as a table: the sum of their C, from a tenth of the
-    smallest wavenumber seen to the shortest wave of all.
+    smallest wavenumber seen to the shortest wave of all; from the longest wave that was measured
+    where no roll-off is seen, beyond which nothing is known.
 
     Raises InputError if there is none.
     """
     several = (spectra,) if isinstance(spectra, ScansSpectrum) else tuple(spectra)
     if not several:
         raise InputError("spectra of the surfaces must be one or two, but are none.")
-    longest = max(max(one.rolloff_wavelength, *(long for _, long in one.bands)) for one in several)
-    first, last = 2.0 * math.pi / (_LONGER * longest), 2.0 * math.pi / min(one.shortest_wavelength for one in several)
+    longest = 0.0
+    for one in several:
+        measured = max(long for _, long in one.bands)
+        longest = max(longest, _LONGER * max(one.rolloff_wavelength, measured) if one.rolloff_seen else measured)
+    first, last = 2.0 * math.pi / longest, 2.0 * math.pi / min(one.shortest_wavelength for one in several)
     q = np.geomspace(first, last, 2 + math.ceil(_PER_DECADE * math.log10(last / first)))
     q[-1] = last * (1.0 - 1e-12)
     return IsotropicSpectrum(q, sum(one.psd(q) for one in several))
