@@ -14,7 +14,7 @@ from refusals import refused
 import asperity as asp
 from asperity.core.errors import FileFormatError
 from asperity.parts.advice import findings
-from asperity.surfaces.formats import ANY, OPTICAL, PROBE, height_doubt, lateral_doubt
+from asperity.surfaces.formats_limits import ANY, OPTICAL, PROBE, height_doubt, lateral_doubt
 from asperity.surfaces.prepare.level import codes, spikes
 from asperity.surfaces.read import read
 
