@@ -20,12 +20,19 @@ from ..core.errors import FileFormatError, InputError, UnitError
 from ..core.hdf5_files import SIGNATURE, require_own_data
 from ..core.status import Advice
 from ..core.units import show, unit_factor
-from .formats_limits import TERRAIN, family_of, height_doubt, lateral_doubt, scale_finding
 from .formats_mended import OwnReader, completed, mended, own_reader, stated_scale
 from .prepare.level import value_findings
 from .profile import Profile
 from .profile_files import Units, profile_of_reader
-from .reader_library import opened_by_first_reader, opened_by_library
+from .reader_library import (
+    TERRAIN,
+    family_of,
+    height_doubt,
+    lateral_doubt,
+    opened_by_first_reader,
+    opened_by_library,
+    scale_finding,
+)
 from .surface import Origin, Surface
 from .text_files import text_end
 from .text_points import LineScan
