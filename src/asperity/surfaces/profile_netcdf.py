@@ -103,7 +103,9 @@ def _read_profile(file: Path) -> Profile:
         with _opened(file, "r") as data:
             record = json.loads(data._attributes[RECORD])
             values = np.array(data.variables["heights"][:])
-        known = {key: math.nan if value is None else value for key, value in record["measured_with"].items()}
+        known: dict[str, Any] = {
+            key: math.nan if value is None else value for key, value in record["measured_with"].items()
+        }
         return Profile(
             values.astype(values.dtype.newbyteorder("=")),
             record["spacing"],
