@@ -33,11 +33,15 @@ def spectrum(table: str) -> tuple[str, ...]:
     return (f"--{table}", "exponential", f"--{table}-rms-height", "5nm", f"--{table}-correlation-length", "0.6um")
 
 
+TRACE = "trace.txt"
+"""Name of a file with a line scan, which tests of all kinds have in the current folder."""
+
 EXAMPLES = {
     "rough": (*SEED, *EXPONENTIAL, "--variant", "fixed"),
     "digital_filter": (*SEED, *EXPONENTIAL, "--skewness", "-0.3", "--kurtosis", "4"),
     "translated": (*SEED, *EXPONENTIAL, "--skewness", "0.7", "--kurtosis", "5", "--no-predistorted"),
     "rank_ordered": (*SEED, *EXPONENTIAL, "--heights", "two_levels", "--share", "0.4", "--separation", "3"),
+    "from_line_scan": (*SEED, "--file", TRACE, "--model", "rounded", "--heights"),
     "bimodal": (
         *SEED,
         *spectrum("first"),
@@ -68,10 +72,20 @@ EXAMPLES = {
 }
 
 
+@pytest.fixture
+def trace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A line scan of 60 µm in the file ``TRACE`` of the current folder."""
+    monkeypatch.chdir(tmp_path)
+    model = asp.roughness.RoundedSpectrum(3e-28, 3e6, 0.8)
+    rough = asp.generate.gaussian(asp.Grid((600, 8), (1e-7, 1e-7)), model, seed=1)
+    asp.files.save_surface(rough.row(0), TRACE)
+
+
 def test_every_kind_has_an_example() -> None:
     assert set(EXAMPLES) == set(SURFACES)
 
 
+@pytest.mark.usefixtures("trace")
 @pytest.mark.parametrize("kind", EXAMPLES)
 def test_every_kind_is_generated_and_comes_back(run: Runner, tmp_path: Path, kind: str) -> None:
     result = run("generate", kind, *GRID, *EXAMPLES[kind], "--out", tmp_path / "a.nc")
@@ -124,6 +138,24 @@ def test_more_like_a_measured_file(run: Runner, tmp_path: Path) -> None:
     result = run("generate", "rough", *GRID, *SEED, *options, "--out", tmp_path / "a.nc")
     assert result.exit_code == 0, result.stderr
     assert "seen.txt" in result.stdout
+
+
+@pytest.mark.usefixtures("trace")
+def test_a_surface_with_the_spectrum_of_a_line_scan(run: Runner) -> None:
+    result = run("generate", "from-line-scan", *GRID, *SEED, "--file", TRACE, "--out", "a.nc")
+    assert result.exit_code == 0, result.stderr
+    found = asp.read("a.nc")
+    expected = asp.generate.surface_of_profile(asp.read(TRACE), found.grid, seed=3)
+    np.testing.assert_array_equal(found.heights, expected.heights)
+    assert "isotropic" in found.origin.history[0]
+    assert "isotropic" in result.stdout
+
+
+def test_a_map_is_no_line_scan(run: Runner, tmp_path: Path) -> None:
+    asp.files.save_surface(asp.Surface(np.zeros((9, 7)), 1e-6), tmp_path / "map.nc")
+    result = run("generate", "from-line-scan", *GRID, *SEED, "--file", tmp_path / "map.nc", "--out", tmp_path / "a.nc")
+    assert result.exit_code == 2
+    assert subject_of(result) == "file for the spectrum of a line scan"
 
 
 @pytest.mark.parametrize("ending", ["txt", "asc", "npy"])

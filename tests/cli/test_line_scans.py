@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import asperity as asp
 from asperity.cli.main import app
 
 UNITS = ("--lateral-unit", "um", "--height-unit", "nm")
@@ -62,3 +63,22 @@ def test_a_theory_of_a_line_scan_says_what_it_assumes(tmp_path: Path, monkeypatc
     result = CliRunner().invoke(app, asked)
     assert result.exit_code == 0, result.output
     assert "isotropic" in result.stderr
+
+
+def test_a_saved_line_scan_is_read_back_at_every_door(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    heights = 2e-8 * np.sin(2.0 * np.pi * np.arange(240) / 40.0)
+    asp.save(asp.Profile(heights, 5e-7, periodic=True), "trace.nc")
+    shown = CliRunner().invoke(app, ["info", "trace.nc", "--json"])
+    assert shown.exit_code == 0, shown.output
+    assert json.loads(shown.stdout)["length"] == pytest.approx(1.2e-4, rel=1e-12)
+    load = ("--body", "steel", "--boundary", "line", "--pressure", "1MPa", "--out", "run")
+    result = CliRunner().invoke(app, ["contact", "trace.nc", *load])
+    assert result.exit_code == 0, result.output
+    for name in ("again.nc", "again.txt"):
+        written = CliRunner().invoke(app, ["export", "run/result.nc", "--surface", name])
+        assert written.exit_code == 0, written.output
+        again = asp.read(name)
+        assert isinstance(again, asp.Profile)
+        np.testing.assert_allclose(again.heights - again.heights.mean(), heights - heights.mean(), atol=1e-17)
+    assert CliRunner().invoke(app, ["export", "run/result.nc", "--surface", "again.gsf"]).exit_code == 2

@@ -212,6 +212,7 @@ GENERATE: tuple[tuple[str, ...], ...] = (
     ("rough", "--seed", "3", "--spectrum", "white"),
     ("rough", "--seed", "3", "--spectrum", "exponential", "--correlation-length", "1um"),
     ("dimples", "--pitch", "4um", "--radius", "1um", "--depth", "1nm"),
+    ("from-line-scan", "--seed", "3", "--file", "rough.txt", "--height-unit", "nm", "--lateral-unit", "nm"),
 )
 """Words after ``asperity generate``, before the grid and the file."""
 
@@ -517,6 +518,9 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "two heights at one place": lambda: asp.Profile.from_points([0.0, 1.0, 1.0], np.zeros(3)),
     "a profile for an area": lambda: asp.characterise(_scan()),  # type: ignore[arg-type]
     "a profile in a problem": lambda: asp.ContactProblem(_scan(), asp.Elastic(1e9, 0.3)),  # type: ignore[arg-type]
+    "a line scan in a file of maps": lambda: asp.files.save_surface(_scan(), "trace.gsf"),
+    "a document beside a line scan": lambda: asp.save(_scan(), "trace.nc", document=""),
+    "a line scan saved as text": lambda: asp.save(_scan(), "trace.txt"),
     "a row that is not there": lambda: asp.Surface(np.zeros((4, 3)), 1e-6).row(3),
     "an instrument of no size": lambda: asp.surfaces.Instrument("stylus", tip_radius=0.0),
     "two columns without units": lambda: _two_columns(height_unit="nm"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,7 +18,15 @@ from ..core.units import parse, show
 from ..core.values import Choice, Number
 from ..core.words import first_paragraph
 from ..io.atomic import require_new_files
-from ..io.schemas.surfaces import AMPLITUDES, HEIGHTS_TABLES, SPECTRUM_TABLES, SURFACE_TABLES, AnySurface, FileSurface
+from ..io.schemas.surfaces import (
+    AMPLITUDES,
+    HEIGHTS_TABLES,
+    SPECTRUM_TABLES,
+    SURFACE_TABLES,
+    AnySurface,
+    FileSurface,
+    LineScanFile,
+)
 from ..io.surface_files import ENDINGS, require_ending, save_endless, save_gaussian, save_surface
 from ..io.words import surface_text
 from ..plots.contact import save_surface_plot
@@ -29,6 +38,7 @@ from ..surfaces.characterise.spectrum import power_spectrum
 from ..surfaces.generate.digital_filter import endless
 from ..surfaces.generate.gaussian import Spectrum
 from ..surfaces.generate.non_gaussian import Marginal
+from ..surfaces.profile import Profile
 from ..surfaces.surface import Surface
 from .declared import Given, Option, built, options_of
 from .main import Listing
@@ -94,6 +104,7 @@ def _command(kind: str) -> Any:
         for part in asked.values():
             if isinstance(part, dict) and "surface" in part:
                 part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(Given({}))}
+        asked |= {name: {"kind": "file", **asked.get(name, {})} for name in _line_scans(kind)}
         asked_for: Any = _checked(kind, asked, given.names)
         if memory is not None:
             _stream(asked_for, out, memory, force)
@@ -182,13 +193,29 @@ def options(kind: str) -> list[Option]:
     types = {Spectrum: SPECTRUM_TABLES, Marginal: HEIGHTS_TABLES}
     made = {item.name: (item, types.get(taken_apart(item.annotation)[0])) for item in parameters(model.makes)}
     parts = {name: (item, tables) for name, (item, tables) in made.items() if tables is not None}
-    found = list(options_of(model, leave=("kind", *AnySurface.model_fields, *parts)))
+    scans = _line_scans(kind)
+    found = [option for name in scans for option in _line_scan_options(name)]
+    found += options_of(model, leave=("kind", *AnySurface.model_fields, *parts, *scans))
     for item, tables in parts.values():
         found += _part_options(item, tables)
     if kind in STREAMED:
         text = "write piece by piece within this memory (2GB), to an .npy file of any size"
         found.append(Option("--memory", ("memory",), Parameter("memory", str, Number("memory"), None, text)))
     return found
+
+
+def _line_scans(kind: str) -> list[str]:
+    """Names of the arguments of a kind that are line scans."""
+    return [item.name for item in parameters(SURFACE_TABLES[kind].makes) if taken_apart(item.annotation)[0] is Profile]
+
+
+def _line_scan_options(name: str) -> list[Option]:
+    """Options for the file of the line scan ``name`` and how it is read."""
+    leave = ("kind", "size", "z_scale", *AnySurface.model_fields)
+    return [
+        replace(option, name="--file", required=True) if option.path[-1] == "path" else option
+        for option in options_of(LineScanFile, (name,), leave=leave)
+    ]
 
 
 def _part_options(item: Parameter, tables: Any) -> list[Option]:

@@ -93,7 +93,7 @@ def export(
     vtk: Annotated[Path | None, typer.Option("--vtk", help="Fields as a VTK image file (.vti).")] = None,
     surface: Annotated[
         Path | None,
-        typer.Option("--surface", help=f"Heights of the surface as prepared: {', '.join(ENDINGS)}."),
+        typer.Option("--surface", help=f"Heights of the surface or line scan as prepared: {', '.join(ENDINGS)}."),
     ] = None,
     force: Force = False,
 ) -> None:
@@ -113,7 +113,8 @@ def export(
     if vtk is not None:
         export_vtk(outcome.result, vtk, overwrite=force)
     if surface is not None:
-        save_surface(outcome.result.problem.surface, surface, overwrite=force)
+        heights = outcome.result.problem.surface
+        save_surface(heights.row(0) if heights.shape[1] == 1 else heights, surface, overwrite=force)
     print_files(wanted)
 
 

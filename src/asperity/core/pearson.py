@@ -20,10 +20,10 @@ from . import require
 from .arrays import RealArray
 from .errors import InputError
 from .quadrature import LogDensity, gauss, partial_moment
+from .scipy_parts import interpolate, special
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
-
 TYPES = ("normal", "I", "II", "III", "IV", "V", "VI", "VII")
 """Types of the system in the order of their numbers."""
 
@@ -180,20 +180,16 @@ class Pearson:
         return self._curve.relative(x, from_low, from_high) - self._curve.log_norm
 
     def _at_normal(self, normal: RealArray) -> RealArray:
-        from scipy.special import ndtr
-
-        law, tail, mirrored = self._curve.law, ndtr(-np.abs(normal)), self.skewness < 0.0
+        law, tail, mirrored = self._curve.law, special.ndtr(-np.abs(normal)), self.skewness < 0.0
         of_low = (normal < 0.0) != mirrored
         x = np.where(of_low, law.ppf(tail), law.isf(tail))
         return -x if mirrored else x
 
     @cached_property
     def _table(self) -> CubicSpline:
-        from scipy.interpolate import CubicSpline
-
         count = round(2.0 * _TABLE_REACH / _TABLE_STEP) + 1
         normal = np.linspace(-_TABLE_REACH, _TABLE_REACH, count)
-        return CubicSpline(normal, self._at_normal(normal))
+        return interpolate.CubicSpline(normal, self._at_normal(normal))
 
 
 def require_possible(skewness: float, kurtosis: float) -> None:
@@ -323,12 +319,10 @@ def _beta_quantiles(a: float, b: float, probability: RealArray) -> tuple[RealArr
     SciPy's inverses are nan or far off for some probabilities below 1e-15 (a = 1.03, b = 0.44),
     where that term is all that counts.
     """
-    from scipy.special import betainccinv, betaincinv, betaln
-
     with np.errstate(divide="ignore"):
-        first = np.exp((np.log(probability) + math.log(a) + float(betaln(a, b))) / a)
-    z = np.where(first * max(1.0, b) < 1e-9, first, betaincinv(a, b, probability))
-    return z, np.asarray(betainccinv(b, a, probability))
+        first = np.exp((np.log(probability) + math.log(a) + float(special.betaln(a, b))) / a)
+    z = np.where(first * max(1.0, b) < 1e-9, first, special.betaincinv(a, b, probability))
+    return z, np.asarray(special.betainccinv(b, a, probability))
 
 
 @dataclass(frozen=True)

@@ -129,6 +129,13 @@ def real_lines(spectrum: ComplexArray, length: int, threads: int = 1, out: RealA
     return lines
 
 
+def linear_autocorrelation(values: RealArray) -> RealArray:
+    """Σ_j v_j v_(j+l) of the ``values`` (n,) at the lags l = 0 … n - 1, without wrapping around."""
+    n = values.size
+    half = line_transform(np.concatenate([values, np.zeros(n)]), 0)
+    return real_lines(np.square(np.abs(half)).astype(complex), 2 * n)[:n]
+
+
 @dataclass(frozen=True)
 class RealTransform:
     """Transform pair between real fields (nx, ny) and half spectra (nx, ny // 2 + 1).

@@ -21,10 +21,14 @@ from ..contact.state import InterfaceState
 from ..core.errors import FileFormatError, InputError
 from ..core.registry import RESULTS
 from ..core.text import require_file
+from ..surfaces.profile import Profile
+from ..surfaces.profile_netcdf import is_own, read_netcdf
+from ..surfaces.surface import Surface
 from .contacts import contact_from, contact_node
 from .description import provenance, software
 from .kept import contact_beside, group_name, kept_from, kept_node
 from .paths import path_from, path_node
+from .surface_files import require_ending, save_surface
 from .tree import FORMAT_VERSION, Node, datatree, read_tree, require_sound_heaps, write_tree
 
 if TYPE_CHECKING:
@@ -37,9 +41,12 @@ Steps: TypeAlias = Iterator[ContactResult]
 Result: TypeAlias = "ContactResult | HistoryResult | DataclassInstance"
 """What result files hold: contacts, load paths, and the types of ``core.registry.RESULTS``."""
 
+Heights: TypeAlias = Surface | Profile
+"""Maps and line scans, which have files of their own."""
+
 
 def save(
-    result: Result | Steps,
+    result: Result | Steps | Heights,
     path: str | Path,
     *,
     document: str | None = None,
@@ -57,13 +64,27 @@ def save(
     ``start`` from: they are written and forgotten. Such a file is that of the ``HistoryResult``
     without the energies, which ``load`` computes when they are read.
 
+    A surface or a line scan is written as by ``files.save_surface``, and comes back from ``load``
+    and ``read``.
+
     Raises
     ------
     OutputError
         If the file does not end in .nc, exists and ``overwrite`` is false, or cannot be written.
     InputError
-        If the problem holds a type that files cannot hold.
+        If the problem holds a type that files cannot hold, or a document or start is given for a
+        surface.
     """
+    if isinstance(result, Surface | Profile):
+        if document is not None or start is not None:
+            raise InputError(
+                "document and start must be left out where a surface or line scan is saved, but are given: its file "
+                "holds heights alone.",
+                subject="document and start",
+            )
+        require_ending(Path(path), (".nc",))
+        save_surface(result, path, overwrite=overwrite)
+        return
     if isinstance(result, Iterator):
         tree = _tree_of_steps(result, start, document)
     else:
@@ -101,7 +122,7 @@ def load(path: str | Path) -> Any:
 
     A ``ContactResult``, ``HistoryResult``, ``RollingContact``, ``StressField`` or
     ``dynamics.Motion``, or a state of finite elements from which a history goes on; of the outcome
-    of a document the contact.
+    of a document the contact. A ``Surface`` or ``Profile`` of a file that ``save`` wrote.
 
     Raises
     ------
@@ -109,7 +130,10 @@ def load(path: str | Path) -> Any:
         If the file is missing, damaged, not NetCDF-4, not a result of asperity, or of a newer
         format.
     """
-    return result_in(read_tree(path, without=("planes", "stress")), path)
+    file = require_file(path, "result file")
+    if is_own(file):
+        return read_netcdf(file)
+    return result_in(read_tree(file, without=("planes", "stress")), path)
 
 
 def open_tree(path: str | Path) -> xarray.DataTree:
@@ -256,8 +280,8 @@ def result_tree(result: Result, *, document: str | None = None, streamed: bool =
     name = group_name(result)
     if not name:
         raise InputError(
-            "result to save must be a result of solve or roll, a load path, a stress field, a motion or a "
-            f"state of finite elements, but is {type(result).__name__}."
+            "result to save must be a result of solve or roll, a load path, a stress field, a motion, a state of "
+            f"finite elements, a surface or a line scan, but is {type(result).__name__}."
         )
     own = {name: kept_node(result, name)}
     contact = contact_beside(result)

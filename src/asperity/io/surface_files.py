@@ -21,6 +21,8 @@ from ..surfaces.formats_netcdf import write_netcdf
 from ..surfaces.generate.digital_filter import EndlessSurface
 from ..surfaces.generate.gaussian import Spectrum, noise_rows
 from ..surfaces.generate.spectra import Columns, column_slices, spectrum_columns
+from ..surfaces.profile import Profile
+from ..surfaces.profile_netcdf import write_profile
 from ..surfaces.surface import Surface
 from .atomic import atomic_file
 
@@ -30,9 +32,13 @@ from .atomic import atomic_file
 ENDINGS = (".nc", ".gsf", ".x3p", ".xyz", ".npy", ".txt", ".asc")
 """Endings of files a surface can be written to."""
 
+LINE_ENDINGS = (".nc", ".txt", ".asc", ".xyz", ".npy")
+"""Endings of files a line scan can be written to: .gsf holds maps only, and of .x3p the reader
+library writes and reads no profiles."""
 
-def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False) -> None:
-    """Write ``surface`` to ``path``; the ending chooses the form.
+
+def save_surface(surface: Surface | Profile, path: str | Path, *, overwrite: bool = False) -> None:
+    """Write ``surface``, a map or a line scan, to ``path``; the ending chooses the form.
 
     * ``.nc``: classic NetCDF with units, period, missing points and the whole history. ``read``
       returns an equal surface; SurfaceTopography and contact.engineering read it too.
@@ -47,6 +53,11 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
       marks a missing point.
     * ``.npy``: the bare array [x, y] of heights in m; ``read`` needs size and unit.
 
+    A line scan comes back equal from ``.nc``, with its instrument, angle to the lay and cut-off;
+    ``.txt``, ``.asc`` and ``.xyz`` are two columns x, z in m, ten digits, with the units in the
+    headings, which ``read`` needs no further argument for; ``.npy`` is the bare array (n,), for
+    ``Profile(numpy.load(path), spacing)``. The other forms hold maps only.
+
     Raises
     ------
     OutputError
@@ -56,6 +67,9 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
     target = Path(path)
     require_ending(target)
     ending = target.suffix.lower()
+    if isinstance(surface, Profile):
+        _save_profile(surface, target, overwrite=overwrite)
+        return
     with atomic_file(target, overwrite=overwrite) as partial:
         if ending == ".nc":
             write_netcdf(surface, partial)
@@ -77,6 +91,23 @@ def save_surface(surface: Surface, path: str | Path, *, overwrite: bool = False)
             )
             with partial.open("w", encoding="utf-8", newline="\n") as file:
                 np.savetxt(file, np.flipud(surface.heights.T), fmt="%.10g", delimiter="\t", header=header)
+
+
+def _save_profile(profile: Profile, target: Path, *, overwrite: bool) -> None:
+    """Write a line scan to the file ``target``."""
+    ending = target.suffix.lower()
+    if ending not in LINE_ENDINGS:
+        raise OutputError(
+            f"file of a line scan must end in {', '.join(LINE_ENDINGS)}, but is {target}: {ending} holds maps only. "
+            "Take .nc, which keeps all that is known of it, or .xyz for other programs."
+        )
+    with atomic_file(target, overwrite=overwrite) as partial:
+        if ending == ".nc":
+            write_profile(profile, partial)
+        elif ending == ".npy":
+            np.save(partial, profile.heights)
+        else:
+            write_points({"x": profile.x, "z": profile.heights}, partial)
 
 
 def write_gsf(heights: RealArray, size: tuple[float, float], path: Path) -> None:

@@ -59,7 +59,7 @@ from ..io.schemas.relaxation import (
     Relaxing,
     StandardLinearTable,
 )
-from ..io.schemas.surfaces import AMPLITUDES, FileSurface, GeneratedSurface, SurfaceTable, prepared
+from ..io.schemas.surfaces import AMPLITUDES, FileSurface, GeneratedSurface, LineScanFile, SurfaceTable, prepared
 from ..parts.part import Part
 from ..parts.registry import parts
 from ..solids.elastic import Elastic, Hardening, Rigid, Strength, yield_pressure
@@ -86,8 +86,9 @@ from ..solids.strength import flow_stress
 from ..solids.viscoelastic import Arrhenius, TemperatureShift, Viscoelastic, WilliamsLandelFerry
 from ..surfaces.formats import checked_size
 from ..surfaces.pair import on_common_grid, turned_over
-from ..surfaces.read import read_map
-from ..surfaces.surface import Surface
+from ..surfaces.profile import Profile
+from ..surfaces.read import read, read_map
+from ..surfaces.surface import Surface, lines_too
 
 
 @dataclass(frozen=True, eq=False)
@@ -351,6 +352,29 @@ def build_surface(table: SurfaceTable, folder: Path) -> Surface:
     return surface
 
 
+def build_line_scan(table: LineScanFile, folder: Path) -> Profile:
+    """Line scan of ``table`` after its preparation steps, one of which may take it of a map.
+
+    Raises
+    ------
+    InputError
+        If the file holds a map of which none takes a line.
+    """
+    found = read(folder / table.path, **table.reading())
+    for step in table.prepare:
+        found = lines_too(step.makes)(found, **step.given("step"))
+    if isinstance(found, Profile):
+        return found
+    if found.shape[1] > 1:
+        raise InputError(
+            f"file for the spectrum of a line scan must hold one, but {table.path} holds a map of {found.shape[0]} x "
+            f"{found.shape[1]} points. A surface with the spectrum of a map is of the kind rough, with the spectrum "
+            "measured; {slice} takes one line of a map.",
+            subject="file for the spectrum of a line scan",
+        )
+    return found.row(0)
+
+
 def build_surfaces(table: SurfaceTable, counter: SurfaceTable | None, folder: Path) -> tuple[Surface, Surface | None]:
     """Surface and counter surface, the latter turned over and placed, so that it lies in the frame
     of the first."""
@@ -379,7 +403,7 @@ def build_generated(table: Any, folder: Path, **more: Any) -> Surface:
     grid = table_grid(table)
     needed = BYTES_OF_A_POINT * grid.n_points
     require_memory(needed, "points of the surface", "{} x {}".format(*grid.shape), "give fewer points")
-    made: Surface = table.makes(grid, **arguments, **more)
+    made: Surface = table.makes(grid=grid, **arguments, **more)
     return made
 
 
@@ -417,12 +441,12 @@ def large_grid(points: int) -> str:
 
 
 def build_part(value: Any, folder: Path) -> Any:
-    """Spectrum or distribution of heights for its table, surface for that of a file, anything else
-    as it is."""
+    """Spectrum or distribution of heights for its table, surface or line scan for that of a file,
+    anything else as it is."""
     if not isinstance(value, Settings):
         return value
     if isinstance(value, FileSurface):
-        return build_surface(value, folder)
+        return build_line_scan(value, folder) if isinstance(value, LineScanFile) else build_surface(value, folder)
     arguments = {key: build_part(item, folder) for key, item in value.given("kind").items()}
     for key, amplitude in AMPLITUDES.items():
         if key in arguments and "amplitude" in inspect.signature(value.makes).parameters:

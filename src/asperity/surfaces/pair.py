@@ -13,6 +13,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..core.scipy_parts import interpolate
 from ..core.spectral import RealTransform, thread_count
 from ..core.units import show
 from .prepare.extent import resampled
@@ -194,8 +195,6 @@ def _moved(surface: Surface, shift: tuple[float, float], grid: Grid, words: str)
 def _interpolated(surface: Surface, grid: Grid, nodes: tuple[RealArray, RealArray], words: str) -> Surface:
     """Surface on ``grid``, whose ``nodes`` (x, y) in m, each (nx, ny), are counted from the corner
     of the map."""
-    from scipy.interpolate import RectBivariateSpline
-
     along = [node / d - 0.5 for node, d in zip(nodes, surface.grid.spacing, strict=True)]  # in pixels from node 0
     if surface.periodic:
         along = [number % n for number, n in zip(along, surface.shape, strict=True)]
@@ -206,7 +205,7 @@ def _interpolated(surface: Surface, grid: Grid, nodes: tuple[RealArray, RealArra
     padded = np.pad(complete, pad, mode="wrap") if pad else complete
     degree = [min(3, n - 1) for n in padded.shape]
     own = [np.arange(n, dtype=float) - pad for n in padded.shape]
-    spline = RectBivariateSpline(own[0], own[1], padded, kx=degree[0], ky=degree[1])
+    spline = interpolate.RectBivariateSpline(own[0], own[1], padded, kx=degree[0], ky=degree[1])
     heights: RealArray
     if surface.periodic:
         heights = spline.ev(along[0], along[1])

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.late import Shown
 from ..core.parameters import checked
+from ..core.scipy_parts import optimize, special
 from ..core.units import show
 from .characterise.expectation import RingExpectation
 from .characterise.heights import rms_height
@@ -27,7 +28,7 @@ from .generate.gaussian import SurfaceSeed, gaussian
 from .generate.non_gaussian import HeightsOf, rank_ordered
 from .prepare.level import filled, levelled
 from .profile import Profile
-from .profile_spectra import MapPieces, ProfilePieces, RoundedSpectrum, special
+from .profile_spectra import MapPieces, ProfilePieces, RoundedSpectrum
 from .surface import Surface, strip
 
 ISOTROPY = "the surface is isotropic, so that this line scan stands for every direction"
@@ -192,8 +193,6 @@ def _rounded(rings: RadialSpectrum, lost: float, sampled: float | None) -> _Fit:
 
     With ``sampled`` points a spacing (m) apart, what their aliases add is part of the model.
     """
-    from scipy.optimize import minimize
-
     unit_q, unit_c = math.sqrt(float(rings.q[0] * rings.q[-1])), float(np.exp(np.mean(np.log(rings.psd))))
     x, measured, count = rings.q / unit_q, rings.psd / unit_c, 0.5 * rings.modes
     turn = math.inf if sampled is None else 2.0 * math.pi / (sampled * unit_q)
@@ -204,7 +203,7 @@ def _rounded(rings: RadialSpectrum, lost: float, sampled: float | None) -> _Fit:
         terms = (1.0 + np.square((x[:, None] + images) * math.exp(-corner))) ** -(0.5 + H)
         total = terms.sum(axis=1)
         if sampled:  # all further images, on the power law
-            total += 2.0 * special().zeta(1.0 + 2.0 * H, _IMAGES + 1.0) * (turn * math.exp(-corner)) ** -(1.0 + 2.0 * H)
+            total += 2.0 * special.zeta(1.0 + 2.0 * H, _IMAGES + 1.0) * (turn * math.exp(-corner)) ** -(1.0 + 2.0 * H)
         return np.asarray(level + np.log(total))
 
     def deviance(values: RealArray) -> float:
@@ -219,7 +218,8 @@ def _rounded(rings: RadialSpectrum, lost: float, sampled: float | None) -> _Fit:
         starts += [np.array([math.log(float(measured[below].mean())), corner, H]) for H in (0.4, 0.9)]
     starts.sort(key=deviance)
     runs = [
-        minimize(deviance, start, bounds=bounds, method="L-BFGS-B", options={"ftol": 1e-13}) for start in starts[:2]
+        optimize.minimize(deviance, start, bounds=bounds, method="L-BFGS-B", options={"ftol": 1e-13})
+        for start in starts[:2]
     ]
     run = min(runs, key=lambda item: float(item.fun))
     level, corner, H = (float(value) for value in run.x)
@@ -401,21 +401,23 @@ def summits_of_peaks(peaks: ProfilePeaks, m0: float) -> SummitsOfPeaks:
 
 @checked
 def surface_of_profile(
-    profile: Profile,
+    profile: Annotated[Profile, "line scan whose spectrum the surface has"],
     grid: Grid,
     *,
     seed: SurfaceSeed,
-    model: str = "auto",
+    model: Annotated[
+        Literal["auto", "rounded", "pieces"], "of the spectrum: a rounded roll-off or power laws"
+    ] = "auto",
     heights: Annotated[bool, "impose the height distribution of the profile"] = False,
     periodic: Annotated[bool, "periodic surface, or a window of one"] = True,
 ) -> Surface:
-    """Isotropic random surface on ``grid`` with the spectrum of ``profile``; the assumption stands
-    in its history.
+    """Isotropic random surface with the spectrum of a line scan, on the assumption that its surface
+    is isotropic.
 
-    With ``heights`` its distribution is that of the profile, which is the same in a profile and in
-    the map, by rank ordering (of a periodic surface). The spectrum ends at the shortest wave that
-    the profile or the grid resolves. Raises InputError if the spectrum cannot be had (see
-    :func:`isotropic_spectrum`), or a window is to have the heights.
+    The assumption stands in its history. With ``heights`` its distribution is that of the profile,
+    which is the same in a profile and in the map, by rank ordering (of a periodic surface). The
+    spectrum ends at the shortest wave that the profile or the grid resolves. Raises InputError if
+    the spectrum cannot be had (see :func:`isotropic_spectrum`), or a window is to have the heights.
     """
     shortest = 2.0 * max(grid.spacing)
     spectrum = isotropic_spectrum(profile, model=model)

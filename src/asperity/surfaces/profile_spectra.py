@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from types import ModuleType
 from typing import ClassVar, Protocol
 
 import numpy as np
@@ -22,17 +21,11 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
 from ..core.quadrature import gauss
+from ..core.scipy_parts import special
 from ..core.units import show
 
 _SERIES_BELOW, _SERIES_TERMS = 1.0, 14  # x of the series of 1 - ρ, and terms with (x/2)^2m/m! below 1e-18 there
 _PANEL, _NODES = 0.5, 10  # of the quadrature over arcosh(q/k)
-
-
-def special() -> ModuleType:
-    """Special functions of SciPy, which take a tenth of a second to import."""
-    from scipy import special as functions
-
-    return functions
 
 
 class IsotropicModel(Protocol):
@@ -162,7 +155,7 @@ class RoundedSpectrum:
     def _bessel(self, x: RealArray) -> RealArray:
         H = self.hurst
         with np.errstate(invalid="ignore", over="ignore"):
-            value = 2.0 ** (1.0 - H) / math.gamma(H) * x**H * special().kv(H, x)
+            value = 2.0 ** (1.0 - H) / math.gamma(H) * x**H * special.kv(H, x)
         return np.where(x > 0.0, np.nan_to_num(value), 1.0)
 
     def _gap(self, x: RealArray) -> RealArray:
@@ -171,7 +164,7 @@ class RoundedSpectrum:
     def _growth(self, x: RealArray) -> RealArray:
         """x d(1 - ρ)/dx = 2^(1-H)/Γ(H) x^(H+1) K_(1-H)(x)."""
         H = self.hurst
-        return np.asarray(2.0 ** (1.0 - H) / math.gamma(H) * x ** (H + 1.0) * special().kv(abs(1.0 - H), x))
+        return np.asarray(2.0 ** (1.0 - H) / math.gamma(H) * x ** (H + 1.0) * special.kv(abs(1.0 - H), x))
 
     def _series(self, x: RealArray, one: float, two: float) -> RealArray:
         """``one`` (1 - ρ(x)) - ``two`` (1 - ρ(2x)) by the power series, for 0 < H < 1; by
@@ -318,7 +311,7 @@ class ProfilePieces(PowerPieces):
 
 def _beta(a: float, x: RealArray) -> RealArray:
     """Incomplete beta function B_x(a, 1/2), a > 0."""
-    return np.asarray(special().beta(a, 0.5) * special().betainc(a, 0.5, x))
+    return np.asarray(special.beta(a, 0.5) * special.betainc(a, 0.5, x))
 
 
 def _quadrature(a: float, b: float, c: float, e: float, k: float) -> float:
@@ -373,7 +366,7 @@ def alias_factor(exponent: float, k: ArrayLike, spacing: float) -> RealArray:
     s^p [ζ(p, s) + ζ(p, 1 - s)] with s = kΔ/2π and the Hurwitz zeta function; p > 1, 0 < k <= π/Δ
     (rad/m). Raises InputError if the exponent is not above 1 or a wavenumber is out of range.
     """
-    zeta = special().zeta
+    zeta = special.zeta
     p = require.finite(exponent, "exponent of a sampled spectrum")
     if p <= 1.0:
         raise InputError(f"exponent of a sampled spectrum must be above 1 for its aliases to have a sum, but is {p:g}.")

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ..core.arrays import RealArray
+from ..core.scipy_parts import linalg, sparse, sparse_linalg
 
 # (I + β⁴ DᵀD) w = z with the second differences D and β = 1/(2 sin(πΔ/λc)); natural ends, circulant
 # if closed.
@@ -26,9 +27,6 @@ def spline_smooth(heights: RealArray, spacing: float, cutoff: float, *, periodic
     Exact for a straight line up to the ends of a profile that is not ``periodic``. n points take
     O(n) operations.
     """
-    from scipy.linalg import solveh_banded
-    from scipy.sparse import coo_array, linalg
-
     n, valid = heights.size, ~np.isnan(heights)
     if np.count_nonzero(valid) < 2:
         return np.full(n, float(np.nanmean(heights)))
@@ -50,10 +48,10 @@ def spline_smooth(heights: RealArray, spacing: float, cutoff: float, *, periodic
         bands[2] = valid + stiff * middle
         bands[1, 1:] = stiff * first
         bands[0, 2:] = stiff * second
-        return np.asarray(solveh_banded(bands[max(0, 3 - n) :], right)) + mean
+        return np.asarray(linalg.solveh_banded(bands[max(0, 3 - n) :], right)) + mean
     every = np.arange(n)
     shifts = {0: 6.0, 1: -4.0, 2: 1.0, n - 2: 1.0, n - 1: -4.0}  # of a circulant
     rows, columns = np.tile(every, len(shifts)), np.concatenate([(every + shift) % n for shift in shifts])
     entries = np.concatenate([stiff * weight + (0.0 if shift else 1.0) * valid for shift, weight in shifts.items()])
-    matrix = coo_array((entries, (rows, columns)), shape=(n, n)).tocsc()
-    return np.asarray(linalg.spsolve(matrix, right), dtype=np.float64) + mean
+    matrix = sparse.coo_array((entries, (rows, columns)), shape=(n, n)).tocsc()
+    return np.asarray(sparse_linalg.spsolve(matrix, right), dtype=np.float64) + mean

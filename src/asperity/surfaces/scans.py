@@ -14,6 +14,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.late import Shown
+from ..core.spectral import line_transform
 from ..core.units import show
 from .characterise.correlation import scale_dependence, tip_cutoff
 from .characterise.scans_scales import QUANTITIES, LevelLines, ScaleCurve, scale_curve
@@ -208,7 +209,7 @@ class Scan(Shown):
             weights = 1.0 - np.cos(2.0 * np.pi * (np.arange(n) + 0.5) / n)
             weights /= math.sqrt(float(np.mean(np.square(weights))))
         numbers = np.arange(band.first, band.last + 1)
-        power = self.spacing / n * np.square(np.abs(np.fft.rfft(lines * weights, axis=1)[:, numbers]))
+        power = self.spacing / n * np.square(np.abs(line_transform(lines * weights, 1)[:, numbers]))
         return LineModes(
             power,
             numbers.astype(float),

@@ -11,6 +11,7 @@ from ..core import require
 from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.grid import Grid
+from ..core.scipy_parts import ndimage
 from ..core.spectral import RealTransform, thread_count
 from ..core.units import show
 from .generate.gaussian import SurfaceSeed, filtered_noise, sub_seeds
@@ -92,11 +93,9 @@ def with_registered_detail(large: Surface, small: Surface, *, at: tuple[float, f
                 f"small map must lie on the large one, but reaches from {place[0]:g} to {place[-1]:g} m along {axis} "
                 f"where that ends at {step * (n - 1):g} m. Correct at."
             )
-    from scipy.ndimage import map_coordinates
-
     points = np.meshgrid(x / large.dx, y / large.dy, indexing="ij")
     smooth = _smoothed(large, wave)
-    long: RealArray = map_coordinates(smooth, points, order=3, mode="nearest")
+    long: RealArray = ndimage.map_coordinates(smooth, points, order=3, mode="nearest")
     heights = long + small.heights - _smoothed(small, wave)
     return small.with_heights(
         heights, f"waves above {show(wave, 'm')} taken from {large.origin.source or 'a large map'}"

@@ -171,6 +171,7 @@ SURFACES = st.one_of(
     ),
     generated("grooves", pitch=LENGTHS, width=LENGTHS, depth=LENGTHS, section=st.sampled_from(["vee", "cosine"])),
     generated("digital_filter", seed=SEEDS, spectrum=SPECTRA, skewness=st.floats(-3, 3), kurtosis=POSITIVE),
+    generated("from_line_scan", seed=SEEDS, profile=FILES, heights=st.booleans()),
     generated("rank_ordered", seed=SEEDS, spectrum=SPECTRA, heights=HEIGHTS),
     generated(
         "two_process", seed=SEEDS, plateau=SPECTRA, valleys=SPECTRA, offset=st.sampled_from(["-3 nm", "0 m", "1um"])

@@ -227,6 +227,33 @@ def test_more_like_a_file(tmp_path: Path) -> None:
     np.testing.assert_array_equal(build(moved, elsewhere).problem.surface.heights, made.heights)
 
 
+def test_a_surface_with_the_spectrum_of_a_line_scan(tmp_path: Path) -> None:
+    """A document names the file of the line scan, or a map and the line of it."""
+    model = asp.roughness.RoundedSpectrum(3e-28, 3e6, 0.8)
+    seen = generate.gaussian(asp.Grid((400, 6), (1e-7, 1e-7)), model, seed=2)
+    asp.save(seen, tmp_path / "map.nc")
+    asp.save(seen.row(3), tmp_path / "trace.nc")
+    scans = (
+        {"path": "trace.nc"},
+        {"path": "map.nc", "prepare": [{"step": "slice", "y": "middle"}]},
+    )
+    made = []
+    for scan in scans:
+        surface = {"kind": "from_line_scan", "seed": 1, "profile": {"kind": "file", **scan}, **GRID}
+        document = checked(table(surface=surface))
+        made.append(build(document, tmp_path).problem.surface)
+        elsewhere = tmp_path / "deep" / "folder"
+        elsewhere.mkdir(parents=True, exist_ok=True)
+        moved = build(relocated(document, tmp_path, elsewhere), elsewhere).problem.surface
+        np.testing.assert_array_equal(moved.heights, made[-1].heights)
+    expected = generate.surface_of_profile(seen.row(3), made[0].grid, seed=1)
+    for surface in made:
+        np.testing.assert_array_equal(surface.heights, expected.heights)
+    with refused(InputError, "file for the spectrum of a line scan"):
+        surface = {"kind": "from_line_scan", "seed": 1, "profile": {"kind": "file", "path": "map.nc"}, **GRID}
+        build(checked(table(surface=surface)), tmp_path)
+
+
 @pytest.mark.parametrize(
     ("control", "expected"),
     [

@@ -35,6 +35,8 @@ from ...surfaces.prepare.extent import cropped, periodised, resampled, sliced, t
 from ...surfaces.prepare.filter import filtered, tip_limited
 from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, filled, levelled, line_corrected
 from ...surfaces.prepare.tip import ConicalTip, Opening, SphericalTip, Tip, estimated_tip, reconstructed
+from ...surfaces.profile import Profile
+from ...surfaces.profile_conversion import surface_of_profile
 from ...surfaces.surface import Surface
 
 # Steps of preparation: the table of a step has the parameters of its function, which ``prepared``
@@ -295,6 +297,12 @@ class FileSurface(AnySurface):
         return self.given("kind", "path", *AnySurface.model_fields)
 
 
+class LineScanFile(FileSurface):
+    """A line scan from a file, or a line that the preparation steps take of a map."""
+
+    path: NonEmpty = setting(help="file with a line scan")
+
+
 class GeneratedSurface(AnySurface):
     """What all generated surfaces have: a grid."""
 
@@ -354,6 +362,7 @@ SURFACES: Mapping[str, Callable[..., Surface]] = MappingProxyType(
         "digital_filter": digital_filter.digital_filter,
         "translated": non_gaussian.translated,
         "rank_ordered": non_gaussian.rank_ordered,
+        "from_line_scan": surface_of_profile,
         "bimodal": bimodal.bimodal,
         "two_process": bimodal.two_process,
         "particles": bimodal.particles,
@@ -406,7 +415,7 @@ else:
     HeightsTable = Annotated[Union[tuple(HEIGHTS_TABLES.values())], Field(discriminator="kind")]  # noqa: UP007
 
 SURFACE_TABLES: Mapping[str, type[GeneratedSurface]] = MappingProxyType(
-    _tables(SURFACES, GeneratedSurface, {Spectrum: SpectrumTable, Marginal: HeightsTable})
+    _tables(SURFACES, GeneratedSurface, {Spectrum: SpectrumTable, Marginal: HeightsTable, Profile: LineScanFile})
 )
 """The table of each kind of generated surface."""
 

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
 from ...core.quadrature import gauss
-from ..profile_spectra import RoundedSpectrum, special
+from ...core.scipy_parts import interpolate, special
+from ..profile_spectra import RoundedSpectrum
 
 
 class Corner(Protocol):
@@ -129,7 +130,7 @@ class Sharp:
         beta function B_(k²/a'²)(1/2 + H, 1/2).
         """
         x, H = np.asarray(k, dtype=float) / self.corner, self.hurst
-        share = special().betainc(0.5 + H, 0.5, np.minimum(x, 1.0) ** 2) * special().beta(0.5 + H, 0.5)
+        share = special.betainc(0.5 + H, 0.5, np.minimum(x, 1.0) ** 2) * special.beta(0.5 + H, 0.5)
         tail = np.where(x > 0.0, x, 1.0) ** (-1.0 - 2.0 * H) * share / (2.0 * math.pi)
         flat = np.sqrt(np.maximum(1.0 - x**2, 0.0)) / math.pi
         return np.asarray(self.level * self.corner * (tail + flat))
@@ -139,7 +140,7 @@ class Sharp:
         ``lag`` in m >= 0 (any shape)."""
         x = self.corner * np.asarray(lag, dtype=float)
         safe = np.where(x > 0.0, x, 1.0)
-        plateau = np.where(x > 0.0, special().j1(safe) / safe, 0.5)
+        plateau = np.where(x > 0.0, special.j1(safe) / safe, 0.5)
         value = self.level * self.corner**2 / (2.0 * math.pi) * (plateau + self._tail(x))
         return np.where(x > 0.0, value, self.variance)
 
@@ -152,7 +153,7 @@ class Sharp:
         for m in range(1, _TERMS):
             term = term * -quarter / m**2
             total += term / (2.0 * H - 2.0 * m)
-        found[near] = x[near] ** (2.0 * H) * 2.0 ** (-1.0 - 2.0 * H) * special().gamma(-H) / math.gamma(1.0 + H) + total
+        found[near] = x[near] ** (2.0 * H) * 2.0 ** (-1.0 - 2.0 * H) * special.gamma(-H) / math.gamma(1.0 + H) + total
         found[far] = x[far] ** (2.0 * H) * _bessel_tail(x[far], 1.0 + 2.0 * H)
         between = ~(near | far)
         if between.any():
@@ -161,20 +162,18 @@ class Sharp:
 
     def _tabulated(self, x: RealArray) -> RealArray:
         """∫_x^∞ v^(-1-2H) J0(v) dv between the two series, by a Hermite spline through sums."""
-        from scipy.interpolate import CubicHermiteSpline
-
         power = -1.0 - 2.0 * self.hurst
         edges = np.linspace(_SERIES_TO, _FAR, _PANELS + 1)
         v, weight = gauss(edges, _NODES)
-        parts = (weight * v**power * special().j0(v)).reshape(-1, _NODES).sum(axis=1)
+        parts = (weight * v**power * special.j0(v)).reshape(-1, _NODES).sum(axis=1)
         last = _bessel_tail(edges[-1:], -power)[0]
         sums = np.concatenate([np.cumsum(parts[::-1])[::-1], [0.0]]) + last
-        return np.asarray(CubicHermiteSpline(edges, sums, -(edges**power) * special().j0(edges))(x))
+        return np.asarray(interpolate.CubicHermiteSpline(edges, sums, -(edges**power) * special.j0(edges))(x))
 
 
 def _bessel_tail(x: RealArray, a: float) -> RealArray:
     """∫_x^∞ v^-a J0(v) dv for large ``x`` by repeated integration by parts."""
-    zero, one = special().j0(x), special().j1(x)
+    zero, one = special.j0(x), special.j1(x)
     total, factor = np.zeros_like(x), np.ones_like(x)
     for _ in range(12):
         total += factor * x**-a * ((a + 1.0) / x * zero - one)

@@ -11,6 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...core.arrays import RealArray
+from ...core.spectral import linear_autocorrelation
 from .correlation import geometric_lags
 from .scans_corners import Corner
 
@@ -137,6 +138,5 @@ def _removed_tilt(model: Corner, n: int, spacing: float) -> float:
 
 def _form(R: RealArray, basis: RealArray) -> float:
     """b' R b with the covariance R (n,) by lag and the vector ``basis`` b (n,)."""
-    n = basis.size
-    spread = np.fft.irfft(np.square(np.abs(np.fft.rfft(basis, 2 * n))), 2 * n)[:n]
+    spread = linear_autocorrelation(basis)
     return float(spread[0] * R[0] + 2.0 * (spread[1:] @ R[1:]))

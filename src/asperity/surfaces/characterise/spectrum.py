@@ -20,6 +20,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.quadrature import gauss
+from ...core.scipy_parts import special
 from ...core.spectral import RealTransform, line_transform, mode_sum, multiplicity, thread_count
 from ..prepare.level import require_complete
 from ..surface import Surface, maps_only, of_lines
@@ -267,8 +268,6 @@ def mean_square_after_levelling(
     bend = min(high, 2.0 * _UNFILTERED / shorter)
     filtered = 0.0
     if bend > low:
-        from scipy.special import spherical_jn
-
         # resolves the oscillations of the Bessel functions, of period π in q L/2
         q, weight = gauss(_with_ripples(low, bend, longer), _NODES)
         # share of the power that remains, averaged over all directions
@@ -280,7 +279,7 @@ def mean_square_after_levelling(
             angle = (np.arange(points.size) - np.repeat(first, n) + 0.5) * (0.5 * np.pi / points)
             radius = np.repeat(0.5 * q[part], n)
             along_x, along_y = (
-                [(2 * order + 1) * np.square(spherical_jn(order, x)) for order in range(degree + 1)]
+                [(2 * order + 1) * np.square(special.spherical_jn(order, x)) for order in range(degree + 1)]
                 for x in (radius * size[0] * np.cos(angle), radius * size[1] * np.sin(angle))
             )
             fitted = sum(along_x[a] * along_y[b] for a in range(degree + 1) for b in range(degree + 1 - a))
@@ -310,8 +309,6 @@ def expected_difference_moments(
     they show the error of the pixel size. ``bends``: wavelengths in m at which C has a kink, for
     accuracy beyond 1e-4. Raises InputError if the spacing or a wavelength is not positive.
     """
-    from scipy.special import j0
-
     require.positive(spacing, "spacing (m)")
     low = 2.0 * np.pi / require.positive(longest_wavelength, "longest wavelength (m)")
     high = 2.0 * np.pi / require.positive(shortest_wavelength, "shortest wavelength (m)")
@@ -320,9 +317,9 @@ def expected_difference_moments(
     density = weight * q * psd(q) / (2.0 * np.pi)
     # 1 - J0 cancels for waves much longer than the spacing; its series there is exact to rounding
     x = q * spacing
-    first = np.where(x < 0.05, x**2 / 4.0 - x**4 / 64.0 + x**6 / 2304.0, 1.0 - j0(x))
+    first = np.where(x < 0.05, x**2 / 4.0 - x**4 / 64.0 + x**6 / 2304.0, 1.0 - special.j0(x))
     second = 3.0 / 16.0 * x**4 - 5.0 / 192.0 * x**6 + 7.0 / 4096.0 * x**8
-    second = np.where(x < 0.05, second, 3.0 - 4.0 * j0(x) + j0(2.0 * x))
+    second = np.where(x < 0.05, second, 3.0 - 4.0 * special.j0(x) + special.j0(2.0 * x))
     return float(density @ (2.0 * first)) / spacing**2, float(density @ (2.0 * second)) / spacing**4
 
 

@@ -17,6 +17,7 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
+from ...core.spectral import complex_lines, line_transform, linear_autocorrelation
 from ..profile_spectra import independent_line_factor
 from .scans_corners import CORNERS, Corner
 from .spectrum import LOST_MODES
@@ -27,8 +28,7 @@ from .spectrum import LOST_MODES
 def window_correlation(weights: RealArray) -> RealArray:
     """c_w(l) = (1/N) Σ_j w_j w_(j+l) of the ``weights`` (N,) of a window, at the lags 0 … N - 1."""
     n = weights.size
-    transform = np.fft.rfft(weights, 2 * n)
-    return np.asarray(np.fft.irfft(np.square(np.abs(transform)), 2 * n)[:n] / n)
+    return linear_autocorrelation(weights) / n
 
 
 def expected_periodogram(autocovariance: RealArray, correlation: RealArray, spacing: float) -> RealArray:
@@ -41,7 +41,7 @@ def expected_periodogram(autocovariance: RealArray, correlation: RealArray, spac
     """
     summed = correlation * autocovariance
     summed[1:] += summed[:0:-1].copy()  # lags l and N - l have the same cosine
-    return np.asarray(spacing * np.fft.rfft(summed).real)
+    return np.asarray(spacing * line_transform(summed, 0).real)
 
 
 FORMS = ("none", "mean", "line", "quadratic", "ends")
@@ -62,7 +62,7 @@ def levelled_expectation(
     n = weights.size
     require.one_of(form, FORMS, "form removed from a line")
     at = np.linspace(-1.0, 1.0, n)
-    circle = np.fft.fft(np.concatenate([autocovariance, [0.0], autocovariance[:0:-1]])).real
+    circle = complex_lines(np.concatenate([autocovariance, [0.0], autocovariance[:0:-1]]).astype(complex), 0).real
     basis = None
     if form in ("mean", "line", "quadratic"):
         degree = ("mean", "line", "quadratic").index(form)
@@ -76,7 +76,8 @@ def levelled_expectation(
             first, last = 0.5 * (1.0 - at) @ g, 0.5 * (1.0 + at) @ g
             g[0] -= first
             g[-1] -= last
-        through = np.fft.ifft(circle * np.fft.fft(g, 2 * n))[:n]
+        padded = np.concatenate([g, np.zeros(n)])
+        through = complex_lines(circle * complex_lines(padded, 0), 0, backward=True)[:n]
         found[number] = spacing / n * float(np.vdot(g, through).real)
     return found
 

@@ -16,6 +16,7 @@ from ...core.citations import citation_keys
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
+from ...core.scipy_parts import special
 from ...core.units import show
 from ...core.values import Density, Fraction, Length, NonNegativeLength, Number, SignedLength
 from ..surface import Surface, generated
@@ -46,12 +47,10 @@ def bimodal(
     (σ² + d²), <h³> = Σ p (d³ + 3 d σ²), <h⁴> = Σ p (d⁴ + 6 d² σ² + 3 σ⁴) about the mean. Raises
     InputError if the grid does not suit a spectrum.
     """
-    from scipy.special import ndtri
-
     seeds = sub_seeds(seed, 3)
     texture, other, mask = (random_field(grid, s, n) for s, n in zip((first, second, patches), seeds, strict=True))
     mask /= np.sqrt(np.mean(np.square(mask)))
-    heights = np.where(mask < float(ndtri(share)), texture + separation, other)
+    heights = np.where(mask < float(special.ndtri(share)), texture + separation, other)
     text = (
         f"two textures, {share:.4g} of the area {first.describe(grid)}, {show(separation, 'm')} above "
         f"{second.describe(grid)}, in patches of {patches.describe(grid)}, seed {seed}"

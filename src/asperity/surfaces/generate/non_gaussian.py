@@ -17,6 +17,7 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import Declared, checked
 from ...core.pearson import Pearson, require_possible
+from ...core.scipy_parts import optimize, special
 from ...core.spectral import RealTransform, mode_sum, thread_count
 from ...core.status import NoProgress, Progress
 from ...core.values import Count, Fraction, Positive, Real
@@ -63,9 +64,7 @@ class Johnson:
         """z(G): the number of this distribution for each standard normal number; increasing."""
         if self.kind == "normal":
             return normal
-        from scipy.special import expit
-
-        shape = {"unbounded": np.sinh, "bounded": expit, "lognormal": np.exp}[self.kind]
+        shape = {"unbounded": np.sinh, "bounded": special.expit, "lognormal": np.exp}[self.kind]
         return np.asarray(self.xi + self.scale * shape((normal - self.gamma) / self.delta))
 
 
@@ -105,9 +104,7 @@ def johnson(skewness: float, kurtosis: float) -> Johnson:
 
 def _root(function: Callable[[float], float], low: float, high: float, **accuracy: Any) -> float:
     """Where ``function`` is zero between ``low`` and ``high``."""
-    from scipy.optimize import brentq
-
-    return float(brentq(function, low, high, **accuracy))
+    return float(optimize.brentq(function, low, high, **accuracy))
 
 
 def _unbounded(skewness: float, kurtosis: float) -> Johnson:
@@ -137,7 +134,6 @@ def _bounded(skewness: float, kurtosis: float, w: float) -> Johnson:
 
     The line is followed to a per cent, Newton's method does the rest.
     """
-    from scipy.optimize import brentq, root
 
     def gamma_at(delta: float) -> float:
         if skewness == 0.0:
@@ -145,7 +141,9 @@ def _bounded(skewness: float, kurtosis: float, w: float) -> Johnson:
         top = 1.0
         while _bounded_moments(top, delta).skewness < skewness:
             top *= 2.0
-        return float(brentq(lambda gamma: _bounded_moments(gamma, delta).skewness - skewness, 0.0, top, rtol=1e-4))
+        return float(
+            optimize.brentq(lambda gamma: _bounded_moments(gamma, delta).skewness - skewness, 0.0, top, rtol=1e-4)
+        )
 
     def missing(log_delta: float) -> float:
         delta = math.exp(log_delta)
@@ -162,8 +160,8 @@ def _bounded(skewness: float, kurtosis: float, w: float) -> Johnson:
             f"kurtosis {kurtosis:.4g} of the heights at skewness {skewness:.4g} must be further above its limit "
             f"1 + skewness² = {1.0 + skewness**2:.4g}, at which there are only two heights."
         )
-    start = float(brentq(missing, low, high, xtol=1e-3)) if missing(high) > 0.0 else high
-    gamma, log_delta = (float(value) for value in root(both, [gamma_at(math.exp(start)), start], tol=1e-13).x)
+    start = float(optimize.brentq(missing, low, high, xtol=1e-3)) if missing(high) > 0.0 else high
+    gamma, log_delta = (float(value) for value in optimize.root(both, [gamma_at(math.exp(start)), start], tol=1e-13).x)
     gamma = 0.0 if skewness == 0.0 else gamma
     if max(abs(error) for error in both(np.array([gamma, log_delta]))) > _ON_LINE:
         raise ArithmeticError(f"no bounded distribution found for skewness {skewness:g} and kurtosis {kurtosis:g}.")
@@ -273,10 +271,8 @@ class HeightMoments(Declared):
     def sorted_heights(self, count: int) -> RealArray:
         """Quantiles at (k - 1/2)/count; their moments are those asked for up to the tails beyond
         the outermost."""
-        from scipy.special import ndtri
-
         law = height_law(self.skewness, self.kurtosis, self.system)
-        return law.of_normal(ndtri((np.arange(count) + 0.5) / count))
+        return law.of_normal(special.ndtri((np.arange(count) + 0.5) / count))
 
     def describe(self) -> str:
         """Words and numbers for the history of a surface."""
@@ -324,13 +320,11 @@ class TwoLevels(Declared):
     def sorted_heights(self, count: int) -> RealArray:
         """Quantiles at (k - 1/2)/count, by inversion of the distribution function on a fine
         table."""
-        from scipy.special import ndtr
-
         low = min(-9.0, self.separation - 9.0 * self.upper_deviation)
         high = max(9.0, self.separation + 9.0 * self.upper_deviation)
         z = np.linspace(low, high, max(200_001, 4 * count))
-        upper = ndtr((z - self.separation) / self.upper_deviation)
-        below = (1.0 - self.share) * ndtr(z) + self.share * upper
+        upper = special.ndtr((z - self.separation) / self.upper_deviation)
+        below = (1.0 - self.share) * special.ndtr(z) + self.share * upper
         return np.interp((np.arange(count) + 0.5) / count, below, z)
 
     def describe(self) -> str:

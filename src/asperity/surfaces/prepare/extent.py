@@ -11,6 +11,7 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.parameters import checked
+from ...core.scipy_parts import interpolate
 from ...core.spectral import RealTransform
 from ...core.status import require_memory
 from ...core.units import show
@@ -199,12 +200,10 @@ def _axis_resampled(heights: RealArray, new: int) -> RealArray:
         whole = np.minimum(edges.astype(int), old - 1)
         at_edges = integral[whole] + (edges - whole)[:, None] * heights[whole]
         return np.asarray(np.diff(at_edges, axis=0) * (new / old))
-    from scipy.interpolate import make_interp_spline
-
     if old == 1:
         return np.repeat(heights, new, axis=0)
     centres = (np.arange(new) + 0.5) * (old / new) - 0.5  # pixel centres in units of the old pixel
-    spline = make_interp_spline(np.arange(old, dtype=float), heights, k=3 if old > 3 else 1)
+    spline = interpolate.make_interp_spline(np.arange(old, dtype=float), heights, k=3 if old > 3 else 1)
     return spline(centres)
 
 

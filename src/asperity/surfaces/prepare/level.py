@@ -15,6 +15,7 @@ from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
 from ...core.parameters import checked
+from ...core.scipy_parts import ndimage, optimize, sparse, sparse_linalg
 from ...core.status import Advice
 from ...core.units import show
 from ...core.values import Axis, Positive, Whole
@@ -172,8 +173,6 @@ def _arc(surface: Surface) -> Arc:
     θ - 2 κ u sin θ - κ² u²)), which is a line for κ = 0. Raises InputError if the points do not
     determine it.
     """
-    from scipy.optimize import least_squares
-
     used = ~surface.mask[:, 0]
     if np.count_nonzero(used) < 4:
         raise InputError(
@@ -196,7 +195,7 @@ def _arc(surface: Surface) -> Arc:
     def residual(scaled: RealArray) -> RealArray:
         return np.asarray((circle(scaled * scales)[used] - heights[used]) / spread)
 
-    found = least_squares(residual, parabola / scales, xtol=1e-14, ftol=1e-14)
+    found = optimize.least_squares(residual, parabola / scales, xtol=1e-14, ftol=1e-14)
     kappa = float(found.x[2] * scales[2])
     return Arc(circle(found.x * scales)[:, None], -1.0 / kappa if kappa else math.inf)
 
@@ -304,11 +303,9 @@ def filled(surface: Surface, method: Annotated[FillMethod, "how missing points a
     if method == "mean":
         heights[surface.mask] = np.nanmean(surface.heights, dtype=np.float64)
     elif method == "nearest":
-        from scipy.ndimage import distance_transform_edt
-
         pad = [(n // 2, n // 2) for n in surface.shape] if surface.periodic else [(0, 0), (0, 0)]
         missing = np.pad(surface.mask, pad, mode="wrap") if surface.periodic else surface.mask
-        indices = distance_transform_edt(
+        indices = ndimage.distance_transform_edt(
             missing, sampling=surface.grid.spacing, return_distances=False, return_indices=True
         )
         window = tuple(slice(before, before + n) for (before, _), n in zip(pad, surface.shape, strict=True))
@@ -329,8 +326,6 @@ def _harmonic(surface: Surface) -> RealArray:
 
     Points beyond the border of a map that is not periodic have no weight.
     """
-    from scipy.sparse import coo_array, linalg
-
     missing = np.flatnonzero(surface.mask)
     number = np.full(surface.grid.n_points, -1)
     number[missing] = np.arange(missing.size)
@@ -356,8 +351,8 @@ def _harmonic(surface: Surface) -> RealArray:
         right += np.bincount(here[~inner], weights=weight * flat[neighbour[~inner]], minlength=missing.size)
     every = np.arange(missing.size)
     entries = (np.concatenate([*values, diagonal]), (np.concatenate([*rows, every]), np.concatenate([*columns, every])))
-    matrix = coo_array(entries, shape=(missing.size, missing.size)).tocsc()
-    return np.atleast_1d(np.asarray(linalg.spsolve(matrix, right), dtype=np.float64))
+    matrix = sparse.coo_array(entries, shape=(missing.size, missing.size)).tocsc()
+    return np.atleast_1d(np.asarray(sparse_linalg.spsolve(matrix, right), dtype=np.float64))
 
 
 # Codes for missing points, clipping and spikes: rules of one repeated value far outside, and of

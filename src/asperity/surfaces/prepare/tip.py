@@ -20,6 +20,7 @@ from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
 from ...core.parameters import Declared, checked
+from ...core.scipy_parts import ndimage
 from ...core.units import show
 from ...core.values import Length, NonNegativeLength, Number, Points
 from ..surface import Surface
@@ -238,8 +239,6 @@ def _on_pixels(tip: Tip, surface: Surface) -> RealArray:
 
 def _filters() -> Any:
     """The module of grey filters and morphology, which costs time to import."""
-    from scipy import ndimage
-
     return ndimage
 
 
