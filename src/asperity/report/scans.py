@@ -13,6 +13,7 @@ from ..core.status import Advice
 from ..core.units import percent, show
 from ..io.description import software
 from ..parts.part import Table
+from ..parts.waves_work import leak_text, wave_tables
 from ..plots.picture import Figure, figures_by
 from ..plots.scans import SCALES_PLOTS, SCANS_PLOTS, WAVES_PLOTS
 from ..surfaces.characterise.scans_scales import ScaleCurve
@@ -63,9 +64,7 @@ class ScansInWords:
         rows = self.spectrum.in_words()[1][1:]
         if self.waves is None:
             return rows
-        leak = self.waves.leak_wavelength
-        text = "none: the gap is open or sealed at every scale" if math.isnan(leak) else show(leak, "m", 3)
-        return [*rows, ("waves of the throats of a leak", text)]
+        return [*rows, ("waves of the throats of a leak", leak_text(self.waves))]
 
     def bands(self) -> Table:
         """Reliable waves of each scan, and what limits them."""
@@ -99,29 +98,6 @@ class ScansInWords:
         """Spectrum, scale-dependent parameters, and the waves that decide the contact."""
         found = (*figures_by(SCANS_PLOTS, self.spectrum), *figures_by(SCALES_PLOTS, self.curves))
         return found if self.waves is None else (*found, *figures_by(WAVES_PLOTS, self.waves))
-
-
-def wave_tables(waves: DecidingWaves) -> list[tuple[str, Table]]:
-    """The share of every octave in the answers of a contact, and what scan each question needs."""
-    names = list(waves.shares)
-    labels = tuple(name.replace("_", " ") for name in names)
-    octaves = (
-        (show(float(long), "m", 3), *(percent(float(waves.shares[name][number]), 2) for name in names))
-        for number, long in enumerate(waves.longest)
-    )
-    needs = (
-        (
-            label,
-            show(need.size, "m", 3),
-            show(need.interval, "m", 3),
-            "yes" if need.settled else "no: the cut-off decides",
-        )
-        for label, need in zip(labels, (waves.needs[name] for name in names), strict=True)
-    )
-    return [
-        ("Share of each octave", Table(("waves below", *labels), tuple(octaves))),
-        ("Scans that suffice", Table(("question", "size", "interval", "settled"), tuple(needs))),
-    ]
 
 
 def write_scans_report(

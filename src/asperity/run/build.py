@@ -25,7 +25,7 @@ from ..core.engine import CpuEngine, Engine
 from ..core.engine.gpu import GpuEngine
 from ..core.errors import InputError
 from ..core.grid import Grid
-from ..core.registry import home, role
+from ..core.registry import role
 from ..core.settings import Settings, json_schema, problems
 from ..core.status import is_large, require_memory, room_text
 from ..io.schemas.bodies import (
@@ -93,8 +93,7 @@ from ..solids.strength import flow_stress
 from ..solids.viscoelastic import Arrhenius, TemperatureShift, Viscoelastic, WilliamsLandelFerry
 from ..surfaces.formats import checked_size
 from ..surfaces.pair import on_common_grid, turned_over
-from ..surfaces.profile import Profile
-from ..surfaces.read import read, read_map
+from ..surfaces.read import read_map
 from ..surfaces.surface import Surface
 
 
@@ -433,7 +432,7 @@ def build_part(value: Any, folder: Path) -> Any:
     if not isinstance(value, Settings):
         return value
     if isinstance(value, ScanFile):
-        return build_scan(value, folder)
+        return value.scan(folder)
     if isinstance(value, FileSurface):
         return build_surface(value, folder)
     arguments = {key: build_part(item, folder) for key, item in value.given("kind").items()}
@@ -441,25 +440,6 @@ def build_part(value: Any, folder: Path) -> Any:
         if key in arguments and "amplitude" in inspect.signature(value.makes).parameters:
             arguments["amplitude"] = amplitude(arguments.pop(key))
     return value.makes(**arguments)
-
-
-def build_scan(table: ScanFile, folder: Path) -> Any:
-    """Scan of the file of ``table`` after its preparation, a ``Scan`` with what is known of the
-    instrument.
-
-    Raises
-    ------
-    InputError
-        If a line scan is to be prepared, or its lines are to run along y.
-    """
-    held = read(folder / table.path, **table.reading())
-    known = table.known()
-    if isinstance(held, Profile) and (table.prepare or table.axis != "x"):
-        key = "prepare" if table.prepare else "axis"
-        raise InputError(f"{key} of the scan {table.path} must be left out: the file holds a line scan, no map.")
-    for step in table.prepare:
-        held = prepared(held, step)
-    return home("surfaces.scans:Scan").of(held, name=table.path, **known)
 
 
 # Materials: from the library, of elastic constants, or viscoelastic.

@@ -449,6 +449,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "film",
         "stress",
         "plastic_load",
+        "deciding_waves",
         "plastic_flow",
         "indentation",
         "passes",

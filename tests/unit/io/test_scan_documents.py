@@ -14,8 +14,14 @@ from asperity import InputError
 from asperity.core.grid import Grid
 from asperity.files import save_surface
 from asperity.generate import ExponentialAutocorrelation, gaussian
+from asperity.parts.waves import DecidingWavesPart
+from asperity.parts.waves_work import waves_of
+from asperity.roughness import deciding_waves, deciding_waves_of, power_spectrum, radial_spectrum
 from asperity.run.build import build
 from asperity.run.document import checked, dumps, files_of, loads, relocated
+from asperity.run.run import run
+from asperity.run.stored import load_outcome, save_outcome
+from asperity.theories.rough.persson import IsotropicSpectrum
 
 
 def table(surface: dict[str, Any]) -> dict[str, Any]:
@@ -101,3 +107,55 @@ def test_lines_are_not_prepared_like_maps(tmp_path: Path, more: dict[str, Any]) 
     line = {"path": "scans/line.txt", "lateral_unit": "um", "height_unit": "nm", **more}
     with refused(InputError, f"{next(iter(more))} of the scan scans/line.txt"):
         build(checked(table(surface=scanned([line]))), tmp_path)
+
+
+def test_waves_that_decide_the_contact_are_those_of_the_scans(tmp_path: Path) -> None:
+    surface = scanned(scans(tmp_path / "scans"), shortest_wavelength="20 nm", corner="rounded")
+    document = checked(table(surface) | {"deciding_waves": {}})
+    outcome = run(document, tmp_path)
+    found = outcome.found["deciding_waves"]
+    items = [item.scan(tmp_path) for item in document.surface.spectrum.scans]
+    spectrum = asp.surfaces.Scans(items).spectrum(corner="rounded").extended(2e-8)
+    modulus, pressure = outcome.result.problem.contact_modulus, outcome.result.mean_pressure
+    expected = deciding_waves_of(spectrum, modulus, pressure)
+    np.testing.assert_array_equal(found.values["waves_area_share"], expected.shares["area"])
+    assert found.values["waves_mean_gap_size"] == expected.needs["mean_gap"].size
+    assert np.isnan(found.values["waves_plastic_size"])  # a hard wall
+    assert {"short waves", "waves of the real area"} <= {item.criterion for item in found.findings}
+    assert {"short waves", "roll-off"} & {item.criterion for item in outcome.findings} == {"short waves"}
+    # the file tells the same again
+    save_outcome(outcome, tmp_path / "found.nc")
+    again = load_outcome(tmp_path / "found.nc").found["deciding_waves"]
+    assert waves_of(again).needs == waves_of(found).needs == expected.needs
+    assert again.words is not None
+    assert again.words.sentence == DecidingWavesPart().at_work.words(found, outcome.solved).sentence
+
+
+def test_waves_of_any_other_surface_are_those_of_its_heights(tmp_path: Path) -> None:
+    spectrum = {"kind": "exponential", "rms_height": "1 nm", "correlation_length": "0.2 um"}
+    surface = {"kind": "rough", "seed": 1, "spectrum": spectrum, "points": [64, 64], "size": "3 um"}
+    law = {"kind": "hardness", "hardness": "from body"}
+    outcome = run(checked(table(surface) | {"law": law, "deciding_waves": {"tolerance": 0.1}}), tmp_path)
+    found = outcome.found["deciding_waves"]
+    rings = radial_spectrum(power_spectrum(outcome.result.problem.surface))
+    heights = IsotropicSpectrum(rings.q, rings.psd)
+    modulus, pressure = outcome.result.problem.contact_modulus, outcome.result.mean_pressure
+    expected = deciding_waves(heights, modulus, pressure, hardness=5e9, tolerance=0.1)
+    np.testing.assert_array_equal(found.values["waves_plastic_share"], expected.shares["plastic"])
+    assert waves_of(found).needs == expected.needs
+
+
+@pytest.mark.parametrize(
+    ("more", "subject"),
+    [
+        ({"boundary": {"kind": "free"}}, "boundary of a contact whose deciding waves are asked for"),
+        (
+            {"body": {"layers": [{"material": "DLC", "thickness": "5 nm"}], "base": {"material": "steel"}}},
+            "bodies of a contact whose deciding waves are asked for",
+        ),
+    ],
+)
+def test_waves_are_asked_for_where_the_theory_holds(more: dict[str, Any], subject: str, tmp_path: Path) -> None:
+    surface = {"kind": "sinusoid", "amplitude": "1 nm", "wavelength": "1 um", "points": [16, 16], "size": "1 um"}
+    with refused(InputError, subject):
+        build(checked(table(surface) | {"deciding_waves": {}} | more), tmp_path)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Optional, TypeAlias, Union
 
@@ -38,6 +39,8 @@ from ...surfaces.prepare.extent import cropped, periodised, resampled, sliced, t
 from ...surfaces.prepare.filter import filtered, tip_limited
 from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, filled, levelled, line_corrected
 from ...surfaces.prepare.tip import ConicalTip, Opening, SphericalTip, Tip, estimated_tip, reconstructed
+from ...surfaces.profile import Profile
+from ...surfaces.read import read
 from ...surfaces.surface import Surface
 
 # Steps of preparation: the table of a step has the parameters of its function, which ``prepared``
@@ -333,11 +336,26 @@ class ScanFile(FileReading):
         pairs = (part.partition("=") for part in given)
         return {"path": path.strip(), **{key.strip(): text.strip() for key, _, text in pairs}}
 
-    def known(self) -> dict[str, Any]:
-        """What is known of the instrument: arguments of ``Scan.of``."""
+    def scan(self, folder: Path) -> Any:
+        """The ``Scan`` in the file, whose relative path starts at ``folder``, after its preparation
+        and with what is known of the instrument.
+
+        Raises
+        ------
+        InputError
+            If a line scan is to be prepared, or its lines are to run along y.
+        """
+        held: Any = read(folder / self.path, **self.reading())
+        if isinstance(held, Profile) and (self.prepare or self.axis != "x"):
+            key = "prepare" if self.prepare else "axis"
+            raise InputError(f"{key} of the scan {self.path} must be left out: the file holds a line scan, no map.")
+        for step in self.prepare:
+            held = prepared(held, step)
         keys = ("tip_radius", "resolution", "noise", "short_cutoff", "axis")
-        told = {key: value for key, value in self.given().items() if key in keys}
-        return told if self.instrument is None else {**told, "kind": self.instrument}
+        known = {key: value for key, value in self.given().items() if key in keys}
+        if self.instrument is not None:
+            known["kind"] = self.instrument
+        return home("surfaces.scans:Scan").of(held, name=self.path, **known)
 
 
 class GeneratedSurface(AnySurface):
