@@ -42,8 +42,8 @@ class Need:
     ``longest`` and ``shortest`` wave in m without which the answer changes by less than the
     tolerance; ``size`` of a scan and sampling ``interval`` in m; ``settled`` False if the answer
     still changes at the end of the spectrum: then it is a result of the cut-off; ``bounded`` False
-    if it still changes at the beginning, so that no size (infinite) suffices: it is a result of the
-    longest wave.
+    if it still changes at the beginning: it is a result of the longest wave, and no size is known
+    to suffice.
     """
 
     longest: float
@@ -228,7 +228,7 @@ def _need(name: str, edges: RealArray, grown: RealArray, without: RealArray, tol
     longest, shortest = 2.0 * math.pi / float(edges[first]), 2.0 * math.pi / float(edges[last])
     settled = last < edges.size - _PER_OCTAVE  # the whole last octave changes it by less
     bounded = first >= _PER_OCTAVE  # and so does the first
-    size = SIZE_PER_WAVE.get(name, 3.0) * longest if bounded else math.inf
+    size = SIZE_PER_WAVE.get(name, 3.0) * longest
     return Need(longest, shortest, size, shortest / POINTS_PER_WAVE, settled, bounded)
 
 
