@@ -106,8 +106,8 @@ class WavesWork(WithFacts):
         elif not need.bounded:
             start = show(float(waves.longest[0]), "m", 3)
             sentence = (
-                f"The real area is decided by waves of {show(need.shortest, 'm', 3)} and longer ones up to the beginning "
-                f"of the spectrum at {start}, above which no roll-off is known: it is a result of the scan size."
+                f"The real area is decided by waves of {show(need.shortest, 'm', 3)} and longer ones up to the "
+                f"beginning of the spectrum at {start}, above which no roll-off is known: it is a result of the scan size."
             )
         rows = [
             ("spectrum", str(found.detail["source"])),
