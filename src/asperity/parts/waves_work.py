@@ -107,7 +107,7 @@ class WavesWork(WithFacts):
             start = show(float(waves.longest[0]), "m", 3)
             sentence = (
                 f"The real area is decided by waves of {show(need.shortest, 'm', 3)} and longer ones up to the "
-                f"beginning of the spectrum at {start}, above which no roll-off is known: it is a result of the scan size."
+                f"beginning of the spectrum at {start}, above which no roll-off is known: a result of the scan size."
             )
         rows = [
             ("spectrum", str(found.detail["source"])),
