@@ -300,6 +300,7 @@ class FileSurface(AnySurface):
 class LineScanFile(FileSurface):
     """A line scan from a file, or a line that the preparation steps take of a map."""
 
+    kind: Literal["file"] = "file"
     path: NonEmpty = setting(help="file with a line scan")
 
 
