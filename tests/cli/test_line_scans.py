@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusals import subject_of
 from typer.testing import CliRunner
 
 import asperity as asp
@@ -82,3 +83,8 @@ def test_a_saved_line_scan_is_read_back_at_every_door(tmp_path: Path, monkeypatc
         assert isinstance(again, asp.Profile)
         np.testing.assert_allclose(again.heights - again.heights.mean(), heights - heights.mean(), atol=1e-17)
     assert CliRunner().invoke(app, ["export", "run/result.nc", "--surface", "again.gsf"]).exit_code == 2
+
+
+def test_theories_are_not_compared_on_one_line(trace: str) -> None:
+    result = CliRunner().invoke(app, ["compare", trace, *UNITS, "--body", "steel", "--pressures", "1MPa"])
+    assert subject_of(result) == "surface of a comparison"

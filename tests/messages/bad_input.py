@@ -173,6 +173,7 @@ COMPARE: tuple[tuple[str, ...], ...] = (
     (*BODY, "--pressures", "1MPa..2MPa", "--loads", "1"),
     (*BODY, "--work", "5 Pa"),
     (*BODY, "--from", "a.toml"),
+    (*BODY, "--line", "y=middle", "--pressures", "1MPa"),
 )
 """Options of ``asperity compare`` on a matrix of stated size."""
 
@@ -531,6 +532,7 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "settings by nothing": lambda: asp.roughness.settings_class(),
     "settings of a rock": lambda: asp.roughness.settings_class(RSm=1.0, standard="ISO 4288"),
     "a spectrum of few modes": lambda: asp.roughness.isotropic_spectrum(_scan(30)),
+    "a spectrum of a flat profile": lambda: asp.roughness.isotropic_spectrum(asp.Profile(np.zeros(99), 1e-6)),
     "an alias without a sum": lambda: asp.roughness.alias_factor(1.0, 1e5, 1e-6),
     "peaks of a flat profile": lambda: asp.roughness.summits_of_peaks(
         asp.roughness.profile_peaks(asp.Profile(np.zeros(9), 1e-6)), 1e-18

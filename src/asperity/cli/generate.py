@@ -104,7 +104,6 @@ def _command(kind: str) -> Any:
         for part in asked.values():
             if isinstance(part, dict) and "surface" in part:
                 part["surface"] = {"kind": "file", **part["surface"], "prepare": steps(Given({}))}
-        asked |= {name: {"kind": "file", **asked.get(name, {})} for name in _line_scans(kind)}
         asked_for: Any = _checked(kind, asked, given.names)
         if memory is not None:
             _stream(asked_for, out, memory, force)

@@ -15,16 +15,16 @@ from ..surfaces.characterise.correlation import (
     fractal_parameters,
     fractal_roughness,
 )
-from ..surfaces.characterise.heights import deviations, height_parameters
+from ..surfaces.characterise.heights import deviations, height_parameters, rms_height
 from ..surfaces.characterise.moments import DifferenceMoments, SpectralMoments, difference_moments, spectral_moments
 from ..surfaces.characterise.spectral_fit import MEASURED_MODEL_ERROR, fit_spectrum
 from ..surfaces.characterise.spectrum import PowerSpectrum, power_spectrum, profile_spectrum, radial_spectrum
-from ..surfaces.characterise.summits import summits
+from ..surfaces.characterise.summits import profile_peaks, summits
 from ..surfaces.prepare.level import filled
 from ..surfaces.profile import Profile
-from ..surfaces.profile_conversion import isotropic_spectrum, profile_moments
+from ..surfaces.profile_conversion import isotropic_spectrum, profile_moments, summits_of_peaks
 from ..surfaces.surface import Surface
-from ..theories.statistics.roughness import Fractal, MomentTensor, Roughness, Spectrum, SummitList
+from ..theories.statistics.roughness import Fractal, MomentTensor, Roughness, Spectrum, SummitList, SummitNumbers
 
 MOMENTS = ("auto", "spectrum", "differences")
 """Where the moments can come from."""
@@ -37,7 +37,8 @@ def roughness_of(surface: Surface | Profile, *, moments: str = "auto", neighbour
     Nothing is levelled or filtered: prepare the surface first. Missing points are filled for the
     spectrum. Of a line scan moments, heights and correlation are its own, and the spectrum is that
     of the isotropic surface that it may belong to (see ``asperity.roughness.isotropic_spectrum``);
-    there are no summits, and the ``assumption`` says so.
+    of its summits there are the numbers alone, which follow from the peaks of the line scan as
+    those of Gaussian heights (``asperity.roughness.summits_of_peaks``). The ``assumption`` says so.
 
     Parameters
     ----------
@@ -118,6 +119,7 @@ def _of_profile(profile: Profile, moments: str) -> Roughness:
             fractal = Fractal(fit.dimension, fit.roughness, fit.first_lag, fit.last_lag)
     except InputError:  # too few lags, or no slope
         pass
+    numbers = _numbers_of_summits(profile)
     return Roughness(
         m0,
         m2,
@@ -128,8 +130,23 @@ def _of_profile(profile: Profile, moments: str) -> Roughness:
         kurtosis=shape.Sku,
         fractal=fractal,
         correlation_length=autocovariance(profile).correlation_length(DROP_1E),
-        assumption=converted.assumption,
+        assumption=converted.assumption if numbers is None else f"{converted.assumption}; {GAUSSIAN_SUMMITS}",
+        summit_numbers=numbers,
     )
+
+
+GAUSSIAN_SUMMITS = "its summits follow from the peaks of the line scan as those of Gaussian heights"
+"""What the numbers of summits of a line scan assume beside isotropy."""
+
+
+def _numbers_of_summits(profile: Profile) -> SummitNumbers | None:
+    """Numbers of the summits of the isotropic surface of ``profile``; None where its peaks do not
+    give them."""
+    try:
+        found = summits_of_peaks(profile_peaks(profile), rms_height(profile) ** 2)
+        return SummitNumbers(found.density, found.radius, found.mean_height, found.height_deviation)
+    except InputError:  # no peaks above the mean line, or heights that are not those of summits
+        return None
 
 
 def _fractal(surface: Surface, spectrum: PowerSpectrum) -> Fractal | None:

@@ -62,6 +62,11 @@ ACTIONS = MappingProxyType(
         "resample": Action("surfaces.resampled(surface, ...)", "--resample", "Prepare: resample"),
         "smooth": Action("surfaces.filtered(surface, short=...)", "--short-cutoff", "Prepare: filter"),
         "slice": Action('surfaces.sliced(surface, y="middle")', "--line y=middle", "Prepare: slice"),
+        "isotropic": Action(
+            "generate.surface_of_profile(profile, grid, ...)",
+            "asperity generate from-line-scan",
+            "Surface: from line scan",
+        ),
         # the problem
         "load": Action("MeanPressure(...) or Force(...)", "--pressure or --load", "Control: Mean pressure"),
         "force": Action("Force(...)", "--load", "Control: Force"),

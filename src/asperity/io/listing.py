@@ -106,6 +106,9 @@ def _roughness(rough: Roughness) -> Iterator[tuple[str, str]]:
         found = rough.summits
         yield "summits", f"{found.count}, of mean radius {show(found.mean_radius, 'm')}"
         yield "standard deviation of the summit heights", show(found.height_deviation, "m")
+    elif (numbers := rough.summit_numbers) is not None:
+        yield "summits", f"{show(numbers.density, '1/m**2')}, of mean radius {show(numbers.mean_radius, 'm')}"
+        yield "standard deviation of the summit heights", show(numbers.height_deviation, "m")
     if rough.spectrum is not None:
         longest, shortest = (2.0 * math.pi / float(rough.spectrum.q[end]) for end in (0, -1))
         yield "waves of the spectrum", f"{show(longest, 'm')} to {show(shortest, 'm')}"

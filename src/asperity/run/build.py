@@ -376,8 +376,8 @@ def build_line_scan(table: LineScanFile, folder: Path) -> Profile:
     if found.shape[1] > 1:
         raise InputError(
             f"file for the spectrum of a line scan must hold one, but {table.path} holds a map of {found.shape[0]} x "
-            f"{found.shape[1]} points. A surface with the spectrum of a map is of the kind rough, with the spectrum "
-            "measured; {slice} takes one line of a map.",
+            f"{found.shape[1]} points. A surface with the spectrum of a map is of the kind rough with the spectrum "
+            "measured; in a document the step slice takes one line of a map.",
             subject="file for the spectrum of a line scan",
         )
     return found.row(0)

@@ -94,7 +94,7 @@ def compare(
     ------
     InputError
         If bodies are missing or given twice, a pressure is not positive, a theory is unknown, the
-        surface flat or has missing points.
+        surface is flat, one line only or has missing points.
     """
     if isinstance(surface, ContactProblem):
         if bodies is not None:
@@ -107,6 +107,13 @@ def compare(
         problem = ContactProblem(surface, body, counter_body=counter_body)
     counter = problem.counter_surface
     whole = composite(problem.surface, counter) if isinstance(counter, Surface) else problem.surface
+    if whole.shape[1] == 1:
+        raise InputError(
+            "surface of a comparison must be a map, but is one line: the theories are those of isotropic surfaces, and "
+            "grooves without end have more contact. Compare on an isotropic surface with the spectrum of the line "
+            "({isotropic}), or evaluate the theories alone.",
+            subject="surface of a comparison",
+        )
     roughness = roughness_of(whole)
     if pressures is None:
         loads = np.geomspace(LIGHTEST, HEAVIEST, LOADS) * (problem.contact_modulus * roughness.rms_gradient)

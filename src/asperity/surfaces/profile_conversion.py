@@ -148,10 +148,16 @@ def isotropic_spectrum(
         last = min(last, 2.0 * math.pi / (_CLEAR_OF_FILTER * profile.short_cutoff))
     first = _FIRST[spectrum.window]
     part = (np.arange(1, spectrum.q.size + 1) >= first) & (spectrum.q <= last)
-    if np.count_nonzero(part) < _FEWEST or not (spectrum.psd[part] > 0.0).all():
+    if (count := int(np.count_nonzero(part))) < _FEWEST:
         raise InputError(
-            f"line scan must have at least {_FEWEST} modes with power for its spectrum, but has "
-            f"{np.count_nonzero(spectrum.psd[part] > 0.0)}. Take a longer one, or a lower cut-off."
+            f"line scan must have at least {_FEWEST} modes with power for its spectrum, but has {count}. Take a longer "
+            "one, or a lower cut-off."
+        )
+    if lost_modes := count - int(np.count_nonzero(spectrum.psd[part] > 0.0)):
+        raise InputError(
+            f"line scan must have power in all modes of its spectrum, but {lost_modes} of {count} have none: it is "
+            "flat, or cut sharply. State below which wavelength it has been filtered, as short_cutoff of the Profile.",
+            subject="line scan",
         )
     q, rings = spectrum.q[part], _rings(spectrum, part)
     lost = LOST_MODES[spectrum.window]

@@ -223,3 +223,31 @@ def test_two_directions_of_an_isotropic_and_of_a_ground_surface() -> None:
     assert not compared_directions(sampled(model, 4096, 2e-8, 1), along).isotropic
     with refused(InputError, "scans to be compared"):
         compared_directions(along, Profile(along.heights, 4e-8))
+
+
+def test_theories_of_summits_take_those_of_a_line_scan() -> None:
+    """Their numbers are those that follow from the peaks, and the theory is that of the map the
+    line is from, within what the conversion gives."""
+    spectrum = asp.generate.SelfAffine(
+        amplitude=asp.generate.RmsHeight(1e-9), hurst=0.8, rolloff_wavelength=1e-6, shortest_wavelength=1.6e-7
+    )
+    surface = asp.generate.gaussian(asp.Grid((8192, 256), (1e-8, 1e-8)), spectrum, seed=2)
+    line = surface.row(0)
+    rough = asp.roughness_of(line)
+    expected = summits_of_peaks(profile_peaks(line), asp.roughness.rms_height(line) ** 2)
+    found = asp.theories.GreenwoodWilliamson.from_roughness(rough, 1e11)
+    assert (found.density, found.radius) == (expected.density, expected.radius)
+    assert (found.mean_height, found.height_deviation) == (expected.mean_height, expected.height_deviation)
+    for theory in (asp.theories.KotwalBhushan, asp.theories.KogutEtsion):
+        more = {"hardness": 1e9} if theory is asp.theories.KogutEtsion else {}
+        made = theory.from_roughness(rough, 1e11, **more)
+        assert made.density == expected.density
+    # 240 peaks give each number to 1/sqrt(240) = 6.5 % or better; at a pressure the area goes with
+    # the roots of radius and height deviation, and hardly with the density: two errors
+    of_map = asp.theories.GreenwoodWilliamson.from_roughness(asp.roughness_of(surface), 1e11)
+    areas = [float(np.ravel(one.at_pressure(1e6).area_fraction)[0]) for one in (found, of_map)]
+    assert areas[0] == pytest.approx(areas[1], rel=0.13)
+    with refused(asp.InputError, "roughness for the theory discrete-summits"):
+        asp.theories.DiscreteSummits.from_roughness(rough, 1e11)
+    with refused(asp.InputError, "roughness for the theory greenwood-williamson"):
+        asp.theories.GreenwoodWilliamson.from_roughness(rough, 1e11, bins=20)

@@ -362,6 +362,7 @@ class ScanFile(FileReading):
 class LineScanFile(FileSurface):
     """A line scan from a file, or a line that the preparation steps take of a map."""
 
+    kind: Literal["file"] = "file"
     path: NonEmpty = setting(help="file with a line scan")
 
 

@@ -158,7 +158,7 @@ class PlasticityIndex(Theory):
     @classmethod
     def of_roughness(cls, roughness: Roughness, E_star: float, *, hardness: float, nu: float = 0.3) -> Self:
         """Indices of the summits of a map. InputError if the roughness holds no summits."""
-        summits = roughness.known(roughness.summits, "its summits", cls.name)
+        summits = roughness.of_summits(cls.name)
         return cls(E_star, summits.mean_radius, summits.height_deviation, hardness, nu)
 
     @property

@@ -121,17 +121,21 @@ class GreenwoodWilliamson(SphericalSummits):
         """Theory for the summits of a map: their density, 1/<κ>, and the mean and deviation of
         their heights.
 
-        ``bins`` None: Gaussian heights; a number: their histogram with so many bins. InputError
-        without summits, or if their heights are all equal.
+        ``bins`` None: Gaussian heights; a number: their histogram with so many bins, which numbers
+        of summits alone do not give. InputError without summits, or if their heights are all equal.
         """
-        summits = roughness.known(roughness.summits, "its summits", cls.name)
+        summits = roughness.of_summits(cls.name)
+        heights: SummitHeights = GaussianHeights()
+        if bins is not None:
+            listed = roughness.known(roughness.summits, "the heights of its summits, for a histogram", cls.name)
+            heights = HistogramHeights.from_samples(listed.height, bins)
         return cls(
             E_star,
             summits.density,
             summits.mean_radius,
             summits.height_deviation,
             summits.mean_height,
-            GaussianHeights() if bins is None else HistogramHeights.from_samples(summits.height, bins),
+            heights,
         )
 
 
@@ -198,7 +202,7 @@ class KotwalBhushan(SphericalSummits):
 
         InputError without summits, or if their heights are all equal.
         """
-        s = roughness.known(roughness.summits, "its summits", cls.name)
+        s = roughness.of_summits(cls.name)
         require.positive(s.height_deviation, "standard deviation of summit heights (m)")
         numbers = (s.density, s.mean_radius, s.height_deviation, s.mean_height)
         return cls(E_star, *numbers, s.height_skewness, s.height_kurtosis)

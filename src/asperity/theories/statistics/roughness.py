@@ -137,6 +137,28 @@ class SummitList:
 
 
 @dataclass(frozen=True)
+class SummitNumbers:
+    """What theories of summits need of them where the summits themselves are not known, as of the
+    surface of a line scan.
+
+    ``density`` (1/m²), ``mean_radius`` 1/<κ> (m), ``mean_height`` above the mean plane and
+    ``height_deviation`` σ_s (m), all positive; skewness and kurtosis of the heights, by default
+    those of a Gaussian.
+    """
+
+    density: float
+    mean_radius: float
+    mean_height: float
+    height_deviation: float
+    height_skewness: float = 0.0
+    height_kurtosis: float = 3.0
+
+    def __post_init__(self) -> None:
+        for name, unit in (("density", "1/m^2"), ("mean_radius", "m"), ("mean_height", "m"), ("height_deviation", "m")):
+            require.positive(getattr(self, name), f"{name.replace('_', ' ')} of summits ({unit})")
+
+
+@dataclass(frozen=True)
 class Fractal:
     """``dimension`` D of self-affine profiles, between 1 and 2, and their fractal ``roughness`` G
     in m.
@@ -171,6 +193,8 @@ class Roughness(Tabled):
         Radial power spectrum.
     summits
         Summits of the map.
+    summit_numbers
+        Numbers of the summits, where these themselves are not known.
     heights
         Samples (n,) of the height above the mean plane in m.
     fractal
@@ -198,6 +222,7 @@ class Roughness(Tabled):
     fractal: Fractal | None = None
     correlation_length: float = math.nan
     assumption: str = field(default="", repr=False)
+    summit_numbers: SummitNumbers | None = None
 
     def __post_init__(self) -> None:
         fix = "A flat surface has no roughness theory."
@@ -230,6 +255,12 @@ class Roughness(Tabled):
             return None
         steep, gentle = self.moments.principal_slopes
         return steep / gentle if gentle > 0.0 else math.inf
+
+    def of_summits(self, theory: str) -> SummitList | SummitNumbers:
+        """The summits, or else their numbers; InputError that the ``theory`` needs them if neither
+        is known."""
+        found: SummitList | SummitNumbers | None = self.summit_numbers if self.summits is None else self.summits
+        return self.known(found, "its summits", theory)
 
     def known(self, part: T | None, what: str, theory: str) -> T:
         """``part`` of this value; InputError with ``what`` the ``theory`` needs if it is None."""

@@ -322,7 +322,7 @@ class WetSummits(Theory):
         contact_angle: float = 0.0,
     ) -> Self:
         """Theory for the summits of a map, with the skewness and kurtosis of their heights."""
-        s = roughness.known(roughness.summits, "its summits", cls.name)
+        s = roughness.of_summits(cls.name)
         summits = (s.density, s.mean_radius, s.height_deviation)
         shape = (s.mean_height, s.height_skewness, s.height_kurtosis)
         return cls(E_star, *summits, surface_tension, film_thickness, contact_angle, *shape)
