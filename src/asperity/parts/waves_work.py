@@ -35,10 +35,14 @@ class WavesWork(WithFacts):
         if not isinstance(problem.boundary, Periodic) or min(problem.grid.shape) == 1:
             raise InputError(
                 "boundary of a contact whose deciding waves are asked for must be periodic, on a map, but is "
-                f"{problem.boundary!r} on {problem.grid.shape[0]} x {problem.grid.shape[1]} points."
+                f"{problem.boundary!r} on {problem.grid.shape[0]} x {problem.grid.shape[1]} points. Give "
+                "{boundary.kind=periodic}, or leave the deciding waves out."
             )
         if any(isinstance(body, Layered) and body.reduced.layers for body in (problem.body, problem.counter_body)):
-            raise InputError("bodies of a contact whose deciding waves are asked for must be half-spaces, not layered.")
+            raise InputError(
+                "bodies of a contact whose deciding waves are asked for must be half-spaces, but one is layered. Leave "
+                "the deciding waves out, or give the body without its layers."
+            )
 
     def compute(self, ask: WavesAsked, solved: Solved) -> Found:
         """Shares of the octaves and what scan each question needs."""
@@ -157,12 +161,19 @@ _SETTLED = {
 """Whether the waves of a spectrum settle an answer, by its long and its short end."""
 
 
+_LEAST = 1e-3  # of a share that is shown
+
+
+def _share_text(share: float) -> str:
+    return percent(share, 2) if share >= _LEAST else f"< {percent(_LEAST)}"
+
+
 def wave_tables(waves: DecidingWaves) -> list[tuple[str, Table]]:
-    """The share of every octave in the answers of a contact, and what scan each question needs."""
+    """What scan each question of a contact needs, and the share of every octave in its answer."""
     names = list(waves.shares)
     labels = tuple(name.replace("_", " ") for name in names)
     octaves = (
-        (show(float(long), "m", 3), *(percent(float(waves.shares[name][number]), 2) for name in names))
+        (show(float(long), "m", 3), *(_share_text(float(waves.shares[name][number])) for name in names))
         for number, long in enumerate(waves.longest)
     )
     needs = (
@@ -175,6 +186,6 @@ def wave_tables(waves: DecidingWaves) -> list[tuple[str, Table]]:
         for label, need in zip(labels, (waves.needs[name] for name in names), strict=True)
     )
     return [
-        ("Share of each octave", Table(("waves below", *labels), tuple(octaves))),
         ("Scans that suffice", Table(("question", "size", "interval", "settled"), tuple(needs))),
+        ("Share of each octave", Table(("waves below", *labels), tuple(octaves))),
     ]

@@ -65,8 +65,8 @@ class Scan(Shown):
     short_cutoff
         Wavelength in m below which waves have been filtered, or at which the spectrum of a
         generated map ends; 0 if none.
-    findings
-        What was doubtful in its file.
+
+    Its ``findings`` are what was doubtful in its file, for a scan ``of`` one.
     """
 
     heights: RealArray
@@ -79,7 +79,7 @@ class Scan(Shown):
     resolution: float
     noise: float
     short_cutoff: float
-    findings: tuple[Advice, ...]
+    findings: tuple[Advice, ...] = ()
 
     def __init__(
         self,
@@ -94,7 +94,6 @@ class Scan(Shown):
         resolution: float = math.nan,
         noise: float = math.nan,
         short_cutoff: float = 0.0,
-        findings: tuple[Advice, ...] = (),
     ) -> None:
         values = np.array(np.atleast_2d(np.asarray(heights)), dtype=np.float64)
         if values.ndim != 2 or values.shape[1] < FEWEST_MODES:
@@ -116,7 +115,6 @@ class Scan(Shown):
             ("name", str(name)),
             ("kind", str(kind)),
             ("short_cutoff", require.not_negative(short_cutoff, "short cut-off of a scan (m)")),
-            ("findings", tuple(findings)),
             *given.items(),
         ):
             object.__setattr__(self, key, whole)
@@ -130,26 +128,29 @@ class Scan(Shown):
         Raises InputError if it is none of these.
         """
         if isinstance(item, Scan):
-            found = {key: getattr(item, key) for key in Scan.__annotations__ if key not in ("heights", "spacing")}
-            return cls(item.heights, item.spacing, **{**found, **known})
-        if isinstance(item, Surface):
+            leave = ("heights", "spacing", "findings")
+            told = {key: getattr(item, key) for key in Scan.__annotations__ if key not in leave}
+            lines, spacing, doubts = item.heights, item.spacing, item.findings
+        elif isinstance(item, Surface):
             along = axis_index(axis)
             lines = item.heights.T if along == 0 else item.heights
             spacing, across = (item.dx, item.dy) if along == 0 else (item.dy, item.dx)
-            told: dict[str, Any] = {"periodic": item.periodic, "name": item.origin.source}
-            told["findings"] = item.origin.findings
+            told = {"periodic": item.periodic, "name": item.origin.source}
+            doubts = item.origin.findings
             if lines.shape[0] > 1:
                 told["line_distance"] = across
-            return cls(lines, spacing, **{**told, **known})
-        if not isinstance(item, Profile):
+        elif isinstance(item, Profile):
+            told = {key: getattr(item.instrument, key) for key in ("kind", "tip_radius", "resolution", "noise")}
+            told |= {"periodic": item.periodic, "short_cutoff": item.short_cutoff, "name": item.origin.source}
+            lines, spacing, doubts = item.heights, item.spacing, item.origin.findings
+        else:
             raise InputError(
                 "scan of a surface must be a Surface, a Profile or a Scan, but is of the type "
                 f"{type(item).__name__}. Read the file first, or make a Scan(heights, spacing)."
             )
-        told = {key: getattr(item.instrument, key) for key in ("kind", "tip_radius", "resolution", "noise")}
-        told |= {"periodic": item.periodic, "short_cutoff": item.short_cutoff, "name": item.origin.source}
-        told["findings"] = item.origin.findings
-        return cls(item.heights, item.spacing, **{**told, **known})
+        made = cls(lines, spacing, **{**told, **known})
+        object.__setattr__(made, "findings", doubts)
+        return made
 
     @property
     def n_points(self) -> int:
