@@ -86,6 +86,7 @@ def test_without_packages_and_scans_the_recorded_numbers_stay(
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # it leaves files open that it refuses
 def test_the_reader_library_still_gives_what_is_recorded(tmp_path: Path) -> None:
     """A later version of SurfaceTopography may be mended: then the page and our own mending are due
     for a look."""
