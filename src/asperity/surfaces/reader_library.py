@@ -92,7 +92,9 @@ def _source(package: ModuleType) -> str:
 
 class _PostponedPackage(ModuleType):
     """Package whose own code has not run yet: it gives a name of its submodules with that
-    submodule, any other with all.
+    submodule while a reader is sought; any other, and any name to anybody else, with all.
+
+    The library adds the analyses of its classes with its own code: a class by itself has none.
 
     ``_homes`` holds the submodule of each name that a line ``from .module import name`` of its code
     gives it.
@@ -102,7 +104,7 @@ class _PostponedPackage(ModuleType):
 
     def __getattr__(self, name: str) -> Any:
         homes = self.__dict__.get("_homes")  # None as long as Python makes the module
-        if homes is not None and name in homes:
+        if homes is not None and name in homes and _finding():
             return getattr(import_module(homes[name], self.__name__), name)
         if homes is not None and self.__spec__ is not None and self.__spec__.loader is not None:
             del self._homes
@@ -110,6 +112,11 @@ class _PostponedPackage(ModuleType):
             self.__spec__.loader.exec_module(self)
             return getattr(self, name)
         raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
+
+
+def _finding() -> bool:
+    """Whether a reader is being sought, in which a package is left without its code."""
+    return any(isinstance(finder, _Finder) for finder in sys.meta_path)
 
 
 @dataclass(eq=False)
