@@ -84,6 +84,8 @@ def by_surface_topography(path: Path, given: Mapping[str, Any]) -> tuple[RealArr
             topography = reader.topography(**({} if sized else {"physical_sizes": given["size"]}))
             heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan)
             unit = topography.unit
+            if isinstance(unit, tuple):
+                raise OtherSignalError(str(channel.name))
             metre = unit_factor(unit or given["height_unit"], "length", "unit")
             lateral = metre if unit else unit_factor(given.get("lateral_unit", "m"), "length", "unit")
             pixel = float(topography.physical_sizes[0]) / heights.shape[0] * lateral
@@ -105,6 +107,11 @@ def by_surfalize(path: Path, given: Mapping[str, Any]) -> tuple[RealArray, float
 
 READERS: dict[str, Reader] = {"SurfaceTopography": by_surface_topography, "surfalize": by_surfalize}
 
+
+class OtherSignalError(Exception):
+    """What is read if no channel is named holds no heights."""
+
+
 NO_READER = ("CannotDetectFileFormat", "UnsupportedFileFormatError", "IndexError")
 """Errors with which they say that they know no such file."""
 
@@ -113,6 +120,8 @@ def outcome(reader: Reader, path: Path, given: Mapping[str, Any]) -> Outcome:
     """What a ``reader`` makes of the file at ``path``."""
     try:
         return judged(*reader(path, given))
+    except OtherSignalError:
+        return {"state": "another signal"}
     except Exception as error:  # many types
         name = type(error).__name__
         return {"state": "no reader" if name in NO_READER else f"refused ({name})"}

@@ -313,6 +313,45 @@ def mdt(path: Path, *frames: bytes) -> None:
     path.write_bytes(head + b"".join(frames))
 
 
+def nanoscope(path: Path) -> None:
+    """Nanoscope: a phase before the heights, lines from the bottom, 16 bit times volts times a
+    sensitivity."""
+    start, length, channels = 2048, 2 * NX * NY, []
+    for number, (name, scale) in enumerate(
+        (("Phase", "V [Sens. Phase] (0.005 V/LSB) 10 V"), ("Height", "V [Sens. Zscan] (0.1 V/LSB) 6553.6 V"))
+    ):
+        channels.append(
+            f"\\*Ciao image list\r\n\\Data offset: {start + number * length}\r\n\\Data length: {length}\r\n"
+            f"\\Bytes/pixel: 2\r\n\\Samps/line: {NX}\r\n\\Number of lines: {NY}\r\n"
+            f"\\Scan size: {SIZE[0] * 1e9:g} {SIZE[1] * 1e9:g} nm\r\n"
+            f'\\@2:Image Data: S [{name}] "{name}"\r\n\\@2:Z scale: {scale}\r\n'
+        )
+    head = (
+        "\\*File list\r\n\\Version: 0x05310001\r\n\\Date: 10:00:00 AM Wed Jan 1 2020\r\n\\*Ciao scan list\r\n"
+        f"\\@Sens. Zscan: V {STEP * 1e10:g} nm/V\r\n\\@Sens. Phase: V 1.0\r\n{''.join(channels)}\\*File list end\r\n"
+    )
+    data = (STEPS[::-1].T // 2).astype("<i2").tobytes() + STEPS.T.astype("<i2").tobytes()
+    path.write_bytes(head.encode().ljust(start, b"\0") + data)
+
+
+def nid(path: Path) -> None:
+    """Nanosurf easyScan: text head, then 16-bit points between two heights, lines from the bottom;
+    an amplitude before the heights."""
+    common = (
+        f"Points={NX}\r\nLines={NY}\r\nFrame=Scan forward\r\nDim0Unit=m\r\nDim0Range={SIZE[0]!r}\r\nDim1Unit=m\r\n"
+        f"Dim1Range={SIZE[1]!r}\r\nSaveMode=Binary\r\nSaveBits=16\r\nSaveSign=Signed\r\nSaveOrder=Intel\r\n"
+    )
+    head = (
+        "[DataSet]\r\nGroupCount=1\r\nGr0-Count=2\r\nGr0-Ch0=DataSet-0:0\r\nGr0-Ch1=DataSet-0:1\r\n"
+        "[DataSet-Info]\r\nDate=01-01-2020\r\nTime=10:00:00\r\n"
+        f"[DataSet-0:0]\r\n{common}Dim2Name=Amplitude\r\nDim2Unit=V\r\nDim2Min=-10\r\nDim2Range=20\r\n"
+        f"[DataSet-0:1]\r\n{common}Dim2Name=Z-Axis\r\nDim2Unit=m\r\nDim2Min={-32768 * STEP!r}\r\n"
+        f"Dim2Range={65536 * STEP!r}\r\n"
+    )
+    data = (STEPS[::-1].T // 2).astype("<i2").tobytes() + STEPS.T.astype("<i2").tobytes()
+    path.write_bytes(head.encode("latin-1") + b"#!" + data)
+
+
 def mi(path: Path) -> None:
     """Molecular Imaging: two buffers, lines from the bottom, as shares of a range."""
     keys = [
@@ -494,12 +533,14 @@ KINDS = (
     Kind("NanoFocus", "nms", nms, digits=_SINGLE),
     Kind("TrueMap", "tmd", tmd, digits=_SINGLE),
     Kind("Zeta", "zmg", zmg, digits=_SINGLE),
+    Kind("Nanoscope", "di", nanoscope),
+    Kind("Nanosurf easyScan", "nid", nid),
     Kind("BCR-STM", "bcr", bcr),
     Kind("Asylum", "ibw", ibw, digits=_SINGLE),
     Kind("NT-MDT", "mdt", mdt, digits=_SINGLE),
     Kind("Molecular Imaging", "mi", mi),
     Kind("WSxM", "stp", wsxm),
-    Kind("Nanosurf", "nhf", nhf, digits=1e-6),
+    Kind("Nanosurf, HDF5", "nhf", nhf, digits=1e-6),
     Kind("NetCDF", "nc", nc),
     Kind("NumPy", "npy", npy, _SCALE),
     Kind("NumPy, archive", "npz", npz, _SCALE),

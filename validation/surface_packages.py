@@ -1,4 +1,4 @@
-"""Surfaces beside two other packages, SurfaceTopography and surfalize: 37 kinds of files, six
+"""Surfaces beside two other packages, SurfaceTopography and surfalize: 39 kinds of files, six
 scans, and the parameters of profiles and maps, each deviation with its cause.
 
 ``python validation/surface_packages.py`` computes the numbers of those packages that are installed,
@@ -47,10 +47,10 @@ REASONS = {
         "Asylum",
     ): "reads its first channel if none is named, a phase, which the file says is in m; here the "
     "first of heights by name",
-    (
-        "SurfaceTopography",
-        "NT-MDT",
-    ): "reads its first frame if none is named, the deflection DFL; here the first of heights by name",
+    ("SurfaceTopography", "NT-MDT"): "reads its first frame if none is named, the deflection DFL; here the first of "
+    "heights by name",
+    ("SurfaceTopography", "Nanoscope"): "reads its first channel if none is named, a phase; here the first of heights "
+    "by name",
     ("SurfaceTopography", "points x y z"): "puts the least y first, where its readers of pictures put the top row",
     ("surfalize", "Sensofar"): "takes the points per line and column, before each layer, for the first two heights, so "
     "that the map is shifted by two points",
