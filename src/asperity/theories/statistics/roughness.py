@@ -259,8 +259,7 @@ class Roughness(Tabled):
     def of_summits(self, theory: str) -> SummitList | SummitNumbers:
         """The summits, or else their numbers; InputError that the ``theory`` needs them if neither
         is known."""
-        found: SummitList | SummitNumbers | None = self.summit_numbers if self.summits is None else self.summits
-        return self.known(found, "its summits", theory)
+        return self.known(self.summit_numbers, "its summits", theory) if self.summits is None else self.summits
 
     def known(self, part: T | None, what: str, theory: str) -> T:
         """``part`` of this value; InputError with ``what`` the ``theory`` needs if it is None."""
