@@ -78,7 +78,7 @@ class Interface:
         beside = asp.menisci.wet_theory(once).meniscus_force / once.external_force if theory else math.nan
         try:
             steady = asp.solve(wet, control, **options)
-        except asp.NoSolutionError:
+        except asp.errors.NoSolutionError:
             return Found(first, math.inf, math.nan, beside)
         return Found(first, steady.menisci.relative_meniscus_force, steady.area_fraction, beside)
 

@@ -88,7 +88,7 @@ def forces(surface: asp.Surface, ratio: float, x: float, *, rms: float, factors:
     first = asp.solve(replace(problem, film=film), load, rounds=asp.solvers.Rounds(most=1), on_failure="return")
     try:
         steady = asp.solve(replace(problem, film=film), load).menisci.relative_meniscus_force
-    except asp.NoSolutionError:
+    except asp.errors.NoSolutionError:
         steady = math.nan
     return Forces(first.menisci.relative_meniscus_force, steady, int(first.menisci.wetting.menisci.sum()))
 

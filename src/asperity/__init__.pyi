@@ -45,7 +45,6 @@ from .contact.time_division import TimeSteps as TimeSteps
 from .core.citations import cite as cite
 from .core.errors import ConvergenceError as ConvergenceError
 from .core.errors import InputError as InputError
-from .core.errors import NoSolutionError as NoSolutionError
 from .core.grid import Grid as Grid
 from .io.results import load as load
 from .io.results import save as save
@@ -76,6 +75,7 @@ from .surfaces.prepare.level import filled as filled
 from .surfaces.prepare.level import levelled as levelled
 from .surfaces.profile import Profile as Profile
 from .surfaces.read import read as read
+from .surfaces.scans import Scans as Scans
 from .surfaces.surface import Surface as Surface
 
 __version__: str

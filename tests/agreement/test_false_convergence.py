@@ -306,7 +306,7 @@ def test_extreme_numbers_are_refused_or_solved(boundary: asp.contact.Boundary) -
                 surface, body(), boundary=boundary, law=case.get("law", asp.plasticity.HardWall)()
             )
             found = asp.solve(posed, control(), on_failure="return")
-        except (asp.InputError, asp.NoSolutionError):
+        except (asp.InputError, asp.errors.NoSolutionError):
             if name in SOLVED:
                 wrong.append(f"{name}: refused")
             continue

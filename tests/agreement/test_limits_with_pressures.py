@@ -150,6 +150,6 @@ def test_a_load_that_the_base_does_not_bear(monkeypatch, load):
                 patch.setattr(hardness, "follow", lambda *_: Followed())
             try:
                 outcomes.append(asp.solve(problem, asp.MeanPressure(load)).max_permanent_indentation)
-            except asp.NoSolutionError as error:
+            except asp.errors.NoSolutionError as error:
                 outcomes.append(str(error))
     assert outcomes[0] == outcomes[1]

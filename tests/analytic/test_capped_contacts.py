@@ -89,7 +89,7 @@ def test_the_two_percent_load_of_spheres_is_similar():
 
 def test_a_smooth_surface_yields_as_a_whole():
     flat = asp.ContactProblem(asp.Surface(np.zeros((8, 8)), 1.0, periodic=True), elastic(1.0), law=asp.Hardness(0.4))
-    with refused(asp.NoSolutionError, "plastic share 0.02"):
+    with refused(asp.errors.NoSolutionError, "plastic share 0.02"):
         asp.plasticity.plastic_load(flat)
 
 

@@ -32,7 +32,7 @@ def test_unforeseen_error_is_one_line(run: Runner, monkeypatch: pytest.MonkeyPat
     def broken(*_: object, **__: object) -> None:
         raise ZeroDivisionError("two\nlines [/] with brackets")
 
-    monkeypatch.setattr(importlib.import_module("asperity.run.build"), "read", broken)
+    monkeypatch.setattr(importlib.import_module("asperity.cli.info"), "read_doubtful", broken)
     result = run("info", tmp_path / "x.txt")
     assert result.exit_code == INTERNAL_ERROR
     assert len(result.stderr.splitlines()) == 1

@@ -158,6 +158,25 @@ def test_a_map_is_no_line_scan(run: Runner, tmp_path: Path) -> None:
     assert subject_of(result) == "file for the spectrum of a line scan"
 
 
+def test_more_like_many_scans(run: Runner, tmp_path: Path) -> None:
+    heights = np.random.default_rng(1).normal(size=(3, 64, 64)).cumsum(axis=2)
+    for number, lines in enumerate(heights):
+        np.savetxt(tmp_path / f"{number}.txt", lines.T)
+    scans = [
+        part
+        for number, size in enumerate(("8um", "4um", "2um"))
+        for part in ("--scans", f"{tmp_path / str(number)}.txt,size={size},height_unit=nm")
+    ]
+    made = ("generate", "rough", *GRID, *SEED, "--spectrum", "scans")
+    result = run(*made, *scans, "--corner", "sharp", "--out", tmp_path / "a.nc")
+    assert result.exit_code == 0, result.stderr
+    history = asp.read(tmp_path / "a.nc").origin.history[0]
+    assert [number for number in range(3) if f"{number}.txt" not in history] == []
+    assert subject_of(run(*made, "--out", tmp_path / "b.nc")) == "--scans"
+    lost = run(*made, "--scans", tmp_path / "none.txt", "--out", tmp_path / "b.nc")
+    assert lost.exit_code == 2
+
+
 @pytest.mark.parametrize("ending", ["txt", "asc", "npy"])
 def test_other_files(run: Runner, tmp_path: Path, ending: str) -> None:
     command = (

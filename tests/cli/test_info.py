@@ -211,4 +211,10 @@ def test_files_of_one_surface_give_one_spectrum(run: Runner, tmp_path: Path) -> 
     assert subject_of(run("info", *files, "--one-surface", "--pressure", "1MPa")) == "--E-star"
     assert subject_of(run("info", *files, "--pressure", "1MPa")) == "--E-star, --pressure and --hardness"
     refused = run("info", *files, "--one-surface", "--full")
-    assert subject_of(refused) == "--full, --plot and --report"
+    assert subject_of(refused) == "--full and --plot"
+    page = tmp_path / "page.html"
+    assert run("info", *files, *asked, "--report", page).exit_code == 0
+    text = page.read_text(encoding="utf-8")
+    assert [word for word in ("large.nc", "small.nc", "Share of each octave", "Hurst") if word not in text] == []
+    assert text.count("data:image/png") == 5
+    assert run("info", *files, "--one-surface", "--report", page).exit_code == 2

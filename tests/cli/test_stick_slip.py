@@ -145,7 +145,7 @@ def test_refused(name: str) -> None:
 def test_a_force_that_friction_does_not_bear() -> None:
     """20 MPa on 100 µm² and a coefficient of 0.3 bear 600 µN."""
     alone = PROBLEM | {"friction": {"coefficient": 0.3, "coupled": False}}
-    with pytest.raises(asp.NoSolutionError) as refused:
+    with pytest.raises(asp.errors.NoSolutionError) as refused:
         asp.run(alone | {"shear": {"force": "601 uN"}})
     assert refused.value.subject.endswith("tangential force")
     assert asp.run(alone | {"shear": {"force": "500 uN"}}).values["friction_share"] == pytest.approx(5.0 / 6.0)

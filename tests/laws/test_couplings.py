@@ -228,14 +228,14 @@ def test_menisci_that_run_away_with_friction_and_hardness_are_explained(surface)
     soft = asp.Elastic(1e9, 0.15)
     film = replace(FILM, thickness=2 * NM, meniscus_height=2 * NM)
     posed = asp.ContactProblem(surface, soft, film=film, friction=FRICTION)
-    with refused(asp.NoSolutionError, "meniscus force", "4.8e-10 N"):
+    with refused(asp.errors.NoSolutionError, "meniscus force", "4.8e-10 N"):
         asp.solve(posed, asp.MeanPressure(1e3))
     weak = asp.ContactProblem(
         surface, BODY, law=asp.Hardness(8e6), film=replace(film, thickness=4 * NM, meniscus_height=4 * NM)
     )
-    with refused(asp.NoSolutionError, "mean pressure with the menisci"):
+    with refused(asp.errors.NoSolutionError, "mean pressure with the menisci"):
         asp.solve(weak, asp.MeanPressure(7.96e6))
-    with refused(asp.NoSolutionError, "Step 2 of the history: mean pressure"):
+    with refused(asp.errors.NoSolutionError, "Step 2 of the history: mean pressure"):
         asp.solve(replace(weak, film=None), asp.History([asp.MeanPressure(1e4), asp.MeanPressure(9e6)]))
 
 

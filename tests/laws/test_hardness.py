@@ -113,7 +113,7 @@ def test_load_equal_to_the_hardness_yields_everywhere():
 
 @pytest.mark.parametrize("control", [asp.MeanPressure(0.41), asp.Force(0.41 * 320)])
 def test_load_above_hardness_times_area_has_no_solution(control):
-    with refused(asp.NoSolutionError, "mean pressure", "0.4", "0.41"):
+    with refused(asp.errors.NoSolutionError, "mean pressure", "0.4", "0.41"):
         asp.solve(posed(), control)
 
 

@@ -57,5 +57,5 @@ def test_so_it_does_at_a_mean_gap(share: float) -> None:
 @pytest.mark.parametrize("control", [asp.Approach(1e-9), asp.MeanGap(1e-9)], ids=lambda c: c.name)
 def test_a_position_of_flat_elastic_bodies_is_refused_in_plain_words(control: asp.Approach | asp.MeanGap) -> None:
     problem = asp.ContactProblem(asp.Surface(np.full((14, 14), 1e-7), 1e-6, periodic=True), BODY)
-    with refused(asp.NoSolutionError, f"{control.name} of flat bodies", "1e-09"):
+    with refused(asp.errors.NoSolutionError, f"{control.name} of flat bodies", "1e-09"):
         asp.solve(problem, control)

@@ -90,7 +90,7 @@ def test_rolling_without_friction_slips_by_the_creepage(rough_wheel):
 
 @pytest.mark.parametrize("law", [asp.Coulomb(0.0), asp.friction.TrescaFriction(0.0)], ids=str)
 def test_force_without_friction_has_no_solution(law):
-    with refused(asp.NoSolutionError, "tangential force", "2 N"):
+    with refused(asp.errors.NoSolutionError, "tangential force", "2 N"):
         asp.solve(posed(law), asp.Step(LOAD, asp.TangentialForce(2.0)))
 
 
@@ -126,7 +126,7 @@ def test_force_that_friction_just_bears_leaves_the_shift_open(counter):
         [getattr(known.stick_slip, n) - getattr(found.steps[0].stick_slip, n) for n in ("shift_x", "shift_y", "twist")]
     )
     assert work == pytest.approx(known.stick_slip.work_by(shift, moved, pixel), rel=1e-3)
-    with refused(asp.NoSolutionError, "shift"):
+    with refused(asp.errors.NoSolutionError, "shift"):
         asp.solve(problem, asp.Step(LOAD, asp.Shift(0.1)), state=found.state)
 
 

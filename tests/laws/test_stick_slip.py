@@ -182,7 +182,7 @@ def test_prescribed_forces_up_to_the_limit():
     at_limit = solved(problem, asp.Step(LOAD, asp.TangentialForce(0.0, limit))).last.stick_slip
     assert at_limit.slipping[at_limit.traction_magnitude > 0.0].mean() > 0.99
     assert at_limit.force_y == pytest.approx(limit, rel=1e-9)
-    with pytest.raises(asp.NoSolutionError) as refused:
+    with pytest.raises(asp.errors.NoSolutionError) as refused:
         solved(problem, asp.Step(LOAD, asp.TangentialForce(1.01 * limit)))
     assert "tangential force" in refused.value.subject
 

@@ -94,7 +94,7 @@ def test_random_wet_contacts_are_in_balance_or_say_what_jumps(fine, count):
         problem, load = random_case(number, fine=fine)
         try:
             found = asp.solve(problem, load, on_failure="return")
-        except asp.NoSolutionError:
+        except asp.errors.NoSolutionError:
             continue  # the load alone, or the liquid, closes the surfaces
         borne += 1
         assert found.certificate.load_imbalance == pytest.approx(imbalance(found), abs=1e-9), number
@@ -199,7 +199,7 @@ def test_menisci_near_the_hardness_are_in_balance_up_to_it():
     found = wetted(problem, asp.MeanPressure(7e6), film)
     assert imbalance(found) <= TOLERANCE
     assert found.menisci.wetting.regime == "flooded"
-    with refused(asp.NoSolutionError, "mean pressure with the menisci"):
+    with refused(asp.errors.NoSolutionError, "mean pressure with the menisci"):
         wetted(problem, asp.MeanPressure(7.99e6), film)
 
 

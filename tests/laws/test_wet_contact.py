@@ -111,13 +111,13 @@ def test_stiffer_bodies_and_rougher_surfaces_stick_less(problem):
 
 def test_a_force_that_runs_away_is_an_error_with_its_numbers(problem):
     soft = asp.ContactProblem(problem.surface, elastic(1e9))
-    with refused(asp.NoSolutionError, "meniscus force", "5.76e-09 N"):
+    with refused(asp.errors.NoSolutionError, "meniscus force", "5.76e-09 N"):
         wetted(soft, asp.MeanPressure(1e3), lubricant(2.0 * NM, meniscus_height=2.0 * NM))
 
 
 def test_menisci_that_exceed_the_hardness_are_an_error(problem):
     weak = asp.ContactProblem(problem.surface, elastic(100e9), law=asp.Hardness(8e6))
-    with refused(asp.NoSolutionError, "mean pressure with the menisci"):
+    with refused(asp.errors.NoSolutionError, "mean pressure with the menisci"):
         wetted(weak, asp.MeanPressure(7.96e6), lubricant(4.0 * NM))
 
 

@@ -162,6 +162,8 @@ CONTACT: tuple[tuple[str, ...], ...] = (
     (*FLOWS, *LOAD, "--passes", "2", "--pass-peak", "1GPa", "--pass-radius", "1um", "--pass-track", "1mm"),
     ("--body", "steel", *LOAD, "--passes", "2", "--pass-peak", "1GPa"),
     *((*BODY, *LOAD, *options) for options in (*STRESS, *PREPARATION)),
+    (*BODY, *LOAD, "--boundary", "free", "--with", "deciding_waves"),
+    ("--body", "DLC:5nm/steel", *LOAD, "--periodise", "--with", "deciding_waves"),
 )
 """Options of ``asperity contact`` on a matrix of stated size."""
 
@@ -207,6 +209,7 @@ THEORY: tuple[tuple[str, ...], ...] = (
 )
 """Words after ``asperity theory``."""
 
+SCANNED = ("rough", "--seed", "3", "--spectrum", "scans")
 GENERATE: tuple[tuple[str, ...], ...] = (
     ("sphere", "--radius", "-3um"),
     ("sphere", "--radius", "1um", "--exact"),
@@ -214,6 +217,11 @@ GENERATE: tuple[tuple[str, ...], ...] = (
     ("rough", "--seed", "3", "--spectrum", "exponential", "--correlation-length", "1um"),
     ("dimples", "--pitch", "4um", "--radius", "1um", "--depth", "1nm"),
     ("from-line-scan", "--seed", "3", "--file", "rough.txt", "--height-unit", "nm", "--lateral-unit", "nm"),
+    (*SCANNED,),
+    (*SCANNED, "--scans", "none.txt"),
+    (*SCANNED, "--scans", "rough.txt,size=8um x 6um,height_unit=nm"),
+    (*SCANNED, "--scans", "rough.txt,size=8um x 6um,height_unit=K"),
+    (*SCANNED, "--scans", "line_scan.txt,lateral_unit=um,height_unit=nm,axis=y"),
 )
 """Words after ``asperity generate``, before the grid and the file."""
 

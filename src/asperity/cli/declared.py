@@ -57,6 +57,8 @@ class Option:
             if self.parameter.default is True:
                 names = [f"{self.name}/--no-{self.name[2:]}"]
         metavar = None if kind is bool else FILE if kind is Path else self.metavar or values.metavar or "TEXT"
+        if listed and not self.metavar:
+            metavar = "TEXT"  # one of them: the option is given several times
         made = typer.Option(*names, help=explained(self.parameter), metavar=metavar, rich_help_panel=self.panel)
         wanted: Any = kind if self.required else kind | None
         annotation: Any = Annotated[wanted, made]

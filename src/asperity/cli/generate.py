@@ -43,7 +43,7 @@ from ..surfaces.surface import Surface
 from .declared import Given, Option, built, options_of
 from .main import Listing
 from .options import steps
-from .show import confirmed, console, interruptible, print_files, say, shown, stage, table
+from .show import confirmed, console, interruptible, print_advice, print_files, say, shown, stage, table
 
 STREAMED = ("digital_filter", "rough")
 """Kinds that can be written piece by piece."""
@@ -131,6 +131,7 @@ def _command(kind: str) -> Any:
         console().print(table("Generated", rows))
         for step in surface.origin.history:
             say(f"  {step}", "dim")
+        print_advice(surface.origin.findings)
         print_files(written)
 
     run.__doc__ = (SURFACE_TABLES[kind].__doc__ or "").replace("``", "")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -118,6 +118,17 @@ def info(
         _print_roughness(flat, shown, levelling)
         for finding in surface.origin.findings:
             say(f"{finding.level}: {finding.message}", "yellow" if finding.level == "warning" else "dim")
+    written = _written(flat, whole, {"plot": plot, "plots": plots, "report": report}, force=force)
+    if written and not as_json:
+        say(f"Pictures and pages show the heights after {levelling}.", "dim")
+        print_files(written)
+
+
+def _written(
+    flat: Surface, whole: Characterisation | None, paths: Mapping[str, Path | None], *, force: bool
+) -> list[Path]:
+    """Write the picture, the pictures and the page that are asked for; their files."""
+    plot, plots, report = (paths[name] for name in ("plot", "plots", "report"))
     written: list[Path] = []
     figures = () if whole is None else roughness_figures(whole)
     if plot is not None:
@@ -128,9 +139,7 @@ def info(
     if whole is not None and report is not None:
         write_roughness_report(whole, report, figures=figures, overwrite=force)
         written.append(report)
-    if written and not as_json:
-        say(f"Pictures and pages show the heights after {levelling}.", "dim")
-        print_files(written)
+    return written
 
 
 def _require_outputs(report: Path | None, plot: Path | None, *, overwrite: bool) -> None:

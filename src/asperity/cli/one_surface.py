@@ -11,26 +11,19 @@ from typing import Any
 
 from ..contact.scan_ensemble import deciding_waves_of
 from ..core.errors import InputError
-from ..core.status import Advice
-from ..core.units import parse, percent, show
+from ..core.units import parse
 from ..core.values import Flag
-from ..plots.picture import figures_by
-from ..plots.scans import SCANS_PLOTS
 from ..plots.together import save_pictures
-from ..surfaces.characterise.scans_scales import ScaleCurve
+from ..report.scans import ScansInWords, write_page_of_scans
 from ..surfaces.characterise.scans_spectrum import ScansSpectrum
 from ..surfaces.profile import Profile
 from ..surfaces.scans import Scan, Scans
 from ..surfaces.surface import Surface
-from ..theories.rough.deciding_waves import POINTS_PER_WAVE, DecidingWaves
+from ..theories.rough.deciding_waves import DecidingWaves
 from .declared import Given, Option
 from .info_line import tip_radius
 from .options import own_option
 from .show import console, print_advice, print_files, short_names, table
-
-SCALES = ("length", "rms height", "±", "rms slope", "±", "rms curvature", "±")
-"""Headings of the scale-dependent parameters."""
-
 
 CONTACT = {
     "E_star": ("--E-star", "pressure", "contact modulus E*, to ask which waves decide the contact"),
@@ -70,39 +63,30 @@ def one_surface(
     force: bool,
 ) -> None:
     """Print one spectrum of all maps and line scans ``read``, with the names of their files, and
-    the scale-dependent parameters, and save its picture in the folder ``plots`` of the
-    ``paths``."""
-    if full or "plot" in paths or "report" in paths:
-        raise InputError("--full, --plot and --report must be left out with --one-surface: use --plots or --json.")
-    radius, plots = tip_radius(given), paths.get("plots")
+    the scale-dependent parameters, and write the pictures in the folder ``plots`` and the page
+    ``report`` of the ``paths``."""
+    if full or "plot" in paths:
+        raise InputError("--full and --plot must be left out with --one-surface: use --plots, --report or --json.")
+    radius, plots, report = tip_radius(given), paths.get("plots"), paths.get("report")
     known: dict[str, Any] = {} if radius is None else {"tip_radius": radius}
     names = short_names([Path(file) for file, _ in read])
     scans = Scans(Scan.of(surface, name=name, **known) for (_, surface), name in zip(read, names, strict=True))
     found = scans.spectrum()
-    curves = scans.scale_curves(found)
-    waves = _deciding(found, given)
-    advice = found.findings
-    if waves is not None:
-        longest = max(scan.length for scan in scans.scans)
-        advice += waves.findings(longest, found.shortest_wavelength / POINTS_PER_WAVE)
+    told = ScansInWords(scans, found, _deciding(found, given))
     if as_json:
-        console().out(json.dumps(_record(found, curves, waves, advice), indent=2), highlight=False)
+        console().out(json.dumps(_record(told), indent=2), highlight=False)
     else:
-        heading, rows = found.in_words()
-        console().print(table(heading, rows[1:]))
-        bands = [
-            (name, show(band.longest, "m", 3), show(band.shortest, "m", 3), band.by, "yes" if band.usable else "no")
-            for name, band in scans.limits().items()
-        ]
-        console().print(table("Reliable waves", bands, ("scan", "longest", "shortest", "limited by", "used")))
-        console().print(table("Scale-dependent parameters", _scale_rows(curves), SCALES))
-        if waves is not None:
-            _print_waves(waves)
-        print_advice(advice)
-    if plots is not None:
-        written = save_pictures(figures_by(SCANS_PLOTS, found), plots, overwrite=force)
-        if not as_json:
-            print_files(list(written))
+        console().print(table(found.in_words()[0], told.main_rows()))
+        for heading, rows in told.tables():
+            console().print(table(heading, rows.cells, rows.headings))
+        print_advice(told.findings)
+    figures = told.figures() if plots or report else ()
+    written = [] if plots is None else list(save_pictures(figures, plots, overwrite=force))
+    if report is not None:
+        write_page_of_scans(told, report, figures=figures, overwrite=force)
+        written.append(report)
+    if written and not as_json:
+        print_files(written)
 
 
 def _deciding(found: ScansSpectrum, given: Given) -> DecidingWaves | None:
@@ -117,45 +101,9 @@ def _deciding(found: ScansSpectrum, given: Given) -> DecidingWaves | None:
     return deciding_waves_of(found, values["E_star"], values["pressure"], hardness=values.get("hardness", math.inf))
 
 
-def _print_waves(waves: DecidingWaves) -> None:
-    """Print the share of every octave, and what scan each question needs."""
-    names = list(waves.shares)
-    octaves = [
-        (show(float(long), "m", 3), *(percent(float(waves.shares[name][number]), 2) for name in names))
-        for number, long in enumerate(waves.longest)
-    ]
-    labels = [name.replace("_", " ") for name in names]
-    console().print(table("Share of each octave", octaves, ("waves below", *labels)))
-    needs = [
-        (
-            label,
-            show(need.size, "m", 3),
-            show(need.interval, "m", 3),
-            "yes" if need.settled else "no: the cut-off decides",
-        )
-        for label, need in zip(labels, (waves.needs[name] for name in names), strict=True)
-    ]
-    console().print(table("Scans that suffice", needs, ("question", "size", "interval", "settled")))
-
-
-def _scale_rows(curves: dict[str, ScaleCurve]) -> list[tuple[str, ...]]:
-    """A row for each length of three a factor of ten."""
-    by_band: dict[int, list[str]] = {}
-    for column, (name, unit) in enumerate((("height", "m"), ("slope", "1"), ("curvature", "1/m"))):
-        curve = curves[name]
-        for length, value, error in zip(curve.length, curve.value, curve.error, strict=True):
-            row = by_band.setdefault(math.floor(3.0 * math.log10(length) + 1e-9), ["–"] * len(SCALES))
-            if row[2 * column + 1] == "–":
-                row[2 * column + 1] = show(float(value), unit, 3)
-                row[2 * column + 2] = "–" if math.isnan(error) else percent(float(error), 2)
-                row[0] = show(float(length), "m", 3) if row[0] == "–" else row[0]
-    return [tuple(by_band[band]) for band in sorted(by_band)]
-
-
-def _record(
-    found: ScansSpectrum, curves: dict[str, ScaleCurve], waves: DecidingWaves | None, advice: Sequence[Advice]
-) -> dict[str, Any]:
+def _record(told: ScansInWords) -> dict[str, Any]:
     """Spectrum and parameters in SI units."""
+    found, waves = told.spectrum, told.waves
     m0, m2, m4 = found.moments()
     table: dict[str, Any] = {
         "scans": found.scans,
@@ -172,14 +120,14 @@ def _record(
         "q": found.curve.q,
         "profile_psd": found.curve.profile_psd,
         "profile_psd_error": found.curve.error,
-        "findings": [item.message for item in advice],
+        "findings": [item.message for item in told.findings],
     }
     if waves is not None:
         table["waves"] = waves.longest
         table["shares"] = {name: _plain(share) for name, share in waves.shares.items()}
         table["needs"] = {name: asdict(need) for name, need in waves.needs.items()}
         table["leak_wavelength"] = waves.leak_wavelength
-    for name, curve in curves.items():
+    for name, curve in told.curves.items():
         table |= {f"{name}_length": curve.length, name: curve.value, f"{name}_error": curve.error}
     return {key: _plain(value) for key, value in table.items()}
 

@@ -71,15 +71,19 @@ class EnsembleContact:
 
 def spectrum_table(spectra: ScansSpectrum | Sequence[ScansSpectrum]) -> IsotropicSpectrum:
     """Composite spectrum of one or two surfaces as a table: the sum of their C, from a tenth of the
-    smallest wavenumber seen to the shortest wave of all.
+    smallest wavenumber seen to the shortest wave of all; from the longest wave that was measured
+    where no roll-off is seen, beyond which nothing is known.
 
     Raises InputError if there is none.
     """
     several = (spectra,) if isinstance(spectra, ScansSpectrum) else tuple(spectra)
     if not several:
         raise InputError("spectra of the surfaces must be one or two, but are none.")
-    longest = max(max(one.rolloff_wavelength, *(long for _, long in one.bands)) for one in several)
-    first, last = 2.0 * math.pi / (_LONGER * longest), 2.0 * math.pi / min(one.shortest_wavelength for one in several)
+    longest = 0.0
+    for one in several:
+        measured = max(long for _, long in one.bands)
+        longest = max(longest, _LONGER * max(one.rolloff_wavelength, measured) if one.rolloff_seen else measured)
+    first, last = 2.0 * math.pi / longest, 2.0 * math.pi / min(one.shortest_wavelength for one in several)
     q = np.geomspace(first, last, 2 + math.ceil(_PER_DECADE * math.log10(last / first)))
     q[-1] = last * (1.0 - 1e-12)
     return IsotropicSpectrum(q, sum(one.psd(q) for one in several))
@@ -184,28 +188,55 @@ def _moved(spectrum: ScansSpectrum, step: RealArray) -> ScansSpectrum:
     return replace(spectrum, fit=replace(spectrum.fit, model=type(model).of(values)))
 
 
+@dataclass(frozen=True)
+class ShortWaves:
+    """Waves of a spectrum that a grid does not hold.
+
+    ``shortest`` wave of the grid in m; ``shown`` share of the mean square slope above it;
+    ``ratio`` of Persson's areas with all waves and with these; ``pixel`` in m that holds all.
+    """
+
+    shortest: float
+    shown: float
+    ratio: float
+    pixel: float
+
+    def findings(self, area: float) -> tuple[Advice, ...]:
+        """What that means for the ``area`` fraction of a contact on the grid; nothing where the
+        waves are a small part."""
+        if self.shown >= 1.0 - _LOST:
+            return ()
+        fact = (
+            f"The grid holds waves above {show(self.shortest, 'm', 3)}, {percent(self.shown, 3)} of the mean square "
+            f"slope: with the shorter ones the area is {self.ratio * area:.3g} of the nominal area by Persson's theory "
+            f"instead of {area:.3g}."
+        )
+        numbers = {"slope_shown": self.shown, "area": self.ratio * area}
+        remedy, concerns = f"Use pixels of {show(self.pixel, 'm', 3)}.", ("area_fraction", "contact_area")
+        return (Advice("warning", "short waves", fact, remedy, numbers, concerns),)
+
+
+def short_waves(spectrum: ScansSpectrum, grid: Grid, E_star: float, pressure: float) -> ShortWaves:
+    """Waves of the ``spectrum`` that the ``grid`` does not hold, in a contact with the modulus
+    ``E_star`` and the nominal ``pressure`` in Pa."""
+    shortest = max(spectrum.shortest_wavelength, 2.0 * max(grid.spacing))
+    shown, whole = spectrum.moments(shortest)[1], spectrum.moments()[1]
+    areas = [contact_areas(pressure, 0.5 * E_star * math.sqrt(2.0 * m2), math.inf)[0] for m2 in (shown, whole)]
+    return ShortWaves(shortest, shown / whole, areas[1] / areas[0], spectrum.shortest_wavelength / _PER_WAVE)
+
+
 def _with_short_waves(
     spectrum: ScansSpectrum, modulus: float, pressure: float, found: EnsembleContact
 ) -> EnsembleContact:
     """``found`` with the waves that its grid does not hold taken into account in the area."""
-    shortest = max(spectrum.shortest_wavelength, 2.0 * max(found.grid.spacing))
-    shown, whole = spectrum.moments(shortest)[1], spectrum.moments()[1]
-    areas = [contact_areas(pressure, 0.5 * modulus * math.sqrt(2.0 * m2), math.inf)[0] for m2 in (shown, whole)]
-    area = found.answers["area_fraction"].mean * areas[1] / areas[0]
-    share, made = shown / whole, []
-    if share < 1.0 - _LOST:
-        fact = (
-            f"The grid holds waves above {show(shortest, 'm', 3)}, {percent(share, 3)} of the mean square slope: with "
-            f"the shorter ones the area is {area:.3g} of the nominal area by Persson's theory instead of "
-            f"{found.answers['area_fraction'].mean:.3g}."
-        )
-        remedy = f"Use pixels of {show(spectrum.shortest_wavelength / _PER_WAVE, 'm', 3)}."
-        made.append(Advice("warning", "short waves", fact, remedy, {"slope_shown": share, "area": area}))
+    unseen = short_waves(spectrum, found.grid, modulus, pressure)
+    area_error = found.answers["area_fraction"]
+    made = list(unseen.findings(area_error.mean))
     if not spectrum.rolloff_seen:
         fact = "No roll-off was seen in the scans: the mean gap depends on the size of the grid."
         made.append(Advice("warning", "long waves", fact, "Take a longer scan.", concerns=("mean_gap",)))
-    area_error = found.answers["area_fraction"]
     if area_error.scatter / math.sqrt(found.realisations) > area_error.spectrum_error > 0.0:
         fact = "The scatter of the realisations is larger than the error of the spectrum."
         made.append(Advice("note", "realisations", fact, "Take more realisations or a larger grid."))
-    return replace(found, slope_shown=share, area_with_short_waves=area, findings=tuple(made))
+    area = area_error.mean * unseen.ratio
+    return replace(found, slope_shown=unseen.shown, area_with_short_waves=area, findings=tuple(made))

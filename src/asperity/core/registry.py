@@ -135,6 +135,7 @@ PARTS = (
     "physics.viscoelastic.part_sliding_start:SlidingStart",
     "parts.contact:Plasticity",
     "physics.hardness.part:PlasticLoad",
+    "parts.waves:DecidingWavesPart",
     "physics.stress.part:Stress",
     "physics.stress.part:Yielding",
     "physics.dynamics.part:Dynamics",

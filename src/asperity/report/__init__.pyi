@@ -2,6 +2,7 @@ from .animation import save_plastic_animation
 from .comparison import write_comparison_report
 from .profile import write_profile_report
 from .roughness import write_roughness_report
+from .scans import write_scans_report
 from .write import write_report
 
 __all__ = [
@@ -10,4 +11,5 @@ __all__ = [
     "write_profile_report",
     "write_report",
     "write_roughness_report",
+    "write_scans_report",
 ]

@@ -67,7 +67,10 @@ def profile_facts(found: ProfileCharacterisation) -> list[tuple[str, str]]:
         rows += [
             ("cut-offs λc, λs", f"{show(parts.long, 'm')}, {show(parts.short, 'm') if parts.short else 'none'}"),
             ("filter", parts.kind),
-            ("evaluation length", f"{show(parts.evaluation_length, 'm')}, {parts.sections} sections"),
+            (
+                "evaluation length",
+                f"{show(parts.evaluation_length, 'm')}, {parts.sections} section{'s' * (parts.sections != 1)}",
+            ),
         ]
     if found.converted is not None:
         rows.append(("assumption of the isotropic surface", found.converted.assumption))
@@ -83,7 +86,7 @@ def profile_summary(found: ProfileCharacterisation) -> str:
     ]
     if found.parts is not None:
         count = found.parts.sections
-        sentences.append(f"Roughness by {count} sections of λc {show(found.parts.long, 'm', 3)}.")
+        sentences.append(f"Roughness by {count} section{'s' * (count != 1)} of λc {show(found.parts.long, 'm', 3)}.")
     if found.converted is not None:
         sentences.append(f"Its spectrum has the Hurst exponent {found.converted.hurst:.2f}.")
     return " ".join(sentences)

@@ -59,7 +59,15 @@ from ..io.schemas.relaxation import (
     Relaxing,
     StandardLinearTable,
 )
-from ..io.schemas.surfaces import AMPLITUDES, FileSurface, GeneratedSurface, LineScanFile, SurfaceTable, prepared
+from ..io.schemas.surfaces import (
+    AMPLITUDES,
+    FileSurface,
+    GeneratedSurface,
+    LineScanFile,
+    ScanFile,
+    SurfaceTable,
+    prepared,
+)
 from ..parts.part import Part
 from ..parts.registry import parts
 from ..solids.elastic import Elastic, Hardening, Rigid, Strength, yield_pressure
@@ -404,7 +412,8 @@ def build_generated(table: Any, folder: Path, **more: Any) -> Surface:
     needed = BYTES_OF_A_POINT * grid.n_points
     require_memory(needed, "points of the surface", "{} x {}".format(*grid.shape), "give fewer points")
     made: Surface = table.makes(grid=grid, **arguments, **more)
-    return made
+    doubts = [item for value in arguments.values() for item in getattr(value, "findings", ())]
+    return replace(made, origin=replace(made.origin, findings=(*made.origin.findings, *doubts))) if doubts else made
 
 
 BYTES_OF_A_POINT = 100.0
@@ -441,10 +450,14 @@ def large_grid(points: int) -> str:
 
 
 def build_part(value: Any, folder: Path) -> Any:
-    """Spectrum or distribution of heights for its table, surface or line scan for that of a file,
-    anything else as it is."""
+    """Spectrum or distribution of heights for its table, surface, line scan or scan for that of a
+    file, anything else as it is."""
+    if type(value) is tuple:
+        return tuple(build_part(item, folder) for item in value)
     if not isinstance(value, Settings):
         return value
+    if isinstance(value, ScanFile):
+        return value.scan(folder)
     if isinstance(value, FileSurface):
         return build_line_scan(value, folder) if isinstance(value, LineScanFile) else build_surface(value, folder)
     arguments = {key: build_part(item, folder) for key, item in value.given("kind").items()}

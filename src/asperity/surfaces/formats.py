@@ -20,12 +20,19 @@ from ..core.errors import FileFormatError, InputError, UnitError
 from ..core.hdf5_files import SIGNATURE, require_own_data
 from ..core.status import Advice
 from ..core.units import show, unit_factor
-from .formats_limits import TERRAIN, family_of, height_doubt, lateral_doubt, scale_finding
 from .formats_mended import OwnReader, completed, mended, own_reader, stated_scale
 from .prepare.level import value_findings
 from .profile import Profile
 from .profile_files import Units, profile_of_reader
-from .reader_library import opened_by_first_reader, opened_by_library
+from .reader_library import (
+    TERRAIN,
+    family_of,
+    height_doubt,
+    lateral_doubt,
+    opened_by_first_reader,
+    opened_by_library,
+    scale_finding,
+)
 from .surface import Origin, Surface
 from .text_files import text_end
 from .text_points import LineScan
@@ -62,14 +69,15 @@ _OTHER_NAMES = tuple(
     (re.compile(pattern, re.IGNORECASE), kind)
     for pattern, kind in (
         (r"phase", "phase"),
-        (r"amplitude|\bamp\b", "amplitude"),
-        (r"deflection|\bdefl\b", "deflection"),
+        (r"amplitude|\bamp\b|\b(calc)?mag\b", "amplitude"),
+        (r"deflection|\bdefl\b|\bdfl\b", "deflection"),
         (r"friction|lateral|torsion|\blfm\b|\bffm\b", "friction"),
         (r"potential|\bkpfm\b|\bskpm\b|voltage|\bbias\b", "potential"),
         (r"current", "current"),
         (r"error", "error signal"),
         (r"adhesion|stiffness|modulus|dissipation|deformation|indentation|elasticity", "property of the material"),
         (r"frequency|capacitance|temperature|\bcount\b|q[ _-]?factor", "other signal"),
+        (r"\bfb-out\b|\brms\b|\bex[12]\b|\bhv[xy]\b|\bsnap back\b", "other signal"),
         (r"intensity|brightness|reflect|contrast|colou?r|\brgb\b|\bccd\b|quality|confidence|laser", "intensity"),
     )
 )
@@ -341,7 +349,7 @@ def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
         for opened in (opened_by_first_reader, opened_by_library):
             try:
                 with opened(path) as reader:
-                    _require_signature(reader, file)
+                    _require_signature(reader, file, start)
                     passed_over = type(reader).__name__ == "GWYReader" and not list(reader.channels)
                     return use(completed(reader, path) if passed_over else reader)
             except InputError:
@@ -355,8 +363,22 @@ def _read_with(file: Path, use: Callable[[Any], _Read]) -> _Read:
         reason = f"{type(failure).__name__}: {text}" if text else type(failure).__name__
     raise FileFormatError(
         f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
-        f"but cannot be read ({reason}). It may be damaged or of an unknown format."
+        f"but cannot be read ({reason}). {_remedy(start)}"
     ) from failure
+
+
+_NT_MDT = b"\x01\xb0\x93\xff"
+"""Beginning of the files of NT-MDT, of which the library reads the older kind of frames only."""
+
+
+def _remedy(start: bytes) -> str:
+    """What may be done about a file with this ``start`` that cannot be read."""
+    if start.startswith(_NT_MDT):
+        return (
+            "It is of NT-MDT, and either cut short or without images in frames of the older kind: open it in "
+            "Gwyddion and export its heights as a simple field (.gsf)."
+        )
+    return "It may be damaged or of an unknown format."
 
 
 _OWN = (b"Gwyddion", b"CDF")
@@ -397,7 +419,7 @@ def _require_own_data(path: Path) -> None:
         raise FileFormatError(f"{what} must be a whole HDF5 file, but cannot be read ({reason}).") from error
 
 
-def _require_signature(reader: Any, file: Path) -> None:
+def _require_signature(reader: Any, file: Path, start: bytes) -> None:
     """Refuse a format without signature unless the ending of the file names it.
 
     The library takes any bytes whose number is twice a square for an SRTM terrain tile (.hgt).
@@ -405,7 +427,7 @@ def _require_signature(reader: Any, file: Path) -> None:
     if type(reader).__name__ == "HGTReader" and file.suffix.lower() != ".hgt":
         raise FileFormatError(
             f"file {file} must be an instrument file, text matrix, .npy array or picture of heights, "
-            "but cannot be read (no reader recognises its content). It may be damaged or of an unknown format."
+            f"but cannot be read (no reader recognises its content). {_remedy(start)}"
         )
 
 

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..core.errors import FileFormatError
 from ..core.status import require_memory
@@ -97,12 +97,7 @@ def _of_container(file: Path, index: str, content: bytes) -> tuple[Scan, ...]:
     """Scans of a container by its ``index`` file: the original data, or else the NetCDF file that
     was made of them."""
     try:
-        if index.endswith(".json"):
-            described = json.loads(content)
-        else:
-            import yaml  # type: ignore[import-untyped]
-
-            described = yaml.load(content, Loader=yaml.FullLoader)  # older containers hold tuples
+        described = json.loads(content) if index.endswith(".json") else _yaml(content)
         found = [scan for surface in described["surfaces"] for scan in surface["topographies"]]
         made = []
         for scan in found:
@@ -118,6 +113,21 @@ def _of_container(file: Path, index: str, content: bytes) -> tuple[Scan, ...]:
             f"file {file} must be a whole container of contact.engineering, but its {index} is damaged ({error})."
         ) from None
     return tuple(made)
+
+
+def _yaml(content: bytes) -> Any:
+    """Plain values in ``content``, and the tuples of older containers; nothing else is made of a
+    stranger's file."""
+    import yaml  # type: ignore[import-untyped]
+
+    class Plain(yaml.SafeLoader):  # type: ignore[misc]
+        """Plain values and tuples."""
+
+    def made(loader: Any, node: Any) -> tuple[Any, ...]:
+        return tuple(loader.construct_sequence(node))
+
+    Plain.add_constructor("tag:yaml.org,2002:python/tuple", made)
+    return yaml.load(content, Loader=Plain)
 
 
 def _place(members: Sequence[Scan], channel: str | int | None, file: Path) -> tuple[int, str | int | None]:

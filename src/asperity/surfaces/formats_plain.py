@@ -17,10 +17,10 @@ from ..core.errors import AsperityError, FileFormatError, InputError
 from ..core.status import Advice, require_memory
 from ..core.units import show, unit_factor
 from .formats import SQUARE, ChannelInfo, checked_size, chosen
-from .formats_limits import ANY, height_doubt, lateral_doubt, scale_finding
 from .prepare.level import value_findings
 from .profile import Profile
 from .profile_files import Units, profile_of_text
+from .reader_library import ANY, height_doubt, lateral_doubt, scale_finding
 from .surface import Origin, Surface
 from .text_files import TextLayout, is_count, is_table, is_text, text_numbers
 from .text_header import Stated

@@ -14,9 +14,9 @@ from ..core.citations import Origin
 from ..core.errors import FileFormatError, InputError, UnitError
 from ..core.status import Advice
 from ..core.units import unit_factor
-from .formats_limits import ANY, Family, height_doubt, lateral_doubt, scale_finding
 from .prepare.level import value_findings
 from .profile import Instrument, Profile
+from .reader_library import ANY, Family, height_doubt, lateral_doubt, scale_finding
 from .text_points import LineScan
 
 _KINDS = {"contact-based": "stylus", "microscope-based": "optical"}  # words of the reader library

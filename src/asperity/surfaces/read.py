@@ -12,10 +12,10 @@ from typing import Any, Unpack
 from ..core.errors import FileFormatError
 from .formats import Asked, ChannelInfo, chosen, instrument_channels, read_instrument
 from .formats_archive import Unpacked, scans, unpacked
-from .formats_limits import SCALE
 from .formats_plain import PLAIN_ENDINGS, PLAIN_MARKS, Scales, is_plain, plain_channels, read_plain
 from .profile import Profile
 from .profile_netcdf import is_own, netcdf_channel, read_netcdf
+from .reader_library import SCALE
 from .surface import Surface, strip
 from .text_files import TextLayout, TextOptions, is_text
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Self
 
 import numpy as np
@@ -15,6 +15,7 @@ from ..core.arrays import RealArray
 from ..core.errors import InputError
 from ..core.late import Shown
 from ..core.spectral import line_transform
+from ..core.status import Advice
 from ..core.units import show
 from .characterise.correlation import scale_dependence, tip_cutoff
 from .characterise.scans_scales import QUANTITIES, LevelLines, ScaleCurve, scale_curve
@@ -64,6 +65,8 @@ class Scan(Shown):
     short_cutoff
         Wavelength in m below which waves have been filtered, or at which the spectrum of a
         generated map ends; 0 if none.
+
+    Its ``findings`` are what was doubtful in its file, for a scan ``of`` one.
     """
 
     heights: RealArray
@@ -76,6 +79,7 @@ class Scan(Shown):
     resolution: float
     noise: float
     short_cutoff: float
+    findings: tuple[Advice, ...] = ()
 
     def __init__(
         self,
@@ -124,24 +128,29 @@ class Scan(Shown):
         Raises InputError if it is none of these.
         """
         if isinstance(item, Scan):
-            found = {key: getattr(item, key) for key in Scan.__annotations__ if key not in ("heights", "spacing")}
-            return cls(item.heights, item.spacing, **{**found, **known})
-        if isinstance(item, Surface):
+            leave = ("heights", "spacing", "findings")
+            told = {key: getattr(item, key) for key in Scan.__annotations__ if key not in leave}
+            lines, spacing, doubts = item.heights, item.spacing, item.findings
+        elif isinstance(item, Surface):
             along = axis_index(axis)
             lines = item.heights.T if along == 0 else item.heights
             spacing, across = (item.dx, item.dy) if along == 0 else (item.dy, item.dx)
-            told: dict[str, Any] = {"periodic": item.periodic, "name": item.origin.source}
+            told = {"periodic": item.periodic, "name": item.origin.source}
+            doubts = item.origin.findings
             if lines.shape[0] > 1:
                 told["line_distance"] = across
-            return cls(lines, spacing, **{**told, **known})
-        if not isinstance(item, Profile):
+        elif isinstance(item, Profile):
+            told = {key: getattr(item.instrument, key) for key in ("kind", "tip_radius", "resolution", "noise")}
+            told |= {"periodic": item.periodic, "short_cutoff": item.short_cutoff, "name": item.origin.source}
+            lines, spacing, doubts = item.heights, item.spacing, item.origin.findings
+        else:
             raise InputError(
                 "scan of a surface must be a Surface, a Profile or a Scan, but is of the type "
                 f"{type(item).__name__}. Read the file first, or make a Scan(heights, spacing)."
             )
-        told = {key: getattr(item.instrument, key) for key in ("kind", "tip_radius", "resolution", "noise")}
-        told |= {"periodic": item.periodic, "short_cutoff": item.short_cutoff, "name": item.origin.source}
-        return cls(item.heights, item.spacing, **{**told, **known})
+        made = cls(lines, spacing, **{**told, **known})
+        object.__setattr__(made, "findings", doubts)
+        return made
 
     @property
     def n_points(self) -> int:
@@ -308,9 +317,16 @@ class Scans(Shown):
         modes = [self.scans[number].modes(limits[number]) for number in used]
         names = [scan.name for scan in self.scans]
         unused = tuple((names[number], limits[number].by) for number in range(len(names)) if number not in used)
-        return spectrum_of_scans(
+        found = spectrum_of_scans(
             modes, [names[number] for number in used], corner=corner, per_decade=per_decade, unused=unused
         )
+        doubts = [
+            replace(item, fact=f"Scan {scan.name}: {item.fact}")
+            for scan in self.scans
+            for item in scan.findings
+            if item.level == "warning"
+        ]
+        return replace(found, findings=(*doubts, *found.findings))
 
     def scale_curves(self, spectrum: ScansSpectrum | None = None) -> dict[str, ScaleCurve]:
         """Rms ``height`` in windows, rms ``slope`` and ``curvature`` of profiles against the length

@@ -23,6 +23,12 @@ def measured(path: str) -> dict[str, Any]:
     return {"kind": "file", "path": path, "prepare": [dict(LEVELLED), dict(FILLED)]}
 
 
+def scanned(paths: Sequence[str]) -> dict[str, Any]:
+    """Table of a surface that is generated from the scans in the files ``paths``."""
+    spectrum = {"kind": "scans", "scans": [{"path": path} for path in paths]}
+    return {"kind": "rough", "points": "256x256", "size": "10 um x 10 um", "seed": 1, "spectrum": spectrum}
+
+
 def fill(session: Session, *, files: Sequence[Path] = (), demo: bool = False) -> None:
     """Fill the document of a new session with the demonstration, or the ``files`` that were named.
 

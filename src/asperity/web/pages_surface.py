@@ -13,7 +13,7 @@ from ..core.units import show
 from ..io.schemas.surfaces import FileSurface
 from ..run.document import document_model
 from . import maps
-from .beginning import measured
+from .beginning import measured, scanned
 from .draft import Keys
 from .forms import asked_of
 from .layout import drop, failure, rows
@@ -21,6 +21,7 @@ from .session import Session
 from .widgets import Context, entry, kinds, listed
 
 SURFACE = "surface"
+SCANS: Keys = (SURFACE, "spectrum", "scans")
 
 
 class Preview:
@@ -110,9 +111,16 @@ def surface_page(key: str, session: Session) -> None:
     generators = tuple(word for word in item.tables if word != "file")
     leave = frozenset({"prepare", "mirror", "place", "kind"})
 
+    def chosen() -> str:
+        """Which source the document has."""
+        table = session.draft.get(SURFACE) or {}
+        spectrum = table.get("spectrum")
+        many = isinstance(spectrum, dict) and spectrum.get("kind") == "scans"
+        return "file" if table.get("kind") == "file" else "scans" if many else "made"
+
     @ui.refreshable
     def source() -> None:
-        if (session.draft.get(SURFACE) or {}).get("kind") == "file":
+        if chosen() == "file":
             _file_form(context, leave)
         else:
             kinds(context, item, (SURFACE,), leave, generators)
@@ -121,13 +129,21 @@ def surface_page(key: str, session: Session) -> None:
         if kind == "file":
             path = session.files[-1].path if session.files else None
             context.set((SURFACE,), {"kind": "file"} if path is None else measured(path))
+        elif kind == "scans":
+            context.set((SURFACE,), scanned([file.path for file in session.files]))
         else:
             context.set((SURFACE,), {"kind": "rough", "points": "256x256", "size": "10 um x 10 um", "seed": 1})
         source.refresh()
 
     def uploaded(event: events.GenericEventArguments) -> None:
         path = str(event.args.get("path") if isinstance(event.args, dict) else "")
-        if path in session.labels:
+        if path not in session.labels:
+            return
+        if chosen() == "scans":  # one more
+            scans = session.draft.get(*SCANS)
+            context.set(SCANS, [*(scans if isinstance(scans, list) else []), {"path": path}])
+            source.refresh()
+        else:
             context.set((SURFACE,), measured(path))
             ui.navigate.reload()
 
@@ -140,10 +156,9 @@ def surface_page(key: str, session: Session) -> None:
                 "any format of instruments, text, pictures, NumPy arrays; nothing leaves this machine",
             )
             ui.on("asperity-uploaded", uploaded)
-            kind = "file" if (session.draft.get(SURFACE) or {}).get("kind") == "file" else "made"
-            ui.toggle({"file": "A file", "made": "A generator"}, value=kind, on_change=lambda e: choose(e.value)).props(
-                "no-caps dense"
-            )
+            sources = {"file": "A file", "scans": "Many scans", "made": "A generator"}
+            ui.toggle(sources, value=chosen(), on_change=lambda e: choose(e.value)).props("no-caps dense")
+            ui.label("Many scans: all files are scans of one surface, and one like it is generated.").classes("hint")
             source()
             with ui.expansion("Counter surface (rough, too)").classes("wide"):
                 other = next(entry for entry in asked_of(document_model()) if entry.name == "counter_surface")
@@ -266,7 +281,8 @@ def _roughness(key: str, answer: dict[str, Any]) -> None:
             with ui.element("div").classes("tile"):
                 ui.label(text).classes("value")
                 ui.label(name).classes("hint")
-    ui.link("Report of the roughness", f"/files/{key}/roughness/roughness.html", new_tab=True)
+    for name, title in answer["reports"]:
+        ui.link(title, f"/files/{key}/roughness/{name}", new_tab=True)
     with ui.element("div").classes("gallery"):
         for name, title, caption in answer["figures"]:
             with ui.element("figure"):

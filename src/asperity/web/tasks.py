@@ -34,6 +34,7 @@ from ..plots.together import save_pictures
 from ..report.folder import write_run
 from ..report.profile import profile_headline, profile_rows, write_profile_report
 from ..report.roughness import headline_values, quantity_rows, write_roughness_report
+from ..report.scans import ScansInWords, write_page_of_scans
 from ..run.build import build, build_surface
 from ..run.document import load_document, loads, relocated
 from ..run.execute import analysed, execute
@@ -44,6 +45,8 @@ from ..surfaces.characterise.summary import characterise
 from ..surfaces.profile import Profile
 from ..surfaces.profile_summary import characterise_profile
 from ..surfaces.read import channels
+from ..surfaces.scans import Scans
+from ..surfaces.surface import Surface
 from .views import theory_curves, write_views
 
 Task: TypeAlias = Mapping[str, Any]
@@ -82,6 +85,9 @@ def _limit(memory: float | None) -> None:
     wanted = int(memory) if hard == resource.RLIM_INFINITY else min(int(memory), hard)
     resource.setrlimit(resource.RLIMIT_DATA, (wanted, hard))
 
+
+REPORT = ("roughness.html", "Report of the roughness")
+"""Name and title of the page that is always there."""
 
 # Files with heights, and surfaces on their way through the steps of preparation.
 
@@ -126,27 +132,65 @@ def surface(task: Task) -> dict[str, Any]:
 
 def _built(task: Task) -> Any:
     """The surface of ``table``, prepared by the first ``steps`` of its steps, or all."""
+    return build_surface(_table(task), Path(task["folder"]))
+
+
+def _table(task: Task) -> Any:
+    """``table`` of a surface, checked, with the first ``steps`` of its steps, or all."""
     table = dict(task["table"])
     if task.get("steps") is not None:
         table["prepare"] = list(table.get("prepare", ()))[: task["steps"]]
     alone: Any = create_model("Alone", __base__=Settings, surface=(SurfaceTable, ...))
-    return build_surface(validated(alone, {"surface": table}, "surface").surface, Path(task["folder"]))
+    return validated(alone, {"surface": table}, "surface").surface
 
 
 @guarded
 def roughness(task: Task) -> dict[str, Any]:
     """Roughness of the surface of ``table``: rows of the page, and the report and its pictures in
-    the folder ``out``."""
+    the folder ``out``; of one generated from scans also what these are."""
     built, out = _built(task), Path(task["out"])
     if built.shape[1] == 1:
         return _line_scan(built.row(0), out)
+    spectrum = getattr(_table(task), "spectrum", None)
+    if getattr(spectrum, "kind", "") == "scans":
+        told = _scans(spectrum, Path(task["folder"]), out)
+        of_surface = _map(built, out)
+        return of_surface | {key: told[key] + of_surface[key] for key in told}
+    return _map(built, out)
+
+
+def _map(built: Surface, out: Path) -> dict[str, Any]:
+    """The same of a map."""
     found = characterise(built)
     figures = roughness_figures(found)
     save_pictures(figures, out, overwrite=True)
     write_roughness_report(found, out / "roughness.html", figures=figures, overwrite=True)
     return {
+        "reports": [REPORT],
         "headline": [[name, text] for name, text in headline_values(found)],
         "groups": [[title, [list(row) for row in rows]] for title, rows in quantity_rows(found)],
+        "figures": [[figure.name, figure.title, figure.caption] for figure in figures],
+    }
+
+
+def _scans(spectrum: Any, folder: Path, out: Path) -> dict[str, Any]:
+    """The same of the scans of a ``spectrum``, whose relative paths start at ``folder``."""
+    scans = Scans(item.scan(folder) for item in spectrum.scans)
+    told = ScansInWords(scans, scans.spectrum(corner=spectrum.corner))
+    figures = tuple(replace(figure, name=f"scans_{figure.name}") for figure in told.figures())
+    save_pictures(figures, out, overwrite=True)
+    write_page_of_scans(told, out / "one_surface.html", figures=figures, overwrite=True)
+    bands = told.bands()
+    rows = [
+        [row[0], ", ".join(map(" ".join, zip(bands.headings[1:], row[1:], strict=True))), ""] for row in bands.cells
+    ]
+    return {
+        "reports": [["one_surface.html", "Report of the scans"]],
+        "groups": [
+            ["Spectrum of the scans", [[name, text, ""] for name, text in told.main_rows()]],
+            ["Reliable waves of the scans", rows],
+            ["Findings of the scans", [[item.criterion, item.message, item.level] for item in told.findings]],
+        ],
         "figures": [[figure.name, figure.title, figure.caption] for figure in figures],
     }
 
@@ -158,6 +202,7 @@ def _line_scan(profile: Profile, out: Path) -> dict[str, Any]:
     save_pictures(figures, out, overwrite=True)
     write_profile_report(found, out / "roughness.html", figures=figures, overwrite=True)
     return {
+        "reports": [REPORT],
         "headline": [[name, text] for name, text in profile_headline(found)],
         "groups": [[title, [list(row) for row in rows]] for title, rows in profile_rows(found)],
         "figures": [[figure.name, figure.title, figure.caption] for figure in figures],

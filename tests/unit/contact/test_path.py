@@ -233,7 +233,7 @@ def test_a_failed_step_raises_with_its_number_and_result() -> None:
 
 @pytest.mark.parametrize("on_failure", ["raise", "return"])
 def test_a_step_without_solution_raises_with_its_number(on_failure: Any) -> None:
-    with refused(asp.NoSolutionError, "Step 2 of the history: mean pressure"):
+    with refused(asp.errors.NoSolutionError, "Step 2 of the history: mean pressure"):
         asp.solve(problem(asp.Hardness(0.4)), asp.History(pressures((0.1, 0.5))), on_failure=on_failure)
 
 

@@ -70,9 +70,9 @@ def test_position_beyond_full_contact_is_refused():
     problem = asp.ContactProblem(rough((8, 8)), elastic(1.0))
     profile = problem.profile()
     limit = profile.max() - profile.mean()
-    with refused(asp.NoSolutionError, "approach"):
+    with refused(asp.errors.NoSolutionError, "approach"):
         asp.solve(problem, asp.Approach(limit))
-    with refused(asp.NoSolutionError, "mean gap"):
+    with refused(asp.errors.NoSolutionError, "mean gap"):
         asp.solve(problem, asp.MeanGap(limit))
 
 
@@ -133,7 +133,7 @@ def test_prepared_operator_is_reused_and_checked():
 def test_an_approach_above_the_dented_surface_has_no_solution():
     soft = asp.ContactProblem(rough((16, 16)), elastic(1.0), law=asp.Hardness(0.3))
     dented = asp.solve(soft, asp.MeanPressure(0.1)).state
-    with refused(asp.NoSolutionError, "approach", "1e-09 m"):
+    with refused(asp.errors.NoSolutionError, "approach", "1e-09 m"):
         asp.solve(soft, asp.Approach(1e-9), state=dented)
 
 

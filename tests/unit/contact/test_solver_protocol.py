@@ -15,12 +15,13 @@ from hypothesis import strategies as st
 from refusals import refused
 
 import asperity as asp
-from asperity import Grid, InputError, NoSolutionError
+from asperity import Grid, InputError
 from asperity.contact.operators import PeriodicOperator
 from asperity.contact.solvers.protocol import best_level, duality_gap, relative_error, scaled_to_load
 from asperity.contact.solvers.reference import nnls
 from asperity.contact.solvers.reference.steepest_descent import shifted_to_load
 from asperity.core.status import Outcome
+from asperity.errors import NoSolutionError
 from asperity.solids.compliance.halfspace import HalfSpace
 from asperity.solvers import SOLVERS as CLASSES
 from asperity.solvers import (

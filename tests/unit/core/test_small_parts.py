@@ -95,7 +95,7 @@ def test_every_reference_is_named_by_the_code():
         (asp.InputError, ValueError),
         (asp.errors.UnitError, asp.InputError),
         (asp.errors.FileFormatError, asp.InputError),
-        (asp.NoSolutionError, asp.InputError),
+        (asp.errors.NoSolutionError, asp.InputError),
         (asp.errors.OutputError, OSError),
         (asp.ConvergenceError, RuntimeError),
     ],

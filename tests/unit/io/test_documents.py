@@ -135,6 +135,26 @@ SPECTRA = (
         },
         optional={"isotropic": st.booleans(), "floor": quantities("nm**4")},
     )
+    | st.fixed_dictionaries(
+        {
+            "kind": st.just("scans"),
+            "scans": st.lists(
+                st.fixed_dictionaries(
+                    {"path": TEXTS},
+                    optional={
+                        "channel": TEXTS | st.integers(0, 9),
+                        "instrument": st.sampled_from(["stylus", "optical", "afm"]),
+                        "tip_radius": LENGTHS,
+                        "axis": st.sampled_from("xy"),
+                        "prepare": st.lists(STEPS, max_size=2),
+                    },
+                ),
+                min_size=1,
+                max_size=3,
+            ),
+        },
+        optional={"corner": st.sampled_from(["auto", "rounded", "sharp"]), "shortest_wavelength": LENGTHS},
+    )
 )
 HEIGHTS = st.one_of(
     st.fixed_dictionaries({"kind": st.just("moments")}, optional={"skewness": st.floats(-9, 9), "kurtosis": POSITIVE}),
@@ -430,6 +450,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "film",
         "stress",
         "plastic_load",
+        "deciding_waves",
         "plastic_flow",
         "indentation",
         "passes",

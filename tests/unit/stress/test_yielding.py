@@ -166,9 +166,9 @@ def test_load_at_yield_of_a_sphere():
 
 
 def test_load_at_yield_gives_up_in_words():
-    with refused(asp.NoSolutionError, "strength of the body"):
+    with refused(asp.errors.NoSolutionError, "strength of the body"):
         load_at_yield(lambda load: hertz_field(0.3, [10.0], yield_stress=float("nan")), 1.0)
-    with refused(asp.NoSolutionError, "load at yield", "3 loads"):
+    with refused(asp.errors.NoSolutionError, "load at yield", "3 loads"):
         load_at_yield(
             lambda load: hertz_field(0.3, [10.0], a=8.0), 1.0, max_evaluations=3
         )  # stress that no load changes

@@ -14,9 +14,9 @@ from refusals import refused
 import asperity as asp
 from asperity.core.errors import FileFormatError
 from asperity.parts.advice import findings
-from asperity.surfaces.formats import ANY, OPTICAL, PROBE, height_doubt, lateral_doubt
 from asperity.surfaces.prepare.level import codes, spikes
 from asperity.surfaces.read import read
+from asperity.surfaces.reader_library import ANY, OPTICAL, PROBE, height_doubt, lateral_doubt
 
 LABELS = list(csv.DictReader((FOLDER / "profiles" / "sentinel_labels.csv").read_text(encoding="utf-8").splitlines()))
 SCALE = {"size": (16e-6, 16e-6), "height_unit": "nm"}

@@ -337,7 +337,8 @@ def test_a_container_of_contact_engineering(tmp_path: Path) -> None:
     surface = read(tmp_path / "yaml.zip")
     np.testing.assert_allclose(surface.heights, HEIGHTS * 0.5e-6, rtol=1e-12)
     assert surface.size == pytest.approx((8e-6, 6e-6))
-    with zipfile.ZipFile(tmp_path / "bad.zip", "w") as made:
-        made.writestr("meta.yml", "surfaces: 1")
-    with refused(FileFormatError, f"file {tmp_path / 'bad.zip'}", "meta.yml"):
-        read(tmp_path / "bad.zip")
+    for bad in ("surfaces: 1", "surfaces: !!python/name:os.system", "surfaces: !!python/module:os"):
+        with zipfile.ZipFile(tmp_path / "bad.zip", "w") as made:
+            made.writestr("meta.yml", bad)
+        with refused(FileFormatError, f"file {tmp_path / 'bad.zip'}", "meta.yml"):
+            read(tmp_path / "bad.zip")

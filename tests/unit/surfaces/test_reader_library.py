@@ -58,6 +58,24 @@ def test_a_file_has_the_heights_of_the_whole_library_without_its_import(tmp_path
     assert surface.size == pytest.approx((90e-9, 60e-9))
 
 
+@pytest.mark.parametrize("reads", [1, 2])
+def test_the_library_is_whole_for_others_after_a_file_was_read(tmp_path: Path, reads: int) -> None:
+    """Its classes have their analyses, which it adds with its own code."""
+    bcr(tmp_path / "map.bcr")
+    code = f"""
+import sys
+from asperity.surfaces.read import read
+for _ in range({reads}):
+    read(sys.argv[1])
+from SurfaceTopography import Topography, UniformLineScan
+import numpy as np
+print(Topography(np.eye(4), (1.0, 1.0)).Sq() > 0.0, UniformLineScan(np.arange(4.0), 1.0).Rq() > 0.0)
+read(sys.argv[1])
+"""
+    done = subprocess.run([sys.executable, "-c", code, str(tmp_path / "map.bcr")], capture_output=True, text=True)
+    assert done.stdout.split() == ["True", "True"], done.stderr
+
+
 @pytest.mark.slow
 def test_measured_files_have_the_heights_of_the_whole_library_without_its_import(shared_data: Path) -> None:
     files = [path for path in sorted(shared_data.iterdir()) if path.suffix != ".md"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from refusals import refused
 import asperity as asp
 from asperity.core.errors import InputError
 from asperity.generate import SelfAffine, gaussian
-from asperity.surfaces import Scan, Scans
+from asperity.surfaces import Profile, Scan, Scans
 from asperity.surfaces.characterise.scans_spectrum import ScansSpectrum
 
 TRUTH = {str(row["scan"]): row for row in reference("profiles/scans_truth")}
@@ -158,9 +157,8 @@ def test_moments_are_those_of_the_closed_form() -> None:
 
 
 def test_a_line_scan_brings_its_instrument() -> None:
-    tool = SimpleNamespace(kind="stylus", tip_radius=2e-6, resolution=math.nan, noise=1e-9)
     heights = reference_scans()[0].heights[0]
-    line = SimpleNamespace(heights=heights, spacing=1e-6, periodic=False, short_cutoff=2.5e-6, instrument=tool)
+    line = Profile(heights, 1e-6, short_cutoff=2.5e-6).of_instrument(kind="stylus", tip_radius=2e-6, noise=1e-9)
     found = Scan.of(line)
     assert (found.kind, found.tip_radius, found.noise, found.short_cutoff) == ("stylus", 2e-6, 1e-9, 2.5e-6)
     assert found.heights.shape == (1, 256)

@@ -69,6 +69,12 @@ def test_shortest_waves_decide_an_elastic_area_and_longest_the_gap() -> None:
     assert found.shares["mean_gap"][0] > 0.4
     assert not found.needs["area"].settled
     assert not found.needs["slope"].settled
+    for name in ("height", "mean_gap"):  # no roll-off: no scan is long enough
+        assert not found.needs[name].bounded
+    assert found.needs["curvature"].bounded
+    told = {item.criterion: item for item in found.findings(1.0, 1e-9)}
+    assert "waves of the mean gap" in told
+    assert "waves of the rms curvature" not in told or not found.needs["curvature"].settled
     assert "plastic" not in found.shares
     for shares in found.shares.values():
         assert float(shares.sum()) == pytest.approx(1.0, rel=1e-9)
@@ -104,7 +110,8 @@ def test_parts_of_a_spectrum_add_up() -> None:
 
 
 def test_findings_recommend_size_and_interval() -> None:
-    found = octaves(0.8)
+    q = np.array([1e3, 1e5, 1e8])
+    found = deciding_waves(IsotropicSpectrum(q, 1e-25 * np.maximum(q / 1e5, 1.0) ** -3.6), 1e11, 1e6)
     need = found.needs["mean_gap"]
     enough = found.findings(need.size, need.interval)
     assert not [item for item in enough if "mean gap" in item.criterion]

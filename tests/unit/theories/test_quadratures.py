@@ -196,7 +196,7 @@ def test_no_integral_misses_a_layer(name: str, monkeypatch: pytest.MonkeyPatch) 
                         with warnings.catch_warnings(), np.errstate(all="ignore"):
                             warnings.simplefilter("ignore")
                             answer = evaluate(theory(name)(**given | change), **asked)
-                    except (asp.InputError, asp.NoSolutionError, asp.ConvergenceError):
+                    except (asp.InputError, asp.errors.NoSolutionError, asp.ConvergenceError):
                         break
                     found.append([np.atleast_1d(values).copy() for _, values in (*answer.numbers, *answer.columns)])
                 else:

@@ -4,7 +4,9 @@ that prepare it."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Optional, TypeAlias, Union
 
@@ -13,9 +15,11 @@ from pydantic import Field, create_model, model_validator
 from ...core import units
 from ...core.errors import InputError
 from ...core.parameters import checked, parameters
+from ...core.registry import home
 from ...core.settings import Settings, setting, table_of
 from ...core.values import (
     Angle,
+    Axis,
     Length,
     NonEmpty,
     NonNegativeLength,
@@ -37,6 +41,7 @@ from ...surfaces.prepare.level import HIGHEST_DEGREE, despiked, filled, levelled
 from ...surfaces.prepare.tip import ConicalTip, Opening, SphericalTip, Tip, estimated_tip, reconstructed
 from ...surfaces.profile import Profile
 from ...surfaces.profile_conversion import surface_of_profile
+from ...surfaces.read import read
 from ...surfaces.surface import Surface
 
 # Steps of preparation: the table of a step has the parameters of its function, which ``prepared``
@@ -265,10 +270,9 @@ class AnySurface(Settings):
     place: Place | None = None
 
 
-class FileSurface(AnySurface):
-    """Heights from a file; a relative ``path`` starts at the folder of the document."""
+class FileReading(Settings):
+    """A file with heights, and what it does not state itself."""
 
-    kind: Literal["file"]
     path: NonEmpty = setting(help="file with the measured heights; levelled and filled")
     channel: Channel | None = setting(None, help="name or number of the channel")
     size: Size | None = setting(None, help='physical size, such as "20 um x 10 um", if the file does not state it')
@@ -294,7 +298,65 @@ class FileSurface(AnySurface):
 
     def reading(self) -> dict[str, Any]:
         """Arguments of ``surfaces.read`` beside the path."""
-        return self.given("kind", "path", *AnySurface.model_fields)
+        asked = FileReading.model_fields.keys() - {"path"}
+        return self.given(*(key for key in type(self).model_fields if key not in asked))
+
+
+class FileSurface(FileReading, AnySurface):
+    """Heights from a file; a relative ``path`` starts at the folder of the document."""
+
+    kind: Literal["file"]
+
+
+class ScanFile(FileReading):
+    """A scan of a surface of which there are many, a map or a line, from a file; a relative
+    ``path`` starts at the folder of the document.
+
+    It may be one line of text: ``"afm.txt, size=5um, height_unit=nm, tip_radius=10nm"``.
+    """
+
+    path: NonEmpty = setting(help="file with a map or a line scan")
+    instrument: Literal["stylus", "optical", "afm"] | None = setting(
+        None, help="kind of instrument, if the file does not state it; an optical one has the transfer of a lens"
+    )
+    tip_radius: Length | None = setting(None, help="radius of the tip, if the file does not state it")
+    resolution: Length | None = setting(None, help="lateral resolution, if the file does not state it")
+    noise: Length | None = setting(None, help="rms noise of the heights, if the file does not state it")
+    short_cutoff: Length | None = setting(None, help="wavelength below which waves have been filtered")
+    axis: Axis = setting("x", help="axis of a map along which its lines run")
+    prepare: tuple[Step, ...] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_line(cls, value: Any) -> Any:
+        """Path and keys of one line of text."""
+        if not isinstance(value, str):
+            return value
+        keys = "|".join(key for key in cls.model_fields if key not in ("path", "prepare"))
+        path, *given = re.split(rf",\s*(?=(?:{keys})\s*=)", value)
+        pairs = (part.partition("=") for part in given)
+        return {"path": path.strip(), **{key.strip(): text.strip() for key, _, text in pairs}}
+
+    def scan(self, folder: Path) -> Any:
+        """The ``Scan`` in the file, whose relative path starts at ``folder``, after its preparation
+        and with what is known of the instrument.
+
+        Raises
+        ------
+        InputError
+            If a line scan is to be prepared, or its lines are to run along y.
+        """
+        held: Any = read(folder / self.path, **self.reading())
+        if isinstance(held, Profile) and (self.prepare or self.axis != "x"):
+            key = "prepare" if self.prepare else "axis"
+            raise InputError(f"{key} of the scan {self.path} must be left out: the file holds a line scan, no map.")
+        for step in self.prepare:
+            held = prepared(held, step)
+        keys = ("tip_radius", "resolution", "noise", "short_cutoff", "axis")
+        known = {key: value for key, value in self.given().items() if key in keys}
+        if self.instrument is not None:
+            known["kind"] = self.instrument
+        return home("surfaces.scans:Scan").of(held, name=self.path, **known)
 
 
 class LineScanFile(FileSurface):
@@ -340,6 +402,24 @@ def tabulated(
     return spectra.TabulatedSpectrum([2.0 * math.pi / length for length in wavelengths], psd)
 
 
+@checked
+def spectrum_of_scan_files(
+    *,
+    scans: Annotated[
+        tuple[Any, ...], "files with scans of one surface, one each, such as afm.txt,size=5um,height_unit=nm"
+    ],
+    corner: Annotated[Literal["auto", "rounded", "sharp"], "kind of roll-off; by default the likelier one"] = "auto",
+    shortest_wavelength: Annotated[
+        Length | None, "where the spectrum ends; by default the shortest wave that a scan shows reliably"
+    ] = None,
+) -> Spectrum:
+    """The one spectrum of many ``scans`` of one surface, maps and lines, of any instrument, size
+    and spacing."""
+    found: Any = home("surfaces.scans:Scans")(scans).spectrum(corner=corner)
+    made: Spectrum = found if shortest_wavelength is None else found.extended(shortest_wavelength)
+    return made
+
+
 SPECTRA: Mapping[str, Callable[..., Any]] = MappingProxyType(
     {
         "exponential": autocorrelation.ExponentialAutocorrelation,
@@ -348,6 +428,7 @@ SPECTRA: Mapping[str, Callable[..., Any]] = MappingProxyType(
         "two_slopes": spectra.TwoSlopes,
         "table": tabulated,
         "measured": spectra.spectrum_of,
+        "scans": spectrum_of_scan_files,
     }
 )
 """What makes each kind of spectrum."""
@@ -403,7 +484,9 @@ def _tables(kinds: Mapping[str, Callable[..., Any]], base: type[Settings], types
     }
 
 
-SPECTRUM_TABLES = MappingProxyType(_tables(SPECTRA, Settings, {Surface: FileSurface, Amplitude: None}))
+SPECTRUM_TABLES = MappingProxyType(
+    _tables(SPECTRA, Settings, {Surface: FileSurface, Amplitude: None, tuple[Any, ...]: tuple[ScanFile, ...]})
+)
 HEIGHTS_TABLES = MappingProxyType(_tables(HEIGHTS, Settings, {Surface: FileSurface}))
 
 if TYPE_CHECKING:

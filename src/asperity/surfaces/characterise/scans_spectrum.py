@@ -30,6 +30,7 @@ PLATEAU_ERROR = 0.5
 _APART = 3.0  # standard errors by which scans of one surface differ at most, of a few dozen comparisons
 _CALIBRATED = 0.1  # ratio of powers below which a deviation is of no interest
 _SCATTERED = 1.5  # sandwich over Fisher error from which the lines differ by more than their modes
+_NAMED = 6  # scans in the history of a surface
 _NODES, _PIECES = 8, 16  # Gauss points of a piece, pieces per factor of ten of wavenumber
 _SPAN = 1e4  # corner over the least wavenumber of an integral
 
@@ -181,9 +182,11 @@ class ScansSpectrum(Drawn):
 
     def describe(self, grid: Grid) -> str:
         """Words and numbers for the history of a surface generated on ``grid``."""
+        named = ", ".join(self.scans[:_NAMED]) + (", …" if len(self.scans) > _NAMED else "")
         text = (
-            f"spectrum of {len(self.scans)} scans, {self.model.name} roll-off at {show(self.rolloff_wavelength, 'm')}"
-            f", H = {self.hurst:.3g} ± {self.hurst_error:.2g}, waves down to {show(self.shortest_wavelength, 'm')}"
+            f"spectrum of {len(self.scans)} scans ({named}), {self.model.name} roll-off at "
+            f"{show(self.rolloff_wavelength, 'm')}, H = {self.hurst:.3g} ± {self.hurst_error:.2g}, waves down to "
+            f"{show(self.shortest_wavelength, 'm')}"
         )
         if self.shortest_wavelength < self.measured_to * (1.0 - 1e-9):
             text += f", extrapolated beyond {show(self.measured_to, 'm')}"

@@ -41,7 +41,9 @@ class Need:
 
     ``longest`` and ``shortest`` wave in m without which the answer changes by less than the
     tolerance; ``size`` of a scan and sampling ``interval`` in m; ``settled`` False if the answer
-    still changes at the end of the spectrum: then it is a result of the cut-off.
+    still changes at the end of the spectrum: then it is a result of the cut-off; ``bounded`` False
+    if it still changes at the beginning: it is a result of the longest wave, and no size is known
+    to suffice.
     """
 
     longest: float
@@ -49,6 +51,7 @@ class Need:
     size: float
     interval: float
     settled: bool
+    bounded: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +98,7 @@ class DecidingWaves:
         made = []
         for question, need in self.needs.items():
             name, level = _NAMES[question], _LEVELS.get(question, _WARNING)
-            numbers = {"size": need.size, "interval": need.interval}
+            numbers = {"interval": need.interval} | ({"size": need.size} if need.bounded else {})
             if not need.settled:
                 fact = (
                     f"The {name} is not settled at the shortest wave of {show(float(self.shortest[-1]), 'm', 3)}: "
@@ -110,7 +113,14 @@ class DecidingWaves:
                 fact += f"{show(interval, 'm', 3)} does not show."
                 remedy = f"Sample at {show(need.interval, 'm', 3)} or less."
                 made.append(Advice(level, f"waves of the {name}", fact, remedy, numbers))
-            if size < need.size:
+            if not need.bounded:
+                fact = (
+                    f"The {name} is not settled at the longest wave of {show(float(self.longest[0]), 'm', 3)}, above "
+                    "which no roll-off is known, so that it is a result of the scan size."
+                )
+                remedy = "Take a longer scan that shows a roll-off, or state the size with it."
+                made.append(Advice(level, f"waves of the {name}", fact, remedy, numbers))
+            elif size < need.size:
                 fact = f"The {name} needs waves up to {show(need.longest, 'm', 3)}, of which a scan of "
                 fact += f"{show(size, 'm', 3)} holds too few."
                 remedy = f"Scan {show(need.size, 'm', 3)} or more."
@@ -148,7 +158,8 @@ def deciding_waves(
     Parameters
     ----------
     spectrum
-        Composite spectrum of both surfaces, the sum of their C, down to its physical cut-off.
+        Composite spectrum of both surfaces, the sum of their C, down to its physical cut-off; from
+        far above its roll-off, or the longest wave that is known where none is.
     E_star
         Contact modulus E* in Pa, > 0.
     pressure
@@ -216,7 +227,9 @@ def _need(name: str, edges: RealArray, grown: RealArray, without: RealArray, tol
     first = max(int(beyond[0]) - 1, 0) if beyond.size else edges.size - 1
     longest, shortest = 2.0 * math.pi / float(edges[first]), 2.0 * math.pi / float(edges[last])
     settled = last < edges.size - _PER_OCTAVE  # the whole last octave changes it by less
-    return Need(longest, shortest, SIZE_PER_WAVE.get(name, 3.0) * longest, shortest / POINTS_PER_WAVE, settled)
+    bounded = first >= _PER_OCTAVE  # and so does the first
+    size = SIZE_PER_WAVE.get(name, 3.0) * longest
+    return Need(longest, shortest, size, shortest / POINTS_PER_WAVE, settled, bounded)
 
 
 @dataclass(frozen=True)
