@@ -30,8 +30,8 @@ def line_problem(
     Parameters
     ----------
     profile
-        Line scan, levelled and complete; give ``across_lay()`` of a trace that does not run across
-        its grooves.
+        Line scan, levelled and complete; a trace at a known angle to its grooves is turned across
+        them (``Profile.across_lay``), one without is taken to run across them.
     body, counter_body
         The body that has the profile, and the smooth one; rigid by default.
     length

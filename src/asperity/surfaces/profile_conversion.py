@@ -169,6 +169,9 @@ def isotropic_spectrum(
     best = min(found, key=lambda item: item.criterion)
     shortest = 2.0 * math.pi / float(q[-1])
     assumption = ISOTROPY
+    if not math.isnan(profile.lay_angle):
+        angle = f"{math.degrees(profile.lay_angle):.4g}°"
+        assumption += f", although it is stated to cross a lay, {angle} off its normal"
     if shortest_wavelength is not None:
         given = require.positive(shortest_wavelength, "shortest wavelength of the surface (m)")
         if given < shortest * (1.0 - 1e-9):

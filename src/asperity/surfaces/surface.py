@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -180,12 +181,15 @@ def strip(profile: Profile, length: float | None = None) -> Surface:
     (plane strain).
 
     ``length`` along y in m that forces and areas belong to; by default that of the profile, which
-    is good for all that does not depend on it. Raises InputError if the length is not positive.
+    is good for all that does not depend on it. With a ``length``, a trace at a known angle to the
+    lay is turned across it first. Raises InputError if the length is not positive.
     """
     wide = profile.length if length is None else require.positive(length, "length of a strip along y (m)")
     origin = profile.origin
     if length is not None:
-        origin = origin.continued(f"strip: grooves without end along y, forces and areas of {show(wide, 'm')}")
+        if not math.isnan(profile.lay_angle):
+            profile = profile.across_lay()
+        origin = profile.origin.continued(f"strip: grooves without end along y, forces and areas of {show(wide, 'm')}")
     return Surface(profile.heights[:, None], profile.spacing, wide, periodic=profile.periodic, origin=origin)
 
 

@@ -251,3 +251,15 @@ def test_theories_of_summits_take_those_of_a_line_scan() -> None:
         asp.theories.DiscreteSummits.from_roughness(rough, 1e11)
     with refused(asp.InputError, "roughness for the theory greenwood-williamson"):
         asp.theories.GreenwoodWilliamson.from_roughness(rough, 1e11, bins=20)
+
+
+def test_a_stated_lay_is_said_beside_the_isotropy_and_turns_the_strip() -> None:
+    profile = sampled(RoundedSpectrum(1e-30, 4e6, 0.8), 512, 2e-8, 3)
+    laid = Profile(profile.heights, profile.spacing, lay_angle=0.5)
+    plain, stated = (isotropic_spectrum(one).assumption for one in (profile, laid))
+    assert stated.startswith(plain)
+    assert "28.65°" in stated
+    grooves = asp.surfaces.strip(laid, 1.0)
+    assert grooves.dx == pytest.approx(profile.spacing * math.cos(0.5), rel=1e-15)
+    assert len(grooves.origin.history) == len(laid.origin.history) + 2
+    assert asp.surfaces.strip(profile, 1.0).dx == profile.spacing
