@@ -222,6 +222,7 @@ GENERATE: tuple[tuple[str, ...], ...] = (
     (*SCANNED, "--scans", "rough.txt,size=8um x 6um,height_unit=nm"),
     (*SCANNED, "--scans", "rough.txt,size=8um x 6um,height_unit=K"),
     (*SCANNED, "--scans", "line_scan.txt,lateral_unit=um,height_unit=nm,axis=y"),
+    (*SCANNED, "--scans", "line_scan.txt"),
 )
 """Words after ``asperity generate``, before the grid and the file."""
 
@@ -248,6 +249,7 @@ FILES: Mapping[str, bytes | None] = {
     "none.txt": None,
     "empty.txt": b"",
     "noise.di": b"\x00\x01\x02 not a topography \xff" * 40,
+    "cut.mdt": b"\x01\xb0\x93\xff" + bytes(29),
     "noise.xyzzy": b"certainly not a topography" * 8,
     "ragged.txt": b"1 2 3\n4 5\n",
     "line_scan.txt": b"0.0 1\n0.5 2\n1.0 1\n1.5 0\n",

@@ -57,7 +57,8 @@ class WavesWork(WithFacts):
             found = table.makes(**{**table.given("kind"), "scans": scans})
             spectrum, keys = spectrum_table(found), found.citation_keys
             size, interval = max(scan.length for scan in scans), found.measured_to / POINTS_PER_WAVE
-            source = f"spectrum of {len(scans)} scans down to {show(found.shortest_wavelength, 'm', 3)}"
+            many = f"{len(scans)} scan{'s' * (len(scans) != 1)}"
+            source = f"spectrum of {many} down to {show(found.shortest_wavelength, 'm', 3)}"
             unseen = short_waves(found, problem.grid, problem.contact_modulus, pressure)
             more += unseen.findings(solved.result.area_fraction_corrected)
         else:

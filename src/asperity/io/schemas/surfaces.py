@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Optional, T
 from pydantic import Field, create_model, model_validator
 
 from ...core import units
-from ...core.errors import InputError
+from ...core.errors import FileFormatError, InputError
 from ...core.parameters import checked, parameters
 from ...core.registry import home
 from ...core.settings import Settings, setting, table_of
@@ -30,6 +30,7 @@ from ...core.values import (
     Values,
     Whole,
 )
+from ...core.words import speaking
 from ...surfaces.generate import autocorrelation, bimodal, digital_filter, gaussian, non_gaussian, power_laws, spectra
 from ...surfaces.generate import deterministic as shapes
 from ...surfaces.generate.gaussian import Spectrum
@@ -346,7 +347,7 @@ class ScanFile(FileReading):
         InputError
             If a line scan is to be prepared, or its lines are to run along y.
         """
-        held: Any = read(folder / self.path, **self.reading())
+        held: Any = self._read(folder)
         if isinstance(held, Profile) and (self.prepare or self.axis != "x"):
             key = "prepare" if self.prepare else "axis"
             raise InputError(f"{key} of the scan {self.path} must be left out: the file holds a line scan, no map.")
@@ -357,6 +358,26 @@ class ScanFile(FileReading):
         if self.instrument is not None:
             known["kind"] = self.instrument
         return home("surfaces.scans:Scan").of(held, name=self.path, **known)
+
+    def _read(self, folder: Path) -> Surface | Profile:
+        """What is in the file; errors name the keys of this table in place of options."""
+        with speaking("kept"):
+            try:
+                return read(folder / self.path, **self.reading())
+            except FileFormatError as error:
+                told, subject = str(error), error.subject
+
+        def named(found: re.Match[str]) -> str:
+            example, key = found.groups()
+            if key not in FileReading.model_fields:
+                return found[0]
+            return f"{key}={_EXAMPLES[key]}" if example else key
+
+        raise FileFormatError(re.sub(r"\{(give_)?(\w+)\}", named, told), subject=subject)
+
+
+_EXAMPLES = {"size": "20um", "height_unit": "nm", "lateral_unit": "um", "z_scale": "100nm"}
+"""Values of keys of a scan in messages."""
 
 
 class LineScanFile(FileSurface):

@@ -184,8 +184,8 @@ class ScansSpectrum(Drawn):
         """Words and numbers for the history of a surface generated on ``grid``."""
         named = ", ".join(self.scans[:_NAMED]) + (", …" if len(self.scans) > _NAMED else "")
         text = (
-            f"spectrum of {len(self.scans)} scans ({named}), {self.model.name} roll-off at "
-            f"{show(self.rolloff_wavelength, 'm')}, H = {self.hurst:.3g} ± {self.hurst_error:.2g}, waves down to "
+            f"spectrum of {len(self.scans)} scan{'s' * (len(self.scans) != 1)} ({named}), {self.model.name} roll-off "
+            f"at {show(self.rolloff_wavelength, 'm')}, H = {self.hurst:.3g} ± {self.hurst_error:.2g}, waves down to "
             f"{show(self.shortest_wavelength, 'm')}"
         )
         if self.shortest_wavelength < self.measured_to * (1.0 - 1e-9):
