@@ -230,30 +230,30 @@ def test_moduli_are_dropped_on_a_measured_relaxation(
 
 
 @pytest.mark.slow
-def test_files_are_dropped_as_scans_of_one_surface(
-    demo: AppServer, scan: Path, open_page: Callable[..., Any], tmp_path: Path
-) -> None:
-    page = open_page(demo.address, viewport={"width": 1400, "height": 900}).page
-    base_of(page)
-    page.goto(f"http://{demo.host}/start")
-    page.click("text=Begin")
-    base_of(page)
-    page.click("button:has-text('Many scans')")
-    page.wait_for_selector('[data-key="surface.spectrum.kind"]')
-    other = tmp_path / "other.npy"
-    np.save(other, np.loadtxt(scan))
-    put(page, scan)
-    page.wait_for_selector('[data-key="surface.spectrum.scans.0.path"]')
-    put(page, other)
-    page.wait_for_selector('[data-key="surface.spectrum.scans.1.path"]')
-    fill(page, "surface.spectrum.scans.1.size", "1 um")
-    fill(page, "surface.spectrum.scans.1.height_unit", "m")
-    page.wait_for_timeout(1000)
-    scans = document(page)["surface"]["spectrum"]["scans"]
-    assert [Path(entry["path"]).name for entry in scans] == [scan.name, other.name]
-    assert scans[1]["size"] == "1 um"
+def test_files_are_dropped_as_scans_of_one_surface(scan: Path, open_page: Callable[..., Any], tmp_path: Path) -> None:
+    with AppServer(("--demo", "--most-upload", "1", "--threads", "1")) as server:  # sessions of others stay as they are
+        page = open_page(server.address, viewport={"width": 1400, "height": 900}).page
+        base_of(page)
+        page.goto(f"http://{server.host}/start")
+        page.click("text=Begin")
+        base_of(page)
+        page.click("button:has-text('Many scans')")
+        page.wait_for_selector('[data-key="surface.spectrum.kind"]')
+        other = tmp_path / "other.npy"
+        np.save(other, np.loadtxt(scan))
+        put(page, scan)
+        page.wait_for_selector('[data-key="surface.spectrum.scans.0.path"]')
+        put(page, other)
+        page.wait_for_selector('[data-key="surface.spectrum.scans.1.path"]')
+        fill(page, "surface.spectrum.scans.1.size", "1 um")
+        fill(page, "surface.spectrum.scans.1.height_unit", "m")
+        page.wait_for_timeout(1000)
+        scans = document(page)["surface"]["spectrum"]["scans"]
+        assert [Path(entry["path"]).name for entry in scans] == [scan.name, other.name]
+        assert scans[1]["size"] == "1 um"
 
 
+@pytest.mark.slow
 def test_two_windows_show_the_same_document(demo: AppServer, open_page: Callable[..., Any]) -> None:
     one, two = (open_page(demo.address, viewport={"width": 1200, "height": 800}).page for _ in range(2))
     address = base_of(one)

@@ -65,7 +65,7 @@ ACTIONS = MappingProxyType(
         "isotropic": Action(
             "generate.surface_of_profile(profile, grid, ...)",
             "asperity generate from-line-scan",
-            "Surface: from line scan",
+            "Surface: from_line_scan",
         ),
         # the problem
         "load": Action("MeanPressure(...) or Force(...)", "--pressure or --load", "Control: Mean pressure"),
