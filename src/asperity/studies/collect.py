@@ -180,7 +180,7 @@ def state(plan: Plan, path: Path) -> CampaignState:
     counts."""
     outcome = np.full(plan.n_cases, MISSING, np.int8)
     errors: dict[int, dict[str, str]] = {}
-    told: dict[int, list[list[str]]] = {}
+    told: dict[int, dict[tuple[str, str], str]] = {}
     for place, record in placed_records(plan, path):
         outcome[place] = DONE if record["error"] is None else FAILED
         errors.pop(place, None)
@@ -188,7 +188,9 @@ def state(plan: Plan, path: Path) -> CampaignState:
         if record["error"] is not None:
             errors[place] = record["error"]
         if record.get("findings"):
-            told[place] = record["findings"]
+            told[place] = {}
+            for level, criterion, text in record["findings"]:  # a case counts once
+                told[place].setdefault((level, criterion), text)
 
     def at(place: int) -> dict[str, Coordinate]:
         return plan.coordinates(tuple(int(number) for number in np.unravel_index(place, plan.shape)))
@@ -197,7 +199,7 @@ def state(plan: Plan, path: Path) -> CampaignState:
     found = [
         Failure(at(place), f"{level} ({criterion})", in_words(text))
         for place, findings in told.items()
-        for level, criterion, text in findings
+        for (level, criterion), text in findings.items()
     ]
     end = stopped_at(plan, path)
     counted = outcome if end is None else outcome[: end * (plan.n_cases // plan.shape[0])]

@@ -18,6 +18,7 @@ from asperity.io.schemas.study import StopTable
 from asperity.parts.contact import Contact
 from asperity.run.build import build
 from asperity.run.document import checked
+from asperity.studies import collect
 from asperity.studies.analysis import analysis
 from asperity.studies.collect import Failure, causes, dataset, state, stopped_at
 from asperity.studies.convergence import step_sizes
@@ -149,13 +150,21 @@ def test_causes_that_differ_in_numbers_are_one():
     assert [(cause.count, cause.first.message) for cause in found] == [(3, said[0].message), (1, "another")]
 
 
-def test_findings_of_the_cases_are_counted(tmp_path):
-    """A layer thinner than a pixel is a warning in every case."""
+def test_findings_of_the_cases_are_counted(tmp_path, monkeypatch):
+    """A layer thinner than a pixel is a warning in every case, which counts once however often it
+    says so."""
     body = {"layers": [{"material": "DLC", "thickness": "1 nm"}], "base": "steel"}
     made = plan(problem={**PROBLEM, "body": body}, axes=[SEEDS, LOADS])
     carry_out(made, tmp_path / "r.log", InProcess())
     counted = {cause.kind: cause.count for cause in state(made, tmp_path / "r.log").findings}
     assert counted["note (layer against pixel)"] == 12
+    placed = collect.placed_records
+
+    def twice(*args):
+        return [(place, {**record, "findings": 2 * record["findings"]}) for place, record in placed(*args)]
+
+    monkeypatch.setattr(collect, "placed_records", twice)
+    assert {cause.kind: cause.count for cause in state(made, tmp_path / "r.log").findings} == counted
 
 
 def test_records_are_plain_json(tmp_path):
