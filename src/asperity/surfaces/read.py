@@ -183,6 +183,7 @@ def _read_member(file: Path, found: Unpacked, given: Mapping[str, Any]) -> Surfa
             held.spacing,
             periodic=held.periodic,
             instrument=held.instrument,
+            lay_angle=held.lay_angle,
             short_cutoff=held.short_cutoff,
             origin=named,
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -54,6 +55,17 @@ def test_netcdf_comes_back_equal(
     same(asp.read(tmp_path / "a.nc"), before)
     (channel,) = asp.surfaces.channels(tmp_path / "a.nc")
     assert (channel.shape, channel.size, channel.unit) == ((40,), (before.length,), "m")
+
+
+def test_an_archive_keeps_what_is_known_of_a_line_scan(tmp_path: Path) -> None:
+    before = scan(lay_angle=0.2, short_cutoff=2.5e-6)
+    asp.save(before, tmp_path / "a.nc")
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        archive.write(tmp_path / "a.nc", "a.nc")
+    after = asp.read(tmp_path / "a.zip")
+    np.testing.assert_array_equal(after.heights, before.heights)
+    for name in ("spacing", "periodic", "short_cutoff", "lay_angle", "instrument"):
+        assert repr(getattr(after, name)) == repr(getattr(before, name))
 
 
 def test_a_map_is_saved_and_loaded_too(tmp_path: Path) -> None:
