@@ -9,6 +9,7 @@ from typing import Any
 from ..core.quantity import Quantity
 from ..core.settings import Settings, setting
 from ..core.values import Fraction
+from ..theories.rough.wave_questions import QUESTIONS
 from .part import Part
 
 
@@ -40,27 +41,16 @@ class WavesAsked:
 
 OCTAVE = "octave"
 
-ASKED = {
-    "height": "rms height",
-    "slope": "rms slope",
-    "curvature": "rms curvature",
-    "area": "real area",
-    "plastic": "plastic area",
-    "mean_gap": "mean gap",
-    "compliance": "contact compliance",
-}
-"""What is asked of the waves, and what it is called."""
-
 SHARES = {
     name: Quantity(f"waves_{name}_share", "1", f"share of the octave in the {called}", (OCTAVE,))
-    for name, called in ASKED.items()
+    for name, called in QUESTIONS.items()
 }
 SIZES = {
-    name: Quantity(f"waves_{name}_size", "m", f"size of a scan for the {called}") for name, called in ASKED.items()
+    name: Quantity(f"waves_{name}_size", "m", f"size of a scan for the {called}") for name, called in QUESTIONS.items()
 }
 INTERVALS = {
     name: Quantity(f"waves_{name}_interval", "m", f"sampling interval of a scan for the {called}")
-    for name, called in ASKED.items()
+    for name, called in QUESTIONS.items()
 }
 LONGEST = Quantity("waves_longest", "m", "longest wave of the octave", (OCTAVE,))
 SHORTEST = Quantity("waves_shortest", "m", "shortest wave of the octave", (OCTAVE,))

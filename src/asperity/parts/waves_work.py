@@ -21,8 +21,9 @@ from ..surfaces.characterise.spectrum import power_spectrum, radial_spectrum
 from ..surfaces.surface import Surface
 from ..theories.rough.deciding_waves import POINTS_PER_WAVE, DecidingWaves, Need, deciding_waves
 from ..theories.rough.persson import IsotropicSpectrum
+from ..theories.rough.wave_questions import QUESTIONS
 from .part import Found, Solved, Table, WithFacts, Words
-from .waves import ASKED, INTERVALS, LEAK, LONGEST, SHARES, SHORTEST, SIZES, WavesAsked
+from .waves import INTERVALS, LEAK, LONGEST, SHARES, SHORTEST, SIZES, WavesAsked
 
 
 class WavesWork(WithFacts):
@@ -75,7 +76,7 @@ class WavesWork(WithFacts):
         none = np.full(waves.longest.size, math.nan)
         values: dict[str, Any] = {LONGEST.name: waves.longest, SHORTEST.name: waves.shortest}
         values[LEAK.name] = waves.leak_wavelength
-        for name in ASKED:
+        for name in QUESTIONS:
             need = waves.needs.get(name)
             values[SHARES[name].name] = waves.shares.get(name, none)
             values[SIZES[name].name] = math.nan if need is None or not need.bounded else need.size

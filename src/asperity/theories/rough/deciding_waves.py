@@ -16,10 +16,7 @@ from ...core.errors import InputError
 from ...core.status import Advice
 from ...core.units import percent, show
 from .persson import IsotropicSpectrum, PerssonGap
-
-QUESTIONS = ("height", "slope", "curvature", "area", "plastic", "mean_gap", "compliance")
-"""rms height (m0), rms slope (m2), rms curvature (m4), real area, plastic part of it, mean gap, and
-compliance 1/K, to which the conductance is inverse."""
+from .wave_questions import QUESTIONS
 
 POINTS_PER_WAVE = 4
 """Sampling intervals in the shortest reliable wave of a scan."""
@@ -97,7 +94,7 @@ class DecidingWaves:
         require.positive(interval, "sampling interval of a scan (m)")
         made = []
         for question, need in self.needs.items():
-            name, level = _NAMES[question], _LEVELS.get(question, _WARNING)
+            name, level = QUESTIONS[question], _LEVELS.get(question, _WARNING)
             numbers = {"interval": need.interval} | ({"size": need.size} if need.bounded else {})
             if not need.settled:
                 fact = (
@@ -130,15 +127,6 @@ class DecidingWaves:
 
 _WARNING: Literal["warning"] = "warning"
 _LEVELS: dict[str, Literal["note"]] = dict.fromkeys(("height", "slope", "curvature"), "note")  # not of the contact
-_NAMES = {
-    "height": "rms height",
-    "slope": "rms slope",
-    "curvature": "rms curvature",
-    "area": "real area",
-    "plastic": "plastic area",
-    "mean_gap": "mean gap",
-    "compliance": "contact compliance",
-}
 
 
 def deciding_waves(
