@@ -18,7 +18,7 @@ from ..core.arrays import RealArray
 from ..core.errors import FileFormatError, UnitError
 from ..core.text import read_text
 from .relaxation import creep_through, relaxation_through
-from .viscoelastic import MasterCurve, Viscoelastic, fitted_solid
+from .viscoelastic import MasterCurve, MeasuredCurve, Viscoelastic, fitted_solid
 
 COLUMNS = MappingProxyType(
     {
@@ -112,7 +112,7 @@ def read_measured(path: str | Path) -> Measured:
 
 
 @dataclass(frozen=True, eq=False)
-class TimeCurve:
+class TimeCurve(MeasuredCurve):
     """Fit of a Prony series to a relaxation modulus or a creep compliance.
 
     Attributes
@@ -134,16 +134,6 @@ class TimeCurve:
     def errors(self) -> RealArray:
         """|fitted - measured| / measured at every time."""
         return np.asarray(np.abs(self.fitted - self.measured) / self.measured)
-
-    @property
-    def rms_error(self) -> float:
-        """Root of the mean square of ``errors``."""
-        return float(np.sqrt(np.mean(self.errors**2)))
-
-    @property
-    def largest_error(self) -> float:
-        """Largest of ``errors``."""
-        return float(self.errors.max())
 
 
 def fitted_relaxation(

@@ -4,6 +4,7 @@ time."""
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self, TypeAlias
 
@@ -409,8 +410,27 @@ def power_law_error(series: Relaxation, coefficient: float, exponent: float, tim
     return float(np.abs(series.at(t) / (coefficient * t**-exponent) - 1.0).max())
 
 
+class MeasuredCurve(ABC):
+    """How well the curve of a solid meets what was measured."""
+
+    @property
+    @abstractmethod
+    def errors(self) -> RealArray:
+        """Relative deviation at every point that was measured, (n,)."""
+
+    @property
+    def rms_error(self) -> float:
+        """Root of the mean square of ``errors``."""
+        return float(np.sqrt(np.mean(self.errors**2)))
+
+    @property
+    def largest_error(self) -> float:
+        """Largest of ``errors``."""
+        return float(self.errors.max())
+
+
 @dataclass(frozen=True, eq=False)
-class MasterCurve:
+class MasterCurve(MeasuredCurve):
     """Fit of a Prony series to measured storage and loss moduli.
 
     Attributes
@@ -436,16 +456,6 @@ class MasterCurve:
         """|fitted - measured| / |measured| of the complex modulus at every frequency."""
         measured = self.storage + 1j * self.loss
         return np.asarray(np.abs(self.fitted - measured) / np.abs(measured))
-
-    @property
-    def rms_error(self) -> float:
-        """Root of the mean square of ``errors``."""
-        return float(np.sqrt(np.mean(self.errors**2)))
-
-    @property
-    def largest_error(self) -> float:
-        """Largest of ``errors``."""
-        return float(self.errors.max())
 
 
 def fitted_solid(
