@@ -9,7 +9,7 @@ import json
 import math
 import time
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -28,6 +28,7 @@ from ..io.results import document_in
 from ..io.schemas.surfaces import SurfaceTable
 from ..io.words import surface_rows
 from ..physics.stress.part import Stress, StressSettings, stress_request
+from ..plots.picture import Figure
 from ..plots.profile import profile_figures
 from ..plots.surface import roughness_figures
 from ..plots.together import save_pictures
@@ -163,14 +164,9 @@ def _map(built: Surface, out: Path) -> dict[str, Any]:
     """The same of a map."""
     found = characterise(built)
     figures = roughness_figures(found)
-    save_pictures(figures, out, overwrite=True)
-    write_roughness_report(found, out / "roughness.html", figures=figures, overwrite=True)
-    return {
-        "reports": [REPORT],
-        "headline": [[name, text] for name, text in headline_values(found)],
-        "groups": [[title, [list(row) for row in rows]] for title, rows in quantity_rows(found)],
-        "figures": [[figure.name, figure.title, figure.caption] for figure in figures],
-    }
+    page = _page(out, figures, headline_values(found), quantity_rows(found))
+    write_roughness_report(found, out / REPORT[0], figures=figures, overwrite=True)
+    return page
 
 
 def _scans(spectrum: Any, folder: Path, out: Path) -> dict[str, Any]:
@@ -199,12 +195,18 @@ def _line_scan(profile: Profile, out: Path) -> dict[str, Any]:
     """The same of a line scan."""
     found = characterise_profile(profile)
     figures = profile_figures(found)
+    page = _page(out, figures, profile_headline(found), profile_rows(found))
+    write_profile_report(found, out / REPORT[0], figures=figures, overwrite=True)
+    return page
+
+
+def _page(out: Path, figures: Sequence[Figure], headline: Iterable[Any], groups: Iterable[Any]) -> dict[str, Any]:
+    """What the page on a roughness shows; its pictures are written into the folder ``out``."""
     save_pictures(figures, out, overwrite=True)
-    write_profile_report(found, out / "roughness.html", figures=figures, overwrite=True)
     return {
         "reports": [REPORT],
-        "headline": [[name, text] for name, text in profile_headline(found)],
-        "groups": [[title, [list(row) for row in rows]] for title, rows in profile_rows(found)],
+        "headline": [[name, text] for name, text in headline],
+        "groups": [[title, [list(row) for row in rows]] for title, rows in groups],
         "figures": [[figure.name, figure.title, figure.caption] for figure in figures],
     }
 
