@@ -152,7 +152,7 @@ def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
         return 0.0
     if moving.all() and operator.zero_mean_mode:
         return math.inf
-    found = Response.of(operator, moving)
+    found = Response.of(operator, moving).solved()
     if found.values is None:
         return math.nan
     return found.total / operator.grid.n_points
@@ -160,39 +160,39 @@ def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
 
 class Response(NamedTuple):
     """Pressure that moves some points as prescribed: the set ``free`` of them, the ``scaled``
-    operator, and the ``values`` on the set, None if the linear solve does not converge."""
+    operator, and the ``values`` on the set, None where it is not solved."""
 
     free: FreeSet
     scaled: ScaledOperator
-    values: Any
+    values: Any = None
 
     @classmethod
-    def prepared(cls, operator: Operator, moving: BoolArray) -> Self:
-        """Without values, on the points ``moving`` (nx, ny), at least one, the preconditioner
-        ready."""
+    def of(cls, operator: Operator, moving: BoolArray) -> Self:
+        """Not solved yet, on the points ``moving`` (nx, ny), at least one."""
         engine, shape = operator.engine, operator.grid.shape
         scaled = ScaledOperator.of(operator, "float32", operator.largest or 1.0)
         p, flat = engine.array(moving.astype(float), "float64"), engine.zeros(shape, "float64")
         survey = engine.survey(p, flat, flat, None)  # u = h: no point enters, and the residual is the level
         free = survey.free_set(np.zeros((*survey.squares.shape[:2], 2)), 1.0, 1.0, scaled.dtype)
-        scaled.splines.factorise(free)
-        return cls(free, scaled, None)
+        return cls(free, scaled)
 
-    @classmethod
-    def of(cls, operator: Operator, moving: BoolArray, rise: RealArray | None = None) -> Self:
-        """That on the points ``moving`` (nx, ny), at least one, under which they rise by ``rise``
-        (nx, ny) in m, by 1 m if that is left out."""
-        free, scaled, _ = cls.prepared(operator, moving)
-        r = free.residual(centred=False) if rise is None else free.gather(operator.engine.array(rise, scaled.dtype))[0]
-        found = conjugate_gradients(LinearSystem(scaled, free, zero_sum=False), r, _STOPPING)
-        return cls(free, scaled, found.d if found.reached else None)
+    def solved(self, rise: RealArray | None = None) -> Self:
+        """With the pressure under which the points rise by ``rise`` (nx, ny) in m, by 1 m without
+        one; no values if the linear solve does not converge."""
+        r = self.free.residual(centred=False) if rise is None else self._vector(rise)
+        found = conjugate_gradients(LinearSystem(self.scaled, self.free, zero_sum=False), r, _STOPPING)
+        self.scaled.engine.clear_field(self.free, self.scaled.field)
+        return self._replace(values=found.d if found.reached else None)
 
     def preconditioned(self, rise: RealArray) -> RealArray:
         """Approximate pressure (nx, ny) in Pa for a ``rise`` (nx, ny) in m of the points: the
-        preconditioner's."""
-        r = self.free.gather(self.scaled.engine.array(rise, self.scaled.dtype))[0]
+        preconditioner's, once the model of the compliance is factorised."""
+        r = self._vector(rise)
         system = LinearSystem(self.scaled, self.free, zero_sum=False)
         return self._replace(values=system.preconditioned(r, r, self.free.empty()).vector).pressure
+
+    def _vector(self, values: RealArray) -> Any:
+        return self.free.gather(self.scaled.engine.array(values, self.scaled.dtype))[0]
 
     @property
     def total(self) -> float:

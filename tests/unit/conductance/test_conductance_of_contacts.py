@@ -11,7 +11,6 @@ from refusals import refused
 
 import asperity as asp
 from asperity.core.errors import InputError
-from asperity.physics.conductance import spots
 from asperity.physics.conductance.conductance import ContactConductance, conductance
 from asperity.physics.conductance.law import ConductingInterface
 from asperity.physics.conductance.operator import ELECTRICAL, THERMAL
@@ -23,6 +22,7 @@ from asperity.physics.conductance.stiffness import (
     why_not,
 )
 from asperity.solids import Conduction
+from asperity.theories.conductance import spots
 
 K, RHO = 20.0, 4e-8
 BODY = asp.Elastic(0.91, 0.3, conduction=Conduction(K, RHO))
@@ -105,7 +105,7 @@ def test_no_contact_and_full_contact() -> None:
     pressed = asp.solve(problem(), asp.MeanPressure(100.0))
     full = conductance(pressed, "thermal")
     assert (full.per_area, full.resistance, full.error) == (math.inf, 0.0, 0.0)
-    filmed = conductance(pressed, "thermal", ConductingInterface(film=0.5))
+    filmed = conductance(pressed, "thermal", ConductingInterface(film_resistance=0.5))
     assert filmed.per_area == pytest.approx(2.0, rel=1e-6)
 
 

@@ -12,7 +12,6 @@ from refusals import refused
 import asperity as asp
 from asperity.contact.operators import prepare_operator
 from asperity.core.errors import InputError
-from asperity.physics.conductance import spots
 from asperity.physics.conductance.operator import (
     ELECTRICAL,
     THERMAL,
@@ -25,6 +24,7 @@ from asperity.physics.conductance.operator import (
 from asperity.physics.conductance.solver import Flux, flux, flux_with_gap
 from asperity.solids import Conduction
 from asperity.solids.compliance.halfspace import HalfSpace
+from asperity.theories.conductance import spots
 
 BIAS = 0.117
 """By how many pixels a disc of constant flux on pixels conducts like a smaller one."""

@@ -10,7 +10,9 @@ from reference_data import every_row, reference
 from refusals import refused
 
 from asperity.core.errors import InputError
-from asperity.physics.conductance import law, spots
+from asperity.physics.conductance import law
+from asperity.physics.conductance.tube import tube_factor_exact
+from asperity.theories.conductance import spots
 
 CLUSTERS: dict[str, list[list[float]]] = {}
 for _row in reference("transport/spot_cluster_spots"):
@@ -34,7 +36,7 @@ def test_strips(row: dict[str, float]) -> None:
 @every_row(reference("transport/flux_tube"), label=lambda row: str(row["case"]))
 def test_tube(row: dict[str, float]) -> None:
     """The reference has eight digits."""
-    assert spots.tube_factor_exact(row["a_over_b"]) == pytest.approx(row["psi_isothermal"], abs=1e-8)
+    assert tube_factor_exact(row["a_over_b"]) == pytest.approx(row["psi_isothermal"], abs=1e-8)
     assert float(spots.tube_factor(row["a_over_b"])) == pytest.approx(row["psi_cmy_1_minus_eps_1p5"], abs=1e-8)
 
 
@@ -86,7 +88,7 @@ def test_gas_and_radiation_across_a_gap() -> None:
         1.0 / between.gap_resistance(np.array([0.0, 1e-6])), 0.026 / np.array([0.3e-6, 1.3e-6]) + 6.0
     )
     assert between.bridges
-    assert not law.ConductingInterface(film=1e-6).bridges
+    assert not law.ConductingInterface(film_resistance=1e-6).bridges
     assert law.radiation(300.0, (0.5, 0.5)) == pytest.approx(law.radiation(300.0) / 3.0)
     one_sided = law.temperature_jump(68e-9, (1.0, 1.0))
     assert one_sided == pytest.approx(2.0 * 2.0 * 1.4 / 2.4 / 0.71 * 68e-9)
@@ -101,9 +103,9 @@ def test_gas_and_radiation_across_a_gap() -> None:
         (lambda: spots.strips(1.0, 1.1, 1.0), "contact fraction of strips"),
         (lambda: spots.cluster(1.0, [0.0, 1.0], [0.0, 0.0], [1.0, 1.0]), "spots of a cluster"),
         (lambda: spots.tube_factor(1.5), "ratio of the radii"),
-        (lambda: spots.tube_factor_exact(1.0), "ratio of the radii"),
+        (lambda: tube_factor_exact(1.0), "ratio of the radii"),
         (lambda: spots.hottest(-1.0), "voltage (V)"),
-        (lambda: law.ConductingInterface(film=-1.0), "specific resistance of the film"),
+        (lambda: law.ConductingInterface(film_resistance=-1.0), "specific resistance of the film"),
         (lambda: law.radiation(300.0, (0.0, 1.0)), "emissivity"),
         (lambda: law.temperature_jump(68e-9, (1.1, 1.0)), "accommodation coefficient"),
     ],

@@ -20,10 +20,10 @@ from ...core.arrays import BoolArray, RealArray
 from ...core.engine import Engine
 from ...core.errors import InputError
 from ...core.late import Shown
+from ...theories.conductance.spots import sharvin, wexler
 from .law import ConductingInterface
 from .operator import ELECTRICAL, THERMAL, Flow, conductors, harmonic_mean, layers_in_series
 from .solver import Flux, flux, flux_with_gap
-from .spots import sharvin, wexler
 
 FLOWS = {"electrical": ELECTRICAL, "thermal": THERMAL}
 
@@ -164,8 +164,8 @@ def conductance(
 
     Both bodies conduct as half-spaces or layers on one, a rigid body and a rigid base have one
     potential. Every point that touches conducts, whether it has yielded or not; the flux has the
-    same potential drop there, less that in the film of the ``interface``, whose gap conducts in
-    parallel. One linear system of the kind of the contact's stiffness.
+    same potential drop there, less that in the film resistance of the ``interface``, whose gap
+    conducts in parallel. One linear system of the kind of the contact's stiffness.
 
     Parameters
     ----------
@@ -189,12 +189,12 @@ def conductance(
     of = FLOWS[require.one_of(flow, FLOWS, "flow")]
     problem = result.problem
     require_conducting(problem, of)
-    made = conductors(problem.body, problem.counter_body, of, interface.film)
+    made = conductors(problem.body, problem.counter_body, of, interface.film_resistance)
     operator = prepare_operator(made, problem.grid, problem.boundary, engine=engine)
     contact = result.contact
     if interface.bridges:
         gap = interface.gap_resistance(np.maximum(result.gap, 0.0))
-        found = flux_with_gap(operator, contact, np.where(contact, np.inf, gap), interface.film)
+        found = flux_with_gap(operator, contact, np.where(contact, np.inf, gap), interface.film_resistance)
     else:
         found = flux(operator, contact)
     return _answered(result, of, interface, found)

@@ -24,8 +24,8 @@ class ConductingInterface(Shown):
 
     Parameters
     ----------
-    film
-        Specific resistance of the film in contact, Ω m² or m² K/W, >= 0; 0 for none.
+    film_resistance
+        Specific resistance of a thin film in contact, Ω m² or m² K/W, >= 0; 0 for none.
     gap_conductivity
         Conductivity k_g of what fills the gap, S/m or W/(m K), >= 0.
     jump
@@ -35,14 +35,14 @@ class ConductingInterface(Shown):
         Conductance per area by radiation in W/(m² K), >= 0 (``radiation``).
     """
 
-    film: float = 0.0
+    film_resistance: float = 0.0
     gap_conductivity: float = 0.0
     jump: float = 0.0
     radiation: float = 0.0
     citation_keys: ClassVar[tuple[str, ...]] = ()
 
     def __post_init__(self) -> None:
-        require.not_negative(self.film, "specific resistance of the film")
+        require.not_negative(self.film_resistance, "specific resistance of the film")
         require.not_negative(self.gap_conductivity, "conductivity of the gap")
         require.not_negative(self.jump, "temperature jump as a length (m)")
         require.not_negative(self.radiation, "conductance by radiation (W/(m² K))")

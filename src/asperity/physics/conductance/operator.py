@@ -33,8 +33,8 @@ from ...solids.compliance.influence import (
     wavenumber_grid,
     wavenumbers,
 )
-from ...solids.elastic import Elastic
-from ...solids.layers import Body, Layered, Rigid
+from ...solids.elastic import Elastic, Rigid
+from ...solids.layers import Body, Layered
 
 
 @dataclass(frozen=True)
@@ -99,12 +99,12 @@ class Filmed:
     ----------
     conductors
         Sum of both bodies.
-    film
-        Specific resistance in m² K/W or Ω m², > 0.
+    resistance
+        Specific resistance of the film in m² K/W or Ω m², > 0.
     """
 
     conductors: Compliance
-    film: float
+    resistance: float
 
     @property
     def citation_keys(self) -> tuple[str, ...]:
@@ -113,11 +113,11 @@ class Filmed:
 
     def spectral(self, wavenumber: ArrayLike) -> RealArray:
         """Z(q) and the film, at ``wavenumber`` q > 0 (rad/m)."""
-        return self.conductors.spectral(wavenumber) + self.film
+        return self.conductors.spectral(wavenumber) + self.resistance
 
     def mean_mode(self) -> float:
         """That of the conductors and the film."""
-        return self.conductors.mean_mode() + self.film
+        return self.conductors.mean_mode() + self.resistance
 
     def influence(self, grid: Grid) -> RealArray:
         """Potential at pixel offsets (nx, ny); the film adds at the pixel itself."""
@@ -129,7 +129,7 @@ class Filmed:
 
     def _at_itself(self, potential: RealArray) -> RealArray:
         found = potential.copy()
-        found[0, 0] += self.film
+        found[0, 0] += self.resistance
         return found
 
 
@@ -143,7 +143,7 @@ class Flow(Shown):
         ``"electrical"`` or ``"thermal"``.
     conductivity
         Conductivity of a material in S/m or W/(m K), NaN where not known.
-    missing
+    missing, remedy
         What is said to be missing, and how it is given.
     potential, flow, resistance
         Units: V and A and ohm, or K and W and K/W.
@@ -152,6 +152,7 @@ class Flow(Shown):
     name: str
     conductivity: Callable[[Elastic], float]
     missing: str
+    remedy: str
     potential: str
     flow: str
     resistance: str
@@ -161,19 +162,20 @@ ELECTRICAL = Flow(
     "electrical",
     lambda material: 1.0 / material.conduction.electrical_resistivity,
     "electrical resistivity",
+    "Give {electrical_resistivity}.",
     "V",
     "A",
     "ohm",
 )
 THERMAL = Flow(
-    "thermal", lambda material: material.conduction.thermal_conductivity, "thermal conductivity", "K", "W", "K/W"
+    "thermal",
+    lambda material: material.conduction.thermal_conductivity,
+    "thermal conductivity",
+    "Give {thermal_conductivity}.",
+    "K",
+    "W",
+    "K/W",
 )
-
-GIVEN = {
-    "electrical": "Write it behind the material, such as {rho=17nohm*m}, or Conduction(electrical_resistivity=17e-9).",
-    "thermal": "Write it behind the material, such as {k=50 W/m/K}, or Conduction(thermal_conductivity=50.0).",
-}
-"""How the conductivity of a material is given."""
 
 
 def conductor_of(body: Body, flow: Flow, which: str) -> Compliance | None:
@@ -204,14 +206,14 @@ def _conductivity(material: Elastic, flow: Flow, which: str) -> float:
     if math.isnan(found):
         name = f"{material.name}, {which}" if material.name else which
         raise InputError(
-            f"{flow.missing} of {name}, must be known, but is not. {GIVEN[flow.name]}",
+            f"{flow.missing} of {name}, must be known, but is not. {flow.remedy}",
             subject=f"{flow.missing} of {material.name or which}",
         )
     return found
 
 
-def conductors(body: Body, counter_body: Body, flow: Flow, film: float = 0.0) -> Compliance:
-    """Both bodies in series, and between them a ``film`` of that specific resistance, >= 0.
+def conductors(body: Body, counter_body: Body, flow: Flow, film_resistance: float = 0.0) -> Compliance:
+    """Both bodies in series, and between them a film of the specific ``film_resistance``, >= 0.
 
     Rigid bodies have one potential and add nothing.
 
@@ -229,7 +231,7 @@ def conductors(body: Body, counter_body: Body, flow: Flow, film: float = 0.0) ->
         total: Compliance = HalfSpace(1.0 / sum(1.0 / item.modulus for item in spaces))
     else:
         total = found[0] if len(found) == 1 else SumOfCompliances(tuple(found))
-    return Filmed(total, film) if film else total
+    return Filmed(total, film_resistance) if film_resistance else total
 
 
 def harmonic_mean(body: Body, counter_body: Body, flow: Flow) -> float:

@@ -22,9 +22,12 @@ ROUNDS = 3
 """Linear solves at most: the first leaves a residual of 1e-4 and single precision, the second 1e-7
 or so."""
 
+CLOSE = 1e-6
+"""Distance of the bounds over the conductance at which no further round follows."""
+
 REDUCTION = 1e-6
-"""Residual over the drop, root of the mean square on the conducting points, at which no further
-round follows: the conductance errs by its square."""
+"""Residual over the drop, root of the mean square on the conducting points, at which conjugate
+gradients with a conducting gap end: the conductance errs by its square."""
 
 GAP_STEPS = 300
 """Steps of the conjugate gradients with a conducting gap at most; 10 to 40 are the rule."""
@@ -80,28 +83,31 @@ def flux(operator: Operator, contact: BoolArray) -> Flux:
     if contact.all() and operator.zero_mean_mode:
         everywhere = np.full(shape, math.inf)
         return Flux(everywhere, np.zeros(shape), math.inf, math.inf, 0.0)
-    density, drop, left = np.zeros(shape), np.zeros(shape), contact.astype(float)
+    density: RealArray = np.zeros(shape)
+    drop, left = density, contact.astype(float)
+    prepared = Response.of(operator, contact)
     for done in range(ROUNDS):
-        found = Response.of(operator, contact, left if done else None)
+        found = prepared.solved(left if done else None)
         if found.values is None:
             raise ConvergenceError(
                 f"The flux on the contact was not found: the linear system was not solved in round {done + 1}."
             )
-        density += found.pressure
+        density = density + found.pressure
         drop = operator.apply(density)
         left = np.where(contact, 1.0 - drop, 0.0)
-        if _rms(left, contact) <= REDUCTION:
+        bounded = _bounded(operator, density, drop, left, contact)
+        if bounded.upper - bounded.lower <= CLOSE * bounded.lower:
             break
-    return _bounded(operator, density, drop, left, contact)
+    return bounded
 
 
-def flux_with_gap(operator: Operator, contact: BoolArray, gap_resistance: RealArray, film: float) -> Flux:
+def flux_with_gap(operator: Operator, contact: BoolArray, gap_resistance: RealArray, film_resistance: float) -> Flux:
     """The same where the gap conducts, too: its specific resistance at every point outside the
     contact is ``gap_resistance`` (nx, ny), > 0, infinite where it does not conduct.
 
-    The ``operator`` holds the ``film`` everywhere, which outside gives way to the gap. Conjugate
-    gradients on all points that conduct, preconditioned by the model of the contact's solver on the
-    contact and by the diagonal outside.
+    The ``operator`` holds the ``film_resistance`` everywhere, which outside gives way to the gap.
+    Conjugate gradients on all points that conduct, preconditioned by the model of the contact's
+    solver on the contact and by the diagonal outside.
 
     Raises
     ------
@@ -111,8 +117,8 @@ def flux_with_gap(operator: Operator, contact: BoolArray, gap_resistance: RealAr
     conducts = contact | np.isfinite(gap_resistance)
     if not conducts.any():
         return flux(operator, contact)
-    own = float(operator.apply(_point(operator))[0, 0]) - film
-    more = np.where(conducts & ~contact, gap_resistance - film, 0.0)
+    own = float(operator.apply(_point(operator))[0, 0]) - film_resistance
+    more = np.where(conducts & ~contact, gap_resistance - film_resistance, 0.0)
     diagonal = np.where(conducts & ~contact, own + gap_resistance, 1.0)
     system = _Preconditioner(operator, contact, diagonal)
     j, r = np.zeros(contact.shape), conducts.astype(float)
@@ -146,7 +152,9 @@ class _Preconditioner:
 
     def __init__(self, operator: Operator, contact: BoolArray, diagonal: RealArray) -> None:
         self.contact, self.diagonal, self.engine = contact, diagonal, operator.engine
-        self.found = Response.prepared(operator, contact) if contact.any() else None
+        self.found = Response.of(operator, contact) if contact.any() else None
+        if self.found is not None:
+            self.found.scaled.splines.factorise(self.found.free)
 
     def __call__(self, r: RealArray) -> RealArray:
         """It times the residual ``r`` (nx, ny)."""

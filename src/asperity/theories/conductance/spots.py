@@ -8,6 +8,8 @@ half-spaces, insulated outside the spots, so that the spots have one potential.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +17,12 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...core.late import Tabled
+from ...core.parameters import Help
+from ...core.quantity import Quantity
+from ...core.values import Number
+from ..ask import CONTACT_RADIUS, Way
+from ..protocol import Bound, Theory, checked
 
 CAPACITY_OF_A_SQUARE = 0.36678741
 """Capacity of a square plate over that of a sphere of its side as radius (Hwang & Mascagni
@@ -43,13 +51,14 @@ def ellipse(k_s: float, semi_major: float, semi_minor: float) -> float:
     InputError
         If the minor axis is longer than the major one.
     """
-    from scipy.special import ellipkm1
-
     a = require.positive(semi_major, "semi-major axis of a spot (m)")
     b = require.positive(semi_minor, "semi-minor axis of a spot (m)")
     if b > a:
         raise InputError(f"semi-minor axis of a spot (m) must be at most the semi-major one, {a:g}, but is {b:g}.")
-    return math.pi * _conductivity(k_s) * a / float(ellipkm1((b / a) ** 2))
+    mean, other = a, b  # arithmetic-geometric mean of the axes: K = π a/2 over it
+    while mean - other > 1e-15 * mean:
+        mean, other = 0.5 * (mean + other), math.sqrt(mean * other)
+    return 2.0 * _conductivity(k_s) * mean
 
 
 def square(k_s: float, side: float) -> float:
@@ -100,36 +109,6 @@ def tube_factor(ratio: ArrayLike) -> RealArray:
     """ψ = (1 - ε)^1.5 for the ``ratio`` ε of the radius of a circle to that of its tube, 0 <= ε <=
     1: G = 2 k_s a/ψ (Cooper, Mikic & Yovanovich 1969)."""
     return np.asarray((1.0 - _ratio(ratio)) ** 1.5)
-
-
-_BASIS, _ZEROS = 8, 200_000
-
-
-def tube_factor_exact(ratio: float) -> float:
-    """ψ of a circle of one potential at the end of a tube, 0 < ε < 1, by Galerkin's method with the
-    flux densities (1 - r²/a²)^(n - 1/2), n = 0 … 7; error below 1e-7 up to ε = 0.9.
-
-    The potential is a sum over the zeros of J_1; what is beyond 200 000 of them follows from their
-    mean.
-    """
-    from scipy.special import gamma, j0, jn_zeros, jv
-
-    e = float(_ratio(ratio))
-    if not 0.0 < e < 1.0:
-        raise InputError(f"ratio of the radii must be between zero and one, but is {e:g}.")
-    m = np.arange(1, _ZEROS + 1)
-    b = (m + 0.25) * math.pi
-    zeros = b - 3.0 / (8.0 * b) + 36.0 / (3.0 * (8.0 * b) ** 3) - 113184.0 / (15.0 * (8.0 * b) ** 5)
-    zeros[:30] = jn_zeros(1, 30)
-    t = zeros * e
-    # ∫ r (1 - r²)^(n-1/2) J_0(t r) dr over the circle of radius one
-    shapes = np.stack([2.0 ** (n - 0.5) * gamma(n + 0.5) * jv(n + 0.5, t) / t ** (n + 0.5) for n in range(_BASIS)])
-    weight = 2.0 * e / (zeros * j0(zeros) ** 2)
-    matrix = (shapes * weight) @ shapes.T
-    matrix[0, 0] += 1.0 / (2.0 * math.pi * e * (_ZEROS + 0.75))  # sum of π e/2t² beyond, the mean of sin² being 1/2
-    load = 1.0 / (2.0 * np.arange(_BASIS) + 1.0)
-    total = float(load @ np.linalg.solve(matrix, load))  # over 2π k a V
-    return 2.0 / (math.pi * total)
 
 
 # Spots that are small against the mean free path, and hot ones.
@@ -192,3 +171,53 @@ def _ratio(value: ArrayLike) -> RealArray:
     if not np.all((found >= 0.0) & (found <= 1.0)):
         raise InputError(f"ratio of the radii must be from zero to one, but is {found.ravel()[0]:g}.")
     return found
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SpotAnswer(Tabled):
+    """Spots of some radii, arrays of one shape: ``radius`` in m, ``conductance`` in S,
+    ``resistance`` in Ω, of which ``ballistic`` is Sharvin's part."""
+
+    radius: RealArray
+    conductance: RealArray
+    resistance: RealArray
+    ballistic: RealArray
+
+
+@dataclass(frozen=True)
+class HolmSpot(Theory):
+    """One circular spot between two bodies, R = Γ(ℓ/a)/(2 k_s a) + 4 ℓ/(3 π k_s a²) with the mean
+    free path ℓ of electrons; without one R = (ρ1 + ρ2)/4a.
+
+    With thermal conductivities in place of electrical ones K/W for Ω.
+    """
+
+    conductivity: Annotated[
+        float, Number("S/m", above=0.0), Help("k_s = 2/(ρ1 + ρ2) of both bodies, electrical", of="bodies")
+    ]
+    mean_free_path: Annotated[float, Number("length", least=0.0), "mean free path ℓ of electrons"] = 0.0
+    name: ClassVar[str] = "holm-spot"
+    title: ClassVar[str] = "Holm, Sharvin & Wexler, circular spot"
+    citation_keys: ClassVar[tuple[str, ...]] = ("Holm1967", "Sharvin1965", "Wexler1966", "Nikolic1999")
+    limits: ClassVar[tuple[Bound, ...]] = ()
+    ways: ClassVar[tuple[Way, ...]] = (
+        Way(
+            CONTACT_RADIUS,
+            "at_radius",
+            (
+                Quantity("radius", "m", "contact radius"),
+                Quantity("conductance", "S", "conductance of the spot"),
+                Quantity("resistance", "ohm", "resistance of the spot"),
+                Quantity("ballistic", "ohm", "Sharvin's part of the resistance"),
+            ),
+        ),
+    )
+
+    def at_radius(self, contact_radius: ArrayLike) -> SpotAnswer:
+        """Spots of the ``contact_radius`` in m, >= 0, of any shape; no conductance at zero."""
+        a = checked(contact_radius, "contact radius (m)")
+        safe = np.where(a > 0.0, a, 1.0)
+        free = np.where(a > 0.0, sharvin(self.conductivity, safe, self.mean_free_path), math.inf)
+        spread = wexler(self.mean_free_path / safe) / (2.0 * self.conductivity * safe)
+        resistance = np.where(a > 0.0, spread + free, math.inf)
+        return SpotAnswer(a, 1.0 / resistance, resistance, free)
