@@ -442,8 +442,8 @@ def build_material(table: MaterialTable, library: Path | None, folder: Path) -> 
         given = [key for key in BESIDE if getattr(table, key) is not None]
         kept = tuple(source for source in found.sources if source.partition(":")[0] not in given)
         sources = (*kept, *(f"{key}: user" for key in given))
-        given_now = {"strength": build_strength(table, found), "conduction": _conduction(table, found.conduction)}
-        return replace(found, **given_now, sources=sources) if given else found
+        strength, conduction = build_strength(table, found), _conduction(table, found.conduction)
+        return replace(found, strength=strength, conduction=conduction, sources=sources) if given else found
     assert table.poisson_ratio is not None
     strength = build_strength(table, None)
     more: dict[str, Any] = {"strength": strength, "name": table.name or "", "sources": ("user",)}

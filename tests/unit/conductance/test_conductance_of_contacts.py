@@ -54,6 +54,15 @@ def test_hertz_contacts_conduct_as_holms_circle(pixels: float) -> None:
     assert found.resistance == pytest.approx(1.0 / found.total)
 
 
+@pytest.mark.parametrize("pixels", [8.0, 16.0, 40.0])
+def test_films_on_hertz_contacts_conduct_by_their_area(pixels: float) -> None:
+    result, a = sphere(2.0, pixels)
+    thick = 100.0 * a / K
+    found = conductance(result, "thermal", ConductingInterface(film_resistance=thick))
+    assert abs(found.total / (math.pi * a**2 / thick) - 1.0) < found.error + 0.01  # the constriction adds 1 %
+    assert found.error < 0.6 / pixels
+
+
 @pytest.mark.parametrize("boundary", [asp.Periodic(), asp.Free()])
 def test_conductance_is_stiffness(boundary) -> None:
     """The same linear system by the same solver: they agree to its single precision."""

@@ -225,7 +225,7 @@ def _answered(result: ContactResult, flow: Flow, interface: ConductingInterface,
         per_area=found.mean,
         lower=found.lower,
         upper=found.upper,
-        pixel_error=_pixel_error(result, found, k_s),
+        pixel_error=_pixel_error(result, found, k_s, interface.film_resistance),
         through_gap=outside / total if 0.0 < total < math.inf else 0.0,
         layers=layers_in_series(problem.body, problem.counter_body, flow),
         k_s=k_s,
@@ -236,13 +236,18 @@ def _answered(result: ContactResult, flow: Flow, interface: ConductingInterface,
     )
 
 
-def _pixel_error(result: ContactResult, found: Flux, k_s: float) -> float:
-    """Relative bias by the pixels: what the edges add to the conductance, a share of j² dx³/k_s for
-    each pair of neighbours across them."""
+def _pixel_error(result: ContactResult, found: Flux, k_s: float, film_resistance: float) -> float:
+    """Relative error by the pixels at the edges.
+
+    For each pair of neighbours across an edge a share of j² dx³/k_s, which the crowding of the flow
+    there makes; and with a film, whose conductance is that of the area, ρ j² times the area between
+    the pixels and the edge as the contact places it.
+    """
     edges, (dx, dy) = result.edges, result.problem.grid.spacing
     if not edges.inner.size or not 0.0 < found.mean < math.inf:
         return 0.0
     along = np.where(edges.axis == 0, dx, dy)
     square = found.density.ravel()[edges.inner] ** 2
     bias = EDGE_BIAS * float((edges.weight * square * along).sum()) * result.problem.grid.pixel_area / k_s
+    bias += film_resistance * abs(float((edges.excess * square).sum())) * result.problem.grid.pixel_area
     return bias / (found.mean * result.problem.grid.area)

@@ -204,9 +204,9 @@ def conductor_of(body: Body, flow: Flow, which: str) -> Compliance | None:
 def _conductivity(material: Elastic, flow: Flow, which: str) -> float:
     found = flow.conductivity(material)
     if math.isnan(found):
-        name = f"{material.name}, {which}" if material.name else which
+        name = f"{material.name} ({which})" if material.name else f"the {which}"
         raise InputError(
-            f"{flow.missing} of {name}, must be known, but is not. {flow.remedy}",
+            f"{flow.missing} of {name} must be known, but is not. {flow.remedy}",
             subject=f"{flow.missing} of {material.name or which}",
         )
     return found

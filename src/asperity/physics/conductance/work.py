@@ -116,14 +116,13 @@ class ConductanceWork(WithFacts):
             for flow in facts["flows"]
             if f"path_{flow}_conductance_per_area" in values
         )
-        holds = ""
+        hot = "hottest_spot" in values and softens(float(values["hottest_spot"]))
         if "hottest_spot" in values and facts["voltage"]:
-            hot = softens(float(values["hottest_spot"]))
-            holds = (
+            said.append(
                 f"At {show(facts['voltage'], 'V', 3)} the hottest spot reaches {float(values['hottest_spot']):.0f} K, "
                 f"{'at which metals soften' if hot else 'below the softening of metals'}."
             )
-        return Words(" ".join(said), headline, rows, tables, _REMARKS[facts["periodic"]], holds=holds)
+        return Words(" ".join(said), headline, rows, tables, _REMARKS[facts["periodic"]], alarming=hot)
 
 
 _REMARKS = {
