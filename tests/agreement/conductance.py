@@ -27,6 +27,12 @@ def stiff_spot(_: float) -> float:
     return apart(make("holm-spot", K).at_radius(hertz.radius).conductance, K / 1e11 * hertz.stiffness)
 
 
+def apart_spots(distance: float) -> float:
+    """Two spots of 0.1 µm."""
+    pair = make("spot-cluster", K, [0.0, distance], [0.0, 0.0], [1e-7, 1e-7])
+    return apart(pair.conductance, 2.0 * make("holm-spot", K).at_radius(1e-7).conductance)
+
+
 def ballistic(path: float) -> float:
     """A spot of 10 nm."""
     return apart(make("holm-spot", K, path).at_radius(1e-8).resistance, sharvin(K, 1e-8, path))
@@ -71,6 +77,15 @@ CONDUCTANCE = (
         (),
         ROUNDING,
         "the incremental contact is the problem of conduction (Barber 2003)",
+    ),
+    Agreement(
+        "spot-cluster",
+        "holm-spot",
+        "spots far apart",
+        apart_spots,
+        (1e-5, 1e-3, 0.1),
+        1e-6,
+        "mutual terms fall as the reciprocal of the distance: 2/π of the radius over it",
     ),
     Agreement(
         "holm-spot",

@@ -6,7 +6,7 @@ from .adhesion.stickiness import PastewkaRobbins, PerssonTosatti
 from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
 from .conductance.joints import ElasticJoint, JointAnswer, MeanGapJoint, PlasticJoint
-from .conductance.spots import HolmSpot, SpotAnswer
+from .conductance.spots import HolmSpot, SpotAnswer, SpotCluster
 from .dynamics.oscillation import (
     BeltStickSlip,
     FreeVibration,
@@ -256,6 +256,7 @@ __all__ = [
     "SphereYield",
     "SphericalIndenter",
     "SpotAnswer",
+    "SpotCluster",
     "StackHardness",
     "StatisticalMeniscus",
     "StickingIndenter",

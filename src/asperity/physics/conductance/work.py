@@ -75,7 +75,7 @@ class ConductanceWork(WithFacts):
             "voltage": None if ask.voltage is None else float(ask.voltage),
         }
         keys = (*self.citation_keys, *(("Sharvin1965", "Wexler1966", "Nikolic1999") if ask.mean_free_path else ()))
-        keys = (*keys, *(("Kohlrausch1900",) if ask.voltage else ()))
+        keys = (*keys, *(("Kohlrausch1900",) if ask.voltage else ()), *(("Kennard1938",) if ask.jump else ()))
         return Found(values, facts, tuple(findings), keys)
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:

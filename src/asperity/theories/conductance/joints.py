@@ -156,12 +156,12 @@ class ElasticJoint(_Joint):
 
 @dataclass(frozen=True)
 class MeanGapJoint(_Joint):
-    """Elastic surfaces whose mean gap falls as the logarithm of the load, P ~ exp(-u/u_0): the
-    stiffness is P/u_0, and
+    """Elastic surfaces whose mean gap falls as the logarithm of the load, P ~ exp(-u/u_0), so that
+    their stiffness is P/u_0.
 
-        h = (k_s/E*) P/u_0,  u_0 = γ h_rms
+        h = (k_s/E*) P/u_0,  u_0 = γ h_rms.
 
-    in proportion to the load (Persson; Akarapu, Sharp & Robbins 2011; Barber 2003).
+    Conductance goes as the load (Akarapu, Sharp & Robbins 2011; Barber 2003).
     """
 
     conductivity: MeanConductivity

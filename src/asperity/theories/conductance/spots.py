@@ -8,7 +8,7 @@ half-spaces, insulated outside the spots, so that the spots have one potential.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -20,7 +20,7 @@ from ...core.errors import InputError
 from ...core.late import Tabled
 from ...core.parameters import Help
 from ...core.quantity import Quantity
-from ...core.values import Number
+from ...core.values import Number, Several
 from ..ask import CONTACT_RADIUS, Way
 from ..protocol import Bound, Theory, checked
 
@@ -221,3 +221,53 @@ class HolmSpot(Theory):
         spread = wexler(self.mean_free_path / safe) / (2.0 * self.conductivity * safe)
         resistance = np.where(a > 0.0, spread + free, math.inf)
         return SpotAnswer(a, 1.0 / resistance, resistance, free)
+
+
+@dataclass(frozen=True, eq=False)
+class SpotCluster(Theory):
+    """Circular spots of one joint side by side, whose currents are in proportion to their radii:
+
+        R = 1/(2 k_s Σ a_i) + Σ_{i≠j} a_i a_j/s_ij/(π k_s (Σ a_i)²).
+
+    InputError if spots overlap, or their places and radii differ in number.
+    """
+
+    conductivity: Annotated[
+        float, Number("S/m", above=0.0), Help("k_s = 2/(ρ1 + ρ2) of both bodies, electrical", of="bodies")
+    ]
+    x: Annotated[ArrayLike, Several(Number("length")), "x of the centres"] = field(repr=False)
+    y: Annotated[ArrayLike, Several(Number("length")), "y of the centres"] = field(repr=False)
+    radius: Annotated[ArrayLike, Several(Number("length", above=0.0)), "radii of the spots"] = field(repr=False)
+    name: ClassVar[str] = "spot-cluster"
+    title: ClassVar[str] = "Greenwood, cluster of spots"
+    citation_keys: ClassVar[tuple[str, ...]] = ("GreenwoodSpots1966", "Holm1967")
+    limits: ClassVar[tuple[Bound, ...]] = ()
+    ways: ClassVar[tuple[Way, ...]] = ()
+    numbers: ClassVar[tuple[Quantity, ...]] = (
+        Quantity("resistance", "ohm", "resistance of the cluster"),
+        Quantity("conductance", "S", "conductance of the cluster"),
+        Quantity("alone", "S", "conductance of the same spots far apart"),
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        sizes = {np.size(part) for part in (self.x, self.y, self.radius)}
+        if len(sizes) > 1:
+            raise InputError(
+                f"places and radii of spots must be as many, but are {', '.join(map(str, sorted(sizes)))}."
+            )
+
+    @property
+    def resistance(self) -> float:
+        """R in Ω."""
+        return cluster(self.conductivity, self.x, self.y, self.radius)
+
+    @property
+    def conductance(self) -> float:
+        """1/R in S."""
+        return 1.0 / self.resistance
+
+    @property
+    def alone(self) -> float:
+        """2 k_s Σ a in S."""
+        return float(circle(self.conductivity, self.radius).sum())
