@@ -22,8 +22,9 @@ ROUNDS = 3
 """Linear solves at most: the first leaves a residual of 1e-4 and single precision, the second 1e-7
 or so."""
 
-CLOSE = 1e-6
-"""Distance of the bounds over the conductance at which no further round follows."""
+CLOSE = 1e-8
+"""Distance of the bounds over the conductance at which no further round follows: the flux density
+then errs by 1e-4 in the norm of the energy at most. One round mostly leaves 1e-8 to 1e-7."""
 
 REDUCTION = 1e-6
 """Residual over the drop, root of the mean square on the conducting points, at which conjugate
