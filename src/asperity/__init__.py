@@ -4,6 +4,7 @@ What most work needs stands here, such as ``solve``, ``ContactProblem`` and ``re
 Everything of a subject stands in its module. Numbers are in SI units, arrays are ``[x, y]``.
 
     adhesion        laws of attraction, branches and jumps, loops of approach and separation
+    conductance     current and heat through a solved contact
     contact         problems, loads, boundaries, the solve, its results and advice about them
     dynamics        normal compliance, vibration, stick-slip and sliding blocks
     engines         libraries of arrays and transforms, for the processor or a GPU

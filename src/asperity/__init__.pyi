@@ -1,4 +1,5 @@
 from . import adhesion as adhesion
+from . import conductance as conductance
 from . import contact as contact
 from . import dynamics as dynamics
 from . import engines as engines
@@ -82,6 +83,7 @@ __version__: str
 
 __all__ = [
     "adhesion",
+    "conductance",
     "contact",
     "dynamics",
     "engines",

@@ -138,6 +138,7 @@ PARTS = (
     "parts.waves:DecidingWavesPart",
     "physics.stress.part:Stress",
     "physics.stress.part:Yielding",
+    "physics.conductance.part:Conductance",
     "physics.dynamics.part:Dynamics",
     "physics.indentation.part:Indentation",
     "physics.indentation.part_passes:Passes",
