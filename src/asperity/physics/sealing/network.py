@@ -263,9 +263,13 @@ def open_cells(gap: RealArray) -> BoolArray:
     return np.asarray(gap > FLOOR * gap.max())
 
 
-def carrying_cells(gap: RealArray, wraps: tuple[bool, bool], axis: int | None) -> BoolArray:
+def carrying_cells(
+    gap: RealArray, wraps: tuple[bool, bool], axis: int | None, *, along: int | None = None
+) -> BoolArray:
     """(nx, ny) True in open clusters that lead from one side to the other along ``axis``, or around
-    the grid where it is None."""
+    the grid where it is None; then ``along`` one axis, if it is given."""
     found = clusters(open_cells(gap), wraps)
-    through = found.winds.any(axis=0) if axis is None else found.spans[axis]
+    if axis is not None:
+        return np.asarray(found.spans[axis][found.labels])
+    through = found.winds.any(axis=0) if along is None else found.winds[along]
     return np.asarray(through[found.labels])

@@ -9,7 +9,6 @@ pyamg is installed, and factorised where it is not.
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.util import find_spec
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -21,6 +20,11 @@ from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
 from ...core.status import require_memory
 from .network import Network
+
+try:
+    import pyamg
+except ImportError:  # an extra
+    pyamg = None
 
 Method: TypeAlias = Literal["auto", "direct", "multigrid"]
 """How a system is solved."""
@@ -58,7 +62,7 @@ class System:
         self.matrix = _matrix(network.across, diagonal, self.free)
         self._scale = 1.0 / np.sqrt(self.matrix.diagonal())
         scaled = sparse.diags_array(self._scale) @ self.matrix @ sparse.diags_array(self._scale)
-        known = find_spec("pyamg") is not None
+        known = pyamg is not None
         if method == "multigrid" and not known:
             raise InputError('method for flow must be "direct" where pyamg is not installed, but is "multigrid".')
         many = scaled.shape[0] > DIRECT
@@ -66,8 +70,6 @@ class System:
         self._solve = self._multigrid(scaled) if self.method == "multigrid" else _factorised(scaled)
 
     def _multigrid(self, scaled: Any) -> Callable[[RealArray], RealArray]:
-        import pyamg
-
         # a constant pressure is the smoothest of all, and smoothed aggregation is told so
         levels = pyamg.smoothed_aggregation_solver(scaled.tocsr(), B=1.0 / self._scale[:, None], max_coarse=500)
         return _conjugate(scaled, levels.aspreconditioner())
