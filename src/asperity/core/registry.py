@@ -137,6 +137,7 @@ PARTS = (
     "physics.hardness.part:PlasticLoad",
     "physics.stress.part:Stress",
     "physics.stress.part:Yielding",
+    "physics.sealing.part:Sealing",
     "physics.dynamics.part:Dynamics",
     "physics.indentation.part:Indentation",
     "physics.indentation.part_passes:Passes",

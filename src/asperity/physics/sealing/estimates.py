@@ -63,19 +63,19 @@ def sinusoidal_gap(amplitude: float, *, along: bool) -> float:
     e = require.finite(amplitude, "amplitude over mean gap")
     if not 0.0 <= e <= 1.0:
         raise InputError(f"amplitude over mean gap must be from 0 to 1, but is {e:g}.")
-    return 1.0 + 1.5 * e**2 if along else (1.0 - e**2) ** 2.5 / (1.0 + 0.5 * e**2)
+    return float(1.0 + 1.5 * e**2 if along else (1.0 - e**2) ** 2.5 / (1.0 + 0.5 * e**2))
 
 
 def tapered_gap(inlet: float, outlet: float) -> float:
     """K in m³ of a gap that changes linearly from ``inlet`` to ``outlet`` (m, > 0)."""
     first, last = require.positive(inlet, "gap at the inlet (m)"), require.positive(outlet, "gap at the outlet (m)")
-    return 2.0 * (first * last) ** 2 / (first + last)
+    return float(2.0 * (first * last) ** 2 / (first + last))
 
 
 def parabolic_throat(gap: float, radius: float) -> float:
     """12 η Q/(W ΔP) in m² of a throat g + x²/(2 R) across the flow, without ends."""
     g, curved = require.positive(gap, "gap of a throat (m)"), require.positive(radius, "radius of a throat (m)")
-    return 8.0 * g**2.5 / (3.0 * np.pi * np.sqrt(2.0 * curved))
+    return float(8.0 * g**2.5 / (3.0 * np.pi * np.sqrt(2.0 * curved)))
 
 
 def parabolic_channel(height: float) -> float:
@@ -87,7 +87,7 @@ def annular_gap(gap: float, ratio: float) -> float:
     """12 η Q/ΔP in m³ of an even ``gap`` (m) between circles whose radii have the ``ratio`` > 1."""
     if not require.finite(ratio, "ratio of radii") > 1.0:
         raise InputError(f"ratio of radii must be greater than 1, but is {ratio:g}.")
-    return 2.0 * np.pi * require.positive(gap, "gap of an annulus (m)") ** 3 / np.log(ratio)
+    return float(2.0 * np.pi * require.positive(gap, "gap of an annulus (m)") ** 3 / np.log(ratio))
 
 
 def saddle_throat(gap: float, along: float, across: float) -> Bounds:

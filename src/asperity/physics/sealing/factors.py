@@ -105,7 +105,8 @@ def flow_factors(
         If a number is not > 0 or the gap is no map of this grid.
     """
     sigma = require.positive(roughness, "roughness of flow factors (m)")
-    height = require.positive(np.mean(gap) if separation is None else separation, "separation of flow factors (m)")
+    given = float(np.mean(gap)) if separation is None else separation
+    height = require.positive(given, "separation of flow factors (m)")
     tensor = flow_tensor(gap, grid, method=method)
     phi = tensor.matrix / height**3
     shear = shear_flows(tensor) / sigma

@@ -11,9 +11,9 @@ linearly between the centres of its cells.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from scipy import sparse
@@ -24,13 +24,13 @@ from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
-from .network import Network, checked_gap, clusters, network, open_cells
+from .network import Labels, Network, checked_gap, clusters, network, open_cells
 from .solver import Method, System
 
 Way: TypeAlias = Literal["x", "y"]
 """Direction along the grid in which fluid is driven."""
 
-WAYS = ("x", "y")
+WAYS: tuple[Way, Way] = ("x", "y")
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ class GapFlow:
         return WAYS.index(self.way)
 
     @property
-    def labels(self) -> RealArray | None:
+    def labels(self) -> Labels | None:
         """Labels (nx, ny) of the clusters, whose pressures are each free by a constant under a mean
         gradient; None between two sides."""
         return clusters(open_cells(self.gap), self.wraps).labels if self.repeats else None
@@ -232,13 +232,18 @@ def _balanced(flow: GapFlow) -> tuple[RealArray, RealArray]:
     number = np.full(net.carrying.size + 1, -1)
     number[cells] = np.arange(count)
     number[-1] = count  # the side of lower pressure, one more cell
-    index = np.arange(net.carrying.size).reshape(net.carrying.shape)
-    faces = [(*np.nonzero(part > 0.0), axis) for axis, part in enumerate(net.across) if part.shape[axis] > 1]
-    first = [number[index[i, j]] for i, j, _ in faces]
-    second = [number[np.roll(index, -1, axis)[i, j]] for i, j, axis in faces]
+    index: Labels = np.arange(net.carrying.size).reshape(net.carrying.shape)
+    faces: list[tuple[Labels, Labels, int]] = []
+    for axis, part in enumerate(net.across):
+        if part.shape[axis] > 1:
+            rows, columns = np.nonzero(part > 0.0)
+            faces.append((rows, columns, axis))
+    first: list[Labels] = [number[index[i, j]] for i, j, _ in faces]
+    second: list[Labels] = [number[np.roll(index, -1, axis)[i, j]] for i, j, axis in faces]
     size = [net.across[axis][i, j] for i, j, axis in faces]
     out = np.nonzero(net.ends[1] > 0.0)
-    first, second = [*first, number[index[out]]], [*second, np.full(out[0].size, count)]
+    first.append(number[index[out]])
+    second.append(np.full(out[0].size, count))
     size = [*size, net.ends[1][out]]
     left = np.append(net.gathered(flux, inflow)[net.carrying], 0.0)
     moved = _along_tree(np.concatenate(first), np.concatenate(second), np.concatenate(size), left)
@@ -250,13 +255,12 @@ def _balanced(flow: GapFlow) -> tuple[RealArray, RealArray]:
     return flux, inflow
 
 
-def _along_tree(first: RealArray, second: RealArray, size: RealArray, left: RealArray) -> RealArray:
+def _along_tree(first: Labels, second: Labels, size: RealArray, left: RealArray) -> RealArray:
     """(m,) flow along the edges of a graph from ``first`` to ``second`` that takes ``left`` from
     its nodes to the last node of their tree, on the tree of the edges of largest ``size``."""
     count = left.size
     weight = 1.0 + np.log(size.max() / size)
     low, high = np.minimum(first, second), np.maximum(first, second)
-    graph = sparse.coo_array((weight, (low, high)), shape=(count, count))
     order = np.lexsort((weight, high, low))
     keep = order[np.append(True, (np.diff(low[order]) != 0) | (np.diff(high[order]) != 0))]
     graph = sparse.coo_array((weight[keep], (low[keep], high[keep])), shape=(count, count)).tocsr()
@@ -266,7 +270,7 @@ def _along_tree(first: RealArray, second: RealArray, size: RealArray, left: Real
     roots = np.zeros(int(part.max()) + 1, int)
     roots[part] = np.arange(count)
     ones = np.ones(tree.nnz)
-    laplacian = sparse.csgraph.laplacian(
+    laplacian: Any = csgraph.laplacian(
         sparse.coo_array((ones, (tree.row, tree.col)), shape=(count, count)).tocsr(), symmetrized=True
     )
     free = np.ones(count, bool)
@@ -319,19 +323,11 @@ def flow_through(
     require.one_of(way, WAYS, "direction of flow")
     gap, axis = _fitting(gap, grid, way, wraps, repeats)
     net = network(gap, grid.spacing, wraps, axis=None if repeats else axis)
-    if repeats:
-        found = clusters(open_cells(gap), wraps)
-        through = found.winds[axis][found.labels]
-        net = net.along(axis)
-        labels = found.labels if through.any() else None
-        if labels is None:
-            return _nothing(gap, grid, way, repeats, wraps, net)
-        system = System(net, labels, method)
-    else:
-        if not net.carrying.any():
-            return _nothing(gap, grid, way, repeats, wraps, net)
-        system = System(net, None, method)
-    return _flow(gap, grid, way, repeats, wraps, net, system)
+    posed = _posed(gap, grid, way, wraps, net.along(axis) if repeats else net)
+    through = clusters(open_cells(gap), wraps).winds[axis].any() if repeats else net.carrying.any()
+    if not through:
+        return _nothing(posed)
+    return _solved(posed, System(net, posed.labels, method))
 
 
 def _fitting(gap: RealArray, grid: Grid, way: Way, wraps: tuple[bool, bool], repeats: bool) -> tuple[RealArray, int]:
@@ -348,17 +344,22 @@ def _fitting(gap: RealArray, grid: Grid, way: Way, wraps: tuple[bool, bool], rep
     return gap, axis
 
 
-def _nothing(gap: RealArray, grid: Grid, way: Way, repeats: bool, wraps: tuple[bool, bool], net: Network) -> GapFlow:
-    empty = Network(np.zeros(gap.shape, bool), 0.0 * net.across, 0.0 * net.ends, net.drop)
-    return GapFlow(gap, grid, way, repeats, wraps, empty, np.full(gap.shape, np.nan))
+def _posed(gap: RealArray, grid: Grid, way: Way, wraps: tuple[bool, bool], net: Network) -> GapFlow:
+    """The flow before it is solved; one without sides is driven by a mean gradient."""
+    return GapFlow(gap, grid, way, bool(net.drop.any()), wraps, net, np.full(gap.shape, np.nan))
 
 
-def _flow(
-    gap: RealArray, grid: Grid, way: Way, repeats: bool, wraps: tuple[bool, bool], net: Network, system: System
-) -> GapFlow:
-    pressure = system.pressure(net.imbalance(np.zeros(gap.shape)))
-    pressure = np.where(net.carrying, pressure, np.nan)
-    return GapFlow(gap, grid, way, repeats, wraps, net, pressure, system.method)
+def _nothing(posed: GapFlow) -> GapFlow:
+    """A flow where none passes."""
+    net = posed.net
+    closed = np.zeros(posed.gap.shape, bool)
+    return replace(posed, net=Network(closed, 0.0 * net.across, 0.0 * net.ends, net.drop))
+
+
+def _solved(posed: GapFlow, system: System) -> GapFlow:
+    """The flow with its pressure."""
+    pressure = system.pressure(posed.net.imbalance(np.zeros(posed.gap.shape)))
+    return replace(posed, pressure=np.where(posed.net.carrying, pressure, np.nan), method=system.method)
 
 
 @dataclass(frozen=True, eq=False)
@@ -406,14 +407,12 @@ def flow_tensor(gap: RealArray, grid: Grid, *, method: Method = "auto") -> FlowT
     wraps = (True, True)
     gap, _ = _fitting(gap, grid, "x", wraps, True)
     net = network(gap, grid.spacing, wraps)
+    posed = [_posed(gap, grid, way, wraps, net.along(axis)) for axis, way in enumerate(WAYS)]
     if not net.carrying.any():
-        return FlowTensor(*(_nothing(gap, grid, way, True, wraps, net.along(n)) for n, way in enumerate(WAYS)))  # type: ignore[arg-type]
+        return FlowTensor(_nothing(posed[0]), _nothing(posed[1]))
     found = clusters(open_cells(gap), wraps)
     system = System(net, found.labels, method)
-    flows = []
-    for axis, way in enumerate(WAYS):
-        through = found.winds[axis].any()
-        make = _flow if through else _nothing
-        options = (system,) if through else ()
-        flows.append(make(gap, grid, way, True, wraps, net.along(axis), *options))  # type: ignore[operator, arg-type]
-    return FlowTensor(*flows, system)
+    flows = [
+        _solved(one, system) if winds.any() else _nothing(one) for one, winds in zip(posed, found.winds, strict=True)
+    ]
+    return FlowTensor(flows[0], flows[1], system)

@@ -8,6 +8,7 @@ gap.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import ClassVar
@@ -160,7 +161,8 @@ GASES = MappingProxyType(
 LIQUIDS = MappingProxyType({"water": ViscousLiquid(1.002e-3)})
 """Liquids at 20 °C."""
 
-FLUIDS = MappingProxyType({**LIQUIDS, **GASES})
+FLUIDS: Mapping[str, ViscousLiquid | IdealGas] = MappingProxyType({**LIQUIDS, **GASES})
+"""All of them by name."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -271,5 +271,5 @@ def carrying_cells(
     found = clusters(open_cells(gap), wraps)
     if axis is not None:
         return np.asarray(found.spans[axis][found.labels])
-    through = found.winds.any(axis=0) if along is None else found.winds[along]
+    through: BoolArray = np.asarray(found.winds.any(axis=0)) if along is None else found.winds[along]
     return np.asarray(through[found.labels])

@@ -135,9 +135,8 @@ def throats(flow: GapFlow) -> Throats:
         return Throats((), 0, np.zeros(spent.shape, bool), flow)
     order = np.argsort(spent, axis=None)[::-1]
     enough = int(np.searchsorted(np.cumsum(spent.ravel()[order]), CARRIED * total)) + 1
-    cells = np.zeros(spent.size, bool)
-    cells[order[:enough]] = True
-    cells = cells.reshape(spent.shape)
+    cells = np.zeros(spent.shape, bool)
+    cells.ravel()[order[:enough]] = True
     labels, count = _islands(cells, flow.wraps)
     shares = np.bincount(labels.ravel(), spent.ravel(), count + 1)[1:] / total
     largest = np.argsort(shares)[::-1][:MOST]
