@@ -12,7 +12,7 @@ from refusals import refused
 from scipy import ndimage
 
 import asperity as asp
-from asperity.core.errors import InputError
+from asperity.core.errors import InputError, NoSolutionError
 from asperity.core.grid import Grid
 from asperity.physics.sealing.estimates import (
     annular_gap,
@@ -30,6 +30,7 @@ from asperity.physics.sealing.estimates import (
 )
 from asperity.physics.sealing.factors import flow_factors, tabulated_flow_factors
 from asperity.physics.sealing.flow import flow_through
+from asperity.physics.sealing.threshold import closing_load
 from asperity.physics.sealing.throats import closed_path, throats, through_corners, through_noise
 
 Field = NDArray[np.float64]
@@ -270,3 +271,26 @@ def test_corner_and_noise() -> None:
     assert through_noise(flow_through(gap, Grid((12, 12), (1.0, 1.0))))
     gap[6, 2] = 0.5
     assert not through_noise(flow_through(gap, Grid((12, 12), (1.0, 1.0))))
+
+
+# The load at which the gap closes.
+
+
+def test_gap_of_crossed_waves_closes_between_two_loads() -> None:
+    """Contacts close at 0.42 to 0.5 of the area, crossed waves at 0.44 (Dapp 2012)."""
+    at = 2.0 * np.pi * (np.arange(32) + 0.5) / 32
+    surface_ = asp.Surface(1e-8 * (np.cos(at)[:, None] + np.cos(at)[None]), 1e-7, periodic=True)
+    problem = asp.ContactProblem(surface_, asp.Elastic(100e9, 0.3))
+    full = 2.0 * np.pi * 1e-8 * 100e9 / (1.0 - 0.3**2) / 3.2e-6
+    found = closing_load(problem, (0.05 * full, full), rounds=5)
+    assert found.lower < found.upper < 1.1 * found.lower
+    # pixels at the rim of a spot change the fraction by some per cent
+    assert found.open_fraction <= found.closed_fraction
+    assert 0.36 < found.open_fraction < 0.52
+    assert closing_load(problem, (0.05 * full, full), way="y", rounds=5).lower == pytest.approx(found.lower)
+    with refused(NoSolutionError, "mean pressures of a gap that closes", "open"):
+        closing_load(problem, (0.05 * full, 0.06 * full))
+    with refused(NoSolutionError, "mean pressures of a gap that closes", "closed"):
+        closing_load(problem, (full, 2.0 * full))
+    with refused(InputError, "mean pressures of a gap that closes", "2"):
+        closing_load(problem, (2.0, 1.0))
