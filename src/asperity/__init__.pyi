@@ -14,6 +14,7 @@ from . import plots as plots
 from . import report as report
 from . import rolling as rolling
 from . import roughness as roughness
+from . import sealing as sealing
 from . import solids as solids
 from . import solvers as solvers
 from . import stresses as stresses
@@ -98,6 +99,7 @@ __all__ = [
     "report",
     "rolling",
     "roughness",
+    "sealing",
     "solids",
     "solvers",
     "stresses",
