@@ -130,6 +130,16 @@ EXAMPLES = {
     "droplet-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "immersion": 5e-9},
     "film-meniscus": {"radius": 1e-6, "surface_tension": 0.072, "contact_angle": 0.5, "height": 5e-9},
     "vapour-meniscus": {"surface_tension": 0.072, "molar_volume": 1.8e-5},
+    "plastic-joint": {"conductivity": 50.0, "rms_height": 1e-6, "slope": 0.1, "hardness": 8e9},
+    "elastic-joint": {"conductivity": 50.0, "E_star": 1e11, "rms_height": 1e-6, "slope": 0.1},
+    "mean-gap-joint": {"conductivity": 50.0, "E_star": 1e11, "rms_height": 1e-6},
+    "holm-spot": {"conductivity": 5e7, "mean_free_path": 4e-8},
+    "spot-cluster": {
+        "conductivity": 5e7,
+        "x": np.array([0.0, 1e-6, 3e-6]),
+        "y": np.array([0.0, 1e-6, 0.0]),
+        "radius": np.array([1e-7, 2e-7, 3e-7]),
+    },
 }
 """Numbers for every theory of the catalogue; a new theory is one more entry."""
 

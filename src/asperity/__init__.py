@@ -4,6 +4,7 @@ What most work needs stands here, such as ``solve``, ``ContactProblem`` and ``re
 Everything of a subject stands in its module. Numbers are in SI units, arrays are ``[x, y]``.
 
     adhesion        laws of attraction, branches and jumps, loops of approach and separation
+    conductance     current and heat through a solved contact
     contact         problems, loads, boundaries, the solve, its results and advice about them
     dynamics        normal compliance, vibration, stick-slip and sliding blocks
     engines         libraries of arrays and transforms, for the processor or a GPU
@@ -18,6 +19,7 @@ Everything of a subject stands in its module. Numbers are in SI units, arrays ar
     report          self-contained pages of results, surfaces and comparisons, and animations
     rolling         creepage, creep forces and their curve, of smooth and of rough bodies
     roughness       every quantity of a surface, one function or record each
+    sealing         flow through the gap, leak rates, throats, flow factors
     solids          elastic, layered and graded bodies, the library of materials
     solvers         methods of the normal contact, prepared operators, rounds of couplings
     stresses        fields below the surface, loads, criteria, first yield, shakedown

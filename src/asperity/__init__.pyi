@@ -1,4 +1,5 @@
 from . import adhesion as adhesion
+from . import conductance as conductance
 from . import contact as contact
 from . import dynamics as dynamics
 from . import engines as engines
@@ -13,6 +14,7 @@ from . import plots as plots
 from . import report as report
 from . import rolling as rolling
 from . import roughness as roughness
+from . import sealing as sealing
 from . import solids as solids
 from . import solvers as solvers
 from . import stresses as stresses
@@ -82,6 +84,7 @@ __version__: str
 
 __all__ = [
     "adhesion",
+    "conductance",
     "contact",
     "dynamics",
     "engines",
@@ -96,6 +99,7 @@ __all__ = [
     "report",
     "rolling",
     "roughness",
+    "sealing",
     "solids",
     "solvers",
     "stresses",

@@ -6,6 +6,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from agreement.conductance import CONDUCTANCE
 from agreement.fields_and_films import FIELDS_AND_FILMS
 from agreement.matrix import MATRIX as ROUGH_SURFACES
 from agreement.matrix import Agreement
@@ -14,7 +15,7 @@ from reference_data import every_row
 
 from asperity.theories.catalogue import THEORIES
 
-MATRIX = (*ROUGH_SURFACES, *SINGLE_CONTACTS, *FIELDS_AND_FILMS)
+MATRIX = (*ROUGH_SURFACES, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE)
 PAGE = Path(__file__).parents[2] / "docs/reference/agreement.md"
 
 

@@ -146,7 +146,10 @@ def test_options_of_actions_exist(name: str, options: set[str]) -> None:
     assert set(named) <= options
 
 
-ARGUMENTS_OF = (asp.read, asp.ContactProblem, asp.solve, asp.Strength, asp.TimeSteps, asp.PlasticFlow, asp.Viscoelastic)
+ARGUMENTS_OF = (
+    *(asp.read, asp.ContactProblem, asp.solve, asp.Strength, asp.TimeSteps, asp.PlasticFlow, asp.Viscoelastic),
+    *(asp.solids.Elastic, asp.solids.Conduction),
+)
 """What takes the arguments that findings and errors name."""
 
 FURTHER = {"solver", "time_steps", "overwrite", "load", "short", "y", "tolerance", "max_iterations"}

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import shlex
+from html import unescape
 
 import assemble
 import live_report
@@ -71,7 +72,7 @@ def test_the_report_can_be_explored_and_needs_nothing_else(tmp_path):
 def test_the_map_is_drawn_from_the_catalogue_and_the_limits():
     drawn = map_of_theories.PAGE.read_text(encoding="utf-8")
     assert drawn == map_of_theories.picture(), "python docs/site/map_of_theories.py draws it anew"
-    texts = " ".join(re.findall(r"<text x=[^>]*>([^<]*)</text>", drawn)).replace("&#x27;", "'")
+    texts = unescape(" ".join(re.findall(r"<text x=[^>]*>([^<]*)</text>", drawn)))
     assert [kind.title for kind in THEORIES.values() if kind.title not in texts] == []
     boxes, _, _ = map_of_theories.places()
     assert boxes.keys() == THEORIES.keys()

@@ -182,5 +182,9 @@ DOCUMENTS: tuple[dict[str, Any], ...] = (
     {"passes": {"count": 3, "peak_pressure": "1 GPa", "motion": "backwards"}},
     {"passes": {"count": 3, "peak_pressure": "1 GPa", "indenter": "sphere", "elements": 20}},
     {"passes": {"count": 3, "peak_pressure": "1 GPa", "pressure": "given", "steps": 1}},
+    {"body": "nickel", "conductance": {"film_resistance": "1 nm"}},
+    {"body": "nickel", "conductance": {"jump": "300 nm"}},
+    {"body": "nickel", "conductance": {"flow": "thermal", "voltage": "1 mV"}},
+    {"body": "nickel{rho=0 S/m}"},
 )
 """Tables of a document, each with something wrong in it."""

@@ -331,6 +331,11 @@ def _creep(time: list[float], compliance: list[float], *, fluid: bool = False) -
     return asp.viscoelasticity.fitted_creep(time, compliance, poisson_ratio=0.4, fluid=fluid)
 
 
+def _coated_joint() -> asp.ContactProblem:
+    coated = asp.Layered([asp.Layer(asp.material("DLC"), 1e-8)], asp.material("nickel"))
+    return asp.ContactProblem(rough((16, 16)), coated, counter_body=asp.material("copper"))
+
+
 CALLS: Mapping[str, Callable[[], object]] = {
     "MeanPressure(0.0)": lambda: asp.MeanPressure(0.0),
     "MeanPressure('50 MPa')": lambda: asp.MeanPressure("50 MPa"),  # type: ignore[arg-type]
@@ -550,6 +555,13 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a closed profile with a datum": lambda: asp.contact.line_problem(
         _scan(periodic=True), asp.Elastic(1e9, 0.3), datum=1.0
     ),
+    "current through a contact of unknown resistivity": lambda: asp.conductance.conductance(_solved()),
+    "heat through a coating of unknown conductivity": lambda: asp.conductance.conductance(
+        asp.solve(_coated_joint(), asp.MeanPressure(1e7)), "thermal"
+    ),
+    "conductance of neither": lambda: asp.conductance.conductance(_solved(), "magnetic"),  # type: ignore[arg-type]
+    "a resistivity of zero": lambda: asp.solids.Conduction(electrical_resistivity=0.0),
+    "a film that generates": lambda: asp.conductance.ConductingInterface(film_resistance=-1e-12),
     "an axis too long": lambda: plan(
         axes=[{"path": "control.mean_pressure", "first": "1 MPa", "last": "2 MPa", "count": 1_000_000_000}]
     ),

@@ -84,6 +84,14 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
         "friction": {"coefficient": 0.3},
         "rolling": {"longitudinal": "0.1 %", "spin": "0.3 rad/m"},
     },
+    "current and heat through a plated joint": PLAIN
+    | {
+        "body": "gold:200nm/nickel",
+        "counter_body": "copper",
+        "law": {"kind": "hardness", "hardness": "1 GPa"},
+        "conductance": {"flow": "both", "voltage": "150 mV", "film_resistance": "1e-13 ohm*m^2"},
+    },
+    "heat through a joint loaded and unloaded": PLAIN | {"body": "nickel", "control": DOWN, "conductance": {}},
     "plastic flow in the volume": SOFT | {"plastic_flow": {"steps": 2, "cells": 4}, "control": {"force": "20 mN"}},
     "a load at which it becomes plastic": PLAIN
     | {"law": {"kind": "hardness", "hardness": "from body"}, "plastic_load": {}},

@@ -303,6 +303,15 @@ def test_the_examples_of_rolling(tmp_path, monkeypatch, capsys):
     )
 
 
+def test_the_example_of_conductance(capsys):
+    page, names = ROOT / "docs/how-to/conductance.md", {}
+    (code,) = blocks(page, "python")
+    exec(compile(code.replace("128, 128", "64, 64"), page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    loaded, unloaded = (asp.conductance.conductance(names["path"].steps[n]).total for n in (0, 2))
+    assert unloaded > loaded
+    assert capsys.readouterr().out.count("ohm") == 3
+
+
 @pytest.mark.slow
 def test_the_examples_of_viscoelastic_bodies():
     page, names = ROOT / "docs/how-to/viscoelastic.md", {}

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core import require
 from ..core.arrays import BoolArray, RealArray
+from ..core.engine import FreeSet
 from ..core.errors import InputError
 from .operators import Operator
 from .solvers.active_set.linear_system import LinearSystem, ScaledOperator, Stopping, conjugate_gradients
@@ -135,7 +136,7 @@ def distribution(values: RealArray, bins: int = 50) -> Distribution:
 
 # Stiffness.
 
-_STIFFNESS_STOPPING = Stopping(reduction=1e-4, max_steps=500)
+_STOPPING = Stopping(reduction=1e-4, max_steps=500)
 
 
 def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
@@ -147,19 +148,62 @@ def normal_stiffness(operator: Operator, moving: BoolArray) -> float:
     yield and carry no increment (loading). The error is of second order in the relative residual,
     which is 1e-4: what remains is the rounding of single precision, below 1e-6.
     """
-    engine, shape = operator.engine, operator.grid.shape
-    scaled = ScaledOperator.of(operator, "float32", operator.largest or 1.0)
-    p, flat = engine.array(moving.astype(float), "float64"), engine.zeros(shape, "float64")
-    survey = engine.survey(p, flat, flat, None)  # u = h: no point enters, and the residual is the level
-    free = survey.free_set(np.zeros((*survey.squares.shape[:2], 2)), 1.0, 1.0, scaled.dtype)
-    if free.size == 0:
+    if not moving.any():
         return 0.0
-    if free.size == operator.grid.n_points and operator.zero_mean_mode:
+    if moving.all() and operator.zero_mean_mode:
         return math.inf
-    unit = free.residual(centred=False)
-    found = conjugate_gradients(LinearSystem(scaled, free, zero_sum=False), unit, _STIFFNESS_STOPPING)
-    if not found.reached or found.d is None:
+    found = Response.of(operator, moving).solved()
+    if found.values is None:
         return math.nan
-    free.scatter(found.d, scaled.field)
-    total = free.gather_products(scaled.field, found.d, found.d, free.empty()).total
-    return total / scaled.scale / operator.grid.n_points
+    return found.total / operator.grid.n_points
+
+
+class Response(NamedTuple):
+    """Pressure that moves some points as prescribed: the set ``free`` of them, the ``scaled``
+    operator, and the ``values`` on the set, None where it is not solved."""
+
+    free: FreeSet
+    scaled: ScaledOperator
+    values: Any = None
+
+    @classmethod
+    def of(cls, operator: Operator, moving: BoolArray) -> Self:
+        """Not solved yet, on the points ``moving`` (nx, ny), at least one."""
+        engine, shape = operator.engine, operator.grid.shape
+        scaled = ScaledOperator.of(operator, "float32", operator.largest or 1.0)
+        p, flat = engine.array(moving.astype(float), "float64"), engine.zeros(shape, "float64")
+        survey = engine.survey(p, flat, flat, None)  # u = h: no point enters, and the residual is the level
+        free = survey.free_set(np.zeros((*survey.squares.shape[:2], 2)), 1.0, 1.0, scaled.dtype)
+        return cls(free, scaled)
+
+    def solved(self, rise: RealArray | None = None) -> Self:
+        """With the pressure under which the points rise by ``rise`` (nx, ny) in m, by 1 m without
+        one; no values if the linear solve does not converge."""
+        r = self.free.residual(centred=False) if rise is None else self._vector(rise)
+        found = conjugate_gradients(LinearSystem(self.scaled, self.free, zero_sum=False), r, _STOPPING)
+        self.scaled.engine.clear_field(self.free, self.scaled.field)
+        return self._replace(values=found.d if found.reached else None)
+
+    def preconditioned(self, rise: RealArray) -> RealArray:
+        """Approximate pressure (nx, ny) in Pa for a ``rise`` (nx, ny) in m of the points: the
+        preconditioner's, once the model of the compliance is factorised."""
+        r = self._vector(rise)
+        system = LinearSystem(self.scaled, self.free, zero_sum=False)
+        return self._replace(values=system.preconditioned(r, r, self.free.empty()).vector).pressure
+
+    def _vector(self, values: RealArray) -> Any:
+        return self.free.gather(self.scaled.engine.array(values, self.scaled.dtype))[0]
+
+    @property
+    def total(self) -> float:
+        """Sum of the pressure in Pa."""
+        self.free.scatter(self.values, self.scaled.field)
+        products = self.free.gather_products(self.scaled.field, self.values, self.values, self.free.empty())
+        return products.total / self.scaled.scale
+
+    @property
+    def pressure(self) -> RealArray:
+        """(nx, ny) in Pa, zero on all other points."""
+        engine = self.scaled.engine
+        self.free.scatter(self.values, self.scaled.field)
+        return np.asarray(engine.numpy(self.scaled.field), dtype=float) / self.scaled.scale

@@ -138,6 +138,8 @@ PARTS = (
     "parts.waves:DecidingWavesPart",
     "physics.stress.part:Stress",
     "physics.stress.part:Yielding",
+    "physics.conductance.part:Conductance",
+    "physics.sealing.part:Sealing",
     "physics.dynamics.part:Dynamics",
     "physics.indentation.part:Indentation",
     "physics.indentation.part_passes:Passes",

@@ -21,6 +21,8 @@ DIMENSIONS = {
     "energy": "J",
     "surface tension": "N/m",
     "stiffness": "Pa/m",
+    "thermal conductivity": "W/(m*K)",
+    "electrical resistivity": "ohm*m",
     "molar volume": "m**3/mol",
     "viscosity": "Pa*s",
     "speed": "m/s",
@@ -44,6 +46,8 @@ EXAMPLES = {
     "surface tension": "72 mN/m",
     "molar volume": "18 cm**3/mol",
     "viscosity": "1 mPa*s",
+    "thermal conductivity": "50 W/(m*K)",
+    "electrical resistivity": "17 nohm*m",
     "temperature": "293 K",
     "time": "1 s",
     "speed": "1 mm/s",
@@ -64,6 +68,10 @@ _SYMBOLS = {power: symbol for symbol, power in _PREFIXES.items()}
 _PREFIXED = ("m", "Pa", "N", "J", "s", "B", "N/m", "Pa/m")
 """Units that are read and printed with ``_PREFIXES`` here, to the bit as pint does, which takes 0.5
 s to import and to set up. Powers of a length are printed here too; all others are left to pint."""
+
+_WRITTEN = {"ohm": "Ω", "ohm*m": "Ω·m", "W/(m*K)": "W/(m·K)"}
+"""Further units that are read and printed with ``_PREFIXES`` here, and how they are printed: pint
+writes m·Ω, and with a prefix nm·Ω."""
 
 _DIRECT = {("deg", "rad"): math.pi / 180.0, ("%", "dimensionless"): 0.01}
 """Factors of two more usual units (the contact angle of liquids has a default in degrees)."""
@@ -86,8 +94,9 @@ def parse(text: str | float, kind: str, what: str, instead: str = "") -> float:
     Parameters
     ----------
     text
-        Number followed by a unit, or a hardness number. A unit is never guessed. What has been read
-        already stays as it is.
+        Number followed by a unit, or a hardness number. A unit is never guessed. An electrical
+        resistivity may be given by the conductivity, in S/m. What has been read already stays as
+        it is.
     kind
         One of ``DIMENSIONS``, or an SI unit such as ``"N/m"`` for a quantity that is none of them.
     what
@@ -106,9 +115,16 @@ def parse(text: str | float, kind: str, what: str, instead: str = "") -> float:
         return parse_in(str(text), kind, what, instead)
     if kind == "hardness" and "H" in str(text).upper() and (hardness := hardness_of(str(text), what)) is not None:
         return hardness  # a hardness number; no unit of pressure in use has this letter
+    if kind == "electrical resistivity" and _CONDUCTIVITY.fullmatch(str(text)):
+        conductivity = parse_in(str(text), "S/m", what)
+        return 1.0 / conductivity if conductivity else math.inf
     unit = DIMENSIONS[kind]
     number, name = _split(str(text), EXAMPLES.get(kind, f"1 {unit}"), what, instead, plain=kind == "number")
     return number * unit_factor(name, kind, what)
+
+
+_CONDUCTIVITY = re.compile(r".*\d\s*[kMGmuµn]?S\s*/\s*[cmuµn]?m\s*")
+"""Text of an electrical conductivity, which stands for the resistivity."""
 
 
 def parse_in(text: str, unit: str, what: str, instead: str = "") -> float:
@@ -200,7 +216,7 @@ def _factor(name: str, unit: str) -> float:
         return 1.0
     if (name, unit) in _DIRECT:
         return _DIRECT[name, unit]
-    if unit in _PREFIXED and name.endswith(unit) and name.removesuffix(unit) in _PREFIXES:
+    if (unit in _PREFIXED or unit in _WRITTEN) and name.endswith(unit) and name.removesuffix(unit) in _PREFIXES:
         return float(f"1e{_PREFIXES[name.removesuffix(unit)]}")
     if len(name) > 60 or not _GRAMMAR.fullmatch(name):
         raise ValueError(name)
@@ -244,9 +260,9 @@ def show(value: float, unit: str, digits: int = 4) -> str:
         return f"{value:.{digits}g}"
     if value != value or value in (float("inf"), float("-inf")):
         return f"{value:g} {unit}"
-    if unit in _PREFIXED and abs(value) < _LARGEST:
+    if (unit in _PREFIXED or unit in _WRITTEN) and abs(value) < _LARGEST:
         power = 0 if abs(value) < _SMALLEST else 3 * math.floor(math.log10(abs(value)) / 3)
-        return f"{value * _inverse(power):.{digits}g} {_SYMBOLS[power]}{unit}"
+        return f"{value * _inverse(power):.{digits}g} {_SYMBOLS[power]}{_WRITTEN.get(unit, unit)}"
     if unit in _POWERS:
         power, sign, least = _POWERS[unit]
         inverse = {symbol: _inverse(_PREFIXES[symbol], power) for symbol in ("", "m", "µ", "n")}

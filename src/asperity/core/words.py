@@ -94,6 +94,16 @@ ACTIONS = MappingProxyType(
             "law=plasticity.LayeredHardness(body)", "--hardness effective", "Law: hardness = effective"
         ),
         "yield_stress": Action("Strength(yield_stress=...)", '"steel{Y=400MPa}" in --body', "Bodies: Yield stress"),
+        "electrical_resistivity": Action(
+            "conduction=solids.Conduction(electrical_resistivity=17e-9)",
+            '"copper{rho=17nohm*m}" in --body',
+            "Bodies: Electrical resistivity",
+        ),
+        "thermal_conductivity": Action(
+            "conduction=solids.Conduction(thermal_conductivity=50.0)",
+            '"steel{k=50W/m/K}" in --body',
+            "Bodies: Thermal conductivity",
+        ),
         "solver": Action("solver=...", "--solver", "Solver: Method"),
         "tolerance": Action("tolerance=... of the solver", "--tolerance", "Solver: Tolerance"),
         "shift": Action("Shift(...)", "--shift", "Shear: Shift"),

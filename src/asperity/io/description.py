@@ -26,7 +26,7 @@ from ..core.arrays import RealArray, array_digest
 from ..core.errors import FileFormatError, InputError
 from ..core.registry import DESCRIBED, PHYSICS, home
 from ..core.spectral import fft_library
-from ..solids.elastic import Strength
+from ..solids.elastic import Conduction, Strength
 from ..solids.layers import Body, Interface, Layer, RigidBase
 from ..solids.plasticity import LinearHardening, Swift, Voce
 from ..solids.viscoelastic import TemperatureShift, Viscoelastic
@@ -41,6 +41,7 @@ TYPES: tuple[type, ...] = (
     *get_args(Interface),
     *get_args(Tangential),
     *get_args(TemperatureShift),
+    Conduction,
     CouplingCheck,
     Flat,
     Hardness,

@@ -40,6 +40,8 @@ RECORDS = {
         ("poisson_ratio", "ν", "1"),
         ("hardness", "hardness", "Pa"),
         ("yield_stress", "yield stress", "Pa"),
+        ("thermal_conductivity", "k", "W/(m*K)"),
+        ("electrical_resistivity", "ρ", "ohm*m"),
     ),
     LiquidRecord: (
         ("surface_tension", "surface tension", "N/m"),

@@ -20,7 +20,7 @@ from ..core.quantity import Quantity
 from ..core.status import SENTENCES, Verdict
 from ..core.units import percent, show
 from ..core.words import printable
-from ..solids.elastic import Elastic, Strength, yield_pressure
+from ..solids.elastic import Conduction, Elastic, Strength, yield_pressure
 from ..solids.layers import Frictionless, Layer, Layered, materials_of
 from ..solids.viscoelastic import Viscoelastic
 from ..surfaces.characterise.heights import peak_to_valley, rms_height
@@ -133,6 +133,8 @@ TERMS = {
         Quantity("reference_strain", "1", "reference strain"),
         Quantity("exponent", "1", "hardening exponent"),
         Quantity("thickness", "m", "thickness"),
+        Quantity("thermal_conductivity", "W/(m*K)", "thermal conductivity k"),
+        Quantity("electrical_resistivity", "ohm*m", "electrical resistivity ρ"),
     )
 }
 """Fields of bodies by name; one that is not listed is shown by its name."""
@@ -235,6 +237,8 @@ def _rows(body: object) -> Rows:
         elif isinstance(value, tuple):
             for number, part in enumerate(value, start=1):
                 rows += _prefixed(f"{field.name} {number}", part)
+        elif isinstance(value, Conduction):
+            rows += [row for known in fields(value) for row in _value_row(known.name, getattr(value, known.name))]
         elif is_dataclass(value):
             rows += _strength_rows(value) if isinstance(value, Strength) else _prefixed(field.name, value)
         else:

@@ -30,6 +30,7 @@ from ..core.settings import Settings, json_schema, problems
 from ..core.status import is_large, require_memory, room_text
 from ..io.schemas.bodies import (
     BESIDE,
+    CONDUCTS,
     BodyTable,
     GradedTable,
     LayerTable,
@@ -70,7 +71,7 @@ from ..io.schemas.surfaces import (
 )
 from ..parts.part import Part
 from ..parts.registry import parts
-from ..solids.elastic import Elastic, Hardening, Rigid, Strength, yield_pressure
+from ..solids.elastic import Conduction, Elastic, Hardening, Rigid, Strength, yield_pressure
 from ..solids.layers import (
     Body,
     Bonded,
@@ -478,13 +479,20 @@ def build_material(table: MaterialTable, library: Path | None, folder: Path) -> 
         given = [key for key in BESIDE if getattr(table, key) is not None]
         kept = tuple(source for source in found.sources if source.partition(":")[0] not in given)
         sources = (*kept, *(f"{key}: user" for key in given))
-        return replace(found, strength=build_strength(table, found), sources=sources) if given else found
+        strength, conduction = build_strength(table, found), _conduction(table, found.conduction)
+        return replace(found, strength=strength, conduction=conduction, sources=sources) if given else found
     assert table.poisson_ratio is not None
     strength = build_strength(table, None)
     more: dict[str, Any] = {"strength": strength, "name": table.name or "", "sources": ("user",)}
+    more["conduction"] = _conduction(table, Conduction())
     if table.relaxation is not None:
         return viscoelastic(table.relaxation, float(table.poisson_ratio), folder, **more)
     return Elastic(_known(table.youngs_modulus), table.poisson_ratio, **more)
+
+
+def _conduction(table: MaterialTable, known: Conduction) -> Conduction:
+    """What conducts by ``table``, in place of what is ``known`` of its material."""
+    return replace(known, **{key: float(getattr(table, key)) for key in CONDUCTS if getattr(table, key) is not None})
 
 
 def build_strength(table: MaterialTable, known: Elastic | None) -> Strength:

@@ -1,4 +1,4 @@
-from .elastic import Elastic, Rigid, Strength
+from .elastic import Conduction, Elastic, Rigid, Strength
 from .layers import (
     Bonded,
     ExponentialGrading,
@@ -15,6 +15,7 @@ from .library import material, materials
 
 __all__ = [
     "Bonded",
+    "Conduction",
     "Elastic",
     "ExponentialGrading",
     "Frictionless",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -71,6 +71,33 @@ class Strength:
         require.not_negative(self.recall, "recall of the back stress")
 
 
+@dataclass(frozen=True)
+class Conduction:
+    """How a material conducts heat and current; ``nan`` where not known.
+
+    InputError if a given value is not positive.
+
+    Parameters
+    ----------
+    thermal_conductivity
+        k in W/(m K), > 0.
+    electrical_resistivity
+        ρ in Ω m, > 0; one over the conductivity in S/m.
+    """
+
+    thermal_conductivity: float = math.nan
+    electrical_resistivity: float = math.nan
+
+    def __post_init__(self) -> None:
+        units = {"thermal_conductivity": "W/(m K)", "electrical_resistivity": "ohm m"}
+        for name, unit in units.items():
+            value = getattr(self, name)
+            known = value == value
+            # of what is not known one object, so that equal ones are equal
+            number = require.positive(value, f"{name.replace('_', ' ')} ({unit})") if known else math.nan
+            object.__setattr__(self, name, number)
+
+
 INCOMPRESSIBLE = "Use 0.5 for an incompressible solid."
 """What to do about a Poisson's ratio that is too large."""
 
@@ -79,7 +106,7 @@ INCOMPRESSIBLE = "Use 0.5 for an incompressible solid."
 class Elastic(Shown):
     """Isotropic linear-elastic half-space.
 
-    InputError if a value is outside its range, or ``strength`` is no ``Strength``.
+    InputError if a value is outside its range, or ``strength`` or ``conduction`` is none.
 
     Parameters
     ----------
@@ -91,6 +118,8 @@ class Elastic(Shown):
         Hardness, yield stress and hardening, where known.
     name, sources
         Name of the material and where its values come from.
+    conduction
+        Thermal conductivity and electrical resistivity, where known; by keyword.
     """
 
     youngs_modulus: float
@@ -98,6 +127,7 @@ class Elastic(Shown):
     strength: Strength = Strength()
     name: str = ""
     sources: tuple[str, ...] = ()
+    conduction: Conduction = field(default=Conduction(), kw_only=True)
 
     if not TYPE_CHECKING:
 
@@ -115,6 +145,8 @@ class Elastic(Shown):
         require.positive(self.youngs_modulus, "Young's modulus (Pa)")
         require.within(self.poisson_ratio, -1.0, 0.5, "Poisson's ratio", INCOMPRESSIBLE)
         require.instance(self.strength, Strength, "strength of an elastic body", "Write Strength(hardness=...).")
+        advice = "Write Conduction(thermal_conductivity=...)."
+        require.instance(self.conduction, Conduction, "conduction of a solid", advice)
 
     @property
     def plane_strain_modulus(self) -> float:

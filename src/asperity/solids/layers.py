@@ -11,7 +11,7 @@ from typing import ClassVar, Literal, TypeAlias
 from ..core import require
 from ..core.errors import InputError
 from ..core.late import Shown
-from .elastic import Elastic, Rigid, Strength, never_yields, yield_pressure
+from .elastic import Conduction, Elastic, Rigid, Strength, never_yields, yield_pressure
 from .viscoelastic import Viscoelastic
 
 
@@ -299,7 +299,8 @@ def graded(
     wide as the coating is thick.
 
     ``top``, ``bottom``: materials at the surface and at the lower end. Poisson's ratio and, where
-    both are known, hardness, yield stress and hardening change in proportion to depth;
+    both are known, hardness, yield stress, hardening and what conducts change in proportion to
+    depth;
     ``thickness``: of the whole coating in m, > 0; ``grading``: ``LinearGrading()``,
     ``ExponentialGrading()`` or ``PowerGrading(exponent)``; ``sublayers``: number of equal
     layers, >= 1; ``interface``: of the lowest sublayer to what lies below; the others are bonded.
@@ -354,6 +355,10 @@ def _between(top: Elastic, bottom: Elastic, depth: float, grading: Grading) -> E
             hardening,
             mixed(first.kinematic, last.kinematic),
             mixed(first.recall, last.recall),
+        ),
+        conduction=Conduction(
+            mixed(top.conduction.thermal_conductivity, bottom.conduction.thermal_conductivity),
+            mixed(top.conduction.electrical_resistivity, bottom.conduction.electrical_resistivity),
         ),
         name=f"graded {top.name} - {bottom.name}".strip(" -") if top.name or bottom.name else "",
     )

@@ -18,7 +18,7 @@ from ..core import require, units
 from ..core.errors import FileFormatError, InputError
 from ..core.late import Tabled
 from ..core.text import read_text
-from .elastic import INCOMPRESSIBLE, Elastic, Hardening, Strength
+from .elastic import INCOMPRESSIBLE, Conduction, Elastic, Hardening, Strength
 from .plasticity import LinearHardening, Swift, Voce
 from .relaxation import Relaxation
 from .relaxation_text import AT, series_of, shift_of
@@ -211,7 +211,8 @@ class MaterialRecord(Record):
     first instant; ``elastic_bulk`` and ``shift`` (with ``shift_source``) as of ``Viscoelastic``.
     Hardening is linear with ``hardening_modulus`` in Pa, of Swift with ``swift_exponent`` and
     ``swift_strain``, or of Voce with ``voce_gain`` in Pa and ``voce_rate``; ``kinematic`` in Pa and
-    ``recall`` are those of the back stress.
+    ``recall`` are those of the back stress. ``thermal_conductivity`` is in W/(m K),
+    ``electrical_resistivity`` in Ω m.
     """
 
     youngs_modulus: Annotated[Sourced, "pressure"]
@@ -229,6 +230,8 @@ class MaterialRecord(Record):
     voce_rate: Annotated[Sourced | None, "number"] = None
     kinematic: Annotated[Sourced | None, "pressure"] = None
     recall: Annotated[Sourced | None, "number"] = None
+    thermal_conductivity: Annotated[Sourced | None, "thermal conductivity"] = None
+    electrical_resistivity: Annotated[Sourced | None, "electrical resistivity"] = None
     noun: ClassVar[str] = "material"
     more: ClassVar[tuple[str, ...]] = ("elastic_bulk", "shift")
 
@@ -273,9 +276,11 @@ class MaterialRecord(Record):
             kinematic=self.kinematic.value if self.kinematic else 0.0,
             recall=self.recall.value if self.recall else 0.0,
         )
+        conducting = ("thermal_conductivity", "electrical_resistivity")
+        conduction = Conduction(**{key: item.value for key, item in self.values.items() if key in conducting})
         if self.relaxation is None:
             constants = self.youngs_modulus.value, self.poisson_ratio.value
-            return Elastic(*constants, strength, name=self.name, sources=self.sources)
+            return Elastic(*constants, strength, name=self.name, sources=self.sources, conduction=conduction)
         sources = (*self.sources, *([f"shift: {self.shift_source}"] if self.shift_source else []))
         return Viscoelastic.prony(
             self.relaxation.relaxed,
@@ -284,6 +289,7 @@ class MaterialRecord(Record):
             strength=strength,
             name=self.name,
             sources=sources,
+            conduction=conduction,
             elastic_bulk=self.elastic_bulk,
             shift=self.shift,
         )
@@ -322,9 +328,10 @@ def materials(path: str | Path | None = None) -> Records[MaterialRecord]:
     names and aliases win.
 
     Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``,
-    ``yield_stress``, those of hardening (``MaterialRecord``), ``aliases`` and ``note``; a value is
-    text with a unit (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being
-    "user" by default. A modulus such as ``"3 MPa + 10 MPa @ 10 ms"`` relaxes;
+    ``yield_stress``, those of hardening (``MaterialRecord``), ``thermal_conductivity``,
+    ``electrical_resistivity``, ``aliases`` and ``note``; a value is text with a unit
+    (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being "user" by
+    default. A modulus such as ``"3 MPa + 10 MPa @ 10 ms"`` relaxes;
     ``elastic_bulk = true`` and ``shift``, such as ``"WLF 298 K; 8.86; 101.6 K"`` or
     ``"Arrhenius 298 K; 80 kJ/mol"``, may stand beside it.
 

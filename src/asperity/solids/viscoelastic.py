@@ -118,7 +118,7 @@ class Viscoelastic(Elastic):
     ----------
     youngs_modulus, poisson_ratio
         E in Pa and nu at the first instant (glassy).
-    strength, name, sources
+    strength, name, sources, conduction
         As of ``Elastic``.
     spectrum
         Pairs (share of the modulus that relaxes, > 0; relaxation time in s, > 0). The shares add up
@@ -264,7 +264,8 @@ class Viscoelastic(Elastic):
     @property
     def instantaneous(self) -> Elastic:
         """Elastic solid that it is at the first instant."""
-        return Elastic(self.youngs_modulus, self.poisson_ratio, self.strength, self.name, self.sources)
+        constants = self.youngs_modulus, self.poisson_ratio
+        return Elastic(*constants, self.strength, self.name, self.sources, conduction=self.conduction)
 
     @property
     def relaxed_share(self) -> float:

@@ -5,6 +5,8 @@ from .adhesion.spheres import DMT, JKR, MaugisDugdale, maugis_pull_off, tabor_pa
 from .adhesion.stickiness import PastewkaRobbins, PerssonTosatti
 from .ask import Evaluation, evaluate
 from .catalogue import FAMILIES, THEORIES, theory
+from .conductance.joints import ElasticJoint, JointAnswer, MeanGapJoint, PlasticJoint
+from .conductance.spots import HolmSpot, SpotAnswer, SpotCluster
 from .dynamics.oscillation import (
     BeltStickSlip,
     FreeVibration,
@@ -166,6 +168,7 @@ __all__ = [
     "DiscreteSummits",
     "DropletMeniscus",
     "EffectiveHardness",
+    "ElasticJoint",
     "ElasticPlasticSummits",
     "EllipticPunch",
     "Evaluation",
@@ -194,12 +197,14 @@ __all__ = [
     "HertzPoint",
     "HertzStress",
     "HistogramHeights",
+    "HolmSpot",
     "IdenticalAsperities",
     "IndentationAnalysis",
     "InteractingCrests",
     "IsotropicSpectrum",
     "JacksonGreen",
     "JacksonGreenSphere",
+    "JointAnswer",
     "KalkerLinear",
     "KineticMeniscus",
     "KogutEtsion",
@@ -215,6 +220,7 @@ __all__ = [
     "MajumdarBhushan",
     "MaugisDugdale",
     "McCool",
+    "MeanGapJoint",
     "MeniscusGrowth",
     "MindlinLine",
     "MindlinPoint",
@@ -229,6 +235,7 @@ __all__ = [
     "PerssonFriction",
     "PerssonTosatti",
     "PinInHole",
+    "PlasticJoint",
     "PlasticityIndex",
     "PointShakedown",
     "PowerLawIndenter",
@@ -248,6 +255,8 @@ __all__ = [
     "SphereShakedown",
     "SphereYield",
     "SphericalIndenter",
+    "SpotAnswer",
+    "SpotCluster",
     "StackHardness",
     "StatisticalMeniscus",
     "StickingIndenter",

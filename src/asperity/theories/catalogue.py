@@ -11,6 +11,8 @@ from .adhesion.coated_sphere import AdhesiveCoatedSphere
 from .adhesion.fuller_tabor import FullerTabor
 from .adhesion.spheres import DMT, JKR, MaugisDugdale
 from .adhesion.stickiness import PastewkaRobbins, PerssonTosatti
+from .conductance.joints import ElasticJoint, MeanGapJoint, PlasticJoint
+from .conductance.spots import HolmSpot, SpotCluster
 from .friction.finite_friction import FrictionalIndenter, FrictionalPunch, GoodmanLine
 from .friction.full_stick import StickingIndenter, StickingIndenterLine, StickingPunch, StickingPunchLine
 from .friction.partial_slip import MindlinLine, MindlinPoint, MindlinWave
@@ -152,6 +154,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
         "Stickiness": (PastewkaRobbins, PerssonTosatti),
         "Plasticity and hardness": (PlasticityIndex, ProfilePlasticityIndex, LeastArea, EffectiveHardness, OliverPharr),
         "Menisci": (WetSummits, GrowingMenisci, DropletMeniscus, FilmMeniscus, VapourMeniscus),
+        "Conductance": (PlasticJoint, ElasticJoint, MeanGapJoint, HolmSpot, SpotCluster),
     }
 )
 """Theories by what they are about."""

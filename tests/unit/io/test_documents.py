@@ -454,6 +454,8 @@ def test_schema_is_json_and_names_every_table() -> None:
         "plastic_flow",
         "indentation",
         "passes",
+        "conductance",
+        "sealing",
     }
     assert schema["additionalProperties"] is False
     body = schema["$defs"]["BodyTable"]

@@ -7,6 +7,7 @@ E=140GPa,nu=0.25,H=15GPa          elastic constants: E, nu, and if known hardnes
 steel{H=60HRC}                    a material of the library with another strength
 steel{Y=400MPa,hardening=linear(2GPa)}   and with what plastic flow needs; also swift(0.2) and
                                   voce(100MPa,20)
+copper{k=390W/(m*K),rho=58MS/m}   and with another conductivity of heat or current
 DLC:5nm/Cr:2nm/steel              5 nm of DLC on 2 nm of Cr on steel
 DLC:5nm~/rigid                    ~ : the layer slips without friction on what lies below it
 E=3MPa+10MPa@10ms,nu=0.5          10 MPa of Young's modulus relax in 10 ms; further ways in
@@ -25,6 +26,7 @@ from ...core.errors import InputError
 from ...core.settings import Settings, setting
 from ...core.values import (
     Count,
+    ElectricalResistivity,
     HardnessValue,
     Length,
     NonEmpty,
@@ -34,6 +36,7 @@ from ...core.values import (
     PoissonRatio,
     Positive,
     Pressure,
+    ThermalConductivity,
 )
 from ...solids.relaxation_text import AT
 from .relaxation import SYMBOLS as RELAXING
@@ -48,9 +51,12 @@ CONSTANTS = ("youngs_modulus", "poisson_ratio")
 FLOW = ("yield_stress", "hardening", "kinematic", "recall")
 """Keys of plastic flow."""
 
-BESIDE = ("hardness", *FLOW)
-"""Keys of the strength, which elastic constants may bring along, and a named material, too: they
-replace those of the library."""
+CONDUCTS = ("thermal_conductivity", "electrical_resistivity")
+"""Keys of what conducts."""
+
+BESIDE = ("hardness", *FLOW, *CONDUCTS)
+"""Keys of the strength and of what conducts, which elastic constants may bring along, and a named
+material, too: they replace those of the library."""
 
 
 def _text_too(schema: dict[str, Any]) -> None:
@@ -114,7 +120,8 @@ class MaterialTable(Settings):
     ``relaxation`` instead of Young's modulus.
 
     It may be text, such as ``"steel"``, ``"E=140GPa,nu=0.25"``, ``"E=3MPa+10MPa@10ms,nu=0.5"`` or
-    ``"steel{Y=400MPa}"``. Yield stress, ``hardening`` and the back stress of a ``kinematic``
+    ``"steel{Y=400MPa}"``. The ``electrical_resistivity`` may be written as its inverse, in S/m.
+    Yield stress, ``hardening`` and the back stress of a ``kinematic``
     modulus with its ``recall`` are those of plastic flow.
     """
 
@@ -129,6 +136,8 @@ class MaterialTable(Settings):
     hardening: Annotated[AnyHardening | None, BeforeValidator(_hardening_from_text)] = None
     kinematic: NonNegativePressure | None = None
     recall: NonNegative | None = None
+    thermal_conductivity: ThermalConductivity | None = setting(None, help="k: 50 W/(m*K)")
+    electrical_resistivity: ElectricalResistivity | None = setting(None, help="ρ: 17 nohm*m, or its inverse in S/m")
     name: NonEmpty | None = None
 
     @model_validator(mode="before")
@@ -267,6 +276,8 @@ SYMBOLS = MappingProxyType(
         "hardening": "hardening",
         "kinematic": "kinematic",
         "recall": "recall",
+        "k": "thermal_conductivity",
+        "rho": "electrical_resistivity",
         "name": "name",
     }
 )

@@ -1,0 +1,1 @@
+"""Electrical and thermal conductance through the contact."""

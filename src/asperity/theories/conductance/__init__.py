@@ -1,0 +1,1 @@
+"""Theories of conductance: spots, and joints of rough surfaces."""

@@ -1,0 +1,97 @@
+"""Conductivities of materials: from the library, at the doors, in files, of graded layers."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+from refusals import refused
+
+import asperity as asp
+from asperity.core import units
+from asperity.core.errors import InputError
+from asperity.io.description import describe, rebuild
+from asperity.io.schemas.bodies import BodyTable
+from asperity.io.words import body_rows
+from asperity.run.build import build_material
+from asperity.solids.elastic import Conduction, Elastic
+from asperity.solids.layers import LinearGrading, graded
+from asperity.solids.library import materials
+
+LORENZ = {"silver": 2.31e-8, "gold": 2.35e-8, "copper": 2.23e-8, "platinum": 2.51e-8, "tungsten": 3.04e-8}
+"""Measured Lorenz numbers in V²/K² at 273 K (Kittel, Introduction to Solid State Physics, table
+6.5)."""
+
+
+@pytest.mark.parametrize("name", LORENZ)
+def test_heat_and_current_of_pure_metals_agree(name: str) -> None:
+    """k rho / T is the Lorenz number of the metal, within the 3 % by which sources differ."""
+    known = asp.material(name).conduction
+    ratio = known.thermal_conductivity * known.electrical_resistivity / 296.0
+    assert ratio == pytest.approx(LORENZ[name], rel=0.03)
+
+
+def test_values_have_sources_and_lie_in_the_range_of_solids() -> None:
+    for record in materials():
+        values = record.values
+        if "thermal_conductivity" in values:
+            assert 0.1 <= values["thermal_conductivity"].value <= 430.0
+        if "electrical_resistivity" in values:
+            assert 1.5e-8 <= values["electrical_resistivity"].value <= 2e-6
+
+
+def test_a_resistivity_may_be_given_by_the_conductivity() -> None:
+    kind = "electrical resistivity"
+    for text in ("50 MS/m", "50MS/m", "5e5 S/cm", "20 nohm*m", "2 uohm*cm"):
+        assert units.parse(text, kind, "rho") == pytest.approx(2e-8, rel=1e-12)
+    with refused(InputError, "rho", "m"):
+        units.parse("3 m", kind, "rho")
+    assert units.show(1.678e-8, "ohm*m") == "16.78 nΩ·m"
+    assert units.show(401.0, "W/(m*K)") == "401 W/(m·K)"
+
+
+def body(text: str) -> Any:
+    return BodyTable.model_validate(text)
+
+
+def test_text_of_a_body_gives_them() -> None:
+    found = body("gold{rho=45 MS/m}:500nm/nickel:2um/E=120GPa,nu=.3{k=390W/m/K,rho=17nohm*m}")
+    gold = build_material(found.layers[0], None, Path())
+    assert gold.conduction.electrical_resistivity == pytest.approx(1.0 / 45e6)
+    assert gold.conduction.thermal_conductivity == 317.0
+    assert "electrical_resistivity: user" in gold.sources
+    assert not any("CRC" in source for source in gold.sources)
+    base = build_material(found.base, None, Path())
+    assert (base.conduction.thermal_conductivity, base.conduction.electrical_resistivity) == (390.0, 1.7e-8)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "subject"),
+    [
+        ("thermal_conductivity", 0.0, "thermal conductivity (W/(m K))"),
+        ("electrical_resistivity", -1.0, "electrical resistivity (ohm m)"),
+    ],
+)
+def test_values_must_be_positive(key: str, value: float, subject: str) -> None:
+    with refused(InputError, subject, f"{value:g}"):
+        Conduction(**{key: value})
+
+
+def test_files_and_tables_keep_them() -> None:
+    copper = asp.material("copper")
+    plain = Elastic(1e11, 0.3, asp.Strength(1e9, 4e8))
+    assert rebuild(describe(copper)) == copper
+    assert rebuild(describe(plain)) == plain
+    rows = dict(body_rows(copper))
+    assert rows["thermal conductivity k"] == "401 W/(m·K)"
+    assert rows["electrical resistivity ρ"] == "16.78 nΩ·m"
+    assert not any("conduct" in label for label, _ in body_rows(plain))
+
+
+def test_graded_layers_mix_them() -> None:
+    top, bottom = (Elastic(1e11, 0.3, conduction=Conduction(k)) for k in (10.0, 30.0))
+    found = graded(top, bottom, 1e-6, grading=LinearGrading(), sublayers=4)
+    assert [layer.material.conduction.thermal_conductivity for layer in found] == [12.5, 17.5, 22.5, 27.5]
+    assert all(math.isnan(layer.material.conduction.electrical_resistivity) for layer in found)
