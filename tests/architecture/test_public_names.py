@@ -29,8 +29,9 @@ NAMES = {name: list(module.__all__) for name, module in MODULES.items()}
 
 TOP = [name for name in dir(asperity) if name in asperity._HOME]
 PAIRS = [(module, name) for module, names in NAMES.items() for name in names]
-MOST = 82
-"""Names at the top, modules and the version included."""
+MOST = 58
+"""Names at the top beside the public modules, the version included. A new physics brings a public
+module, whose names stand there and not at the top."""
 
 SCREEN = 45
 """Lines of one screen, of 100 columns."""
@@ -45,7 +46,7 @@ def test_public_names_are_those_of_the_list() -> None:
 
 
 def test_few_names_stand_at_the_top_and_each_in_a_module_too() -> None:
-    assert len(TOP) + 1 <= MOST
+    assert len({*TOP} - {*MODULES}) + 1 <= MOST
     lonely = [
         name
         for name in sorted({*TOP} - {*MODULES})
