@@ -1,5 +1,5 @@
-"""Temperature of a rectangle of uniform flux on a half-space that moves along its surface, in steady
-state and in time, at its surface and below; and that of a pixel at all offsets of a grid.
+"""Temperature of a rectangle of uniform flux on a half-space that moves along its surface, in
+steady state and in time, at its surface and below; and that of a pixel at all offsets of a grid.
 
 The field of an instantaneous source is Gaussian, so a rectangle of sources makes at each time a
 product of a function of x and one of y (Carslaw & Jaeger 1959). With w = sqrt(κ τ) of the age τ,
