@@ -187,7 +187,7 @@ class HeatConductor:
     def _parts(self, qx: ArrayLike, qy: ArrayLike, speed: Speed, laplace: complex) -> list[_Part]:
         """Layers and base from the top."""
         s = decay(qx, qy, self.diffusivity, speed, laplace)
-        found = [_Part(self.conductivity * s, s, self.sink_depth, np.full_like(s, -1.0))]
+        found = [_Part(self.conductivity * s, s, self.sink_depth, 0.0 * s - 1.0)]
         for layer in reversed(self.layers):
             s = decay(qx, qy, layer.diffusivity, speed, laplace)
             ks = layer.conductivity * s

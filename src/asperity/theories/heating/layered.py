@@ -1,12 +1,13 @@
 """What lies under the first layer of a conductor adds to the temperature of a single source.
 
-It is smooth, and falls as exp(-2 q h) with the thickness h of the layer, so it is summed over waves,
-and the source on a half-space of the layer taken from elsewhere (``polar``, ``pixel``). Lengths in
-half lengths of the source along the motion.
+It is smooth, and falls as exp(-2 q h) with the thickness h of the layer, so it is summed over
+waves, and the source on a half-space of the layer taken from elsewhere (``polar``, ``pixel``).
+Lengths in half lengths of the source along the motion.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -45,7 +46,7 @@ class FromBelow:
         last = _REACH / thickness
         octaves = np.append(0.0, last * 2.0 ** np.arange(-max(0.0, math.ceil(math.log2(last))), 1.0))
         self._waves = []
-        for low, high in zip(octaves[:-1], octaves[1:], strict=True):
+        for low, high in itertools.pairwise(octaves):
             count = math.ceil((high - low) * 2.0 * reach / _PHASE)
             breaks = np.linspace(low, high, count + 1)
             if low == 0.0:  # s is the root of q there

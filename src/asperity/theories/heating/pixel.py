@@ -126,7 +126,7 @@ def rectangle_mean(
         a, b = 2.0 * half[0], 2.0 * half[1]
         corners = (a**2 + b**2) ** 1.5 - a**3 - b**3
         over_r = 2.0 * a * b * (a * math.asinh(b / a) + b * math.asinh(a / b)) - corners / 1.5
-        return over_r / (a * b * 2.0 * math.pi * of.k)
+        return float(over_r / (a * b * 2.0 * math.pi * of.k))
     w, weight = of.nodes(_BEGIN * min(half), (2.0 * half[0], 2.0 * half[1]))
     along, across = (_passing_mean(h, drift * w, w) for h, drift in zip(half, of.drift, strict=True))
     return float(weight @ (along * across))

@@ -1,13 +1,13 @@
 """Elliptic sources of heat by quadrature about the field point, and their means.
 
 Lengths in half lengths a along the motion, θ = k T/(q̄ a), and Pe = v a/2κ. In polar coordinates
-about the field point the kernel exp(-Pe (r - x))/(2π r) of a point source on a half-space that moves
-to +x (Rosenthal 1946) has no singularity left,
+about the field point the kernel exp(-Pe (r - x))/(2π r) of a point source on a half-space that
+moves to +x (Rosenthal 1946) has no singularity left,
 
     θ = 1/2π ∫∫ f exp(-β r) dr dφ,  β = 2 Pe sin²(φ/2),  φ = 0 looking upstream,
 
-and so have means over the source, with the overlap of the source with itself in place of the flux f.
-The ellipse is scaled to a circle: φ = atan(b tan ψ), r = n t.
+and so have means over the source, with the overlap of the source with itself in place of the flux
+f. The ellipse is scaled to a circle: tan φ = b tan ψ, r = n t.
 """
 
 from __future__ import annotations
@@ -94,6 +94,9 @@ class EllipticSource:
         rim = 4 + math.ceil(0.5 * math.log2(1.0 / max(abs(out), 1e-12))) if abs(out) < 1.0 else 0
         towards = math.atan2(Y, X)
         marks = [(0.0, self._levels), (0.5 * math.pi, 8), (-0.5 * math.pi, 8), (math.pi, 4), (-math.pi, 4)]
+        if out < 0.0 and Y == 0.0:  # both sides alike
+            psi, weight = _graded((*marks, (0.5 * math.pi, rim)), 0.0, math.pi)
+            return psi, 2.0 * weight
         if out < 0.0:
             for tangent in (towards + 0.5 * math.pi, towards - 0.5 * math.pi):
                 marks.append((math.remainder(tangent, 2.0 * math.pi), rim))
@@ -110,17 +113,36 @@ class EllipticSource:
         return towards + half * np.sin(u), weight * half * np.cos(u)
 
     def _along(self, near: RealArray, far: RealArray, n: RealArray, c: RealArray, beta: RealArray) -> RealArray:
-        """∫ f r g dt along the chords; t = near + (far - near) sin²(u/2) takes the roots of the flux
-        at both ends."""
+        """∫ f r g dt along the chords; t = near + (far - near) sin²(u/2) takes the roots of the
+        flux at both ends."""
         chord = np.maximum(far - near, 1e-300)
         first = 2.0 * np.arcsin(np.sqrt(np.clip(-near / chord, 0.0, 1.0)))
-        levels = self._levels + (math.ceil(math.log2(1.0 + 1.0 / self.depth)) if self.depth else 0)
-        share, weight = gauss(np.append(0.0, 2.0 ** np.arange(-levels, 1)), _NODES)
+        fewest = 1 if math.isinf(self.fourier) else self._levels
+        if self.depth:
+            fewest += math.ceil(math.log2(1.0 + 1.0 / self.depth))
+        levels = fewest + np.ceil(np.log2(1.0 + 0.25 * beta * chord)).astype(int)
+        found = np.empty(beta.shape)
+        for count in np.unique(levels):
+            of = levels == count
+            found[of] = self._along_alike(near[of], chord[of], first[of], int(count), (n[of], c[of], beta[of]))
+        return found
+
+    def _along_alike(
+        self,
+        near: RealArray,
+        chord: RealArray,
+        first: RealArray,
+        levels: int,
+        to: tuple[RealArray, RealArray, RealArray],
+    ) -> RealArray:
+        """``_along`` with so many panels, which halve towards the field point at u = ``first``; what
+        is felt depends on n, cos ψ and β in ``to``."""
+        share, weight = gauss(np.append(0.0, 2.0 ** np.arange(-levels, 1.0)), _NODES)
         u = first[:, None] + (math.pi - first)[:, None] * share
         half_sine = 0.5 * np.sin(u)  # sin(u/2) cos(u/2)
         t = np.maximum(near[:, None] + chord[:, None] * np.sin(0.5 * u) ** 2, 0.0)
+        felt = self._felt(t, *(part[:, None] for part in to))
         flux = 1.5 * chord[:, None] * half_sine if self.hertzian else 1.0
-        felt = self._felt(t, n[:, None], c[:, None], beta[:, None])
         return np.asarray(chord * (math.pi - first) * ((flux * half_sine * felt) @ weight))
 
     def _felt(self, t: RealArray, n: RealArray, c: RealArray, beta: RealArray) -> RealArray:

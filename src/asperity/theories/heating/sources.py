@@ -87,7 +87,9 @@ class Ellipse(Source):
     def at(self, x: RealArray, y: RealArray, peclet: float, depth: float = 0.0, fourier: float = math.inf) -> RealArray:
         """θ at points."""
         source = polar.EllipticSource(self.width / self.length, self.hertzian, peclet, depth, fourier)
-        return np.array([source.at(*point) for point in zip(x.ravel(), y.ravel(), strict=True)]).reshape(x.shape)
+        return np.array([source.at(float(px), float(py)) for px, py in zip(x.ravel(), y.ravel(), strict=True)]).reshape(
+            x.shape
+        )
 
     def mean(self, peclet: float, *, weighted: bool) -> float:
         """Mean of θ."""
@@ -106,7 +108,7 @@ class Ellipse(Source):
         return of
 
 
-def Disc(radius: float, *, hertzian: bool = False) -> Ellipse:  # noqa: N802
+def disc(radius: float, *, hertzian: bool = False) -> Ellipse:
     """Flux on a disc of the ``radius`` in m."""
     return Ellipse(radius, radius, hertzian)
 
@@ -235,9 +237,9 @@ class MovingSource:
     A micrometre of steel under a megawatt per square millimetre, at rest and at 10 m/s:
 
     >>> steel = HeatConductor(46.0, 1.2e-5)
-    >>> round(1e12 * MovingSource(Disc(1e-6), steel).hottest().temperature)
+    >>> round(1e12 * MovingSource(disc(1e-6), steel).hottest().temperature)
     21739
-    >>> round(1e12 * MovingSource(Disc(1e-6), steel, 10.0).hottest().temperature)
+    >>> round(1e12 * MovingSource(disc(1e-6), steel, 10.0).hottest().temperature)
     18460
     """
 
@@ -260,8 +262,8 @@ class MovingSource:
         return self.source.half_length / self.body.conductivity
 
     def temperature(self, x: ArrayLike, y: ArrayLike = 0.0, *, depth: float = 0.0, time: float = math.inf) -> RealArray:
-        """At points ``x``, ``y`` in m, broadcast, at the ``depth`` in m, the ``time`` in s after the
-        flux began.
+        """At points ``x``, ``y`` in m, broadcast, at the ``depth`` in m, the ``time`` in s after
+        the flux began.
 
         Raises
         ------
@@ -278,8 +280,8 @@ class MovingSource:
             return self._unit * self.source.at(x, y, self._own, z, fourier)
         if z or math.isfinite(time):
             raise InputError(
-                "depth (m) and time (s) must be zero and infinite above layers or a sink. Take HeatConductor.below and a "
-                "Laplace variable for single waves."
+                "depth (m) and time (s) must be zero and infinite above layers or a sink. Take HeatConductor.below for "
+                "single waves."
             )
         more = np.array([self._below.at(*point) for point in zip(x.ravel(), y.ravel(), strict=True)])
         return self._unit * self.source.at(x, y, self._own) + self.unit * more.reshape(x.shape)
@@ -293,7 +295,7 @@ class MovingSource:
             lambda x: -float(self.temperature(sign * x * a)),
             bounds=(0.0, 1.0),
             method="bounded",
-            options={"xatol": 1e-9},
+            options={"xatol": 1e-7},
         )
         return Hottest(-float(found.fun), sign * float(found.x) * a)
 
@@ -323,8 +325,8 @@ class MovingSource:
         first = scaled.layers[0].thickness if layers else scaled.sink_depth
         if first < _THINNEST:
             raise InputError(
-                f"thickness of the first layer (m) must be at least {_THINNEST * a:g} m for a source of this size, but is "
-                f"{first * a:g} m. Leave it out, and add thickness over conductivity to the temperature of the base."
+                f"thickness of the first layer (m) must be at least {_THINNEST * a:g} m for a source of this size, but "
+                f"is {first * a:g} m. Leave it out, and add thickness over conductivity to the temperature of the base."
             )
         return FromBelow(scaled, 2.0 * self.peclet, self.source.area, self.source.transform(uniform=False), 2.0)
 
