@@ -27,7 +27,7 @@ CLOSE = 1e-8
 """Distance of the bounds over the conductance at which no further round follows: the flux density
 then errs by 1e-4 in the norm of the energy at most. One round mostly leaves 1e-8 to 1e-7."""
 
-ENDING = 0.05
+ENDING = 0.25
 """Share of ``CLOSE`` at which conjugate gradients with a conducting gap end: the flux density of
 single pixels errs more than their sum, and single precision adds to the residual."""
 
