@@ -9,6 +9,7 @@ import argparse
 from pathlib import Path
 
 import block_pictures
+import conductance_pictures
 import peng_pictures
 import sliding_pictures
 
@@ -16,7 +17,7 @@ from asperity.plots import style
 
 DPI = 75
 
-FIGURES = peng_pictures.FIGURES | block_pictures.FIGURES | sliding_pictures.FIGURES
+FIGURES = peng_pictures.FIGURES | block_pictures.FIGURES | sliding_pictures.FIGURES | conductance_pictures.FIGURES
 """Name of the file -> how to draw it, width and height in inches."""
 
 

@@ -185,11 +185,13 @@ class Response(NamedTuple):
         return self._replace(values=found.d if found.reached else None)
 
     def preconditioned(self, rise: RealArray) -> RealArray:
-        """Approximate pressure (nx, ny) in Pa for a ``rise`` (nx, ny) in m of the points: the
-        preconditioner's, once the model of the compliance is factorised."""
+        """Approximate pressure (nx, ny) for a ``rise`` (nx, ny) of the points, in the units and the
+        precision of ``scaled``: the preconditioner's, once the model of the compliance is
+        factorised. The next call overwrites it."""
         r = self._vector(rise)
         system = LinearSystem(self.scaled, self.free, zero_sum=False)
-        return self._replace(values=system.preconditioned(r, r, self.free.empty()).vector).pressure
+        self.free.scatter(system.preconditioned(r, r, self.free.empty()).vector, self.scaled.field)
+        return np.asarray(self.scaled.engine.numpy(self.scaled.field))
 
     def _vector(self, values: RealArray) -> Any:
         return self.free.gather(self.scaled.engine.array(values, self.scaled.dtype))[0]

@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 from reference_data import every_row, reference
 from refusals import refused
 
@@ -177,6 +179,86 @@ def test_conducting_gap_is_the_dense_solution(boundary, film: float, gas: float)
     exact = float(dense_with_gap(operator, contact, gap / gas, film).mean())
     assert found.lower <= exact * (1.0 + 1e-12)
     assert found.upper >= exact * (1.0 - 1e-12)
+
+
+@pytest.mark.parametrize("points", [(2, 2), (8, 6)])
+@pytest.mark.parametrize(("first", "second"), [(1.0, 1.0), (0.3, 5.0), (1e-3, 1.0), (1e3, 2e3)])
+def test_a_checker_of_films_has_a_closed_form(points: tuple[int, int], first: float, second: float) -> None:
+    """One wave alone answers: (d + s e) j = 1 with s = ±1 has the mean 1/(d - e²/(Z + d))."""
+    operator = prepare_operator(HalfSpace(1.0), asp.Grid(points, (1.0, 0.7)), asp.Periodic())
+    sign = 1.0 - 2.0 * (np.indices(points).sum(axis=0) % 2)
+    resistance = np.where(sign > 0.0, first, second)
+    wave = float(operator.apply(sign)[0, 0])
+    middle, half = 0.5 * (first + second), 0.5 * (first - second)
+    exact = 1.0 / (middle - half**2 / (wave + middle))
+    found = flux_with_gap(operator, np.zeros(points, dtype=bool), resistance, 0.0)
+    assert found.lower <= exact * (1.0 + 1e-12)
+    assert found.upper >= exact * (1.0 - 1e-12)
+    assert found.upper / found.lower - 1.0 <= CLOSE
+    filmed = prepare_operator(Filmed(HalfSpace(1.0), first), asp.Grid(points, (1.0, 0.7)), asp.Periodic())
+    beside = flux_with_gap(filmed, sign > 0.0, np.where(sign > 0.0, np.inf, second), first)  # a film in contact
+    assert beside.lower <= exact * (1.0 + 1e-12)
+    assert beside.upper >= exact * (1.0 - 1e-12)
+    spent = beside.drop + np.where(sign > 0.0, 0.0, second) * beside.density  # in bodies and film, and in the gap
+    np.testing.assert_allclose(spent, 1.0, atol=1e-4)
+
+
+def test_a_full_film_conducts_as_one() -> None:
+    grid = asp.Grid((12, 9), (1.0, 1.0))
+    for film in (1e-3, 1.0, 1e3):
+        operator = prepare_operator(Filmed(HalfSpace(1.0), film), grid, asp.Periodic())
+        for found in (
+            flux(operator, np.ones((12, 9), dtype=bool)),
+            flux_with_gap(operator, np.zeros((12, 9), dtype=bool), np.full((12, 9), film), film),
+        ):
+            assert found.lower <= (1.0 + 1e-12) / film
+            assert found.upper >= (1.0 - 1e-12) / film
+
+
+@given(
+    seed=st.integers(0, 2**31),
+    periodic=st.booleans(),
+    film=st.sampled_from([0.0, 0.1, 10.0]),
+    scale=st.floats(-4.0, 4.0),
+    spread=st.floats(0.0, 3.0),
+    share=st.floats(0.0, 1.0),
+    open_share=st.floats(0.0, 0.5),
+    layered=st.booleans(),
+)
+@settings(max_examples=60, deadline=None)
+def test_bounds_hold_whatever_the_gap_conducts(
+    seed: int,
+    periodic: bool,
+    film: float,
+    scale: float,
+    spread: float,
+    share: float,
+    open_share: float,
+    layered: bool,
+) -> None:
+    """Gaps of any conductance beside any contact: the dense solution lies within the bounds, and
+    they within those of uniform flow and of uniform potential."""
+    rng = np.random.default_rng(seed)
+    shape, boundary = (9, 8), asp.Periodic() if periodic else asp.Free()
+    contact = rng.random(shape) < share
+    gap = 10.0 ** (scale + spread * (rng.random(shape) - 0.5))
+    gap[rng.random(shape) < open_share] = np.inf
+    conducts = contact | np.isfinite(gap)
+    assume(conducts.any() and not (contact.all() and not film))
+    bodies = LayeredConductor((2.0,), (10.0, 1.0)) if layered else HalfSpace(1.0)
+    operator = prepare_operator(Filmed(bodies, film) if film else bodies, asp.Grid(shape, (1.0, 0.8)), boundary)
+    found = flux_with_gap(operator, contact, np.where(contact, np.inf, gap), film)
+    at = conducts.ravel()
+    resistance = np.where(contact, film, gap).ravel()[at]
+    matrix = operator.matrix()[np.ix_(at, at)] + np.diag(resistance - film)
+    exact = float(np.linalg.solve(matrix, np.ones(at.sum())).sum()) / at.size
+    assert found.lower <= exact * (1.0 + 1e-9)
+    assert found.upper >= exact * (1.0 - 1e-9)
+    assert found.upper / found.lower - 1.0 <= 10.0 * CLOSE
+    if np.all(resistance > 0.0):
+        assert exact <= float((1.0 / resistance).sum()) / at.size * (1.0 + 1e-9)
+        if periodic and at.all():
+            assert exact >= 1.0 / float(resistance.mean()) * (1.0 - 1e-9)
 
 
 def test_a_gap_that_does_not_conduct_changes_nothing_and_alone_it_is_a_film() -> None:

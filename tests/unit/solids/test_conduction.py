@@ -33,9 +33,27 @@ def test_heat_and_current_of_pure_metals_agree(name: str) -> None:
     assert ratio == pytest.approx(LORENZ[name], rel=0.03)
 
 
+SOMMERFELD = 2.443e-8
+"""π²/3 (k_B/e)² in V²/K², of free electrons."""
+
+METALS = {record.name for record in materials() if "electrical_resistivity" in record.values}
+
+
+@pytest.mark.parametrize("name", sorted(METALS - {"cast iron"}))
+def test_metals_follow_wiedemann_and_franz_within_a_factor_of_two(name: str) -> None:
+    """In alloys the lattice adds heat, up to as much as the electrons carry; the graphite of grey
+    iron carries more, and hardly any current."""
+    known = asp.material(name).conduction
+    ratio = known.thermal_conductivity * known.electrical_resistivity / 293.0 / SOMMERFELD
+    assert 0.5 < ratio < 2.0
+
+
 def test_values_have_sources_and_lie_in_the_range_of_solids() -> None:
+    assert len(METALS) >= 15
     for record in materials():
         values = record.values
+        for key in ("thermal_conductivity", "electrical_resistivity"):
+            assert key not in values or len(values[key].source) > 10
         if "thermal_conductivity" in values:
             assert 0.1 <= values["thermal_conductivity"].value <= 430.0
         if "electrical_resistivity" in values:

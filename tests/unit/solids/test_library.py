@@ -123,7 +123,10 @@ def test_published_tables_are_reproduced(row: dict[str, float | str]) -> None:
 def test_assumed_values_are_exactly_these() -> None:
     assumed = {(r.name, key) for r in RECORDS for key, value in r.values.items() if value.assumed}
     names = {"Co-Cr", "Al-Mg", "sapphire", "titanium nitride", "PEEK", "PDMS"}
-    assert assumed == {(name, "poisson_ratio") for name in names}
+    ceramics = {"soda-lime glass", "silicon nitride", "silicon carbide", "zirconia"}
+    conducting = {(name, "thermal_conductivity") for name in (*ceramics, "Ti-6Al-4V")}
+    conducting |= {(name, "electrical_resistivity") for name in ("stainless steel", "cast iron")}
+    assert assumed == {(name, "poisson_ratio") for name in names} | conducting
 
 
 @pytest.mark.parametrize("name", ["DLC", "dlc", " DLC ", "Diamond-Like  Carbon"])

@@ -23,6 +23,7 @@ from ...core.late import Shown
 from ...theories.conductance.spots import sharvin, wexler
 from .law import ConductingInterface
 from .operator import ELECTRICAL, THERMAL, Flow, conductors, harmonic_mean, layers_in_series
+from .pixels import freed_of_pixels
 from .solver import Flux, flux, flux_with_gap
 
 FLOWS = {"electrical": ELECTRICAL, "thermal": THERMAL}
@@ -55,7 +56,11 @@ class ContactConductance(Shown):
     lower, upper
         Bounds of ``per_area`` on this grid (Thomson's principle and the residual).
     pixel_error
-        Relative error by the size of the pixels at the edges; an estimate.
+        Relative error of ``per_area`` by the size of the pixels at the edges; an estimate.
+    extrapolated, extrapolated_error
+        Conductance in S or W/K to pixels of no size, by the place of the edges between them, and
+        its relative error. Against closed forms it errs a quarter as much or less: circles and
+        squares from 6 pixels across, ellipses, strips, Hertzian contacts.
     through_gap
         Share of the flux that crosses the gap beside the contact.
     layers
@@ -80,6 +85,8 @@ class ContactConductance(Shown):
     lower: float
     upper: float
     pixel_error: float
+    extrapolated: float
+    extrapolated_error: float
     through_gap: float
     layers: float
     k_s: float
@@ -215,6 +222,8 @@ def _answered(result: ContactResult, flow: Flow, interface: ConductingInterface,
     problem = result.problem
     grid, contact = problem.grid, result.contact
     k_s = harmonic_mean(problem.body, problem.counter_body, flow)
+    whole = found.mean * grid.area
+    extrapolated, error = _extrapolated(result, flow, interface, found) if 0.0 < whole < math.inf else (whole, 0.0)
     total = float(found.density.sum())
     outside = float(found.density[~contact].sum())
     return ContactConductance(
@@ -226,6 +235,8 @@ def _answered(result: ContactResult, flow: Flow, interface: ConductingInterface,
         lower=found.lower,
         upper=found.upper,
         pixel_error=_pixel_error(result, found, k_s, interface.film_resistance),
+        extrapolated=extrapolated,
+        extrapolated_error=error,
         through_gap=outside / total if 0.0 < total < math.inf else 0.0,
         layers=layers_in_series(problem.body, problem.counter_body, flow),
         k_s=k_s,
@@ -234,6 +245,24 @@ def _answered(result: ContactResult, flow: Flow, interface: ConductingInterface,
         pixel_area=grid.pixel_area,
         wraps=problem.boundary.wraps,
     )
+
+
+def _extrapolated(
+    result: ContactResult, flow: Flow, interface: ConductingInterface, found: Flux
+) -> tuple[float, float]:
+    """Conductance freed of the pixels, S or W/K, and its relative error.
+
+    The conductivity is that which the shortest waves on the grid meet: of a layer that is thinner
+    than a pixel only a part counts. Where the gap conducts, the flux crowds less than the
+    correction supposes, which then counts as error, too.
+    """
+    problem = result.problem
+    shortest = math.pi / math.sqrt(problem.grid.pixel_area)
+    resists = conductors(problem.body, problem.counter_body, flow).spectral(np.array([shortest]))[0]
+    freed = freed_of_pixels(result.edges, found.density, 2.0 / (shortest * float(resists)), interface.film_resistance)
+    whole = found.mean * problem.grid.area
+    error = freed.error + (abs(freed.gain) if interface.bridges else 0.0)
+    return whole + freed.gain, error / whole
 
 
 def _pixel_error(result: ContactResult, found: Flux, k_s: float, film_resistance: float) -> float:

@@ -109,6 +109,10 @@ def _of(flow: str) -> tuple[Quantity, ...]:
         Quantity(f"{flow}_lower_bound", per_area, f"lower bound of the {flow} conductance per area on this grid"),
         Quantity(f"{flow}_upper_bound", per_area, f"upper bound of the {flow} conductance per area on this grid"),
         Quantity(f"{flow}_pixel_error", "1", f"error of the {flow} conductance by the size of the pixels"),
+        Quantity(
+            f"{flow}_extrapolated_conductance", total, f"{flow} contact conductance freed of the size of the pixels"
+        ),
+        Quantity(f"{flow}_extrapolated_error", "1", f"error of the {flow} conductance freed of the size of the pixels"),
         Quantity(f"{flow}_layer_resistance", specific, f"specific {flow} resistance of all layers in uniform flow"),
         Quantity(f"{flow}_stiffness_conductance", total, f"{flow} conductance from the normal stiffness (Barber)"),
         Quantity(f"{flow}_half_spots", "1", f"number of spots that carry half of the {flow} flow"),

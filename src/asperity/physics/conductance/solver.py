@@ -9,12 +9,13 @@ precision, is solved for once more. With a gap that conducts all points take par
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...contact.measure import Response
 from ...contact.operators import Operator
+from ...contact.solvers.active_set.linear_system import ScaledOperator
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import ConvergenceError
 
@@ -26,12 +27,12 @@ CLOSE = 1e-8
 """Distance of the bounds over the conductance at which no further round follows: the flux density
 then errs by 1e-4 in the norm of the energy at most. One round mostly leaves 1e-8 to 1e-7."""
 
-REDUCTION = 1e-6
-"""Residual over the drop, root of the mean square on the conducting points, at which conjugate
-gradients with a conducting gap end: the conductance errs by its square."""
+ENDING = 0.25
+"""Share of ``CLOSE`` at which conjugate gradients with a conducting gap end: the flux density of
+single pixels errs more than their sum, and single precision adds to the residual."""
 
 GAP_STEPS = 300
-"""Steps of the conjugate gradients with a conducting gap at most; 10 to 40 are the rule."""
+"""Steps of the conjugate gradients with a conducting gap at most; 10 to 20 are the rule."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +45,7 @@ class Flux:
         (nx, ny), S/m² or W/(m² K): flux density per unit drop.
     drop
         (nx, ny): share of the drop that the flux spends in the bodies and the film at each point;
-        one on the contact.
+        one on the contact, less where a gap conducts.
     lower, upper
         Bounds of the mean flux density per unit drop on this grid: Thomson's principle of the flux
         found, and the energy of its residual by the wave that gives way least.
@@ -107,8 +108,9 @@ def flux_with_gap(operator: Operator, contact: BoolArray, gap_resistance: RealAr
     contact is ``gap_resistance`` (nx, ny), > 0, infinite where it does not conduct.
 
     The ``operator`` holds the ``film_resistance`` everywhere, which outside gives way to the gap.
-    Conjugate gradients on all points that conduct, preconditioned by the model of the contact's
-    solver on the contact and by the diagonal outside.
+    Conjugate gradients in single precision on all points that conduct, preconditioned by the model
+    of the contact's solver on the contact and by the diagonal outside; the residual, in double
+    precision, is solved for again until the bounds are close.
 
     Raises
     ------
@@ -118,49 +120,90 @@ def flux_with_gap(operator: Operator, contact: BoolArray, gap_resistance: RealAr
     conducts = contact | np.isfinite(gap_resistance)
     if not conducts.any():
         return flux(operator, contact)
-    own = float(operator.apply(_point(operator))[0, 0]) - film_resistance
     more = np.where(conducts & ~contact, gap_resistance - film_resistance, 0.0)
-    diagonal = np.where(conducts & ~contact, own + gap_resistance, 1.0)
-    system = _Preconditioner(operator, contact, diagonal)
-    j, r = np.zeros(contact.shape), conducts.astype(float)
-    z = np.where(conducts, system(r), 0.0)
-    t, rz = z.copy(), float((r * z).sum())
-    for _ in range(GAP_STEPS):
-        kt = np.where(conducts, operator.apply(t) + more * t, 0.0)
-        curvature = float((t * kt).sum())
-        if not curvature > 0.0:
+    system = _GapSystem(operator, contact, conducts, more, film_resistance)
+    density: RealArray = np.zeros(contact.shape)
+    left = conducts.astype(float)
+    for _ in range(ROUNDS):
+        density = density + system.solved(left)
+        through_bodies = operator.apply(density)
+        drop = through_bodies + more * density
+        left = np.where(conducts, 1.0 - drop, 0.0)
+        bounded = _bounded(operator, density, drop, left, conducts, more, film_resistance)
+        if bounded.upper - bounded.lower <= CLOSE * bounded.lower:
             break
-        length = rz / curvature
-        j += length * t
-        r -= length * kt
-        if _rms(r, conducts) <= REDUCTION:
-            break
-        z = np.where(conducts, system(r), 0.0)
-        rz, before = float((r * z).sum()), rz
-        t = z + rz / before * t
-    else:
-        raise ConvergenceError(
-            f"The flux through contact and gap was not found in {GAP_STEPS} steps: the drop is still off by "
-            f"{_rms(r, conducts):.1e}."
-        )
-    drop = operator.apply(j) + more * j
-    left = np.where(conducts, 1.0 - drop, 0.0)
-    return _bounded(operator, j, drop, left, conducts)
+    in_bodies = np.where(contact, drop, through_bodies - film_resistance * density)
+    return replace(bounded, drop=in_bodies)
 
 
-class _Preconditioner:
-    """Approximate inverse: nested splines on the contact, the diagonal outside."""
+class _GapSystem:
+    """(K + D) j = r on the points that conduct, in units of the largest entry of K and in single
+    precision; its preconditioner is nested splines on the contact, the diagonal outside."""
 
-    def __init__(self, operator: Operator, contact: BoolArray, diagonal: RealArray) -> None:
-        self.contact, self.diagonal, self.engine = contact, diagonal, operator.engine
+    def __init__(
+        self, operator: Operator, contact: BoolArray, conducts: BoolArray, more: RealArray, film_resistance: float
+    ) -> None:
         self.found = Response.of(operator, contact) if contact.any() else None
-        if self.found is not None:
-            self.found.scaled.splines.factorise(self.found.free)
+        if self.found is None:
+            self.scaled = ScaledOperator.of(operator, "float32", operator.largest or 1.0)
+        else:
+            self.scaled = self.found.scaled
+            self.scaled.splines.factorise(self.found.free)
+        scale = self.scaled.scale
+        own = float(operator.apply(_point(operator))[0, 0])
+        outside = conducts & ~contact
+        self.more = np.divide(more, scale, dtype=np.float32)
+        self.diagonal = np.where(outside, scale / (own + more), 0.0).astype(np.float32)  # its inverse
+        self.closed = None if conducts.all() else ~conducts
+        weight, _ = _weights(operator, conducts, more, film_resistance)
+        self.weight = (scale * weight).astype(np.float32)
+        self.response = self.scaled.engine.field(contact.shape, "float32")
 
-    def __call__(self, r: RealArray) -> RealArray:
-        """It times the residual ``r`` (nx, ny)."""
-        z = r / self.diagonal
-        return z if self.found is None else np.where(self.contact, self.found.preconditioned(r), z)
+    def solved(self, left: RealArray) -> RealArray:
+        """Flux density (nx, ny) of the drop ``left`` (nx, ny), to a share of ``CLOSE``."""
+        r = left.astype(np.float32)
+        j = np.zeros_like(r)
+        z = self._preconditioned(r)
+        t, rz = z.copy(), _dot(r, z)
+        for _ in range(GAP_STEPS):
+            kt = self._product(t)
+            curvature = _dot(t, kt)
+            if not curvature > 0.0:
+                break
+            length = np.float32(rz / curvature)
+            j += length * t
+            kt *= length
+            r -= kt
+            if _dot(r, r * self.weight) <= ENDING * CLOSE * abs(float(j.sum(dtype=float))):
+                break
+            z = self._preconditioned(r)
+            before, rz = rz, _dot(r, z)
+            t *= np.float32(rz / before)
+            t += z
+        else:
+            raise ConvergenceError(
+                f"The flux through contact and gap was not found in {GAP_STEPS} steps: the drop is still off by "
+                f"{math.sqrt(_dot(r, r) / r.size):.1e}."
+            )
+        return np.divide(j, self.scaled.scale, dtype=float)
+
+    def _product(self, t: RealArray) -> RealArray:
+        engine = self.scaled.engine
+        self.scaled.product.apply(engine.array(t, "float32"), self.response)
+        found: RealArray = np.asarray(engine.numpy(self.response)) + self.more * t
+        if self.closed is not None:
+            found[self.closed] = 0.0
+        return found
+
+    def _preconditioned(self, r: RealArray) -> RealArray:
+        z: RealArray = r * self.diagonal
+        if self.found is not None:
+            z += self.found.preconditioned(r)
+        return z
+
+
+def _dot(a: RealArray, b: RealArray) -> float:
+    return float(np.dot(a.ravel(), b.ravel()))
 
 
 def _point(operator: Operator) -> RealArray:
@@ -173,14 +216,44 @@ def _rms(left: RealArray, points: BoolArray) -> float:
     return math.sqrt(float((left * left).sum()) / int(np.count_nonzero(points)))
 
 
-def _bounded(operator: Operator, density: RealArray, drop: RealArray, left: RealArray, points: BoolArray) -> Flux:
-    """The flux with its bounds: 1·K⁻¹1 = 2 1·j - j·Kj + r·K⁻¹r for any j, r = 1 - Kj.
+def _bounded(
+    operator: Operator,
+    density: RealArray,
+    drop: RealArray,
+    left: RealArray,
+    points: BoolArray,
+    more: RealArray | float = 0.0,
+    film_resistance: float = 0.0,
+) -> Flux:
+    """The flux with its bounds: 1·A⁻¹1 = 2 1·j - j·Aj + r·A⁻¹r for any j, r = 1 - Aj.
 
-    Thomson: (1·j)²/(j·Kj) is below it for any j; r·K⁻¹r is at most r·r over the least eigenvalue.
+    Thomson: (1·j)²/(j·Aj) is below it for any j. Above it is what a smaller matrix gives in r·A⁻¹r
+    (``_weights``).
     """
     n = operator.grid.n_points
     total, energy = float(density[points].sum()), float((density * drop)[points].sum())
     lower = total * total / energy / n if energy > 0.0 else 0.0
-    square = float((left * left).sum())
-    upper = (2.0 * total - energy + square / operator.smallest) / n
+    weight, uniform = _weights(operator, points, more, film_resistance)
+    rest = float((left * left * weight).sum()) + uniform * float((left * weight).sum()) ** 2
+    upper = (2.0 * total - energy + rest) / n
     return Flux(density, drop, lower, max(upper, lower), _rms(left, points))
+
+
+def _weights(
+    operator: Operator, points: BoolArray, more: RealArray | float, film_resistance: float
+) -> tuple[RealArray, float]:
+    """Weights w (nx, ny), zero off the ``points``, and a factor c of r·A⁻¹r <= Σ w r² + c (Σ w r)².
+
+    A = K + D, D the resistance at each point, and the conductors' K is at least its least
+    eigenvalue λ times the identity, in periodic conductors but for the uniform flow, which they do
+    not resist: A >= λ (1 - 1 1ᵀ/n) + D, whose inverse is w = 1/(λ + D) and c = (λ/n)/(1 - λ Σw/n).
+    With λ = 0 that is Dirichlet's principle for the potential Kj. The ``operator`` holds the film
+    everywhere, to which ``more`` is added.
+    """
+    least = max(operator.smallest - film_resistance, 0.0)
+    weight: RealArray = np.where(points, 1.0 / (least + film_resistance + more), 0.0)
+    if not operator.zero_mean_mode:
+        return weight, 0.0
+    n = operator.grid.n_points
+    left = 1.0 - least * float(weight.sum()) / n
+    return weight, least / n / left if left > 0.0 else 0.0

@@ -181,6 +181,8 @@ def _values(found: ContactConductance, result: ContactResult, between: Conductin
         f"{flow}_lower_bound": found.lower,
         f"{flow}_upper_bound": found.upper,
         f"{flow}_pixel_error": found.pixel_error,
+        f"{flow}_extrapolated_conductance": found.extrapolated,
+        f"{flow}_extrapolated_error": found.extrapolated_error,
         f"{flow}_layer_resistance": found.layers,
         f"{flow}_stiffness_conductance": from_stiffness(result, FLOWS[flow]) if plain else math.nan,
         f"{flow}_half_spots": found.spots.needed(0.5),
@@ -222,6 +224,8 @@ _SHOWN = (
     "resistance",
     "conductance_per_area",
     "pixel_error",
+    "extrapolated_conductance",
+    "extrapolated_error",
     "layer_resistance",
     "stiffness_conductance",
     "half_spots",
@@ -250,6 +254,8 @@ def _said(flow: str, values: Any, *, periodic: bool) -> tuple[str, tuple[str, st
     for name in _SHOWN:
         item, value = LABELS[f"{flow}_{name}"], values[f"{flow}_{name}"]
         if name == "layer_resistance" and not value:
+            continue
+        if name.startswith("extrapolated") and not 0.0 < total < math.inf:
             continue
         if isinstance(value, int | np.integer):
             rows.append((item.label, str(value)))
