@@ -1,0 +1,4 @@
+from .physics.heating.heating import FrictionalHeating, flash_temperature
+from .physics.heating.law import HeatedInterface, Motion
+
+__all__ = ["FrictionalHeating", "HeatedInterface", "Motion", "flash_temperature"]
