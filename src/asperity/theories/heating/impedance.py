@@ -61,16 +61,23 @@ class _Part(NamedTuple):
     def at(self, z: float) -> ComplexArray:
         """Temperature at ``z`` below its upper side per flux into it."""
         if math.isinf(self.thickness):
-            return np.exp(-self.s * z) / self.ks
+            return np.asarray(np.exp(-self.s * z) / self.ks)
         back = self.reflection * np.exp(-self.s * (2.0 * self.thickness - z))
-        return (np.exp(-self.s * z) + back) / (self.ks * (1.0 - self._round()))
+        return np.asarray((np.exp(-self.s * z) + back) / (self.ks * (1.0 - self._round())))
 
     def through(self) -> ComplexArray:
         """Flux at its lower side per flux into it."""
-        return np.exp(-self.s * self.thickness) * (1.0 - self.reflection) / (1.0 - self._round())
+        return np.asarray(np.exp(-self.s * self.thickness) * (1.0 - self.reflection) / (1.0 - self._round()))
+
+    def from_below(self) -> ComplexArray:
+        """What its lower side adds to the temperature of its upper one."""
+        if math.isinf(self.thickness):
+            return np.zeros_like(self.ks)
+        e = self._round()
+        return np.asarray(2.0 * e / (1.0 - e) / self.ks)
 
     def _round(self) -> ComplexArray:
-        return self.reflection * np.exp(-2.0 * self.s * self.thickness)
+        return np.asarray(self.reflection * np.exp(-2.0 * self.s * self.thickness))
 
 
 @dataclass(frozen=True)
@@ -166,6 +173,11 @@ class HeatConductor:
             total += layer.resistance + layer.thickness / layer.conductivity * (1.0 - square)
         return total
 
+    def under_surface(self, qx: ArrayLike, qy: ArrayLike, speed: Speed = 0.0) -> ComplexArray:
+        """Z - 1/(k s) with the material at the surface: what lies under it adds 2 e/(1 - e)/(k s),
+        which falls as exp(-2 q h). Arguments as of ``impedance``."""
+        return self._parts(qx, qy, speed, 0.0)[0].from_below()
+
     def mean_mode(self) -> float:
         """Σ h/k + Σ R + d/k in K m²/W of a uniform steady flux; infinite on a half-space."""
         return self.sink_depth / self.conductivity + sum(
@@ -175,7 +187,7 @@ class HeatConductor:
     def _parts(self, qx: ArrayLike, qy: ArrayLike, speed: Speed, laplace: complex) -> list[_Part]:
         """Layers and base from the top."""
         s = decay(qx, qy, self.diffusivity, speed, laplace)
-        found = [_Part(self.conductivity * s, s, self.sink_depth, -np.ones_like(s))]
+        found = [_Part(self.conductivity * s, s, self.sink_depth, 0.0 * s - 1.0)]
         for layer in reversed(self.layers):
             s = decay(qx, qy, layer.diffusivity, speed, laplace)
             ks = layer.conductivity * s

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...core.quadrature import gauss
+from ...core.quadrature import gauss, rule
 from ...core.scipy_parts import special
 
 _NODES = 14
@@ -116,6 +116,22 @@ def pixel_kernel(
     return np.asarray((along * weight) @ across.T + of.tail(half, reach))
 
 
+def rectangle_mean(
+    half: tuple[float, float], conductivity: float, diffusivity: float, speed: float | tuple[float, float] = 0.0
+) -> float:
+    """Mean of the steady ``rectangle`` over itself, in K m²/W; closed at rest, where it is the
+    potential of a plate on itself."""
+    of = _Moving(conductivity, diffusivity, speed, 0.0, math.inf)
+    if not np.any(of.drift):
+        a, b = 2.0 * half[0], 2.0 * half[1]
+        corners = (a**2 + b**2) ** 1.5 - a**3 - b**3
+        over_r = 2.0 * a * b * (a * math.asinh(b / a) + b * math.asinh(a / b)) - corners / 1.5
+        return float(over_r / (a * b * 2.0 * math.pi * of.k))
+    w, weight = of.nodes(_BEGIN * min(half), (2.0 * half[0], 2.0 * half[1]))
+    along, across = (_passing_mean(h, drift * w, w) for h, drift in zip(half, of.drift, strict=True))
+    return float(weight @ (along * across))
+
+
 class _Moving:
     """The half-space, and the rule for the integral over w."""
 
@@ -159,7 +175,7 @@ class _Moving:
             for speed, far in zip(np.abs(self.drift), reach, strict=True)
             if speed > 0.0
         ]
-        return min([*passed, _LAST * max(*reach, self.z)])
+        return float(min([*passed, _LAST * max(*reach, self.z)]))
 
     def tail(self, half: tuple[float, float], reach: tuple[float, float]) -> float:
         """What comes after the last node in steady state at rest."""
@@ -167,7 +183,7 @@ class _Moving:
         if last < _LAST * max(*reach, self.z) or self.end <= last:
             return 0.0
         after = 0.0 if math.isinf(self.end) else 1.0 / self.end
-        return 2.0 * half[0] * half[1] / (math.pi**1.5 * self.k) * (1.0 / last - after)
+        return float(2.0 * half[0] * half[1] / (math.pi**1.5 * self.k) * (1.0 / last - after))
 
 
 def _passing(x: RealArray, half: float, shift: RealArray, w: RealArray) -> RealArray:
@@ -179,3 +195,18 @@ def _passing(x: RealArray, half: float, shift: RealArray, w: RealArray) -> RealA
     with np.errstate(under="ignore"):
         outside = special.erfc(np.maximum(near, 0.0)) - special.erfc(far)
         return np.asarray(np.where(near > 0.0, outside, special.erf(far) - special.erf(near)))
+
+
+def _passing_mean(half: float, shift: RealArray, w: RealArray) -> RealArray:
+    """Mean of ``_passing`` over |x| < h: a second difference of the integral of erf, of wide
+    Gaussians by a rule of Gauss."""
+    x, weight = rule(20)
+    wide = _passing(half * x[:, None], half, shift, w)
+    ratio, moved = half / w, 0.5 * shift
+
+    def integral(u: RealArray) -> RealArray:
+        with np.errstate(under="ignore"):
+            return np.asarray(u * special.erf(u) + np.exp(-(u**2)) / math.sqrt(math.pi))
+
+    difference = integral(moved + ratio) - 2.0 * integral(moved) + integral(moved - ratio)
+    return np.asarray(np.where(ratio < 1.0, 0.5 * weight @ wide, difference / ratio))
