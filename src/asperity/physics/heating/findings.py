@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core.status import Advice
-from ...core.units import show
+from ...core.units import percent, show
 from ...solids.elastic import Rigid, yield_pressure
 from ...solids.layers import surface_material
 
@@ -75,7 +75,7 @@ def _all(found: FrictionalHeating) -> Iterator[Advice]:
         yield Advice(
             "note",
             "thermoelastic bulge",
-            f"Thermal expansion changes the pressures by some {100.0 * length / critical:.0f} %, which is left out.",
+            f"Thermal expansion changes the pressures by the order of {percent(length / critical, 1)}, which is left out.",
             numbers={"length": length, "critical": critical},
         )
 

@@ -207,16 +207,23 @@ class FrictionalHeating(Shown):
     @property
     def critical_wavelength(self) -> float:
         """Length in m beyond which the pressure of sliding surfaces grows by thermal expansion
-        (Burton 1980), of the body in which it is shorter if it slid on an insulator; NaN where no
-        expansion is known."""
-        found = []
-        for body in (self.problem.body, self.problem.counter_body):
+        (Burton 1980); NaN where no expansion is known.
+
+        That of a conductor on an insulator, each body bulging by its share of the heat, which is an
+        estimate where both conduct.
+        """
+        inverse, known = 0.0, False
+        shares = (self.share, 1.0 - self.share)
+        for body, share in zip((self.problem.body, self.problem.counter_body), shares, strict=True):
             material = next(reversed(materials_of(body)), None)
-            if material is not None and not math.isnan(material.conduction.thermal_expansion):
-                known = material.conduction
-                made = (self.friction, self.motion.speed, known.thermal_expansion, material.poisson_ratio)
-                found.append(critical_wavelength(*made, self.problem.contact_modulus, known.thermal_conductivity))
-        return min(found, default=math.nan)
+            if material is not None and not math.isnan(material.conduction.thermal_expansion) and self.rubs:
+                of = material.conduction
+                made = (self.friction, self.motion.speed, of.thermal_expansion, material.poisson_ratio)
+                length = critical_wavelength(*made, self.problem.contact_modulus, of.thermal_conductivity)
+                inverse, known = inverse + share / length, True
+        if not known:
+            return math.nan
+        return 1.0 / inverse if inverse > 0.0 else math.inf
 
     @cached_property
     def findings(self) -> tuple[Advice, ...]:

@@ -34,6 +34,9 @@ Velocity: TypeAlias = tuple[float, float]
 Response: TypeAlias = Callable[[RealArray, RealArray], ComplexArray]
 """Of the surface to waves (qx, qy) in rad/m."""
 
+_LONG = (1e-3, 0.0)
+"""Wavevector in rad/m of a wave that is uniform over any contact."""
+
 SHORTEST = 11.5
 """Wavenumber times thickness at which a layer is a half-space to 1e-10: exp(-2 q h)."""
 
