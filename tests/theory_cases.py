@@ -18,6 +18,7 @@ CRESTS = {
 }
 WHEEL = {"semi_x": 6e-3, "semi_y": 4e-3, "shear": 8e10, "nu": 0.3}
 FILM = {"surface_tension": 0.072, "film_thickness": 1e-9}
+HEAT = {"flux": 1e8, "conductivity": 46.0, "diffusivity": 1.2e-5}
 EXAMPLES = {
     "greenwood-williamson": SUMMITS,
     "greenwood-williamson-fits": SUMMITS,
@@ -139,6 +140,17 @@ EXAMPLES = {
         "x": np.array([0.0, 1e-6, 3e-6]),
         "y": np.array([0.0, 1e-6, 0.0]),
         "radius": np.array([1e-7, 2e-7, 3e-7]),
+    },
+    "moving-source": {**HEAT, "half_length": 1e-4, "half_width": 2e-4},
+    "jaeger-band": {**HEAT, "half_length": 1e-4},
+    "tian-kennedy": {**HEAT, "radius": 1e-4},
+    "blok-flash": {
+        "friction": 0.3,
+        "load": 10.0,
+        "contact_radius": 1e-4,
+        "conductivity_1": 28.0,
+        "conductivity_2": 46.0,
+        "diffusivity_2": 1.2e-5,
     },
 }
 """Numbers for every theory of the catalogue; a new theory is one more entry."""

@@ -50,6 +50,10 @@ from .hardness.unloading import (
     residual_depth,
     sphere_area,
 )
+from .heating.estimates import BlokFlash, FlashAnswer, HeatAnswer, JaegerBand, MovingHeatSource, TianKennedy
+from .heating.impedance import HeatConductor, HeatLayer
+from .heating.sources import BandSource, EllipticSource, MovingSource, RectangularSource, disc_source
+from .heating.thermoelastic import critical_wavelength
 from .protocol import ContactAnswer, Limit, Prediction
 from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
 from .rough.elastic_plastic_laws import (
@@ -147,7 +151,9 @@ __all__ = [
     "AdhesiveWave",
     "AnisotropicSummits",
     "AnyHeights",
+    "BandSource",
     "BeltStickSlip",
+    "BlokFlash",
     "Boussinesq",
     "BushGibsonThomas",
     "CarterRolling",
@@ -171,6 +177,7 @@ __all__ = [
     "ElasticJoint",
     "ElasticPlasticSummits",
     "EllipticPunch",
+    "EllipticSource",
     "Evaluation",
     "ExpandingCavity",
     "ExponentialHeights",
@@ -178,6 +185,7 @@ __all__ = [
     "FilmMeniscus",
     "FittedGreenwoodWilliamson",
     "Flamant",
+    "FlashAnswer",
     "FlatPunch",
     "FreeVibration",
     "FrictionalIndenter",
@@ -189,6 +197,9 @@ __all__ = [
     "GreenwoodTripp",
     "GreenwoodWilliamson",
     "GrowingMenisci",
+    "HeatAnswer",
+    "HeatConductor",
+    "HeatLayer",
     "HertzBodies",
     "HertzEllipse",
     "HertzEllipseStress",
@@ -204,6 +215,7 @@ __all__ = [
     "IsotropicSpectrum",
     "JacksonGreen",
     "JacksonGreenSphere",
+    "JaegerBand",
     "JointAnswer",
     "KalkerLinear",
     "KineticMeniscus",
@@ -225,6 +237,8 @@ __all__ = [
     "MindlinLine",
     "MindlinPoint",
     "MindlinWave",
+    "MovingHeatSource",
+    "MovingSource",
     "NayakSummits",
     "OliverPharr",
     "OnionsArchard",
@@ -241,6 +255,7 @@ __all__ = [
     "PowerLawIndenter",
     "Prediction",
     "ProfilePlasticityIndex",
+    "RectangularSource",
     "RubberFriction",
     "SampledPeaks",
     "ShakedownLine",
@@ -265,6 +280,7 @@ __all__ = [
     "StickingPunchLine",
     "StickingTwist",
     "Strip",
+    "TianKennedy",
     "TrescaDisc",
     "TrescaLine",
     "TrescaTwist",
@@ -285,8 +301,10 @@ __all__ = [
     "cone_area",
     "critical_interference",
     "critical_stiffness",
+    "critical_wavelength",
     "cylinder_shakedown",
     "cylinder_yield_onset",
+    "disc_source",
     "ellipse_shakedown",
     "evaluate",
     "expanding_cavity",

@@ -22,6 +22,7 @@ from .friction.torsion import LubkinSphere, StickingTwist
 from .friction.tresca import TrescaDisc, TrescaLine, TrescaTwist
 from .hardness.effective_hardness import EffectiveHardness, OliverPharr
 from .hardness.plasticity import LeastArea, PlasticityIndex, ProfilePlasticityIndex
+from .heating.estimates import BlokFlash, JaegerBand, MovingHeatSource, TianKennedy
 from .protocol import Described
 from .rough.discrete_summits import DiscreteSummits, IdenticalAsperities
 from .rough.elastic_plastic_laws import (
@@ -155,6 +156,7 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
         "Plasticity and hardness": (PlasticityIndex, ProfilePlasticityIndex, LeastArea, EffectiveHardness, OliverPharr),
         "Menisci": (WetSummits, GrowingMenisci, DropletMeniscus, FilmMeniscus, VapourMeniscus),
         "Conductance": (PlasticJoint, ElasticJoint, MeanGapJoint, HolmSpot, SpotCluster),
+        "Frictional heating": (MovingHeatSource, JaegerBand, TianKennedy, BlokFlash),
     }
 )
 """Theories by what they are about."""

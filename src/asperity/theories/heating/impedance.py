@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from typing import ClassVar, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -107,6 +107,7 @@ class HeatConductor:
     diffusivity: float
     layers: tuple[HeatLayer, ...] = ()
     sink_depth: float = math.inf
+    citation_keys: ClassVar[tuple[str, ...]] = ("CarslawJaeger1959", "Ling1973")
 
     def __post_init__(self) -> None:
         """InputError for values that cannot be."""

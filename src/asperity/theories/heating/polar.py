@@ -25,7 +25,7 @@ _NODES = 12
 
 
 @dataclass(frozen=True)
-class EllipticSource:
+class ScaledEllipse:
     """A source of half axes 1 along the motion and ``b`` across it.
 
     Parameters
@@ -51,7 +51,7 @@ class EllipticSource:
     def at(self, x: float, y: float) -> float:
         """θ at one point, in or out of the source."""
         if self.peclet < 0.0:
-            return EllipticSource(self.b, self.hertzian, -self.peclet, self.depth, self.fourier).at(-x, y)
+            return ScaledEllipse(self.b, self.hertzian, -self.peclet, self.depth, self.fourier).at(-x, y)
         X, Y = x, y / self.b
         out, away = X**2 + Y**2 - 1.0, math.hypot(X, Y)
         psi, weight = self._directions(X, Y, out, away)
@@ -75,8 +75,8 @@ class EllipticSource:
         psi, weight = _graded(((0.0, self._levels), (0.5 * math.pi, 8), (math.pi, 4)), 0.0, math.pi)
         c, s = np.cos(psi), np.sin(psi)
         n = np.sqrt(c**2 + (self.b * s) ** 2)
-        beta = EllipticSource(self.b, self.hertzian, abs(self.peclet))._falls(n, c, s)
-        t, overlap = _overlap(self.hertzian, weighted and self.hertzian, self._levels)
+        beta = ScaledEllipse(self.b, self.hertzian, abs(self.peclet))._falls(n, c, s)
+        t, overlap = _overlap(self.hertzian, weighted and self.hertzian, 8 + self._levels)
         return float((weight * self.b / n) @ (np.exp(-beta[:, None] * t) @ overlap)) / math.pi
 
     @property
@@ -135,8 +135,8 @@ class EllipticSource:
         levels: int,
         to: tuple[RealArray, RealArray, RealArray],
     ) -> RealArray:
-        """``_along`` with so many panels, which halve towards the field point at u = ``first``; what
-        is felt depends on n, cos ψ and β in ``to``."""
+        """``_along`` with so many panels, which halve towards the field point at u = ``first``;
+        what is felt depends on n, cos ψ and β in ``to``."""
         share, weight = gauss(np.append(0.0, 2.0 ** np.arange(-levels, 1.0)), _NODES)
         u = first[:, None] + (math.pi - first)[:, None] * share
         half_sine = 0.5 * np.sin(u)  # sin(u/2) cos(u/2)
@@ -192,12 +192,8 @@ def _overlap(hertzian: bool, weighted: bool, levels: int) -> tuple[RealArray, Re
     s = np.sqrt(h[:, None] ** 2 + (top * np.cos(v)) ** 2)  # half chord at the height y = top sin v
     X = (top * np.cos(v)) ** 2 / (s + h[:, None])  # half width of the lens there, s - h
     if not weighted:
-        ends = t[:, None] - s
-        cut = (
-            0.25 * math.pi * s**2
-            - 0.5 * ends * np.sqrt(2.0 * t[:, None] * X)
-            - 0.5 * s**2 * np.arcsin(np.clip(ends / s, -1.0, 1.0))
-        )
+        sector = 2.0 * np.arcsin(np.sqrt(X / s))  # π/2 - asin((t - s)/s)
+        cut = 0.5 * (s**2 * sector - (t[:, None] - s) * np.sqrt(2.0 * t[:, None] * X))
         lens = 1.5 * cut
     else:
         u = v[:, None, None]

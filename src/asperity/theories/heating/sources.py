@@ -55,7 +55,7 @@ class Source(ABC):
 
 
 @dataclass(frozen=True)
-class Ellipse(Source):
+class EllipticSource(Source):
     """Flux on an ellipse: a disc, if both half axes are one.
 
     Parameters
@@ -86,14 +86,14 @@ class Ellipse(Source):
 
     def at(self, x: RealArray, y: RealArray, peclet: float, depth: float = 0.0, fourier: float = math.inf) -> RealArray:
         """θ at points."""
-        source = polar.EllipticSource(self.width / self.length, self.hertzian, peclet, depth, fourier)
+        source = polar.ScaledEllipse(self.width / self.length, self.hertzian, peclet, depth, fourier)
         return np.array([source.at(float(px), float(py)) for px, py in zip(x.ravel(), y.ravel(), strict=True)]).reshape(
             x.shape
         )
 
     def mean(self, peclet: float, *, weighted: bool) -> float:
         """Mean of θ."""
-        return polar.EllipticSource(self.width / self.length, self.hertzian, peclet).mean(weighted=weighted)
+        return polar.ScaledEllipse(self.width / self.length, self.hertzian, peclet).mean(weighted=weighted)
 
     def transform(self, *, uniform: bool) -> Transform:
         """2 J1(Q)/Q, or 3 (sin Q - Q cos Q)/Q³, Q² = qx² + (b qy/a)²."""
@@ -108,13 +108,13 @@ class Ellipse(Source):
         return of
 
 
-def disc(radius: float, *, hertzian: bool = False) -> Ellipse:
+def disc_source(radius: float, *, hertzian: bool = False) -> EllipticSource:
     """Flux on a disc of the ``radius`` in m."""
-    return Ellipse(radius, radius, hertzian)
+    return EllipticSource(radius, radius, hertzian)
 
 
 @dataclass(frozen=True)
-class Rectangle(Source):
+class RectangularSource(Source):
     """Uniform flux on a rectangle.
 
     Parameters
@@ -156,7 +156,7 @@ class Rectangle(Source):
 
 
 @dataclass(frozen=True)
-class Band(Source):
+class BandSource(Source):
     """Uniform flux on a band across the motion; there is no steady state at rest.
 
     Parameters
@@ -184,7 +184,7 @@ class Band(Source):
     def at(self, x: RealArray, y: RealArray, peclet: float, depth: float = 0.0, fourier: float = math.inf) -> RealArray:
         """θ at points, the same for every y."""
         if math.isfinite(fourier):
-            raise InputError("time since the flux began (s) of a band must be infinite. Take a long Rectangle.")
+            raise InputError("time since the flux began (s) of a band must be infinite. Take a long RectangularSource.")
         x = np.copysign(1.0, peclet) * x
         speed = self._moving(peclet)
         return band.at_surface(x, speed) if depth == 0.0 else band.below(x, speed, depth)
@@ -195,13 +195,13 @@ class Band(Source):
 
     def transform(self, *, uniform: bool) -> Transform:
         """InputError: layers under a band are not covered."""
-        raise InputError("body under a band must not have layers or a sink. Take a long Rectangle.")
+        raise InputError("body under a band must not have layers or a sink. Take a long RectangularSource.")
 
     def _moving(self, peclet: float) -> float:
         if peclet == 0.0:
             raise InputError(
                 "speed (m/s) of the material under a band must not be zero: at rest it has no steady state. Take a "
-                "Rectangle of its length."
+                "RectangularSource of its length."
             )
         return abs(peclet)
 
@@ -237,9 +237,9 @@ class MovingSource:
     A micrometre of steel under a megawatt per square millimetre, at rest and at 10 m/s:
 
     >>> steel = HeatConductor(46.0, 1.2e-5)
-    >>> round(1e12 * MovingSource(disc(1e-6), steel).hottest().temperature)
+    >>> round(1e12 * MovingSource(disc_source(1e-6), steel).hottest().temperature)
     21739
-    >>> round(1e12 * MovingSource(disc(1e-6), steel, 10.0).hottest().temperature)
+    >>> round(1e12 * MovingSource(disc_source(1e-6), steel, 10.0).hottest().temperature)
     18460
     """
 

@@ -2,7 +2,7 @@
 that grows by it.
 
 Half-spaces that are elastically homogeneous, their surface free of traction, with temperatures that
-fall as exp(-s z) below each wave of the surface temperature (Barber 1980 at rest).
+fall as exp(-s z) below each wave of the surface temperature.
 """
 
 from __future__ import annotations
@@ -17,6 +17,9 @@ from ...core import require
 from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
 from .impedance import Speed, decay
+
+CITATION_KEYS = ("Burton1980",)
+"""Papers behind the critical wavelength."""
 
 
 def bulge(
