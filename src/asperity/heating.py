@@ -1,9 +1,9 @@
 """Frictional heating: flash temperature of a sliding contact.
 
 ``flash_temperature`` gives the ``FrictionalHeating`` of a solved contact: the temperature of the
-plane in which heat is made and of both surfaces, the share of the heat of either body, and estimates
-beside. ``Motion`` says how the bodies move under the contact, a ``HeatedInterface`` what films,
-bonds and bulk temperatures there are.
+plane in which heat is made and of both surfaces, the share of the heat of either body, and
+estimates beside. ``Motion`` says how the bodies move under the contact, a ``HeatedInterface`` what
+films, bonds and bulk temperatures there are.
 """
 
 from .core.late import late_names

@@ -15,7 +15,8 @@ from refusals import refused
 import asperity as asp
 from asperity.core.errors import InputError
 from asperity.heating import HeatedInterface, Motion, flash_temperature
-from asperity.physics.heating.heating import FrictionalHeating, heating_of
+from asperity.physics.heating.answer import FrictionalHeating
+from asperity.physics.heating.heating import heating_of
 
 MATERIALS = {"steel": STEEL, "zirconia": ZIRCONIA, "coated": COATED}
 PLAIN = HeatedInterface()
@@ -73,8 +74,8 @@ def test_fields_of_a_rough_contact() -> None:
 
 @every_row(reference("heating/two_body_sphere"), label=lambda row: str(row["case"]))
 def test_a_sphere_converges_with_the_pixels(row: Row) -> None:
-    """Squares in a disc err by the mean of the edge: measured 0.7 % of the maximum and 1.4 % of the mean
-    at 16 pixels across, 0.04 and 0.2 % at 64; of opposite bodies twice that."""
+    """Squares in a disc err by the mean of the edge: measured 0.7 % of the maximum and 1.4 % of the
+    mean at 16 pixels across, 0.04 and 0.2 % at 64; of opposite bodies twice that."""
     motion = Motion((2.0 * float(row["peclet_1"]), 0.0), (2.0 * float(row["peclet_2"]), 0.0))
     k = float(row["k1_over_k2"])
     opposite = 2.0 if float(row["peclet_1"]) < 0.0 else 1.0
@@ -227,7 +228,8 @@ def test_temperature_below_the_surface() -> None:
 
 
 def test_depth_in_units_of_a_square_source() -> None:
-    """Handbook values of a uniform square: T k/(q l) = 0.9400585 at rest, 0.2 l below its centre."""
+    """Handbook values of a uniform square: T k/(q l) = 0.9400585 at rest, 0.2 l below its
+    centre."""
     n = 40
     problem = flat((n, n), 2.0 / n, solid(1.0, 1.0), asp.Rigid(), asp.Free())
     result = given(problem, np.ones((n, n), bool), np.ones((n, n)))

@@ -111,8 +111,8 @@ def test_short_times_conduct_straight_down() -> None:
 
 @pytest.mark.parametrize(("speed", "time"), [(3.0, math.inf), (0.0, 0.4), (3.0, 0.2)])
 def test_pixels_summed_over_images_are_waves(speed: float, time: float) -> None:
-    """One flux exp(2πi x/L), constant on each pixel, is a sum of waves 2π/L + 2π m/dx, which fall as
-    m**-2: 4000 leave 1e-8. Far pixels fade out over 200 periods."""
+    """One flux exp(2πi x/L), constant on each pixel, is a sum of waves 2π/L + 2π m/dx, which fall
+    as m**-2: 4000 leave 1e-8. Far pixels fade out over 200 periods."""
     n, periods, length = 8, 400, 1.0
     count, side = n * periods, length / n
     offsets = np.arange(2 * count - 1) - (count - 1)

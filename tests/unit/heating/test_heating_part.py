@@ -1,5 +1,5 @@
-"""Frictional heating in documents: numbers of Python, files, load paths, words, studies, and what is
-refused."""
+"""Frictional heating in documents: numbers of Python, files, load paths, words, studies, and what
+is refused."""
 
 from __future__ import annotations
 
@@ -131,7 +131,9 @@ def test_a_rigid_body_takes_no_heat() -> None:
 
 def test_peaks_without_a_hardness_and_few_pixels_are_warned_of() -> None:
     rough = RUBBING["surface"] | {"points": [24, 24]}
-    outcome = asp.run(RUBBING | {"surface": rough, "law": {"kind": "hard_wall"}, "control": {"mean_pressure": "20 MPa"}})
+    outcome = asp.run(
+        RUBBING | {"surface": rough, "law": {"kind": "hard_wall"}, "control": {"mean_pressure": "20 MPa"}}
+    )
     assert {"peaks without a hardness", "pixels of the hottest spot"} <= {f.criterion for f in outcome.findings}
 
 
@@ -169,7 +171,8 @@ def test_refused(name: str) -> None:
 
 
 def test_a_study_over_the_speed(tmp_path: Path) -> None:
-    """The temperature grows less than in proportion, and the resting body takes less of the heat."""
+    """The temperature grows less than in proportion, and the resting body takes less of the
+    heat."""
     quantities = ["flash_temperature", "heat_share"]
     axis = {"path": "heating.speed", "values": ["0.1 m/s", "1 m/s", "10 m/s"]}
     made = plan(problem=RUBBING, axes=[axis], quantities=quantities)

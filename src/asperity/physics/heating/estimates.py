@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...contact.measure import labelled
 from ...theories.heating.impedance import HeatConductor
 from ...theories.heating.sources import MovingSource, disc
-
-if TYPE_CHECKING:
-    from .heating import FrictionalHeating
+from .answer import FrictionalHeating
 
 
 def disc_estimate(found: FrictionalHeating) -> float:

@@ -67,8 +67,8 @@ def plot_distribution(shown: HeatPicture, ax: Axes) -> Axes:
 
 
 def plot_section(shown: HeatPicture, ax: Axes) -> Axes:
-    """Draw on ``ax`` the temperature rise on a section through both bodies at the hottest point, the
-    body below."""
+    """Draw on ``ax`` the temperature rise on a section through both bodies at the hottest point,
+    the body below."""
     from matplotlib.colors import Normalize
 
     depth, grid = shown.array("heat_depth"), shown.problem.grid
@@ -96,7 +96,10 @@ def plot_path(shown: HeatPicture, ax: Axes) -> Axes:
         if rise[part].size > 1 or label == "loading":
             ax.plot(in_pa(load[part]), rise[part], color=colour, marker=".", label=label)
     ax.set(
-        xlabel=f"mean contact pressure ({in_pa.symbol})", ylabel="flash temperature (K)", xlim=(0.0, None), ylim=(0.0, None)
+        xlabel=f"mean contact pressure ({in_pa.symbol})",
+        ylabel="flash temperature (K)",
+        xlim=(0.0, None),
+        ylim=(0.0, None),
     )
     return legend_above(ax)
 
@@ -104,8 +107,8 @@ def plot_path(shown: HeatPicture, ax: Axes) -> Axes:
 RISE_PLOT = map_of(
     "flash_rise",
     "Flash temperature",
-    "Steady temperature rise over the bulk while the surfaces slide: on the contact that of both, elsewhere that of the "
-    "hotter surface. Behind the spots of the moving body lie their wakes.",
+    "Steady temperature rise over the bulk while the surfaces slide: on the contact that of both, elsewhere that of "
+    "the hotter surface. Behind the spots of the moving body lie their wakes.",
     rise_field,
     by_step=False,
 )

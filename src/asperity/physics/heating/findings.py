@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,9 +11,7 @@ from ...core.status import Advice
 from ...core.units import percent, show
 from ...solids.elastic import Rigid, yield_pressure
 from ...solids.layers import surface_material
-
-if TYPE_CHECKING:
-    from .heating import FrictionalHeating
+from .answer import FrictionalHeating
 
 FEWEST = 5.0
 """Pixels across the hottest spot from which on its temperature is trusted: at 16 pixels the maximum
@@ -75,7 +72,7 @@ def _all(found: FrictionalHeating) -> Iterator[Advice]:
         yield Advice(
             "note",
             "thermoelastic bulge",
-            f"Thermal expansion changes the pressures by the order of {percent(length / critical, 1)}, which is left out.",
+            f"Thermal expansion changes the pressures by the order of {percent(length / critical, 1)}; that is left out.",
             numbers={"length": length, "critical": critical},
         )
 

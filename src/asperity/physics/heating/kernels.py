@@ -114,8 +114,9 @@ class HeatKernel:
     def of(
         cls, conductor: HeatConductor, velocity: Velocity, grid: Grid, boundary: Boundary, sink: float, threads: int
     ) -> Self:
-        """That of the ``conductor`` whose material moves with ``velocity`` (m/s), and that in periodic
-        contact has a ``sink`` for the mean flux at that depth (m), which may be infinite."""
+        """That of the ``conductor`` whose material moves with ``velocity`` (m/s), and that in
+        periodic contact has a ``sink`` for the mean flux at that depth (m), which may be
+        infinite."""
         if all(boundary.wraps):
             transform = RealTransform(grid.shape, threads)
             return cls(
@@ -128,8 +129,8 @@ class HeatKernel:
     def at_depth(
         self, depth: float, conductor: HeatConductor, velocity: Velocity, grid: Grid, sink: float
     ) -> HeatKernel:
-        """That of the temperature at the ``depth`` in m, >= 0, below the surface; other arguments as of
-        ``of``."""
+        """That of the temperature at the ``depth`` in m, >= 0, below the surface; other arguments
+        as of ``of``."""
         z = require.not_negative(depth, "depth (m)")
         if isinstance(self.transform, RealTransform):
             at_mean = mean(conductor, sink)
@@ -151,23 +152,21 @@ class HeatKernel:
 
 
 def mean(conductor: HeatConductor, sink: float) -> float:
-    """Impedance of the mean flux: of layers, bonds and a base that is ``sink`` m deep; zero where the
-    mean is left out."""
+    """Impedance of the mean flux: of layers, bonds and a base that is ``sink`` m deep; zero where
+    the mean is left out."""
     if math.isfinite(conductor.sink_depth):
         return conductor.mean_mode()
     return replace(conductor, sink_depth=sink).mean_mode() if math.isfinite(sink) else 0.0
 
 
 def waves(grid: Grid, response: Response, at_mean: float) -> ComplexArray:
-    """``response`` (qx, qy) at the wavevectors of the ``grid`` (nx, ny // 2 + 1), with ``at_mean`` at
-    zero. Where an axis has an even number of points, its shortest wave stands for both directions
-    and has the mean of both, so that fields are real."""
+    """``response`` (qx, qy) at the wavevectors of the ``grid`` (nx, ny // 2 + 1), with ``at_mean``
+    at zero. Where an axis has an even number of points, its shortest wave stands for both
+    directions and has the mean of both, so that fields are real."""
     nx, ny = grid.shape
-    dx, dy = grid.spacing
-    qx = 2.0 * np.pi * np.fft.fftfreq(nx, dx)[:, None]
-    qy = 2.0 * np.pi * np.fft.rfftfreq(ny, dy)[None, :]
+    qx, qy = grid.wavevector()
     safe = np.broadcast_to(qx, (nx, qy.shape[1])).copy()
-    safe[0, 0] = 1.0 / dx
+    safe[0, 0] = 1.0 / grid.spacing[0]
     found = np.array(response(safe, qy), dtype=np.complex128)
     along, across = nx % 2 == 0 and nx > 1, ny % 2 == 0 and ny > 1
     row, last = slice(nx // 2, nx // 2 + 1), slice(qy.shape[1] - 1, None)
@@ -220,12 +219,12 @@ def free_pixel(conductor: HeatConductor, velocity: Velocity, grid: Grid, depth: 
 
 
 def _by_waves(response: Response, velocity: Velocity, grid: Grid, scale: float) -> RealArray:
-    """Temperature at all offsets from a pixel by the ``response`` to waves, which is bounded and falls
-    on the length ``scale``.
+    """Temperature at all offsets from a pixel by the ``response`` to waves, which is bounded and
+    falls on the length ``scale``.
 
     Where nothing repeats the wakes are long, and a box of waves would have to be longer. So this is
-    a product of quadratures along qx and qy, graded towards zero where the response of a moving body
-    is a root, with the phase of the largest offset resolved everywhere.
+    a product of quadratures along qx and qy, graded towards zero where the response of a moving
+    body is a root, with the phase of the largest offset resolved everywhere.
     """
     if velocity[0] and velocity[1]:
         raise InputError(
@@ -261,8 +260,8 @@ _BLOCK = 256
 
 
 def _rule(n: int, d: float, scale: float) -> tuple[RealArray, RealArray]:
-    """Wavenumbers and weights of an integral from 0 to where the response is gone, for offsets up to n
-    d."""
+    """Wavenumbers and weights of an integral from 0 to where the response is gone, for offsets up
+    to n d."""
     last = min(2.0 * SHORTEST / scale, 4.0 * math.pi / d)
     panel = 4.0 * math.pi / (n * d)
     breaks = np.append(np.arange(panel, last, panel), last)

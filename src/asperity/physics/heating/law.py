@@ -53,8 +53,9 @@ class Motion(Shown):
         speed
             Sliding speed in m/s, >= 0.
         moving
-            Which material moves under the spots: the ``counter_body`` alone, the ``body`` alone, both
-            in ``opposite`` directions with half of the speed each, or both in ``rolling`` with creep.
+            Which material moves under the spots: the ``counter_body`` alone, the ``body`` alone,
+            both in ``opposite`` directions with half of the speed each, or both in ``rolling`` with
+            creep.
         direction
             Angle in rad from +x towards +y in which the counter body slides.
         rolling
@@ -132,11 +133,6 @@ class HeatedInterface(Shown):
                 require.positive(value, "depth of a heat sink (m)")
         for value in (*self.bonds[0], *self.bonds[1]):
             require.not_negative(value, "specific resistance of a bond (m² K/W)")
-
-    @property
-    def film(self) -> float:
-        """R1 + R2."""
-        return self.resistance[0] + self.resistance[1]
 
     @property
     def difference(self) -> float:

@@ -19,7 +19,7 @@ Moving = Annotated[str, Choice({name: name for name in WORDS})]
 SlidingSpeed = Annotated[float, Number("speed", above=0.0)]
 RollingSpeed = Annotated[float, Number("speed")]
 Coefficient = Annotated[float, Number(least=0.0)]
-Film = Annotated[float, Number("m^2*K/W", least=0.0)]
+Resistance = Annotated[float, Number("m^2*K/W", least=0.0)]
 Temperature = Annotated[float, Number("temperature", above=0.0)]
 Voltage = Annotated[float, Number("V", least=0.0)]
 StepOfPath = Annotated[float | str, Number(least=1.0, words=("peak", "last"))]
@@ -51,18 +51,16 @@ class HeatingSettings(Settings):
     bulk_counter_body: Temperature = setting(
         "293.15 K", option="--bulk-counter-body", help="Temperature of the counter body: 350K"
     )
-    resistance_body: Film = setting(
+    resistance_body: Resistance = setting(
         "0 m^2*K/W", option="--heat-film-body", help="Between the rubbing plane and the body: 1e-7m^2*K/W"
     )
-    resistance_counter_body: Film = setting(
+    resistance_counter_body: Resistance = setting(
         "0 m^2*K/W", option="--heat-film-counter-body", help="The same on the side of the counter body"
     )
     sink_body: Length | None = setting(
         None, option="--sink-body", help="Depth in which the body has its bulk temperature, for the mean heat: 5mm"
     )
-    sink_counter_body: Length | None = setting(
-        None, option="--sink-counter-body", help="The same of the counter body"
-    )
+    sink_counter_body: Length | None = setting(None, option="--sink-counter-body", help="The same of the counter body")
     voltage: Voltage | None = setting(
         None, option="--flash-voltage", help="Between the bodies, for Joule heat of the same spots: 20mV"
     )

@@ -4,9 +4,9 @@ Equal temperature of the plane in which heat q is made, on every point of contac
 
     (K1 + K2 + R1 + R2) q1 = (K2 + R2) q + Tb2 - Tb1.
 
-The operator is real, not symmetric where something moves, and q·Kq > 0, so that there is exactly one
-answer, which may be negative: where the hot wake of one body warms the other. GMRES without restart,
-preconditioned by the inverse of the symmetric part of every wave.
+The operator is real, not symmetric where something moves, and q·Kq > 0, so that there is exactly
+one answer, which may be negative: where the hot wake of one body warms the other. GMRES without
+restart, preconditioned by the inverse of the symmetric part of every wave.
 """
 
 from __future__ import annotations
@@ -21,8 +21,11 @@ from ...core.arrays import BoolArray, RealArray
 from ...core.errors import ConvergenceError, InputError
 from .kernels import HeatKernel
 
-TOLERANCE = 1e-10
+TOLERANCE = 3e-10
 """Residual over the right-hand side, root of the mean square, at which GMRES ends."""
+
+_ROOM = 32
+"""Steps for which there is room at first."""
 
 MOST = 200
 """Steps at most; 10 to 40 are the rule."""
@@ -89,8 +92,8 @@ def shared(
             for kernel, flux in ((first, heat_1), (second, heat - heat_1))
         ]
         return Shared(heat_1, rises[0], rises[1], 0.0, 0.0, 0)
-    both, film = first + second, resistance[0] + resistance[1]
-    if contact.all() and not film and not both.spectrum[0, 0].real:
+    both, between = first + second, resistance[0] + resistance[1]
+    if contact.all() and not between and not both.spectrum[0, 0].real:
         raise InputError(
             "heat sinks must be given where all points touch, since the mean heat is shared by what the bodies are in "
             "depth, but are not. Give both ({heating.sink_body=1mm}, {heating.sink_counter_body=1mm})."
@@ -99,10 +102,18 @@ def shared(
     def applied(flux: RealArray) -> RealArray:
         whole = np.zeros_like(heat)
         whole[contact] = flux
-        return both.apply(whole)[contact] + film * flux
+        return both.apply(whole)[contact] + between * flux
 
     known = second.apply(heat)[contact] + resistance[1] * heat[contact] + difference
-    found, steps = gmres(applied, _preconditioner(both, contact, film), known)
+    # that of two homogeneous bodies at rest at every point: of a single pixel
+    own = [
+        float(kernel.spectrum.real.mean()) + between
+        for kernel, between in zip((first, second), resistance, strict=True)
+    ]
+    start = own[1] / sum(own) * heat[contact]
+    left, size = known - applied(start), float(np.linalg.norm(known))
+    more, steps = gmres(applied, _preconditioner(both, contact, between), left, TOLERANCE * size)
+    found = start + more
     heat_1 = nothing.copy()
     heat_1[contact] = found
     heat_2 = heat - heat_1
@@ -112,9 +123,9 @@ def shared(
     return Shared(heat_1, rise_1, rise_2, float(np.abs(planes[contact]).max()), work, steps)
 
 
-def _preconditioner(both: HeatKernel, contact: BoolArray, film: float) -> Callable[[RealArray], RealArray]:
+def _preconditioner(both: HeatKernel, contact: BoolArray, between: float) -> Callable[[RealArray], RealArray]:
     """Inverse of the symmetric part of every wave, on the contact."""
-    symmetric = both.spectrum.real + film
+    symmetric = both.spectrum.real + between
     least = symmetric[symmetric > 0.0]
     safe = np.where(symmetric > 0.0, symmetric, least.max()) if least.size else np.ones_like(symmetric)
     inverse = replace(both, spectrum=(1.0 / np.maximum(safe, 1e-3 * np.median(safe))).astype(np.complex128))
@@ -131,50 +142,47 @@ def gmres(
     operator: Callable[[RealArray], RealArray],
     preconditioner: Callable[[RealArray], RealArray],
     right: RealArray,
-    tolerance: float = TOLERANCE,
+    allowed: float,
 ) -> tuple[RealArray, int]:
-    """Solution x (n,) of operator(x) = ``right``, preconditioned from the right, and its steps.
+    """Solution x (n,) of operator(x) = ``right``, preconditioned from the right, and its steps,
+    with a residual whose norm is ``allowed``.
 
     Raises
     ------
     ConvergenceError
-        If the residual is above ``tolerance`` after ``MOST`` steps.
+        If the residual is far above that after ``MOST`` steps.
     """
     size = float(np.linalg.norm(right))
-    if size == 0.0:
+    if size <= allowed:
         return np.zeros_like(right), 0
     most = min(MOST, right.size)
-    basis, turned = [right / size], list[RealArray]()
-    upper, cosines, sines, g = np.zeros((most + 1, most)), np.zeros(most), np.zeros(most), np.zeros(most + 1)
-    g[0], steps = size, 0
-    for k in range(most):
-        turned.append(preconditioner(basis[k]))
-        w, steps = operator(turned[k]), k + 1
-        column = np.zeros(k + 2)
+    basis, turned = np.empty((0, right.size)), np.empty((0, right.size))
+    upper, turns, g, steps = np.zeros((most + 1, most)), list[tuple[float, float]](), np.zeros(most + 1), 0
+    g[0], w, last = size, right, size
+    while steps < most and last and abs(g[steps]) > allowed:
+        if steps == len(basis):  # room for more
+            basis, turned = (np.concatenate([rows, np.empty((_ROOM, right.size))]) for rows in (basis, turned))
+        basis[steps] = w / last
+        turned[steps] = preconditioner(basis[steps])
+        w, column = operator(turned[steps]), np.zeros(steps + 2)
+        known = basis[: steps + 1]
         for _ in range(2):  # twice, so that rounding leaves the basis orthogonal
-            for i, v in enumerate(basis):
-                part = float(v @ w)
-                column[i] += part
-                w = w - part * v
-        column[k + 1] = float(np.linalg.norm(w))
-        for i in range(k):
-            column[i], column[i + 1] = (
-                cosines[i] * column[i] + sines[i] * column[i + 1],
-                cosines[i] * column[i + 1] - sines[i] * column[i],
-            )
-        radius = math.hypot(column[k], column[k + 1])
-        last = column[k + 1]
-        cosines[k], sines[k] = (column[k] / radius, last / radius) if radius else (1.0, 0.0)
-        g[k], g[k + 1] = cosines[k] * g[k], -sines[k] * g[k]
-        column[k] = radius
-        upper[: k + 1, k] = column[: k + 1]
-        if abs(g[k + 1]) <= tolerance * size or not last:
-            break
-        basis.append(w / last)
-    else:
-        if most < right.size or abs(g[steps]) > 1e3 * tolerance * size:
-            raise ConvergenceError(
-                f"The share of the heat was not found in {steps} steps: the residual is still {abs(g[steps]) / size:.1e}."
-            )
+            parts = known @ w
+            column[:-1] += parts
+            w = w - parts @ known
+        last = column[-1] = float(np.linalg.norm(w))
+        for i, (c, s) in enumerate(turns):
+            column[i], column[i + 1] = c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]
+        radius = math.hypot(column[-2], last)
+        c, s = (column[-2] / radius, last / radius) if radius else (1.0, 0.0)
+        turns.append((c, s))
+        g[steps], g[steps + 1] = c * g[steps], -s * g[steps]
+        column[-2] = radius
+        upper[: steps + 1, steps] = column[:-1]
+        steps += 1
+    if abs(g[steps]) > 1e3 * allowed:
+        raise ConvergenceError(
+            f"The share of the heat was not found in {steps} steps: the residual is still {abs(g[steps]) / size:.1e}."
+        )
     weights = np.linalg.solve(upper[:steps, :steps], g[:steps])
-    return np.asarray(sum(weight * part for weight, part in zip(weights, turned, strict=False))), steps
+    return np.asarray(weights @ turned[:steps]), steps

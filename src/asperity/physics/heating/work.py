@@ -15,9 +15,10 @@ from ...core.units import percent, show
 from ...io.words import value_text
 from ...parts.part import Found, Reached, Rows, Solved, Table, WithFacts, Words
 from ...plots.picture import Figure, figures_by
+from .answer import FrictionalHeating
 from .estimates import disc_estimate
 from .figures import DISTRIBUTION_PLOT, PATH_PLOT, RISE_PLOT, SECTION_PLOT, SHARE_PLOT, HeatPicture
-from .heating import FrictionalHeating, flash_temperature, require_heatable
+from .heating import flash_temperature, require_heatable
 from .law import HeatedInterface, Motion
 from .part import SCALARS, WORDS, HeatingSettings
 
@@ -34,7 +35,8 @@ class HeatingWork(WithFacts):
     citation_keys: ClassVar[tuple[str, ...]] = FrictionalHeating.citation_keys
 
     def check(self, ask: HeatingSettings, problem: ContactProblem) -> None:
-        """Refuse what cannot be heated, materials that are not known, and contacts without friction."""
+        """Refuse what cannot be heated, materials that are not known, and contacts without
+        friction."""
         require_heatable(problem, interface_of(ask))
         if ask.friction is None and not _rubs(problem):
             raise InputError(
@@ -217,4 +219,6 @@ def _tables(values: Mapping[str, Any]) -> tuple[tuple[str, Table], ...]:
     cells = []
     for share in (0.01, 0.1, 0.5, 0.9):
         cells.append((percent(share), show(float(np.interp(share, part, level)), "K", 3)))
-    return (("Temperature over the contact", Table(("Of the contact", "Hotter than the bulk by more than"), tuple(cells))),)
+    return (
+        ("Temperature over the contact", Table(("Of the contact", "Hotter than the bulk by more than"), tuple(cells))),
+    )
