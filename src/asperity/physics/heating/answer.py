@@ -88,7 +88,7 @@ class FrictionalHeating(Shown):
     steps: int
     conductors: tuple[HeatConductor | None, HeatConductor | None] = field(repr=False)
     findings: tuple[Advice, ...] = ()
-    citation_keys: ClassVar[tuple[str, ...]] = ("Blok1937", "Jaeger1942", "CarslawJaeger1959")
+    citation_keys: ClassVar[tuple[str, ...]] = ("Blok1937", "Jaeger1942", "CarslawJaeger1959", "TianKennedy1994")
 
     @property
     def rubs(self) -> bool:
@@ -301,6 +301,7 @@ def kernels_of(
     interface: HeatedInterface,
     threads: int | None,
 ) -> tuple[HeatKernel | None, HeatKernel | None]:
+    """Both bodies on the grid of the problem; None of one that takes no heat."""
     first, second = (
         None
         if conductor is None

@@ -72,7 +72,7 @@ def _all(found: FrictionalHeating) -> Iterator[Advice]:
         yield Advice(
             "note",
             "thermoelastic bulge",
-            f"Thermal expansion changes the pressures by the order of {percent(length / critical, 1)}; that is left out.",
+            f"Thermal expansion changes the pressures by some {percent(length / critical, 1)}, which is left out.",
             numbers={"length": length, "critical": critical},
         )
 

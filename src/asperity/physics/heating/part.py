@@ -105,7 +105,7 @@ SCALARS = (
     Quantity("flash_x", "m", "x of the hottest point"),
     Quantity("flash_y", "m", "y of the hottest point"),
     Quantity("flash_blok", "K", "flash temperature by Blok from both largest rises"),
-    Quantity("flash_disc", "K", "flash temperature of a Hertzian disc like the hottest spot (Jaeger)"),
+    Quantity("flash_disc", "K", "flash temperature of a Hertzian disc like the hottest spot (Tian & Kennedy)"),
     Quantity("flash_all_body", "K", "largest rise with all heat in the body"),
     Quantity("flash_all_counter_body", "K", "largest rise with all heat in the counter body"),
     Quantity("flash_joule", "K", "rise by Joule heat"),
