@@ -1,4 +1,4 @@
-"""Frictional heating: flash temperature of a sliding contact.
+"""Frictional heating: flash temperature of sliding contacts, share of the heat between bodies.
 
 ``flash_temperature`` gives the ``FrictionalHeating`` of a solved contact: the temperature of the
 plane in which heat is made and of both surfaces, the share of the heat of either body, and

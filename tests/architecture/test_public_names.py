@@ -29,7 +29,7 @@ NAMES = {name: list(module.__all__) for name, module in MODULES.items()}
 
 TOP = [name for name in dir(asperity) if name in asperity._HOME]
 PAIRS = [(module, name) for module, names in NAMES.items() for name in names]
-MOST = 82
+MOST = 83
 """Names at the top, modules and the version included."""
 
 SCREEN = 45

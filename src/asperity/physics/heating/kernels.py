@@ -83,14 +83,14 @@ def heat_conductor(body: Body, which: str, bonds: tuple[float, ...] = ()) -> Hea
 def _conducts(material: Elastic, which: str) -> tuple[float, float]:
     """k and κ of a material."""
     known = material.conduction
-    for key, value in (
-        ("thermal_conductivity", known.thermal_conductivity),
-        ("volumetric_heat_capacity", known.volumetric_heat_capacity),
+    for missing, value, remedy in (
+        ("thermal conductivity", known.thermal_conductivity, "Give {thermal_conductivity}."),
+        ("volumetric heat capacity", known.volumetric_heat_capacity, "Give {volumetric_heat_capacity}."),
     ):
         if math.isnan(value):
-            missing, name = key.replace("_", " "), f"{material.name} ({which})" if material.name else f"the {which}"
+            name = f"{material.name} ({which})" if material.name else f"the {which}"
             raise InputError(
-                f"{missing} of {name} must be known, but is not. Give {{{key}}}.",
+                f"{missing} of {name} must be known, but is not. {remedy}",
                 subject=f"{missing} of {material.name or which}",
             )
     return known.thermal_conductivity, known.diffusivity
