@@ -19,6 +19,7 @@ Everything of a subject stands in its module. Numbers are in SI units, arrays ar
     report          self-contained pages of results, surfaces and comparisons, and animations
     rolling         creepage, creep forces and their curve, of smooth and of rough bodies
     roughness       every quantity of a surface, one function or record each
+    heating         flash temperature of sliding contacts, share of the heat between bodies
     sealing         flow through the gap, leak rates, throats, flow factors
     solids          elastic, layered and graded bodies, the library of materials
     solvers         methods of the normal contact, prepared operators, rounds of couplings

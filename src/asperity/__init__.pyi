@@ -8,6 +8,7 @@ from . import fem as fem
 from . import files as files
 from . import friction as friction
 from . import generate as generate
+from . import heating as heating
 from . import menisci as menisci
 from . import plasticity as plasticity
 from . import plots as plots
@@ -93,6 +94,7 @@ __all__ = [
     "files",
     "friction",
     "generate",
+    "heating",
     "menisci",
     "plasticity",
     "plots",

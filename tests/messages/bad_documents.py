@@ -186,5 +186,14 @@ DOCUMENTS: tuple[dict[str, Any], ...] = (
     {"body": "nickel", "conductance": {"jump": "300 nm"}},
     {"body": "nickel", "conductance": {"flow": "thermal", "voltage": "1 mV"}},
     {"body": "nickel{rho=0 S/m}"},
+    {"body": "nickel{C=1 W}"},
+    {"body": "nickel", "heating": {"friction": 0.3}},
+    {"body": "nickel", "heating": {"speed": "0 m/s", "friction": 0.3}},
+    {"body": "nickel", "heating": {"speed": "1 m/s", "friction": -0.3}},
+    {"body": "nickel", "heating": {"speed": "1 m/s", "moving": "both"}},
+    {"body": "nickel", "heating": {"speed": "1 m/s", "moving": "rolling"}},
+    {"body": "nickel", "heating": {"speed": "1 m/s", "rolling": "1 m/s"}},
+    {"body": "nickel", "heating": {"speed": "1 m/s", "sink_body": "1 mm"}},
+    {"body": "nickel", "heating": {"speed": "1 m/s", "resistance_body": "1 nm"}},
 )
 """Tables of a document, each with something wrong in it."""

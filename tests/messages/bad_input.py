@@ -336,6 +336,11 @@ def _coated_joint() -> asp.ContactProblem:
     return asp.ContactProblem(rough((16, 16)), coated, counter_body=asp.material("copper"))
 
 
+def _hot_joint(boundary: asp.Periodic | asp.Free = asp.Periodic()) -> asp.ContactProblem:
+    zirconia, copper = asp.material("zirconia"), asp.material("copper")
+    return asp.ContactProblem(rough((16, 16)), zirconia, counter_body=copper, boundary=boundary)
+
+
 CALLS: Mapping[str, Callable[[], object]] = {
     "MeanPressure(0.0)": lambda: asp.MeanPressure(0.0),
     "MeanPressure('50 MPa')": lambda: asp.MeanPressure("50 MPa"),  # type: ignore[arg-type]
@@ -562,6 +567,37 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "conductance of neither": lambda: asp.conductance.conductance(_solved(), "magnetic"),  # type: ignore[arg-type]
     "a resistivity of zero": lambda: asp.solids.Conduction(electrical_resistivity=0.0),
     "a film that generates": lambda: asp.conductance.ConductingInterface(film_resistance=-1e-12),
+    "flash temperature without friction": lambda: asp.heating.flash_temperature(
+        asp.solve(_hot_joint(), asp.MeanPressure(1e7)), asp.heating.Motion.of(1.0)
+    ),
+    "flash temperature of a negative friction": lambda: asp.heating.flash_temperature(
+        asp.solve(_hot_joint(), asp.MeanPressure(1e7)), asp.heating.Motion.of(1.0), -0.1
+    ),
+    "flash temperature of an unknown heat capacity": lambda: asp.heating.flash_temperature(
+        asp.solve(_coated_joint(), asp.MeanPressure(1e7)), asp.heating.Motion.of(1.0), 0.1
+    ),
+    "flash temperature in a free contact over a sink": lambda: asp.heating.flash_temperature(
+        asp.solve(_hot_joint(asp.Free()), asp.MeanPressure(1e7)),
+        asp.heating.Motion.of(1.0),
+        0.1,
+        asp.heating.HeatedInterface(sink=(1e-3, 1e-3)),
+    ),
+    "flash temperature with a bond too many": lambda: asp.heating.flash_temperature(
+        asp.solve(_hot_joint(), asp.MeanPressure(1e7)),
+        asp.heating.Motion.of(1.0),
+        0.1,
+        asp.heating.HeatedInterface(bonds=((1e-7,), ())),
+    ),
+    "flash temperature with Joule heat of unknown resistivity": lambda: asp.heating.flash_temperature(
+        asp.solve(_hot_joint(), asp.MeanPressure(1e7)), asp.heating.Motion.of(1.0), 0.1, voltage=0.1
+    ),
+    "motion backwards": lambda: asp.heating.Motion.of(-1.0),
+    "motion of both": lambda: asp.heating.Motion.of(1.0, "both"),  # type: ignore[arg-type]
+    "rolling without rolling": lambda: asp.heating.Motion.of(1.0, rolling=1.0),
+    "a heated interface that generates": lambda: asp.heating.HeatedInterface((-1.0, 0.0)),
+    "a heat sink at the surface": lambda: asp.heating.HeatedInterface(sink=(0.0, 1.0)),
+    "bodies colder than nothing": lambda: asp.heating.HeatedInterface(bulk=(-1.0, 1.0)),
+    "a heat capacity of zero": lambda: asp.solids.Conduction(volumetric_heat_capacity=0.0),
     "an axis too long": lambda: plan(
         axes=[{"path": "control.mean_pressure", "first": "1 MPa", "last": "2 MPa", "count": 1_000_000_000}]
     ),

@@ -92,6 +92,21 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
         "conductance": {"flow": "both", "voltage": "150 mV", "film_resistance": "1e-13 ohm*m^2"},
     },
     "heat through a joint loaded and unloaded": PLAIN | {"body": "nickel", "control": DOWN, "conductance": {}},
+    "a sliding contact that is allowed to get hot": PLAIN
+    | {
+        "body": "mild steel",
+        "counter_body": "zirconia",
+        "law": {"kind": "hardness", "hardness": "1 GPa"},
+        "heating": {"speed": "1 m/s", "friction": 0.3, "allowed": "500 K"},
+    },
+    "a sliding contact too hot on a rigid body": PLAIN
+    | {
+        "body": "mild steel",
+        "control": DOWN,
+        "heating": {"speed": "100 m/s", "friction": 0.5, "allowed": "294 K", "moving": "body", "step": "last"},
+    },
+    "a sliding contact beyond the limits": PLAIN
+    | {"body": "PMMA{alpha=70e-6/K}", "counter_body": "mild steel", "heating": {"speed": "300 m/s", "friction": 0.5}},
     "plastic flow in the volume": SOFT | {"plastic_flow": {"steps": 2, "cells": 4}, "control": {"force": "20 mN"}},
     "a load at which it becomes plastic": PLAIN
     | {"law": {"kind": "hardness", "hardness": "from body"}, "plastic_load": {}},

@@ -23,6 +23,8 @@ DIMENSIONS = {
     "stiffness": "Pa/m",
     "thermal conductivity": "W/(m*K)",
     "electrical resistivity": "ohm*m",
+    "volumetric heat capacity": "J/(m**3*K)",
+    "thermal expansion": "1/K",
     "molar volume": "m**3/mol",
     "viscosity": "Pa*s",
     "speed": "m/s",
@@ -48,6 +50,8 @@ EXAMPLES = {
     "viscosity": "1 mPa*s",
     "thermal conductivity": "50 W/(m*K)",
     "electrical resistivity": "17 nohm*m",
+    "volumetric heat capacity": "3.7 MJ/(m**3*K)",
+    "thermal expansion": "12e-6/K",
     "temperature": "293 K",
     "time": "1 s",
     "speed": "1 mm/s",
@@ -69,7 +73,14 @@ _PREFIXED = ("m", "Pa", "N", "J", "s", "B", "N/m", "Pa/m")
 """Units that are read and printed with ``_PREFIXES`` here, to the bit as pint does, which takes 0.5
 s to import and to set up. Powers of a length are printed here too; all others are left to pint."""
 
-_WRITTEN = {"ohm": "Ω", "ohm*m": "Ω·m", "W/(m*K)": "W/(m·K)"}
+_WRITTEN = {
+    "ohm": "Ω",
+    "ohm*m": "Ω·m",
+    "W/(m*K)": "W/(m·K)",
+    "J/(m**3*K)": "J/(m³·K)",
+    "1/K": "m/(m·K)",
+    "W/m**2": "W/m²",
+}
 """Further units that are read and printed with ``_PREFIXES`` here, and how they are printed: pint
 writes m·Ω, and with a prefix nm·Ω."""
 
@@ -164,6 +175,7 @@ def _split(text: str, example: str, what: str, instead: str, *, plain: bool) -> 
         wanted = "a number" if plain else f'a number with a unit, such as "{example}"'
         raise UnitError(f"{what} must be {wanted}{instead}, but is {text!r}.")
     number, name = float(match.group(1)), match.group(2).strip()
+    name = f"1{name}" if re.match(r"/ ?[A-Za-zµ]", name) else name  # 12e-6/K
     if not name and not plain:
         raise UnitError(f'{what} must have a unit, such as "{example}", but is {text!r} without one.')
     return number, name

@@ -501,6 +501,8 @@ SurfaceTension: TypeAlias = Annotated[float, Number("surface tension", above=0.0
 Viscosity: TypeAlias = Annotated[float, Number("viscosity", above=0.0)]
 ThermalConductivity: TypeAlias = Annotated[float, Number("thermal conductivity", above=0.0)]
 ElectricalResistivity: TypeAlias = Annotated[float, Number("electrical resistivity", above=0.0)]
+VolumetricHeatCapacity: TypeAlias = Annotated[float, Number("volumetric heat capacity", above=0.0)]
+ThermalExpansion: TypeAlias = Annotated[float, Number("thermal expansion", above=0.0)]
 Speed: TypeAlias = Annotated[float, Number("speed", least=0.0)]
 Positive: TypeAlias = Annotated[float, Number(above=0.0)]
 NonNegative: TypeAlias = Annotated[float, Number(least=0.0)]

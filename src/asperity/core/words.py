@@ -104,6 +104,11 @@ ACTIONS = MappingProxyType(
             '"steel{k=50W/m/K}" in --body',
             "Bodies: Thermal conductivity",
         ),
+        "volumetric_heat_capacity": Action(
+            "conduction=solids.Conduction(50.0, volumetric_heat_capacity=3.7e6)",
+            '"steel{C=3.7MJ/m^3/K}" in --body',
+            "Bodies: Volumetric heat capacity",
+        ),
         "solver": Action("solver=...", "--solver", "Solver: Method"),
         "tolerance": Action("tolerance=... of the solver", "--tolerance", "Solver: Tolerance"),
         "shift": Action("Shift(...)", "--shift", "Shear: Shift"),

@@ -42,6 +42,8 @@ RECORDS = {
         ("yield_stress", "yield stress", "Pa"),
         ("thermal_conductivity", "k", "W/(m*K)"),
         ("electrical_resistivity", "ρ", "ohm*m"),
+        ("volumetric_heat_capacity", "ρc", "J/(m**3*K)"),
+        ("thermal_expansion", "α", "1/K"),
     ),
     LiquidRecord: (
         ("surface_tension", "surface tension", "N/m"),

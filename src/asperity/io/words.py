@@ -135,6 +135,8 @@ TERMS = {
         Quantity("thickness", "m", "thickness"),
         Quantity("thermal_conductivity", "W/(m*K)", "thermal conductivity k"),
         Quantity("electrical_resistivity", "ohm*m", "electrical resistivity ρ"),
+        Quantity("volumetric_heat_capacity", "J/(m**3*K)", "volumetric heat capacity ρc"),
+        Quantity("thermal_expansion", "1/K", "thermal expansion α"),
     )
 }
 """Fields of bodies by name; one that is not listed is shown by its name."""

@@ -73,7 +73,7 @@ class Strength:
 
 @dataclass(frozen=True)
 class Conduction:
-    """How a material conducts heat and current; ``nan`` where not known.
+    """How a material conducts heat and current, stores heat and expands; ``nan`` where not known.
 
     InputError if a given value is not positive.
 
@@ -83,19 +83,35 @@ class Conduction:
         k in W/(m K), > 0.
     electrical_resistivity
         ρ in Ω m, > 0; one over the conductivity in S/m.
+    volumetric_heat_capacity
+        ρc in J/(m³ K), > 0: density times specific heat capacity.
+    thermal_expansion
+        Linear coefficient α in 1/K, > 0.
     """
 
     thermal_conductivity: float = math.nan
     electrical_resistivity: float = math.nan
+    volumetric_heat_capacity: float = math.nan
+    thermal_expansion: float = math.nan
 
     def __post_init__(self) -> None:
-        units = {"thermal_conductivity": "W/(m K)", "electrical_resistivity": "ohm m"}
+        units = {
+            "thermal_conductivity": "W/(m K)",
+            "electrical_resistivity": "ohm m",
+            "volumetric_heat_capacity": "J/(m³ K)",
+            "thermal_expansion": "1/K",
+        }
         for name, unit in units.items():
             value = getattr(self, name)
             known = value == value
             # of what is not known one object, so that equal ones are equal
             number = require.positive(value, f"{name.replace('_', ' ')} ({unit})") if known else math.nan
             object.__setattr__(self, name, number)
+
+    @property
+    def diffusivity(self) -> float:
+        """κ = k/ρc in m²/s; ``nan`` where one of both is not known."""
+        return self.thermal_conductivity / self.volumetric_heat_capacity
 
 
 INCOMPRESSIBLE = "Use 0.5 for an incompressible solid."
@@ -119,7 +135,8 @@ class Elastic(Shown):
     name, sources
         Name of the material and where its values come from.
     conduction
-        Thermal conductivity and electrical resistivity, where known; by keyword.
+        Thermal conductivity, electrical resistivity, heat capacity and thermal expansion, where
+        known; by keyword.
     """
 
     youngs_modulus: float

@@ -357,8 +357,10 @@ def _between(top: Elastic, bottom: Elastic, depth: float, grading: Grading) -> E
             mixed(first.recall, last.recall),
         ),
         conduction=Conduction(
-            mixed(top.conduction.thermal_conductivity, bottom.conduction.thermal_conductivity),
-            mixed(top.conduction.electrical_resistivity, bottom.conduction.electrical_resistivity),
+            *(
+                mixed(getattr(top.conduction, key.name), getattr(bottom.conduction, key.name))
+                for key in fields(Conduction)
+            )
         ),
         name=f"graded {top.name} - {bottom.name}".strip(" -") if top.name or bottom.name else "",
     )

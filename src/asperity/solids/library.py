@@ -212,7 +212,8 @@ class MaterialRecord(Record):
     Hardening is linear with ``hardening_modulus`` in Pa, of Swift with ``swift_exponent`` and
     ``swift_strain``, or of Voce with ``voce_gain`` in Pa and ``voce_rate``; ``kinematic`` in Pa and
     ``recall`` are those of the back stress. ``thermal_conductivity`` is in W/(m K),
-    ``electrical_resistivity`` in Ω m.
+    ``electrical_resistivity`` in Ω m, ``volumetric_heat_capacity`` in J/(m³ K),
+    ``thermal_expansion`` in 1/K.
     """
 
     youngs_modulus: Annotated[Sourced, "pressure"]
@@ -232,6 +233,8 @@ class MaterialRecord(Record):
     recall: Annotated[Sourced | None, "number"] = None
     thermal_conductivity: Annotated[Sourced | None, "thermal conductivity"] = None
     electrical_resistivity: Annotated[Sourced | None, "electrical resistivity"] = None
+    volumetric_heat_capacity: Annotated[Sourced | None, "volumetric heat capacity"] = None
+    thermal_expansion: Annotated[Sourced | None, "thermal expansion"] = None
     noun: ClassVar[str] = "material"
     more: ClassVar[tuple[str, ...]] = ("elastic_bulk", "shift")
 
@@ -276,7 +279,7 @@ class MaterialRecord(Record):
             kinematic=self.kinematic.value if self.kinematic else 0.0,
             recall=self.recall.value if self.recall else 0.0,
         )
-        conducting = ("thermal_conductivity", "electrical_resistivity")
+        conducting = tuple(item.name for item in fields(Conduction))
         conduction = Conduction(**{key: item.value for key, item in self.values.items() if key in conducting})
         if self.relaxation is None:
             constants = self.youngs_modulus.value, self.poisson_ratio.value
@@ -329,7 +332,8 @@ def materials(path: str | Path | None = None) -> Records[MaterialRecord]:
 
     Keys of a material are ``youngs_modulus`` and ``poisson_ratio`` (required), ``hardness``,
     ``yield_stress``, those of hardening (``MaterialRecord``), ``thermal_conductivity``,
-    ``electrical_resistivity``, ``aliases`` and ``note``; a value is text with a unit
+    ``electrical_resistivity``, ``volumetric_heat_capacity``, ``thermal_expansion``,
+    ``aliases`` and ``note``; a value is text with a unit
     (``"140 GPa"``) or ``{ value = "140 GPa", source = "..." }``, the source being "user" by
     default. A modulus such as ``"3 MPa + 10 MPa @ 10 ms"`` relaxes;
     ``elastic_bulk = true`` and ``shift``, such as ``"WLF 298 K; 8.86; 101.6 K"`` or

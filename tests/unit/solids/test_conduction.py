@@ -58,6 +58,25 @@ def test_values_have_sources_and_lie_in_the_range_of_solids() -> None:
             assert 0.1 <= values["thermal_conductivity"].value <= 430.0
         if "electrical_resistivity" in values:
             assert 1.5e-8 <= values["electrical_resistivity"].value <= 2e-6
+        if "volumetric_heat_capacity" in values:
+            assert 1e6 <= values["volumetric_heat_capacity"].value <= 4.1e6
+        if "thermal_expansion" in values:
+            assert 3e-7 <= values["thermal_expansion"].value <= 2e-4
+
+
+@pytest.mark.parametrize(
+    ("name", "molar_mass", "density"),
+    [
+        ("gold", 0.19697, 19300.0),
+        ("copper", 0.063546, 8960.0),
+        ("nickel", 0.058693, 8900.0),
+        ("tungsten", 0.18384, 19300.0),
+    ],
+)
+def test_heat_capacities_of_metals_obey_dulong_and_petit(name: str, molar_mass: float, density: float) -> None:
+    """Three times the gas constant an atom; metals at room temperature have 0.95 to 1.05 of it."""
+    known = asp.material(name).conduction.volumetric_heat_capacity
+    assert known * molar_mass / density / (3.0 * 8.314) == pytest.approx(1.0, abs=0.06)
 
 
 def test_a_resistivity_may_be_given_by_the_conductivity() -> None:
@@ -80,7 +99,7 @@ def test_text_of_a_body_gives_them() -> None:
     assert gold.conduction.electrical_resistivity == pytest.approx(1.0 / 45e6)
     assert gold.conduction.thermal_conductivity == 317.0
     assert "electrical_resistivity: user" in gold.sources
-    assert not any("CRC" in source for source in gold.sources)
+    assert not any(source.startswith("electrical_resistivity: CRC") for source in gold.sources)
     base = build_material(found.base, None, Path())
     assert (base.conduction.thermal_conductivity, base.conduction.electrical_resistivity) == (390.0, 1.7e-8)
 
@@ -90,11 +109,22 @@ def test_text_of_a_body_gives_them() -> None:
     [
         ("thermal_conductivity", 0.0, "thermal conductivity (W/(m K))"),
         ("electrical_resistivity", -1.0, "electrical resistivity (ohm m)"),
+        ("volumetric_heat_capacity", 0.0, "volumetric heat capacity (J/(m³ K))"),
+        ("thermal_expansion", -1e-6, "thermal expansion (1/K)"),
     ],
 )
 def test_values_must_be_positive(key: str, value: float, subject: str) -> None:
     with refused(InputError, subject, f"{value:g}"):
         Conduction(**{key: value})
+
+
+def test_text_of_a_body_gives_heat_capacity_and_expansion() -> None:
+    found = build_material(body("steel{k=46W/m/K,C=3.7MJ/m^3/K,alpha=12.5e-6/K}"), None, Path())
+    assert found.conduction == Conduction(46.0, math.nan, 3.7e6, 12.5e-6)
+    assert found.conduction.diffusivity == pytest.approx(46.0 / 3.7e6)
+    assert units.show(3.7e6, "J/(m**3*K)") == "3.7 MJ/(m³·K)"
+    assert units.show(12e-6, "1/K") == "12 µm/(m·K)"
+    assert units.parse("12 um/m/K", "thermal expansion", "alpha") == pytest.approx(12e-6)
 
 
 def test_files_and_tables_keep_them() -> None:

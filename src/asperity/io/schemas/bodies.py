@@ -37,6 +37,8 @@ from ...core.values import (
     Positive,
     Pressure,
     ThermalConductivity,
+    ThermalExpansion,
+    VolumetricHeatCapacity,
 )
 from ...solids.relaxation_text import AT
 from .relaxation import SYMBOLS as RELAXING
@@ -51,8 +53,8 @@ CONSTANTS = ("youngs_modulus", "poisson_ratio")
 FLOW = ("yield_stress", "hardening", "kinematic", "recall")
 """Keys of plastic flow."""
 
-CONDUCTS = ("thermal_conductivity", "electrical_resistivity")
-"""Keys of what conducts."""
+CONDUCTS = ("thermal_conductivity", "electrical_resistivity", "volumetric_heat_capacity", "thermal_expansion")
+"""Keys of what conducts, stores heat and expands."""
 
 BESIDE = ("hardness", *FLOW, *CONDUCTS)
 """Keys of the strength and of what conducts, which elastic constants may bring along, and a named
@@ -138,6 +140,8 @@ class MaterialTable(Settings):
     recall: NonNegative | None = None
     thermal_conductivity: ThermalConductivity | None = setting(None, help="k: 50 W/(m*K)")
     electrical_resistivity: ElectricalResistivity | None = setting(None, help="ρ: 17 nohm*m, or its inverse in S/m")
+    volumetric_heat_capacity: VolumetricHeatCapacity | None = setting(None, help="ρc: 3.7 MJ/(m^3*K)")
+    thermal_expansion: ThermalExpansion | None = setting(None, help="α, linear: 12e-6/K")
     name: NonEmpty | None = None
 
     @model_validator(mode="before")
@@ -278,6 +282,8 @@ SYMBOLS = MappingProxyType(
         "recall": "recall",
         "k": "thermal_conductivity",
         "rho": "electrical_resistivity",
+        "C": "volumetric_heat_capacity",
+        "alpha": "thermal_expansion",
         "name": "name",
     }
 )

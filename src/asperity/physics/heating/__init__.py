@@ -1,0 +1,1 @@
+"""Frictional heat of the contact and its flash temperature."""
