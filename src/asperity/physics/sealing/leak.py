@@ -11,8 +11,9 @@ import numpy as np
 
 from ...contact.result import ContactResult
 from ...core import require
-from ...core.arrays import RealArray
+from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
+from ...core.grid import Grid
 from ...core.status import Advice
 from ...core.units import percent
 from .estimates import Estimates, estimates_of
@@ -169,15 +170,33 @@ def leakage(
     require.one_of(driven, DRIVEN, "way of driving the flow")
     require.one_of(way, WAYS, "direction of flow")
     problem = result.problem
-    wraps = problem.boundary.wraps
+    flow = gap_flow(result.gap, result.contact, problem.grid, problem.boundary.wraps, way, driven)
+    return Leakage(result, fluid, inlet, outlet, flow, fluid.leak(flow, inlet, outlet))
+
+
+def drives(driven: Driven, way: Way, wraps: tuple[bool, bool]) -> bool:
+    """Whether a mean gradient drives the flow along ``way`` on a grid that ``wraps``.
+
+    Raises
+    ------
+    InputError
+        If it is asked for where the grid does not repeat.
+    """
     repeats = wraps[WAYS.index(way)] and driven != "sides"
     if driven == "gradient" and not repeats:
         raise InputError(
             f'way of driving the flow must be "sides" where the contact does not repeat along {way}, but is "gradient".'
         )
-    gap = np.where(result.contact, 0.0, result.gap)
-    flow = flow_through(np.maximum(gap, 0.0), problem.grid, way, wraps=wraps, repeats=repeats)
-    return Leakage(result, fluid, inlet, outlet, flow, fluid.leak(flow, inlet, outlet))
+    return repeats
+
+
+def gap_flow(
+    gap: RealArray, touching: BoolArray, grid: Grid, wraps: tuple[bool, bool], way: Way, driven: Driven
+) -> GapFlow:
+    """Flow through the ``gap`` (nx, ny) in m of a contact, closed where surfaces are ``touching``
+    (nx, ny)."""
+    opened = np.maximum(np.where(touching, 0.0, gap), 0.0)
+    return flow_through(opened, grid, way, wraps=wraps, repeats=drives(driven, way, wraps))
 
 
 RATES = ("leak_rate", "leak_throughput")
