@@ -254,8 +254,8 @@ class FluidCoupling(Coupling):
         return NoSolutionError(
             f"fluid pressure must be below the mean pressure on the back, {show(load, 'Pa')}, when the bodies just "
             f"touch, but is {show(mean, 'Pa')} on average: the fluid lifts them off, and a film without contact is not "
-            "solved. Raise the load, lower the pressure at the inlet ({sealing.inlet}), or give that of the fluid on the back "
-            "({sealing.back}).",
+            "solved. Raise the load, lower the pressure at the inlet ({sealing.inlet}), or give that of the fluid on "
+            "the back ({sealing.back}).",
             subject="fluid pressure",
         )
 

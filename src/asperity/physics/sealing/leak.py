@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -45,7 +45,8 @@ class Leakage:
     Attributes
     ----------
     result
-        The contact, whose gap the fluid does not change.
+        The contact, whose gap the fluid does not change unless it was solved with it
+        (``FluidPressure``).
     fluid
         ViscousLiquid or gas.
     inlet, outlet
@@ -126,8 +127,19 @@ class Leakage:
         return np.where(flow.net.carrying, self.leak.pressure, inside)
 
     @property
+    def pressed(self) -> Any:
+        """What the pressure of this fluid does in the contact, where that was solved with it; None
+        where not."""
+        found = self.result.couplings.get("fluid")
+        same = found is not None and found.fluid_pressure
+        own = self.fluid, self.inlet, self.outlet, self.flow.way
+        return found if same and (same.fluid, same.inlet, same.outlet, same.way) == own else None
+
+    @property
     def fluid_force(self) -> float:
-        """Force of the fluid on either body in N."""
+        """Force of the fluid on either body in N; where it acts on them, with that of pools."""
+        if self.pressed is not None:
+            return float(self.pressed.borne_by_fluid)
         return float(self.fluid_pressure.sum() * self.flow.grid.pixel_area)
 
     @property
@@ -262,11 +274,12 @@ def _regime(leak: Leakage) -> list[Advice]:
         numbers = {"knudsen": leak.leak.knudsen, "largest": SLIP}
         made.append(Advice("warning", "rarefied gas", fact, "", numbers, RATES))
     load, force = leak.result.force, leak.fluid_force
-    if load > 0.0 and force > ONE_WAY * load:
+    if leak.pressed is None and load > 0.0 and force > ONE_WAY * load:
         fact = (
             f"The force of the fluid is {percent(force / load)} of that of the contact: it lifts the bodies, which is "
             "not taken into account, and more leaks."
         )
         numbers = {"force": force, "load": load, "share": ONE_WAY}
-        made.append(Advice("warning", "pressure of the fluid", fact, "", numbers, CONCERNS))
+        remedy = "Solve contact and flow together ({sealing.two_way=true})."
+        made.append(Advice("warning", "pressure of the fluid", fact, remedy, numbers, CONCERNS))
     return made
