@@ -6,6 +6,8 @@ from __future__ import annotations
 from functools import cache
 from itertools import pairwise
 
+import leakage
+import numpy as np
 import percolation
 import pytest
 from validation_pages import assert_claims_hold, assert_written_by_script, written_rows
@@ -15,6 +17,7 @@ from asperity import sealing
 
 RUNS = {
     "percolation": lambda: percolation.page(seeds=2, points=128, grids=(128, 256), wave_grids=(32, 64), rounds=6),
+    "leakage": lambda: leakage.page(seeds=2, points=128, grids=(64, 128, 256), wave_points=64),
 }
 
 
@@ -63,3 +66,15 @@ def test_the_pixel_bracket_of_crossed_waves_closes():
     assert all(fine < coarse for coarse, fine in pairwise(widths))
     loads = [float(row[1]) - float(row[4]) for row in rows]
     assert loads[0] > loads[1] > loads[2] >= 0.0
+
+
+def test_leak_of_the_page_is_that_of_a_flow_of_its_own():
+    """K of both directions at one load of one surface against the tensor of its gap."""
+    surface = leakage.rough(leakage.HURST, 0, 64)
+    problem = asp.ContactProblem(surface, asp.Elastic(leakage.E_STAR, 0.0))
+    load = 0.06 * leakage.E_STAR * leakage.rms_gradient(surface)
+    found = leakage.leak_of(problem, load)
+    result = asp.solve(problem, asp.MeanPressure(load))
+    tensor = sealing.flow_tensor(result.gap * ~result.contact, surface.grid).matrix
+    assert found.flow == pytest.approx(0.5 * np.trace(tensor) / surface.heights.std() ** 3, rel=1e-6)
+    assert found.area == result.area_fraction
