@@ -11,13 +11,20 @@ from pathlib import Path
 import block_pictures
 import conductance_pictures
 import peng_pictures
+import sealing_pictures
 import sliding_pictures
 
 from asperity.plots import style
 
 DPI = 75
 
-FIGURES = peng_pictures.FIGURES | block_pictures.FIGURES | sliding_pictures.FIGURES | conductance_pictures.FIGURES
+FIGURES = (
+    peng_pictures.FIGURES
+    | block_pictures.FIGURES
+    | sliding_pictures.FIGURES
+    | conductance_pictures.FIGURES
+    | sealing_pictures.FIGURES
+)
 """Name of the file -> how to draw it, width and height in inches."""
 
 

@@ -49,7 +49,8 @@ TAIL = """`python validation/gold_film_area.py 1000 FOLDER` and `python validati
 FOLDER` write their pages from the whole studies, `python validation/layered_sliding.py FOLDER` its own, and
 keep the results in the folder; stored results are not computed again. `python validation/pictures.py FOLDER`
 draws rough cylinder, rough sphere, scaling laws, layers and stresses as in chapter 3 of Peng (2001), the
-layered solid of its fig. 2.8 under a sliding sphere, and the motions of the sliding block. `python
+layered solid of its fig. 2.8 under a sliding sphere, the motions of the sliding block, and gaps that close with
+their leak rates. `python
 validation/gallery.py FOLDER` characterises every surface file of a folder and writes a gallery of pages; its
 output is not part of the repository.
 

@@ -17,6 +17,7 @@ import pictures
 import pytest
 import rough_cylinder
 import rough_sphere
+import sealing_pictures
 import sliding_pictures
 from page import Claim, Page, write_page
 from validation_pages import assert_claims_hold, assert_written_by_script, written_rows
@@ -75,6 +76,8 @@ def cheap_cases(monkeypatch):
     monkeypatch.setattr(peng, "grid", lambda: GRID(96))
     for name, value in {"SURFACES": 3, "POINTS": 192, "PER_REGION": 4}.items():
         monkeypatch.setattr(peng_pictures, name, value)
+    for name, value in {"POINTS": 64, "LOADS": 3}.items():
+        monkeypatch.setattr(sealing_pictures, name, value)
     few = {"SPEEDS": np.geomspace(3e-4, 3e-2, 3), "FRICTIONS": np.linspace(0.24, 0.5, 4)}
     short = {"SLIDES": 0.05, "WINDOW": 0.02, "GROWS": 0.03}
     for name, value in (few | short).items():

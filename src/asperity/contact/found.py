@@ -10,9 +10,10 @@ if TYPE_CHECKING:
     from ..physics.friction.names_found import FrictionFound
     from ..physics.menisci.names_found import FilmFound
     from ..physics.plastic_flow.names_found import FlowFound
+    from ..physics.sealing.names_found import FluidFound
     from ..physics.viscoelastic.names_found import CreepFound
 
-    class ResultNames(FilmFound, FrictionFound, AttractionFound, FlowFound, CreepFound):
+    class ResultNames(FilmFound, FrictionFound, AttractionFound, FlowFound, CreepFound, FluidFound):
         """What each coupling has found."""
 
 else:

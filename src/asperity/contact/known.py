@@ -10,15 +10,16 @@ if TYPE_CHECKING:
     from ..physics.friction.names import FrictionEnergies, FrictionGiven, FrictionKeyword
     from ..physics.menisci.names import FilmEnergies, FilmGiven, FilmKeyword
     from ..physics.plastic_flow.names import FlowGiven, FlowKeyword
+    from ..physics.sealing.names import FluidEnergies, FluidGiven, FluidKeyword
     from ..physics.viscoelastic.names import CreepEnergies
 
-    class Keywords(FilmKeyword, FrictionKeyword, AttractionKeyword, FlowKeyword, total=False):
+    class Keywords(FilmKeyword, FrictionKeyword, AttractionKeyword, FlowKeyword, FluidKeyword, total=False):
         """Physics of a ``ContactProblem`` by keyword."""
 
-    class ProblemNames(FilmGiven, FrictionGiven, AttractionGiven, FlowGiven):
+    class ProblemNames(FilmGiven, FrictionGiven, AttractionGiven, FlowGiven, FluidGiven):
         """What was given for each keyword."""
 
-    class EnergyNames(FilmEnergies, FrictionEnergies, AttractionEnergies, CreepEnergies):
+    class EnergyNames(FilmEnergies, FrictionEnergies, AttractionEnergies, CreepEnergies, FluidEnergies):
         """What each physics adds to the energies of a history."""
 
 else:

@@ -116,6 +116,16 @@ PHYSICS: Mapping[str, Known] = MappingProxyType(
                 "ContactProblem(..., friction=Coulomb(0.3)) under Step(normal, Shift(5e-9)).",
             },
         ),
+        "fluid_pressure": Known(
+            "physics.sealing.physics:Pressed",
+            "FluidPressure(fluid, inlet, outlet)",
+            {
+                "fluid": (
+                    "problem of the result must have the pressure of a fluid, but has none. Give it as "
+                    "fluid_pressure=FluidPressure(fluid, inlet, outlet)."
+                )
+            },
+        ),
     }
 )
 """Every physics of this package by its keyword, in the order in which couplings are prepared."""
@@ -157,6 +167,9 @@ REFUSED: Mapping[tuple[str, str], str] = MappingProxyType(
     {
         ("plastic_flow", "adhesion"): "the plastic strain would not feel what the attraction does below the surface. "
         "Solve it without adhesion, or with a Hardness instead of the flow",
+        ("fluid_pressure", "film"): "menisci stand in a gap that no fluid fills",
+        ("fluid_pressure", "adhesion"): "the attraction would have to be balanced together with the fluid. Solve it "
+        "without, or the leakage of the adhesive contact alone",
     }
 )
 """Why physics do not go together, by the keywords of both; ``PAIRS`` says how others settle."""
@@ -197,6 +210,7 @@ ANSWERS = (
     "physics.friction.sliding:GrossSliding",
     "physics.friction.answer:StickSlip",
     "physics.viscoelastic.moments:Creeping",
+    "physics.sealing.coupling:FluidContact",
 )
 """Where the types of what couplings of this package find stand, for files."""
 
@@ -242,7 +256,7 @@ the most telling where the path has that."""
 STEP_TEXTS: Mapping[str, str] = MappingProxyType({"stick_slip": "physics.friction.fretting:step_texts"})
 """What a load path says of each step beside its load, by the name of the coupling that it is of."""
 
-ENERGY_TERMS = ("meniscus_work", "shear_work", "tangential_work", "slip_work", "step_work", "jump_work")
+ENERGY_TERMS = ("meniscus_work", "shear_work", "tangential_work", "slip_work", "step_work", "jump_work", "fluid_work")
 """Names of what the physics of this package add to the energies of a history."""
 
 

@@ -5,14 +5,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from ...contact.result import ContactResult
 from ...core import require
-from ...core.arrays import RealArray
+from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
+from ...core.grid import Grid
 from ...core.status import Advice
 from ...core.units import percent
 from .estimates import Estimates, estimates_of
@@ -44,7 +45,8 @@ class Leakage:
     Attributes
     ----------
     result
-        The contact, whose gap the fluid does not change.
+        The contact, whose gap the fluid does not change unless it was solved with it
+        (``FluidPressure``).
     fluid
         ViscousLiquid or gas.
     inlet, outlet
@@ -125,8 +127,19 @@ class Leakage:
         return np.where(flow.net.carrying, self.leak.pressure, inside)
 
     @property
+    def pressed(self) -> Any:
+        """What the pressure of this fluid does in the contact, where that was solved with it; None
+        where not."""
+        found = self.result.couplings.get("fluid")
+        same = found is not None and found.fluid_pressure
+        own = self.fluid, self.inlet, self.outlet, self.flow.way
+        return found if same and (same.fluid, same.inlet, same.outlet, same.way) == own else None
+
+    @property
     def fluid_force(self) -> float:
-        """Force of the fluid on either body in N."""
+        """Force of the fluid on either body in N; where it acts on them, with that of pools."""
+        if self.pressed is not None:
+            return float(self.pressed.borne_by_fluid)
         return float(self.fluid_pressure.sum() * self.flow.grid.pixel_area)
 
     @property
@@ -169,15 +182,33 @@ def leakage(
     require.one_of(driven, DRIVEN, "way of driving the flow")
     require.one_of(way, WAYS, "direction of flow")
     problem = result.problem
-    wraps = problem.boundary.wraps
+    flow = gap_flow(result.gap, result.contact, problem.grid, problem.boundary.wraps, way, driven)
+    return Leakage(result, fluid, inlet, outlet, flow, fluid.leak(flow, inlet, outlet))
+
+
+def drives(driven: Driven, way: Way, wraps: tuple[bool, bool]) -> bool:
+    """Whether a mean gradient drives the flow along ``way`` on a grid that ``wraps``.
+
+    Raises
+    ------
+    InputError
+        If it is asked for where the grid does not repeat.
+    """
     repeats = wraps[WAYS.index(way)] and driven != "sides"
     if driven == "gradient" and not repeats:
         raise InputError(
             f'way of driving the flow must be "sides" where the contact does not repeat along {way}, but is "gradient".'
         )
-    gap = np.where(result.contact, 0.0, result.gap)
-    flow = flow_through(np.maximum(gap, 0.0), problem.grid, way, wraps=wraps, repeats=repeats)
-    return Leakage(result, fluid, inlet, outlet, flow, fluid.leak(flow, inlet, outlet))
+    return repeats
+
+
+def gap_flow(
+    gap: RealArray, touching: BoolArray, grid: Grid, wraps: tuple[bool, bool], way: Way, driven: Driven
+) -> GapFlow:
+    """Flow through the ``gap`` (nx, ny) in m of a contact, closed where surfaces are ``touching``
+    (nx, ny)."""
+    opened = np.maximum(np.where(touching, 0.0, gap), 0.0)
+    return flow_through(opened, grid, way, wraps=wraps, repeats=drives(driven, way, wraps))
 
 
 RATES = ("leak_rate", "leak_throughput")
@@ -243,11 +274,12 @@ def _regime(leak: Leakage) -> list[Advice]:
         numbers = {"knudsen": leak.leak.knudsen, "largest": SLIP}
         made.append(Advice("warning", "rarefied gas", fact, "", numbers, RATES))
     load, force = leak.result.force, leak.fluid_force
-    if load > 0.0 and force > ONE_WAY * load:
+    if leak.pressed is None and load > 0.0 and force > ONE_WAY * load:
         fact = (
             f"The force of the fluid is {percent(force / load)} of that of the contact: it lifts the bodies, which is "
             "not taken into account, and more leaks."
         )
         numbers = {"force": force, "load": load, "share": ONE_WAY}
-        made.append(Advice("warning", "pressure of the fluid", fact, "", numbers, CONCERNS))
+        remedy = "Solve contact and flow together ({sealing.two_way=true})."
+        made.append(Advice("warning", "pressure of the fluid", fact, remedy, numbers, CONCERNS))
     return made

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 from pydantic import model_validator
 
@@ -30,7 +31,9 @@ class SealingSettings(Settings):
 
     A liquid is incompressible, a gas ideal and at one temperature, with absolute pressures and slip
     at the walls. The pressure falls over the length of the surface, between two ``sides`` or as the
-    mean ``gradient`` of a contact that repeats. The gap is that of the contact alone.
+    mean ``gradient`` of a contact that repeats. The gap is that of the contact alone, or of contact
+    and flow together (``two_way``): the load is then the force on the back, which touching surfaces
+    and fluid bear, with the pressure of a fluid on the ``back`` beside it.
     """
 
     fluid: Named = setting(
@@ -44,6 +47,12 @@ class SealingSettings(Settings):
     )
     inlet: Inlet = setting("200 kPa", option="--inlet-pressure", help="Of the fluid where it enters")
     outlet: Outlet = setting("100 kPa", option="--outlet-pressure", help="Of the fluid where it leaves")
+    two_way: bool = setting(
+        False, option="--fluid-pressure", help="Whether the pressure of the fluid acts on both bodies"
+    )
+    back: Inlet | None = setting(
+        None, option="--back-pressure", help="Of the fluid on the back of the bodies, beside the load; none by default"
+    )
     direction: Way = setting("x", option="--leak-direction", help="Where the fluid flows to: x or y")
     driven: Driven = setting(
         "auto", option="--leak-driven", help="By pressures at two sides, or by a mean gradient: sides, gradient or auto"
@@ -65,6 +74,11 @@ class SealingSettings(Settings):
         if self.inlet <= self.outlet:
             raise InputError(
                 f".inlet must be above the pressure at the outlet, {self.outlet:g} Pa, but is {self.inlet:g} Pa."
+            )
+        if self.back is not None and not self.two_way:
+            raise InputError(
+                f".back must be left out where the fluid does not press on the bodies, but is {self.back:g} Pa; let it "
+                "({sealing.two_way=true})."
             )
         if self.fluid in ("liquid", "gas") and self.viscosity is None:
             raise InputError(
@@ -147,3 +161,8 @@ class Sealing(Part):
     work = "physics.sealing.work:SealingWork"
     headline = "leak_rate"
     whole_path = True
+
+    def coupling(self, ask: SealingSettings) -> Mapping[str, Any]:
+        """The pressure of the fluid joins the solve, where it is asked for."""
+        made: Any = self.at_work
+        return made.joined(ask) if ask.two_way else {}

@@ -20,6 +20,7 @@ from .figures import CLOSED_PLOT, FLOW_PLOT, PATH_PLOT, PRESSURE_PLOT, LeakPictu
 from .fluids import ATMOSPHERE, FLUIDS, IdealGas, ViscousLiquid
 from .leak import Fluid, Leakage, leakage
 from .part import SCALARS, SealingSettings
+from .physics import FluidPressure
 from .throats import closed_path
 
 HOURS = 3600.0
@@ -43,6 +44,13 @@ class SealingWork(WithFacts):
                 f"sealing.driven must be sides or auto where the contact does not repeat along {ask.direction}, but "
                 "is gradient ({sealing.driven=sides})."
             )
+
+    @staticmethod
+    def joined(ask: SealingSettings) -> dict[str, Any]:
+        """The pressure of the fluid that joins the solve."""
+        back = 0.0 if ask.back is None else float(ask.back)
+        words: Any = {"way": ask.direction, "driven": ask.driven}
+        return {"fluid_pressure": FluidPressure(fluid_of(ask), float(ask.inlet), float(ask.outlet), back=back, **words)}
 
     def compute(self, ask: SealingSettings, solved: Solved) -> Found:
         """Rate, throats and fields at the step that is asked for; rates of all steps of a path."""
@@ -72,6 +80,7 @@ class SealingWork(WithFacts):
             "repeats": leak.flow.repeats,
             "sealed": leak.sealed,
             "resolved": leak.resolved,
+            "two_way": leak.pressed is not None,
             "where": reached.where,
             "allowed": None if allowed is None else float(allowed),
         }
@@ -117,14 +126,18 @@ class SealingWork(WithFacts):
         tables = (("Throats that lose half of the pressure", throats),) if throats.cells else ()
         holds, alarming = _allowed_text(values, facts, text)
         headline = [("leak rate", text), ("equivalent gap", show(float(values["equivalent_gap"]), "m", 3))]
-        return Words(sentence, headline, rows, tables, (REMARK,), alarming, holds)
+        remark = REMARK.format(TWO_WAY if facts.get("two_way") else ONE_WAY)
+        return Words(sentence, headline, rows, tables, (remark,), alarming, holds)
 
 
 REMARK = (
-    "The film is thin and flows slowly (Reynolds); the gap is that of the contact and does not yield to the fluid. "
+    "The film is thin and flows slowly (Reynolds); the gap is that of the contact{}. "
     "Pixels are joined at their faces only, so that spots that meet at a corner seal."
 )
 """What the model is."""
+
+ONE_WAY = " and does not yield to the fluid"
+TWO_WAY = " under the pressure of the fluid on both bodies, solved with it"
 
 
 def _is_gas(leak: Leakage) -> bool:
