@@ -19,6 +19,7 @@ sys.path.insert(0, str(ROOT / "tests"))
 from agreement.conductance import CONDUCTANCE  # noqa: E402 - found by the line above
 from agreement.fields_and_films import FIELDS_AND_FILMS  # noqa: E402
 from agreement.matrix import MATRIX  # noqa: E402
+from agreement.sealing import SEALING  # noqa: E402
 from agreement.single_contacts import SINGLE_CONTACTS  # noqa: E402
 
 from asperity.theories.catalogue import FAMILIES, THEORIES  # noqa: E402
@@ -32,6 +33,7 @@ COLUMNS: tuple[dict[str, str], ...] = (
         "Rubber friction": "Rubber friction",
         "Menisci": "Menisci",
         "Conductance": "Conductance",
+        "Sealing": "Sealing",
         "Plasticity and hardness": "Plasticity and hardness",
         "Statistics of surfaces": "Statistics",
     },
@@ -66,7 +68,7 @@ def group_of(kind: type[Described]) -> str:
 def limits() -> dict[tuple[str, str], list[str]]:
     """Limits in which two theories of the catalogue agree, by their names."""
     found: dict[tuple[str, str], list[str]] = {}
-    for row in (*MATRIX, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE):
+    for row in (*MATRIX, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *SEALING):
         if row.other in THEORIES and row.other != row.theory:
             found.setdefault((row.theory, row.other), []).append(row.limit)
     return found

@@ -18,21 +18,16 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...theories.sealing.gaps import ATMOSPHERE
 from .flow import GapFlow
 from .network import network
 from .solver import System
-
-ATMOSPHERE = 101325.0
-"""Pressure in Pa at which mean free paths are given."""
 
 GAS_CONSTANT = 8.31446261815324
 """Molar gas constant, J/(mol K)."""
 
 ROOM = 293.15
 """Temperature in K of the table of gases."""
-
-SLIP = 0.1
-"""Knudsen number up to which slip of first order holds."""
 
 ROUNDS, TOLERANCE = 60, 1e-10
 """Rounds of the pressure of a gas that slips at most, and the relative change at which they end."""

@@ -15,9 +15,10 @@ from ...core.arrays import RealArray
 from ...core.errors import InputError
 from ...core.status import Advice
 from ...core.units import percent
+from ...theories.sealing.gaps import SLIP, Bounds
 from .estimates import Estimates, estimates_of
-from .flow import WAYS, Bounds, GapFlow, Way, flow_through
-from .fluids import SLIP, IdealGas, Leak, ViscousLiquid
+from .flow import WAYS, GapFlow, Way, flow_through
+from .fluids import IdealGas, Leak, ViscousLiquid
 from .network import clusters, open_cells
 from .throats import RESOLVED, Throats, throats, through_corners, through_noise
 

@@ -16,8 +16,9 @@ from ...core.units import percent, show
 from ...io.words import value_text
 from ...parts.part import Found, Reached, Rows, Solved, Table, WithFacts, Words
 from ...plots.picture import Figure, figures_by
+from ...theories.sealing.gaps import ATMOSPHERE
 from .figures import CLOSED_PLOT, FLOW_PLOT, PATH_PLOT, PRESSURE_PLOT, LeakPicture
-from .fluids import ATMOSPHERE, FLUIDS, IdealGas, ViscousLiquid
+from .fluids import FLUIDS, IdealGas, ViscousLiquid
 from .leak import Fluid, Leakage, leakage
 from .part import SCALARS, SealingSettings
 from .throats import closed_path
