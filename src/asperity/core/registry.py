@@ -140,6 +140,7 @@ PARTS = (
     "physics.stress.part:Yielding",
     "physics.conductance.part:Conductance",
     "physics.sealing.part:Sealing",
+    "physics.sealing.part_flow_factors:FlowFactors",
     "physics.dynamics.part:Dynamics",
     "physics.indentation.part:Indentation",
     "physics.indentation.part_passes:Passes",

@@ -129,16 +129,18 @@ class IdealGas:
         if flow.sealed or self.slip_length == 0.0:
             inside = np.sqrt(np.maximum(outlet**2 + 2.0 * squares * _driven(flow), 0.0))
             return Leak(plain, inside, 0.0, 1.0)
+        at = np.full(flow.gap.shape, mean)
         if flow.repeats:
             slipping = _with_slip(flow, self.slip_length / mean)
             rate = slipping.rate * squares / (12.0 * self.viscosity)
             inside = np.sqrt(np.maximum(outlet**2 + 2.0 * squares * _driven(slipping), 0.0))
         else:
             rate, inside = _slipping(flow, self, inlet, outlet)
+            at = inside
         gap = flow.gap[flow.net.carrying]
         # where most of the gas passes: weighted by what is dissipated
         spent = flow.dissipated[flow.net.carrying]
-        number = float((spent * self.slip_length / (gap * inside[flow.net.carrying])).sum() / spent.sum())
+        number = float((spent * self.slip_length / (gap * at[flow.net.carrying])).sum() / spent.sum())
         return Leak(rate, inside, number, rate / plain)
 
 

@@ -53,6 +53,9 @@ class SealingSettings(Settings):
         option="--leak-step",
         help="Of a load path: peak for that of the largest load, last, or its number from 1",
     )
+    closing: bool = setting(
+        False, option="--closing-load", help="Find the mean pressure at which the gap closes, by some ten solves"
+    )
     allowed_rate: VolumeRate | None = setting(
         None, option="--allowed-leak-rate", help="Of a liquid, to compare with: 1mm^3/s"
     )
