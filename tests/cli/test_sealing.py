@@ -39,7 +39,13 @@ SEAL: dict[str, Any] = {
 }
 FREE = {"boundary": {"kind": "free"}, "control": {"force": "1 mN"}}
 WAVE = SEAL | {
-    "surface": {"kind": "sinusoid", "points": [48, 4], "size": "1 um x 1 um", "amplitude": "10 nm", "wavelength": "1 um"}
+    "surface": {
+        "kind": "sinusoid",
+        "points": [48, 4],
+        "size": "1 um x 1 um",
+        "amplitude": "10 nm",
+        "wavelength": "1 um",
+    }
 }
 OPTIONS = ("--level", "none", "--body", "E=100GPa,nu=0.3", "--counter-body", "rigid")
 

@@ -68,7 +68,7 @@ def test_flow_factors_of_waves(row: Row) -> None:
     assert (change < 0.01).all()
 
 
-OWN = 8
+OWN = 5
 """Surfaces of each kind."""
 
 LENGTHS = {"iso": (10, 10), "iso_half": (20, 20), "gamma3": (21, 7), "gamma1_3": (7, 21)}
