@@ -613,7 +613,7 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a gap of another grid": lambda: asp.sealing.flow_through(np.ones((4, 4)), asp.Grid((4, 5), (1e-6, 1e-6))),
     "a gap that is negative": lambda: asp.sealing.flow_through(-np.ones((4, 4)), asp.Grid((4, 4), (1e-6, 1e-6))),
     "closing loads in the wrong order": lambda: asp.sealing.closing_load(_solved().problem, (2e6, 1e6)),
-    "closing loads at which all is open": lambda: asp.sealing.closing_load(_solved().problem, (1e3, 2e3)),
+    "closing loads at which all is closed": lambda: asp.sealing.closing_load(_solved().problem, (1e3, 2e3)),
     "fits of Patir and Cheng that do not exist": lambda: asp.theories.PatirCheng(1e-6, 2.0),
     "obstacles that meet": lambda: asp.theories.ObstacleArray().at_covered(0.8),
     "a flange inside out": lambda: asp.theories.AnnularGap(1e-6, 1e-3, 2e-2, 1e-2),

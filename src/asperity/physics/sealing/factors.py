@@ -217,7 +217,7 @@ def require_averaged(problem: ContactProblem) -> float:
     if problem.boundary.wraps != (True, True):
         raise InputError(
             f"boundary of flow factors must be periodic, but is {problem.boundary.name}: they are averages over a "
-            "surface that repeats."
+            "surface that repeats. Choose {boundary.kind=periodic}."
         )
     if min(problem.grid.shape) < 2:
         raise InputError(
@@ -226,7 +226,7 @@ def require_averaged(problem: ContactProblem) -> float:
         )
     sigma = float(np.std(problem.profile()))
     if sigma == 0.0:
-        raise InputError("surface of flow factors must be rough, but is flat.")
+        raise InputError("surface of flow factors must be rough, but is flat: give the one with the roughness.")
     return sigma
 
 

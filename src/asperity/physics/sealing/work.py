@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ...contact.controls import MeanPressure
+from ...contact.controls import Control, MeanPressure, Step
 from ...contact.problem import ContactProblem
 from ...contact.result import ContactResult
 from ...contact.solve import solve
@@ -53,6 +53,15 @@ class SealingWork(WithFacts):
                 f"sealing.closing must be left out for the boundary {problem.boundary.name}, whose contact has no mean "
                 "pressure, but is given; choose {boundary.kind=periodic}, or a load path."
             )
+
+    def course(self, ask: SealingSettings, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
+        """The same steps; refuses one that is not among them."""
+        if not isinstance(ask.step, str) and int(ask.step) > len(controls):
+            raise InputError(
+                f"sealing.step must be from 1 to {len(controls)}, those of the load, but is {ask.step:g}; take the "
+                "last ({sealing.step=last})."
+            )
+        return controls
 
     def compute(self, ask: SealingSettings, solved: Solved) -> Found:
         """Rate, throats and fields at the step that is asked for; rates of all steps of a path."""
