@@ -70,9 +70,10 @@ class SealingSettings(Settings):
                 f".inlet must be above the pressure at the outlet, {self.outlet:g} Pa, but is {self.inlet:g} Pa."
             )
         if self.fluid in ("liquid", "gas") and self.viscosity is None:
+            like, known = ("18uPa*s", "air") if self.fluid == "gas" else ("1mPa*s", "water")
             raise InputError(
-                f".viscosity must be given for a {self.fluid} ({{sealing.viscosity=1mPa*s}}), but is not; or name a "
-                "fluid that is known ({sealing.fluid=water})."
+                f".viscosity must be given for a {self.fluid} ({{sealing.viscosity={like}}}), but is not; or name a "
+                f"fluid that is known ({{sealing.fluid={known}}})."
             )
         if self.fluid == "gas" and self.mean_free_path is None:
             raise InputError(
