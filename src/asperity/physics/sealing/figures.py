@@ -124,7 +124,7 @@ FLOW_PLOT = Plot(
 PRESSURE_PLOT = map_of(
     "fluid_pressure",
     "Pressure of the fluid",
-    "Pressure of the fluid in the gap; blank where there is none.",
+    "Pressure of the fluid in the gap; blank where there is none. Under a mean gradient it repeats but for its fall.",
     pressure_field,
     by_step=False,
 )
@@ -158,7 +158,7 @@ def plot_factors(shown: FactorPicture, ax: Axes) -> Axes:
     """Draw the flow factors on ``ax`` against the separation, and Patir and Cheng's fits."""
     columns, along = shown.columns, str(shown.facts["direction"])
     ratio = columns["separation_ratio"]
-    labels = (f"φ along {along}", f"φ along {'yx'['xy'.index(along)]}", "φ_s")
+    labels = (f"φ along {along}", f"φ along {'yx'['xy'.index(along)]}", "$φ_s$")
     for name, color, label in zip(
         ("pressure_along", "pressure_across", "shear"), (BLUE, VERMILLION, GREEN), labels, strict=True
     ):
@@ -166,7 +166,8 @@ def plot_factors(shown: FactorPicture, ax: Axes) -> Axes:
         error = columns[f"{name}_error"]
         if np.isfinite(error).all():
             ax.fill_between(ratio, columns[name] - error, columns[name] + error, color=color, alpha=0.2, linewidth=0.0)
-    for name, color, label in (("fitted_pressure", BLACK, "Patir & Cheng, φ"), ("fitted_shear", "0.5", "their φ_s")):
+    fits = (("fitted_pressure", BLACK, "Patir & Cheng, φ"), ("fitted_shear", "0.5", "Patir & Cheng, $φ_s$"))
+    for name, color, label in fits:
         ax.plot(ratio, columns[name], color=color, linestyle="--", linewidth=0.8, label=label)
     ax.set(xlabel="separation of the mean planes / rms height", ylabel="flow factor")
     ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))

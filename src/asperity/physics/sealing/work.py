@@ -113,7 +113,7 @@ class SealingWork(WithFacts):
         values, facts = found.values, found.detail
         text = rate_text(values, facts)
         bounds = [float(values[f"leak_{side}_factor"]) for side in ("lower", "upper")]
-        between = f", {bounds[0]:.2g} to {bounds[1]:.2g} times that by how the gap goes on between the pixels"
+        between = f", {bounds[0]:.3g} to {bounds[1]:.3g} times that by how the gap goes on between the pixels"
         where = f" at {facts['where']}" if facts["where"] else ""
         between_them = " to ".join(show(facts[side], "Pa", 3) for side in ("inlet", "outlet"))
         driven = f"{facts['fluid']} from {between_them} along {facts['direction']}"
@@ -137,7 +137,10 @@ class SealingWork(WithFacts):
         throats = _throat_table(values)
         tables = (("Throats that lose half of the pressure", throats),) if throats.cells else ()
         holds, alarming = _allowed_text(values, facts, text)
-        headline = [("leak rate", text), ("equivalent gap", show(float(values["equivalent_gap"]), "m", 3))]
+        headline = [
+            ("leak rate", text.partition(" (")[2].rstrip(")") or text),
+            ("equivalent gap", show(float(values["equivalent_gap"]), "m", 3)),
+        ]
         return Words(sentence, headline, rows, tables, (REMARK,), alarming, holds)
 
 
