@@ -19,6 +19,7 @@ CRESTS = {
 WHEEL = {"semi_x": 6e-3, "semi_y": 4e-3, "shear": 8e10, "nu": 0.3}
 FILM = {"surface_tension": 0.072, "film_thickness": 1e-9}
 HEAT = {"flux": 1e8, "conductivity": 46.0, "diffusivity": 1.2e-5}
+PASSAGE = {"viscosity": 1e-3, "width": 1e-2, "length": 1e-3}
 EXAMPLES = {
     "greenwood-williamson": SUMMITS,
     "greenwood-williamson-fits": SUMMITS,
@@ -152,6 +153,21 @@ EXAMPLES = {
         "conductivity_2": 46.0,
         "diffusivity_2": 1.2e-5,
     },
+    "parallel-gap": {"gap": 1e-6, **PASSAGE, "mean_free_path": 6.8e-8},
+    "tapered-gap": {"first_gap": 1e-6, "last_gap": 2e-6, **PASSAGE},
+    "annular-gap": {"gap": 1e-6, "viscosity": 1e-3, "inner_radius": 0.02, "outer_radius": 0.025},
+    "parabolic-throat": {"gap": 1e-6, "viscosity": 1e-3, "radius": 1e-3, "width": 1e-2},
+    "parabolic-channel": {"height": 1e-6, "viscosity": 1e-3, "width": 1e-4, "length": 1e-3},
+    "saddle-throat": {"gap": 1e-7, "viscosity": 1e-3, "radius_along": 1e-5, "radius_across": 2e-5},
+    "grooved-gap": {"amplitude": 1e-8},
+    "patir-cheng": {"rms_height": 1e-8},
+    "effective-medium": {"gap": np.array([1e-6, 2e-6, 0.0]), "share": np.array([0.5, 0.4, 0.1])},
+    "obstacle-array": {},
+    "critical-junction": {
+        "E_star": 1e9,
+        "q": np.array([1e4, 1e5, 1e7]),
+        "psd": np.array([1e-22, 1e-22, 1e-29]),
+    },
 }
 """Numbers for every theory of the catalogue; a new theory is one more entry."""
 
@@ -178,5 +194,9 @@ RANGES = {
     "torque": (0.0, 1e-15),
     "creepage": (-0.01, 0.01),
     "speed": (1e-4, 1.0),
+    "drop": (0.0, 1e6),
+    "inlet": (0.0, 1e6),
+    "mean_gap": (1e-9, 1e-7),
+    "covered": (0.0, 0.78),
 }
 """Between what the arguments run."""

@@ -20,6 +20,7 @@ from agreement.conductance import CONDUCTANCE  # noqa: E402 - found by the line 
 from agreement.fields_and_films import FIELDS_AND_FILMS  # noqa: E402
 from agreement.heating import HEATING  # noqa: E402
 from agreement.matrix import MATRIX  # noqa: E402
+from agreement.sealing import SEALING  # noqa: E402
 from agreement.single_contacts import SINGLE_CONTACTS  # noqa: E402
 
 from asperity.theories.catalogue import FAMILIES, THEORIES  # noqa: E402
@@ -34,6 +35,7 @@ COLUMNS: tuple[dict[str, str], ...] = (
         "Menisci": "Menisci",
         "Conductance": "Conductance",
         "Frictional heating": "Frictional heating",
+        "Sealing": "Sealing",
         "Plasticity and hardness": "Plasticity and hardness",
         "Statistics of surfaces": "Statistics",
     },
@@ -68,7 +70,7 @@ def group_of(kind: type[Described]) -> str:
 def limits() -> dict[tuple[str, str], list[str]]:
     """Limits in which two theories of the catalogue agree, by their names."""
     found: dict[tuple[str, str], list[str]] = {}
-    for row in (*MATRIX, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *HEATING):
+    for row in (*MATRIX, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *HEATING, *SEALING):
         if row.other in THEORIES and row.other != row.theory:
             found.setdefault((row.theory, row.other), []).append(row.limit)
     return found

@@ -11,12 +11,13 @@ from agreement.fields_and_films import FIELDS_AND_FILMS
 from agreement.heating import HEATING
 from agreement.matrix import MATRIX as ROUGH_SURFACES
 from agreement.matrix import Agreement
+from agreement.sealing import SEALING
 from agreement.single_contacts import SINGLE_CONTACTS
 from reference_data import every_row
 
 from asperity.theories.catalogue import THEORIES
 
-MATRIX = (*ROUGH_SURFACES, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *HEATING)
+MATRIX = (*ROUGH_SURFACES, *SINGLE_CONTACTS, *FIELDS_AND_FILMS, *CONDUCTANCE, *HEATING, *SEALING)
 PAGE = Path(__file__).parents[2] / "docs/reference/agreement.md"
 
 

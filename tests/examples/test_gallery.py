@@ -450,6 +450,22 @@ def test_law_of_an_interface():
     assert left.frequencies["plastic, unloading"] > 1.2 * left.frequencies["plastic, loading"]
 
 
+def test_a_metal_seal():
+    """The rate falls with the load ever faster and within its brackets; nothing leaks from the
+    closing load on, at 0.3 to 0.5 of the area, and lines of flow obey the balance."""
+    left = run("advanced/plot_12_a_metal_seal")
+    rates = np.array([leak.rate for leak in left.leaks])
+    assert (np.diff(np.log(rates)) / np.diff(left.loads) < 0.0).all()
+    slopes = np.diff(np.log(rates)) / np.diff(np.log(left.loads))
+    assert (np.diff(slopes) < 0.0).all()
+    assert all(leak.bracket.lower <= leak.rate <= leak.bracket.upper for leak in left.leaks)
+    assert 0.3 < left.closing.open_fraction <= left.closing.closed_fraction < 0.5
+    sealed = asp.sealing.leakage(asp.solve(left.problem, asp.MeanPressure(left.closing.upper)), left.helium, 2e5)
+    assert sealed.sealed
+    assert sealed.rate == 0.0
+    assert left.flow.section_error < 1e-8
+
+
 @pytest.mark.slow
 def test_a_coating_that_bends():
     """The coating carries more and leaves a shallower imprint; it is pulled beneath the tip from

@@ -13,6 +13,15 @@ from study_cases import plan
 
 import asperity as asp
 
+SEAL: dict[str, Any] = {
+    "version": 2,
+    "surface": {"kind": "bisinusoid", "points": [16, 16], "size": "1 um", "amplitude": "1 nm", "wavelength": "1 um"},
+    "body": "E=100GPa,nu=0.3",
+    "control": {"mean_pressure": "1 MPa"},
+    "sealing": {},
+}
+"""A contact that leaks."""
+
 FLOWS = ("--body", "E=200GPa,nu=0.3,Y=400MPa")
 RUBBER = ("--body", "E=1GPa+1GPa@1s,nu=0.4,name=rubber")
 ON_RUBBER = ("--body", "rigid", "--counter", RUBBER[1], *LOAD, "--sliding-speed", "1mm/s")
@@ -598,6 +607,55 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "a heat sink at the surface": lambda: asp.heating.HeatedInterface(sink=(0.0, 1.0)),
     "bodies colder than nothing": lambda: asp.heating.HeatedInterface(bulk=(-1.0, 1.0)),
     "a heat capacity of zero": lambda: asp.solids.Conduction(volumetric_heat_capacity=0.0),
+    "leakage along one point": lambda: asp.run(
+        SEAL
+        | {"surface": {"kind": "cylinder", "points": [1, 16], "size": "1 um x 8 um", "radius": "9 um", "axis": "x"}}
+    ),
+    "a mean gradient along what does not repeat": lambda: asp.run(
+        SEAL | {"boundary": {"kind": "free"}, "control": {"force": "1 mN"}, "sealing": {"driven": "gradient"}}
+    ),
+    "a leak at a step that is not there": lambda: asp.run(SEAL | {"sealing": {"step": 3}}),
+    "a leak at a step beyond the path": lambda: asp.run(
+        SEAL | {"control": {"path": {"mean_pressure": ["1 MPa", "2 MPa"], "steps": 1}}, "sealing": {"step": 7}}
+    ),
+    "closing load without a mean pressure": lambda: asp.run(
+        SEAL | {"boundary": {"kind": "free"}, "control": {"force": "1 mN"}, "sealing": {"closing": True}}
+    ),
+    "flow factors of a contact that does not repeat": lambda: asp.run(
+        {**SEAL, "boundary": {"kind": "free"}, "control": {"force": "1 mN"}, "sealing": None, "flow_factors": {}}
+    ),
+    "flow factors of a flat surface": lambda: asp.run(
+        {**SEAL, "surface": {"kind": "flat", "points": [8, 8], "size": "1 um"}, "sealing": None, "flow_factors": {}}
+    ),
+    "flow factors at no separation": lambda: asp.sealing.tabulated_flow_factors(_solved().problem, ()),
+    "flow factors of a negative separation": lambda: asp.sealing.tabulated_flow_factors(_solved().problem, (-1.0,)),
+    "flow factors of summits that melt": lambda: asp.sealing.tabulated_flow_factors(
+        _solved().problem,
+        (3.0,),
+        overlap="melted",  # type: ignore[arg-type]
+    ),
+    "a leak uphill": lambda: asp.sealing.leakage(_solved(), asp.sealing.ViscousLiquid(1e-3), 1e5, 2e5),
+    "a leak of a gas below vacuum": lambda: asp.sealing.leakage(
+        _solved(), asp.sealing.IdealGas(1.8e-5, 6.8e-8), 1e5, -1e4
+    ),
+    "a leak along z": lambda: asp.sealing.leakage(
+        _solved(),
+        asp.sealing.ViscousLiquid(1e-3),
+        1e5,
+        way="z",  # type: ignore[arg-type]
+    ),
+    "a liquid without viscosity": lambda: asp.sealing.ViscousLiquid(0.0),
+    "a gas that is thrown back by more than all": lambda: asp.sealing.IdealGas(1.8e-5, 6.8e-8, 1.5),
+    "a gap of another grid": lambda: asp.sealing.flow_through(np.ones((4, 4)), asp.Grid((4, 5), (1e-6, 1e-6))),
+    "a gap that is negative": lambda: asp.sealing.flow_through(-np.ones((4, 4)), asp.Grid((4, 4), (1e-6, 1e-6))),
+    "closing loads in the wrong order": lambda: asp.sealing.closing_load(_solved().problem, (2e6, 1e6)),
+    "closing loads at which all is closed": lambda: asp.sealing.closing_load(_solved().problem, (1e3, 2e3)),
+    "fits of Patir and Cheng that do not exist": lambda: asp.theories.PatirCheng(1e-6, 2.0),
+    "obstacles that meet": lambda: asp.theories.ObstacleArray().at_covered(0.8),
+    "a flange inside out": lambda: asp.theories.AnnularGap(1e-6, 1e-3, 2e-2, 1e-2),
+    "gaps and other shares": lambda: asp.theories.EffectiveMedium([1e-6, 2e-6], [1.0]),
+    "a medium without gaps": lambda: asp.theories.EffectiveMedium([0.0]),
+    "gas against its pressure": lambda: asp.theories.ParallelGap(1e-6, 1e-5, 1e-2, 1e-3).at_inlet(1e5, 2e5),
     "an axis too long": lambda: plan(
         axes=[{"path": "control.mean_pressure", "first": "1 MPa", "last": "2 MPa", "count": 1_000_000_000}]
     ),

@@ -22,6 +22,7 @@ STICKY = SOFT | {"adhesion": {"work": "50 mJ/m**2", "range": "100 nm"}, "control
 RUBBER = BALL | {"body": "E=3MPa+297MPa@1ms,nu=0.5", "control": {"force": "20 uN"}}
 WET = PLAIN | {"film": {"liquid": "water", "humidity": "60 %"}}
 SLIDE = PLAIN | {"friction": {"coefficient": 0.3}, "shear": {"shift": "0.4 nm"}}
+LEAKING = PLAIN | {"body": "E=100GPa,nu=0.3", "control": {"mean_pressure": "20 MPa"}, "sealing": {}}
 DOWN = {"path": {"mean_pressure": ["20 MPa", "0 MPa"], "steps": 3}}
 
 DOCUMENTS: dict[str, dict[str, Any]] = {
@@ -107,6 +108,16 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
     },
     "a sliding contact beyond the limits": PLAIN
     | {"body": "PMMA{alpha=70e-6/K}", "counter_body": "mild steel", "heating": {"speed": "300 m/s", "friction": 0.5}},
+    "a seal that leaks": LEAKING,
+    "a seal that is tight enough": LEAKING | {"sealing": {"allowed_rate": "1 mm^3/s"}},
+    "a seal that is not tight": LEAKING | {"sealing": {"fluid": "helium", "allowed_throughput": "1e-12 mbar*l/s"}},
+    "a seal that is tight within the pixels only": LEAKING
+    | {"control": {"mean_pressure": "200 MPa"}, "sealing": {"allowed_rate": "4.05e-10 mm^3/s"}},
+    "a seal with a throat of a pixel": LEAKING | {"control": {"mean_pressure": "320 MPa"}},
+    "a seal that closes": LEAKING | {"control": {"mean_pressure": "1 GPa"}, "sealing": {"allowed_rate": "1 mm^3/s"}},
+    "a seal loaded until it closes": LEAKING
+    | {"control": {"path": {"mean_pressure": ["20 MPa", "100 MPa", "1 GPa"], "steps": 1}}},
+    "flow factors": PLAIN | {"flow_factors": {"points": 3, "realisations": 2}},
     "plastic flow in the volume": SOFT | {"plastic_flow": {"steps": 2, "cells": 4}, "control": {"force": "20 mN"}},
     "a load at which it becomes plastic": PLAIN
     | {"law": {"kind": "hardness", "hardness": "from body"}, "plastic_load": {}},

@@ -151,6 +151,7 @@ PARTS = (
     "physics.conductance.part:Conductance",
     "physics.sealing.part:Sealing",
     "physics.heating.part:Heating",
+    "physics.sealing.part_flow_factors:FlowFactors",
     "physics.dynamics.part:Dynamics",
     "physics.indentation.part:Indentation",
     "physics.indentation.part_passes:Passes",

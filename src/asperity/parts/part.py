@@ -305,6 +305,9 @@ class Part(Work):
     work: ClassVar[str] = ""
     """Module and name of the ``Work`` of a part of this package, such as
     ``physics.rolling.work:RollingWork``."""
+    sheet: ClassVar[tuple[str, str]] = ("", "")
+    """Name of the table that a run leaves in its folder, for other programs, and the axis of the
+    quantities that are its columns; empty for none."""
     whole_path: ClassVar[bool] = False
     """Whether it needs all steps of a load path."""
     answers: ClassVar[bool] = True

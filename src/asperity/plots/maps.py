@@ -240,7 +240,7 @@ def plot_field(values: RealArray, grid: Grid, ax: Axes, look: Look) -> Axes:
     from matplotlib.ticker import FuncFormatter, NullFormatter
 
     in_unit = scale(values, look.unit)
-    title = f"{look.label} ({in_unit.symbol})"
+    title = f"{look.label} ({in_unit.symbol})" if in_unit.symbol else look.label
     drawn = in_unit(values)
     if 1 in grid.shape:
         axis = 0 if grid.shape[0] >= grid.shape[1] else 1

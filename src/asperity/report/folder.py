@@ -3,9 +3,15 @@ every shell."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+
+from ..core.quantity import Quantity
 from ..io.export import export_csv
+from ..io.tables import write_table
 from ..plots.together import drawing, save_pictures
 from ..run.document import ProblemDocument, dumps, save_document
 from ..run.execute import Outcome
@@ -22,7 +28,21 @@ PATH, STRESSES = "path.csv", "stress.csv"
 def names_in_folder(outcome: Outcome) -> tuple[str, ...]:
     """Names of what ``write_run`` writes for ``outcome``."""
     stressed = (STRESSES,) if "stress" in outcome.found else ()
-    return (*NAMES, *stressed, *((PATH,) if outcome.path else ()))
+    return (*NAMES, *stressed, *(name for name, _ in sheets(outcome)), *((PATH,) if outcome.path else ()))
+
+
+def sheets(outcome: Outcome) -> Iterator[tuple[str, Iterator[tuple[Any, ...]]]]:
+    """Name and rows, the headings first, of each table that parts leave for other programs."""
+    for part in outcome.parts:
+        name, axis = part.sheet
+        if name and part.name in outcome.found:
+            values = outcome.found[part.name].values
+            yield name, _rows([(item, values[item.name]) for item in part.quantities if item.dims == (axis,)])
+
+
+def _rows(columns: list[tuple[Quantity, Any]]) -> Iterator[tuple[Any, ...]]:
+    yield tuple(f"{item.name} ({item.unit})" for item, _ in columns)
+    yield from zip(*(np.atleast_1d(column).tolist() for _, column in columns), strict=True)
 
 
 def write_run(outcome: Outcome, folder: Path, document: ProblemDocument) -> None:
@@ -45,3 +65,5 @@ def write_parts(outcome: Outcome, folder: Path, document: ProblemDocument | None
     write_report(outcome, folder / "report.html", document=text, title=title)
     if "stress" in outcome.found:
         export_csv(outcome.found["stress"].detail, folder / STRESSES)
+    for name, rows in sheets(outcome):
+        write_table(rows, folder / name)

@@ -45,6 +45,9 @@ from .rough.majumdar_bhushan import MajumdarBhushan
 from .rough.persson import Persson
 from .rough.profile_peaks import OnionsArchard, SampledPeaks
 from .rough.rubber_friction import PerssonFriction
+from .sealing.gaps import AnnularGap, ParabolicChannel, ParabolicThroat, ParallelGap, SaddleThroat, TaperedGap
+from .sealing.media import CriticalJunction, EffectiveMedium, ObstacleArray
+from .sealing.roughness import GroovedGap, PatirCheng
 from .single.conforming import CylinderInHole, PinInHole, SphereInCavity
 from .single.hertz import HertzBodies, HertzEllipse, HertzLine, HertzPoint
 from .single.indenters import (
@@ -157,6 +160,19 @@ FAMILIES: MappingProxyType[str, tuple[type[Described], ...]] = MappingProxyType(
         "Menisci": (WetSummits, GrowingMenisci, DropletMeniscus, FilmMeniscus, VapourMeniscus),
         "Conductance": (PlasticJoint, ElasticJoint, MeanGapJoint, HolmSpot, SpotCluster),
         "Frictional heating": (MovingHeatSource, JaegerBand, TianKennedy, BlokFlash),
+        "Sealing": (
+            ParallelGap,
+            TaperedGap,
+            AnnularGap,
+            ParabolicThroat,
+            ParabolicChannel,
+            SaddleThroat,
+            GroovedGap,
+            PatirCheng,
+            EffectiveMedium,
+            ObstacleArray,
+            CriticalJunction,
+        ),
     }
 )
 """Theories by what they are about."""

@@ -13,7 +13,8 @@ from asperity.core.errors import InputError
 from asperity.core.grid import Grid
 from asperity.core.units import parse
 from asperity.physics.sealing.flow import GapFlow, flow_through
-from asperity.physics.sealing.fluids import ATMOSPHERE, GASES, IdealGas, Leak, ViscousLiquid
+from asperity.physics.sealing.fluids import GASES, IdealGas, Leak, ViscousLiquid
+from asperity.theories.sealing.gaps import ATMOSPHERE
 
 GRID = Grid((48, 48), (1e-5, 1e-5))
 AIR = GASES["air"]

@@ -11,9 +11,9 @@ have none.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar, Literal, TypeAlias
 
 import numpy as np
 
@@ -29,6 +29,12 @@ from ...core.quantity import Quantity
 from .flow import FlowTensor, flow_tensor
 from .network import Network
 from .solver import Method
+
+Overlap: TypeAlias = Literal["deformed", "cut"]
+"""What becomes of summits that reach beyond the other surface: the contact is solved, or they are
+cut off as Patir and Cheng have it."""
+
+OVERLAPS = ("deformed", "cut")
 
 COLUMNS = (
     Quantity("separation_over_roughness", "1", "separation of the mean planes / rms height", symbol="H/σ"),
@@ -74,6 +80,11 @@ class FlowFactors(Tabled):
     def __len__(self) -> int:
         """Number of separations."""
         return int(self.separation_over_roughness.size)
+
+    def table(self) -> Iterator[tuple[Any, ...]]:
+        """Its rows for ``export_csv``, the headings first."""
+        yield tuple(f"{item.name} ({item.unit})" for item in COLUMNS)
+        yield from zip(*(getattr(self, item.name) for item in COLUMNS), strict=True)
 
 
 def flow_factors(
@@ -148,10 +159,14 @@ def shear_flows(tensor: FlowTensor) -> RealArray:
 
 
 def tabulated_flow_factors(
-    problem: ContactProblem, separations: Iterable[float], *, method: Method = "auto"
+    problem: ContactProblem,
+    separations: Iterable[float],
+    *,
+    overlap: Overlap = "deformed",
+    method: Method = "auto",
 ) -> FlowFactors:
     """Flow factors of a rough contact that repeats at several ``separations`` of the mean planes
-    over the rms height, with the surfaces deformed where they touch.
+    over the rms height.
 
     Parameters
     ----------
@@ -160,6 +175,8 @@ def tabulated_flow_factors(
         where the surfaces do not touch the profile is only shifted.
     separations
         H/σ, each > 0.
+    overlap
+        ``"deformed"`` where the surfaces touch, or ``"cut"`` off there, as Patir and Cheng have it.
     method
         As of ``flow_through``.
 
@@ -168,21 +185,17 @@ def tabulated_flow_factors(
     InputError
         If the contact does not repeat, the profile is flat, or a separation is not > 0.
     """
-    if problem.boundary.wraps != (True, True):
-        raise InputError(
-            f"boundary of flow factors must be periodic, but is {problem.boundary.name}: they are averages over a "
-            "surface that repeats."
-        )
+    require.one_of(overlap, OVERLAPS, "overlap of flow factors")
+    sigma = require_averaged(problem)
     profile = np.asarray(problem.profile())
-    sigma = float(profile.std())
-    if sigma == 0.0:
-        raise InputError("surface of flow factors must be rough, but is flat.")
     rows = []
     for ratio in separations:
         height = require.positive(ratio, "separation over roughness") * sigma
         shifted = height - (profile - profile.mean())
         pressure = 0.0
-        if shifted.min() < 0.0:
+        if shifted.min() < 0.0 and overlap == "cut":
+            shifted, pressure = np.maximum(shifted, 0.0), np.nan
+        elif shifted.min() < 0.0:
             result = solve(problem, MeanGap(height))
             shifted, pressure = np.where(result.contact, 0.0, result.gap), result.mean_pressure
         row = flow_factors(shifted, problem.grid, sigma, separation=height, mean_pressure=pressure, method=method)
@@ -191,3 +204,35 @@ def tabulated_flow_factors(
         raise InputError("separations of flow factors must hold at least one number, but hold none.")
     names = [item.name for item in COLUMNS]
     return FlowFactors(*(np.concatenate([getattr(row, name) for row in rows]) for name in names))
+
+
+def require_averaged(problem: ContactProblem) -> float:
+    """Rms height σ in m of the profile of a ``problem`` over which flow factors are averages.
+
+    Raises
+    ------
+    InputError
+        If the contact does not repeat, or the profile is flat or a line.
+    """
+    if problem.boundary.wraps != (True, True):
+        raise InputError(
+            f"boundary of flow factors must be periodic, but is {problem.boundary.name}: they are averages over a "
+            "surface that repeats. Choose {boundary.kind=periodic}."
+        )
+    if min(problem.grid.shape) < 2:
+        raise InputError(
+            f"surface of flow factors must have points along x and y, but has {problem.grid.shape[0]} x "
+            f"{problem.grid.shape[1]}."
+        )
+    sigma = float(np.std(problem.profile()))
+    if sigma == 0.0:
+        raise InputError("surface of flow factors must be rough, but is flat: give the one with the roughness.")
+    return sigma
+
+
+def with_its_spectrum(heights: RealArray, seed: int) -> RealArray:
+    """Heights (nx, ny) of a Gaussian surface with the power spectrum of ``heights`` and random
+    phases by the ``seed``."""
+    white = np.fft.rfft2(np.random.default_rng(seed).standard_normal(heights.shape))
+    size = np.abs(np.fft.rfft2(heights - heights.mean()))
+    return np.asarray(np.fft.irfft2(size * np.exp(1j * np.angle(white)), s=heights.shape))

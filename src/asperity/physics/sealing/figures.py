@@ -1,5 +1,5 @@
 """Figures of sealing: where the fluid flows and which throats decide, its pressure, the path of
-contact that closes the gap, leak rates against the load."""
+contact that closes the gap, leak rates against the load; flow factors."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from ...contact.problem import ContactProblem
 from ...core.arrays import RealArray
 from ...plots.maps import Field, Kinds, Look, map_of, plot_classes, plot_map
-from ...plots.picture import BLACK, BLUE, VERMILLION, Plot, legend_above, scale
+from ...plots.picture import BLACK, BLUE, GREEN, VERMILLION, Plot, legend_above, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -124,7 +124,7 @@ FLOW_PLOT = Plot(
 PRESSURE_PLOT = map_of(
     "fluid_pressure",
     "Pressure of the fluid",
-    "Pressure of the fluid in the gap; blank where there is none.",
+    "Pressure of the fluid in the gap; blank where there is none. Under a mean gradient it repeats but for its fall.",
     pressure_field,
     by_step=False,
 )
@@ -140,4 +140,44 @@ PATH_PLOT = Plot(
     "Leak rate against the load",
     "Leak rate at each step of the load path, of a gas at one atmosphere, and the load at which the gap closes.",
     plot_path,
+)
+
+
+# Flow factors.
+
+
+@dataclass(frozen=True, eq=False)
+class FactorPicture:
+    """What the figure of flow factors is drawn from: columns of the table by their names."""
+
+    columns: Mapping[str, RealArray]
+    facts: Mapping[str, Any]
+
+
+def plot_factors(shown: FactorPicture, ax: Axes) -> Axes:
+    """Draw the flow factors on ``ax`` against the separation, and Patir and Cheng's fits."""
+    columns, along = shown.columns, str(shown.facts["direction"])
+    ratio = columns["separation_ratio"]
+    labels = (f"φ along {along}", f"φ along {'yx'['xy'.index(along)]}", "$φ_s$")
+    for name, color, label in zip(
+        ("pressure_along", "pressure_across", "shear"), (BLUE, VERMILLION, GREEN), labels, strict=True
+    ):
+        ax.plot(ratio, columns[name], color=color, marker=".", label=label)
+        error = columns[f"{name}_error"]
+        if np.isfinite(error).all():
+            ax.fill_between(ratio, columns[name] - error, columns[name] + error, color=color, alpha=0.2, linewidth=0.0)
+    fits = (("fitted_pressure", BLACK, "Patir & Cheng, φ"), ("fitted_shear", "0.5", "Patir & Cheng, $φ_s$"))
+    for name, color, label in fits:
+        ax.plot(ratio, columns[name], color=color, linestyle="--", linewidth=0.8, label=label)
+    ax.set(xlabel="separation of the mean planes / rms height", ylabel="flow factor")
+    ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+    return legend_above(ax, columns=3)
+
+
+FACTORS_PLOT = Plot(
+    "flow_factors",
+    "Flow factors",
+    "Flow by pressure over that of smooth surfaces at the same separation, φ, and what the roughness carries by shear, "
+    "φ_s; dashed the isotropic fits of Patir and Cheng. Bands are standard errors.",
+    plot_factors,
 )

@@ -24,6 +24,7 @@ from ...core import require
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
+from ...theories.sealing.gaps import Bounds
 from .network import Labels, Network, checked_gap, clusters, network, open_cells
 from .solver import Method, System
 
@@ -31,14 +32,6 @@ Way: TypeAlias = Literal["x", "y"]
 """Direction along the grid in which fluid is driven."""
 
 WAYS: tuple[Way, Way] = ("x", "y")
-
-
-@dataclass(frozen=True, eq=False)
-class Bounds:
-    """Lower and upper bound of a number."""
-
-    lower: float
-    upper: float
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,21 +18,16 @@ import numpy as np
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
+from ...theories.sealing.gaps import ATMOSPHERE
 from .flow import GapFlow
 from .network import network
 from .solver import System
-
-ATMOSPHERE = 101325.0
-"""Pressure in Pa at which mean free paths are given."""
 
 GAS_CONSTANT = 8.31446261815324
 """Molar gas constant, J/(mol K)."""
 
 ROOM = 293.15
 """Temperature in K of the table of gases."""
-
-SLIP = 0.1
-"""Knudsen number up to which slip of first order holds."""
 
 ROUNDS, TOLERANCE = 60, 1e-10
 """Rounds of the pressure of a gas that slips at most, and the relative change at which they end."""
@@ -134,16 +129,18 @@ class IdealGas:
         if flow.sealed or self.slip_length == 0.0:
             inside = np.sqrt(np.maximum(outlet**2 + 2.0 * squares * _driven(flow), 0.0))
             return Leak(plain, inside, 0.0, 1.0)
+        at = np.full(flow.gap.shape, mean)
         if flow.repeats:
             slipping = _with_slip(flow, self.slip_length / mean)
             rate = slipping.rate * squares / (12.0 * self.viscosity)
             inside = np.sqrt(np.maximum(outlet**2 + 2.0 * squares * _driven(slipping), 0.0))
         else:
             rate, inside = _slipping(flow, self, inlet, outlet)
+            at = inside
         gap = flow.gap[flow.net.carrying]
         # where most of the gas passes: weighted by what is dissipated
         spent = flow.dissipated[flow.net.carrying]
-        number = float((spent * self.slip_length / (gap * inside[flow.net.carrying])).sum() / spent.sum())
+        number = float((spent * self.slip_length / (gap * at[flow.net.carrying])).sum() / spent.sum())
         return Leak(rate, inside, number, rate / plain)
 
 

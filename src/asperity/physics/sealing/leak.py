@@ -16,9 +16,10 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.status import Advice
 from ...core.units import percent
+from ...theories.sealing.gaps import SLIP, Bounds
 from .estimates import Estimates, estimates_of
-from .flow import WAYS, Bounds, GapFlow, Way, flow_through
-from .fluids import SLIP, IdealGas, Leak, ViscousLiquid
+from .flow import WAYS, GapFlow, Way, flow_through
+from .fluids import IdealGas, Leak, ViscousLiquid
 from .network import clusters, open_cells
 from .throats import RESOLVED, Throats, throats, through_corners, through_noise
 
@@ -238,12 +239,11 @@ def _resolution(leak: Leakage) -> list[Advice]:
         made.append(Advice("warning", "gap of the leak", fact, "Take a finer grid ({resample}).", {}, CONCERNS))
     found = leak.throats
     if not leak.sealed and not found.resolved:
-        share = sum(item.share for item in found.places if not item.resolved)
         below = leak.bracket.lower / leak.rate, leak.bracket.upper / leak.rate
         fact = (
             f"The leak rate is not resolved: the narrowest throat is {found.pixels:.2g} pixels wide where {RESOLVED} "
-            f"are needed, and such throats lose {percent(share)} of the pressure. With the saddle of the gap in them "
-            f"the rate is from {below[0]:.2g} to {below[1]:.2g} times as large."
+            f"are needed, and such throats lose {percent(found.narrow)} of the pressure. With the saddle of the gap "
+            f"in them the rate is from {below[0]:.2g} to {below[1]:.2g} times as large."
         )
         numbers = {
             "pixels": found.pixels,

@@ -62,6 +62,9 @@ class SealingSettings(Settings):
         option="--leak-step",
         help="Of a load path: peak for that of the largest load, last, or its number from 1",
     )
+    closing: bool = setting(
+        False, option="--closing-load", help="Find the mean pressure at which the gap closes, by some ten solves"
+    )
     allowed_rate: VolumeRate | None = setting(
         None, option="--allowed-leak-rate", help="Of a liquid, to compare with: 1mm^3/s"
     )
@@ -81,9 +84,10 @@ class SealingSettings(Settings):
                 "({sealing.two_way=true})."
             )
         if self.fluid in ("liquid", "gas") and self.viscosity is None:
+            like, known = ("18uPa*s", "air") if self.fluid == "gas" else ("1mPa*s", "water")
             raise InputError(
-                f".viscosity must be given for a {self.fluid} ({{sealing.viscosity=1mPa*s}}), but is not; or name a "
-                "fluid that is known ({sealing.fluid=water})."
+                f".viscosity must be given for a {self.fluid} ({{sealing.viscosity={like}}}), but is not; or name a "
+                f"fluid that is known ({{sealing.fluid={known}}})."
             )
         if self.fluid == "gas" and self.mean_free_path is None:
             raise InputError(

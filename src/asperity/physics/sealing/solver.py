@@ -31,7 +31,7 @@ Method: TypeAlias = Literal["auto", "direct", "multigrid"]
 
 METHODS = ("auto", "direct", "multigrid")
 
-DIRECT, POROUS = 400_000, 1_500_000
+DIRECT, POROUS = 100_000, 1_500_000
 """Unknowns up to which a system is factorised where multigrid is there, too; more where contact
 takes away many of the cells, where a factorisation of 0.7 million takes 5 s and the solution by
 multigrid 12 s."""

@@ -9,18 +9,23 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ...contact.controls import Control, MeanPressure, Step
 from ...contact.problem import ContactProblem
 from ...contact.result import ContactResult
+from ...contact.solve import solve
 from ...core.errors import InputError
 from ...core.units import percent, show
 from ...io.words import value_text
 from ...parts.part import Found, Reached, Rows, Solved, Table, WithFacts, Words
 from ...plots.picture import Figure, figures_by
+from ...theories.sealing.gaps import ATMOSPHERE
 from .figures import CLOSED_PLOT, FLOW_PLOT, PATH_PLOT, PRESSURE_PLOT, LeakPicture
-from .fluids import ATMOSPHERE, FLUIDS, IdealGas, ViscousLiquid
+from .flow import Way
+from .fluids import FLUIDS, IdealGas, ViscousLiquid
 from .leak import Fluid, Leakage, leakage
 from .part import SCALARS, SealingSettings
 from .physics import FluidPressure
+from .threshold import closing_load, passes
 from .throats import closed_path
 
 HOURS = 3600.0
@@ -44,6 +49,20 @@ class SealingWork(WithFacts):
                 f"sealing.driven must be sides or auto where the contact does not repeat along {ask.direction}, but "
                 "is gradient ({sealing.driven=sides})."
             )
+        if ask.closing and not any(problem.boundary.wraps):
+            raise InputError(
+                f"sealing.closing must be left out for the boundary {problem.boundary.name}, whose contact has no mean "
+                "pressure, but is given; choose {boundary.kind=periodic}, or a load path."
+            )
+
+    def course(self, ask: SealingSettings, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
+        """The same steps; refuses one that is not among them."""
+        if not isinstance(ask.step, str) and int(ask.step) > len(controls):
+            raise InputError(
+                f"sealing.step must be from 1 to {len(controls)}, those of the load, but is {ask.step:g}; take the "
+                "last ({sealing.step=last})."
+            )
+        return controls
 
     @staticmethod
     def joined(ask: SealingSettings) -> dict[str, Any]:
@@ -60,6 +79,8 @@ class SealingWork(WithFacts):
             values: dict[str, Any] = {"sealing_pressure": math.nan, **_numbers(leak), **_fields(leak)}
             if solved.path is not None:
                 values |= _path(ask, solved, leak, reached.number)
+            if ask.closing:
+                values["sealing_pressure"] = _closing(ask, solved, reached.result)
         places = leak.throats.places
         values |= {
             f"throat_{name}": np.array([getattr(item, name) for item in places])
@@ -101,12 +122,12 @@ class SealingWork(WithFacts):
         values, facts = found.values, found.detail
         text = rate_text(values, facts)
         bounds = [float(values[f"leak_{side}_factor"]) for side in ("lower", "upper")]
-        between = f", {bounds[0]:.2g} to {bounds[1]:.2g} times that by how the gap goes on between the pixels"
+        between = f", {bounds[0]:.3g} to {bounds[1]:.3g} times that by how the gap goes on between the pixels"
         where = f" at {facts['where']}" if facts["where"] else ""
         between_them = " to ".join(show(facts[side], "Pa", 3) for side in ("inlet", "outlet"))
         driven = f"{facts['fluid']} from {between_them} along {facts['direction']}"
         if facts["sealed"]:
-            sentence = f"The contact seals{where}: a closed path of contact lies across, and nothing leaks ({driven})."
+            sentence = f"The contact seals{where}, leak rate {text}: a closed path of contact lies across ({driven})."
         else:
             sentence = f"The contact leaks {text}{where} ({driven}){between}."
         if not facts["resolved"]:
@@ -125,7 +146,10 @@ class SealingWork(WithFacts):
         throats = _throat_table(values)
         tables = (("Throats that lose half of the pressure", throats),) if throats.cells else ()
         holds, alarming = _allowed_text(values, facts, text)
-        headline = [("leak rate", text), ("equivalent gap", show(float(values["equivalent_gap"]), "m", 3))]
+        headline = [
+            ("leak rate", text.partition(" (")[2].rstrip(")") or text),
+            ("equivalent gap", show(float(values["equivalent_gap"]), "m", 3)),
+        ]
         remark = REMARK.format(TWO_WAY if facts.get("two_way") else ONE_WAY)
         return Words(sentence, headline, rows, tables, (remark,), alarming, holds)
 
@@ -229,6 +253,26 @@ def _path(ask: SealingSettings, solved: Solved, leak: Leakage, number: int) -> d
         "path_transmissivity": np.array(cubes),
         "sealing_pressure": closing,
     }
+
+
+FURTHEST, FINENESS = 12, 6
+"""Doublings of the load at most until the gap has closed or opened, and halvings then: a closing
+load is known to 0.5 % of itself."""
+
+
+def _closing(ask: SealingSettings, solved: Solved, result: ContactResult) -> float:
+    """Mean pressure in Pa at which the gap closes on first loading, the middle of the interval in
+    which it is known to lie; NaN where it is beyond a thousandfold of the load."""
+    way: Way = "y" if ask.direction == "y" else "x"
+    load = result.mean_pressure
+    opens = passes(result, way)
+    factor = 2.0 if opens else 0.5
+    for _ in range(FURTHEST):
+        load *= factor
+        if passes(solve(solved.problem, MeanPressure(load)), way) is not opens:
+            found = closing_load(solved.problem, tuple(sorted((load, load / factor))), way=way, rounds=FINENESS)
+            return math.sqrt(found.lower * found.upper)
+    return math.nan
 
 
 # In words and tables.
