@@ -375,6 +375,19 @@ def test_flow_below_a_rough_coating():
 
 
 @pytest.mark.slow
+def test_gold_plated_connector():
+    """More load and more gold make less resistance, and all less than one circle of nickel as large
+    as the area, load over hardness; patches in parallel share it."""
+    left = run("advanced/plot_13_gold_plated_connector")
+    assert np.all(np.diff(left.milliohm, axis=2) < 0.0)
+    assert np.all(np.diff(left.milliohm, axis=0) < 0.0)
+    one_circle = 1e3 * 69.3e-9 / (2.0 * np.sqrt(left.loads / 1.8e9 / math.pi))
+    assert np.all(left.milliohm < one_circle)
+    assert left.flow.spots.needed() < left.flow.spots.flow.size / 3
+    assert left.number == pytest.approx(98.4, abs=0.1)
+
+
+@pytest.mark.slow
 def test_shakedown_of_a_roller():
     """Below the limit flow ceases, above it goes on; a compression below the surface protects, and
     pulls nothing across the plane as a whole."""

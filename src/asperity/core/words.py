@@ -96,12 +96,12 @@ ACTIONS = MappingProxyType(
         "yield_stress": Action("Strength(yield_stress=...)", '"steel{Y=400MPa}" in --body', "Bodies: Yield stress"),
         "electrical_resistivity": Action(
             "conduction=solids.Conduction(electrical_resistivity=17e-9)",
-            '"copper{rho=17nohm*m}" in --body',
+            '{rho=17nohm*m} behind its name, as in --body "copper{rho=17nohm*m}"',
             "Bodies: Electrical resistivity",
         ),
         "thermal_conductivity": Action(
             "conduction=solids.Conduction(thermal_conductivity=50.0)",
-            '"steel{k=50W/m/K}" in --body',
+            '{k=50W/m/K} behind its name, as in --body "steel{k=50W/m/K}"',
             "Bodies: Thermal conductivity",
         ),
         "volumetric_heat_capacity": Action(

@@ -105,6 +105,14 @@ def test_a_loaded_and_unloaded_joint() -> None:
     assert all(figure.picture for figure in outcome.figures["conductance"])
     words = next(words for part, words in outcome.sections if part.name == "conductance")
     assert [len(table.cells) for _, table in words.tables] == [2]
+    half = 0.5 * max(pressures)
+    ratio = np.interp(half, pressures[: peak - 1 : -1], along[: peak - 1 : -1]) / np.interp(
+        half, pressures[: peak + 1], along[: peak + 1]
+    )
+    assert ratio > 1.02
+    assert f"{ratio:.2g}" in words.sentence
+    elastic = asp.run(JOINT | {"body": "nickel", "control": control, "conductance": {"flow": "thermal"}})
+    assert "Unloaded" not in next(words for part, words in elastic.sections if part.name == "conductance").sentence
 
 
 def test_few_pixels_are_warned_of() -> None:
@@ -114,7 +122,10 @@ def test_few_pixels_are_warned_of() -> None:
 
 
 REFUSED = {
-    "no conductivity at all": ({"body": "E=1GPa,nu=0.3", "conductance": {}}, "electrical resistivity of body"),
+    "no conductivity at all": (
+        {"body": "E=1GPa,nu=0.3", "conductance": {}},
+        "electrical resistivity of body or thermal conductivity of body",
+    ),
     "no resistivity": ({"body": "alumina", "conductance": {"flow": "both"}}, "electrical resistivity of alumina"),
     "no conductivity of a layer": (
         {"body": "DLC:5nm/nickel", "conductance": {"flow": "thermal"}},

@@ -3,6 +3,7 @@ conductance over the load of a path."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
@@ -37,6 +38,9 @@ class Flowing:
 UNITS = {"electrical": "S/m²", "thermal": "W/(m²·K)"}
 """Of flux density per unit drop."""
 
+PREFIXES = ("", "k", "M", "G", "T", "P")
+"""Of a thousand and its powers."""
+
 
 def density_field(shown: Flowing, flow: str) -> Field:
     """Flux density per unit drop, on three decades; no flow is blank."""
@@ -66,13 +70,15 @@ def plot_path(shown: Flowing, ax: Axes, flow: str) -> Axes:
     unloading."""
     values, pressure = shown.path[flow], shown.pressure
     in_pa = scale(pressure, "Pa")
+    power = int(np.clip(math.log10(max(float(values.max()), 1.0)) // 3, 0, len(PREFIXES) - 1))
+    values = values / 1000.0**power
     top = int(np.argmax(pressure))
     for part, colour, label in ((slice(0, top + 1), BLUE, "loading"), (slice(top, None), VERMILLION, "unloading")):
         if values[part].size > 1 or label == "loading":
             ax.plot(in_pa(pressure[part]), values[part], color=colour, marker=".", label=label)
     ax.set(
         xlabel=f"mean pressure ({in_pa.symbol})",
-        ylabel=f"{flow} conductance per area ({UNITS[flow]})",
+        ylabel=f"{flow} conductance per area ({PREFIXES[power]}{UNITS[flow]})",
         xlim=(0.0, None),
         ylim=(0.0, None),
     )

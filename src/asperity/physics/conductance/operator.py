@@ -244,8 +244,9 @@ def harmonic_mean(body: Body, counter_body: Body, flow: Flow) -> float:
         If the conductivity of a material is not known.
     """
     inverse = 0.0
-    for solid, which in ((body, "body"), (counter_body, "counter body")):
+    for solid, named in ((body, "body"), (counter_body, "counter body")):
         material = solid.surface_material if isinstance(solid, Layered) else solid
+        which = f"layer 1 of the {named}" if isinstance(solid, Layered) and solid.reduced.layers else named
         inverse += 1.0 / _conductivity(material, flow, which) if isinstance(material, Elastic) else 0.0
     if not inverse:
         raise InputError("body and counter_body must not both be rigid to conduct; make at least one of them Elastic.")

@@ -72,6 +72,7 @@ class ConductanceWork(WithFacts):
             "periodic": any(solved.problem.boundary.wraps),
             "turns": [] if solved.path is None else _turns(solved.path),
             "pressure": pressure,
+            "yielded": bool(reached.result.plastic.any()),
             "voltage": None if ask.voltage is None else float(ask.voltage),
         }
         keys = (*self.citation_keys, *(("Sharvin1965", "Wexler1966", "Nikolic1999") if ask.mean_free_path else ()))
@@ -106,6 +107,7 @@ class ConductanceWork(WithFacts):
             said.append(sentence)
             headline.append(first)
             rows += more
+        said += [sentence for flow in facts["flows"] if (sentence := _set_in(flow, values, facts))]
         for name in ("ballistic_resistance", "hottest_spot", "thermal_gap_share"):
             if name in values and math.isfinite(float(values[name])):
                 rows.append((LABELS[name].label, value_text(LABELS[name], float(values[name]))))
@@ -156,7 +158,14 @@ def flows_of(ask: ConductanceSettings, problem: ContactProblem) -> tuple[str, ..
             refusals[flow] = error
     known = tuple(flow for flow in FLOWS if flow not in refusals)
     if not known:
-        raise refusals["electrical"]
+        electrical, thermal = (refusals[flow] for flow in ("electrical", "thermal"))
+        if electrical.subject == thermal.subject:  # the boundary, or both bodies rigid
+            raise electrical
+        raise InputError(
+            f"{electrical.subject} or {thermal.subject} must be known for a flow, but neither is. Give "
+            "{electrical_resistivity}, or {thermal_conductivity}.",
+            subject=f"{electrical.subject} or {thermal.subject}",
+        )
     return known
 
 
@@ -265,6 +274,29 @@ def _said(flow: str, values: Any, *, periodic: bool) -> tuple[str, tuple[str, st
     if 0.0 < lower < math.inf:
         rows.append((f"width of the bounds of the {flow} conductance on this grid", f"{upper / lower - 1.0:.1e}"))
     return sentence, (LABELS[f"{flow}_resistance"].label, show(total, resistance, 3)), rows
+
+
+def _set_in(flow: str, values: Any, facts: Any) -> str:
+    """How much better a joint conducts on the way back than at the same load before: where it was
+    at half of the largest pressure; empty without a way back to there, or if it is the same."""
+    along = np.asarray(values.get(f"path_{flow}_conductance_per_area", ()), dtype=float)
+    pressure = np.asarray(facts["pressure"], dtype=float)
+    top = int(np.argmax(pressure)) if pressure.size else 0
+    half = 0.5 * float(pressure[top]) if pressure.size else 0.0
+    up, down = slice(None, top + 1), slice(None, top - 1 if top else None, -1)
+    if not facts.get("yielded") or top in (0, pressure.size - 1):
+        return ""
+    if along.size != pressure.size or not np.all(np.isfinite(along)):
+        return ""
+    if pressure[0] > half or pressure[-1] > half or np.any(np.diff(pressure[up]) < 0.0):
+        return ""
+    before, after = (float(np.interp(half, pressure[part], along[part])) for part in (up, down))
+    if not before or np.any(np.diff(pressure[down]) < 0.0) or after < 1.02 * before:
+        return ""
+    return f"Unloaded to {show(half, 'Pa', 3)} it conducts {after / before:.2g} times as much {_NAMES[flow]} as before."
+
+
+_NAMES = {"electrical": "current", "thermal": "heat"}
 
 
 def _path_table(flow: str, values: Any, facts: Any) -> Table:
