@@ -17,10 +17,10 @@ from ...io.words import value_text
 from ...parts.part import Found, Reached, Rows, Solved, Table, WithFacts, Words
 from ...plots.picture import Figure, figures_by
 from .figures import CLOSED_PLOT, FLOW_PLOT, PATH_PLOT, PRESSURE_PLOT, LeakPicture
-from .fluids import ATMOSPHERE, FLUIDS, IdealGas, ViscousLiquid
-from .leak import Fluid, Leakage, leakage
+from .fluids import ATMOSPHERE, FLUIDS, Fluid, IdealGas, ViscousLiquid
+from .law import FluidPressure
+from .leak import Leakage, leakage
 from .part import SCALARS, SealingSettings
-from .physics import FluidPressure
 from .throats import closed_path
 
 HOURS = 3600.0
