@@ -186,5 +186,7 @@ DOCUMENTS: tuple[dict[str, Any], ...] = (
     {"body": "nickel", "conductance": {"jump": "300 nm"}},
     {"body": "nickel", "conductance": {"flow": "thermal", "voltage": "1 mV"}},
     {"body": "nickel{rho=0 S/m}"},
+    {"sealing": {"back": "1 bar"}},
+    {"sealing": {"two_way": True, "outlet": "3 bar"}},
 )
 """Tables of a document, each with something wrong in it."""

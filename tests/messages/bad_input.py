@@ -336,6 +336,11 @@ def _coated_joint() -> asp.ContactProblem:
     return asp.ContactProblem(rough((16, 16)), coated, counter_body=asp.material("copper"))
 
 
+def _pressed(inlet: float) -> asp.ContactProblem:
+    fluid = asp.sealing.FluidPressure(asp.sealing.ViscousLiquid(1e-3), inlet)
+    return asp.ContactProblem(rough((16, 16)), asp.material("nickel"), fluid_pressure=fluid)
+
+
 CALLS: Mapping[str, Callable[[], object]] = {
     "MeanPressure(0.0)": lambda: asp.MeanPressure(0.0),
     "MeanPressure('50 MPa')": lambda: asp.MeanPressure("50 MPa"),  # type: ignore[arg-type]
@@ -562,6 +567,13 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "conductance of neither": lambda: asp.conductance.conductance(_solved(), "magnetic"),  # type: ignore[arg-type]
     "a resistivity of zero": lambda: asp.solids.Conduction(electrical_resistivity=0.0),
     "a film that generates": lambda: asp.conductance.ConductingInterface(film_resistance=-1e-12),
+    "a fluid that lifts the bodies off": lambda: asp.solve(_pressed(1e9), asp.MeanPressure(1e8)),
+    "a fluid that presses and is none": lambda: asp.sealing.FluidPressure(1e-3, 2e5),  # type: ignore[arg-type]
+    "a fluid that presses backwards": lambda: asp.sealing.FluidPressure(asp.sealing.ViscousLiquid(1e-3), 1e5, 2e5),
+    "a fluid that presses beside adhesion": lambda: _pressed(1e6).with_physics(
+        adhesion=asp.ExponentialAdhesion(0.05, 1e-9)
+    ),
+    "a contact without a fluid that presses": lambda: _solved().require_fluid(),
     "an axis too long": lambda: plan(
         axes=[{"path": "control.mean_pressure", "first": "1 MPa", "last": "2 MPa", "count": 1_000_000_000}]
     ),
