@@ -1,8 +1,8 @@
 from .physics.sealing.factors import FlowFactors, flow_factors, tabulated_flow_factors
 from .physics.sealing.flow import FlowTensor, GapFlow, flow_tensor, flow_through
 from .physics.sealing.fluids import IdealGas, ViscousLiquid
+from .physics.sealing.law import FluidPressure
 from .physics.sealing.leak import Leakage, leakage
-from .physics.sealing.physics import FluidPressure
 from .physics.sealing.threshold import Closing, closing_load
 
 __all__ = [

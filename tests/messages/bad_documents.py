@@ -226,5 +226,7 @@ DOCUMENTS: tuple[dict[str, Any], ...] = (
     {"flow_factors": {"direction": "z"}},
     {"flow_factors": {"overlap": "melted"}},
     {"flow_factors": {"seperations": 3}},
+    {"sealing": {"back": "1 bar"}},
+    {"sealing": {"two_way": True, "outlet": "3 bar"}},
 )
 """Tables of a document, each with something wrong in it."""

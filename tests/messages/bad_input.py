@@ -351,6 +351,9 @@ def _hot_joint(boundary: asp.Periodic | asp.Free = asp.Periodic()) -> asp.Contac
 def _source(source: asp.theories.EllipticSource | asp.theories.BandSource, thickness: float = 0.0):
     layers = (asp.theories.HeatLayer(1.0, 1e-6, thickness),) if thickness else ()
     return asp.theories.MovingSource(source, asp.theories.HeatConductor(46.0, 1.2e-5, layers), 1.0)
+def _pressed(inlet: float) -> asp.ContactProblem:
+    fluid = asp.sealing.FluidPressure(asp.sealing.ViscousLiquid(1e-3), inlet)
+    return asp.ContactProblem(rough((16, 16)), asp.material("nickel"), fluid_pressure=fluid)
 
 
 CALLS: Mapping[str, Callable[[], object]] = {
@@ -668,6 +671,13 @@ CALLS: Mapping[str, Callable[[], object]] = {
     "gaps and other shares": lambda: asp.theories.EffectiveMedium([1e-6, 2e-6], [1.0]),
     "a medium without gaps": lambda: asp.theories.EffectiveMedium([0.0]),
     "gas against its pressure": lambda: asp.theories.ParallelGap(1e-6, 1e-5, 1e-2, 1e-3).at_inlet(1e5, 2e5),
+    "a fluid that lifts the bodies off": lambda: asp.solve(_pressed(1e9), asp.MeanPressure(1e8)),
+    "a fluid that presses and is none": lambda: asp.sealing.FluidPressure(1e-3, 2e5),  # type: ignore[arg-type]
+    "a fluid that presses backwards": lambda: asp.sealing.FluidPressure(asp.sealing.ViscousLiquid(1e-3), 1e5, 2e5),
+    "a fluid that presses beside adhesion": lambda: _pressed(1e6).with_physics(
+        adhesion=asp.ExponentialAdhesion(0.05, 1e-9)
+    ),
+    "a contact without a fluid that presses": lambda: _solved().require_fluid(),
     "an axis too long": lambda: plan(
         axes=[{"path": "control.mean_pressure", "first": "1 MPa", "last": "2 MPa", "count": 1_000_000_000}]
     ),

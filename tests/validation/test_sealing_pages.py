@@ -58,6 +58,20 @@ def test_closing_load_is_that_of_the_page(turned, column):
     assert 0.0 < found.closed_fraction - found.open_fraction <= 8.0 / n**2
 
 
+@pytest.mark.parametrize("n", [32, 64])
+def test_loads_without_and_with_corners_enclose_the_limit_along_the_diagonals(n):
+    """Necks along the diagonals of the grid close at corners first; the limit of the page lies
+    between the loads at which spots meet at corners and at faces."""
+    surface = percolation.waves(n, turned=True)
+    problem = asp.ContactProblem(surface, asp.Elastic(percolation.E_STAR, 0.0))
+    full = percolation.E_STAR * percolation.rms_gradient(surface)
+    between, limit = (0.15 * full, 0.4 * full), 0.2286
+    first = sealing.closing_load(problem, between, rounds=9)
+    last = sealing.closing_load(problem, between, rounds=9, corners=True)
+    assert first.upper < limit * full < last.upper
+    assert last.lower > first.lower
+
+
 def test_the_pixel_bracket_of_crossed_waves_closes():
     """Along the axes from above, along the diagonals from below, and nearer with each grid."""
     rows = [row for row in written_rows("percolation", "Crossed waves whose") if row[0].endswith("²")]

@@ -345,6 +345,8 @@ class EnergyBalance(EnergyNames):
         lost; and parts of the external work, ``meniscus_work``.
     meniscus_work
         The part of the external work that the menisci do.
+    fluid_work
+        What a fluid that presses on both bodies does as the gap opens, and on the back of them.
     jump_work
         What adhesive contacts lose as they jump: in the steps with a jump all that nothing else
         takes.

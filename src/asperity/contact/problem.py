@@ -213,6 +213,9 @@ class ContactProblem(ProblemNames, WithPhysics, Shown):
     plastic_flow
         Plastic flow in the volume of ``body``, or where that is rigid of the counter body:
         ``PlasticFlow(J2(...))``; None for none.
+    fluid_pressure
+        Fluid that flows through the gap and whose pressure acts on both bodies, such as
+        ``FluidPressure(ViscousLiquid(1e-3), 2e5, 1e5)``; None for none.
     physics
         Further ``Physics`` of the interface, also of one's own. Those given by keyword are among
         them afterwards.

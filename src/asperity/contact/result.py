@@ -199,7 +199,7 @@ class ContactResult(ResultNames, WithOutcomes, Advised, Stored):
         Error bounds and work; how the solver and the couplings ended.
     couplings
         What each coupling found, by its name: ``adhesion``, ``menisci``, ``plastic_flow``,
-        ``sliding``, ``stick_slip``.
+        ``sliding``, ``stick_slip``, ``fluid``.
     memory
         Memory of each coupling for the next step, by its name, beside the fields here.
     earlier

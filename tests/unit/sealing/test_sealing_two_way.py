@@ -16,10 +16,10 @@ from asperity.contact.operators import prepare_operator
 from asperity.core.errors import InputError, NoSolutionError
 from asperity.parts.advice import review
 from asperity.physics.sealing.acting import acting_pressure
-from asperity.physics.sealing.flow import flow_through
+from asperity.physics.sealing.flow import flow_through, gap_flow
 from asperity.physics.sealing.fluids import IdealGas, ViscousLiquid
-from asperity.physics.sealing.leak import gap_flow, leakage
-from asperity.physics.sealing.physics import FluidPressure
+from asperity.physics.sealing.law import FluidPressure
+from asperity.physics.sealing.leak import leakage
 
 OIL = ViscousLiquid(0.1)
 STEEL = asp.Elastic(100e9, 0.3)

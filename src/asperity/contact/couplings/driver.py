@@ -129,7 +129,8 @@ class Rounds:
         Residuals by name of a coupling at which it is settled, in place of its own: ``menisci``
         force by which contact, load and menisci miss their balance over that of the contact (1e-4),
         ``sliding`` relative change of the displacement by shear (1e-6), ``hardness`` relative
-        change of the hardness (1e-5).
+        change of the hardness (1e-5), ``fluid`` change of the pressure of a fluid over the traction
+        (1e-6).
 
     Raises
     ------

@@ -21,7 +21,7 @@ from .fluids import IdealGas, Leak
 from .network import clusters, open_cells
 
 if TYPE_CHECKING:
-    from .physics import FluidPressure
+    from .law import FluidPressure
 
 POWER = 3.0
 """Power of the distance with which the fluid elsewhere counts: its weight in the plane adds up, so

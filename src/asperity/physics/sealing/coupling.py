@@ -26,9 +26,8 @@ from ...core.quantity import Quantity, given, measured, measured_as
 from ...core.status import Advice, Outcome, Status
 from ...core.units import percent, show
 from .acting import acting_pressure
-from .flow import GapFlow
-from .leak import UNEVEN, gap_flow
-from .physics import FluidPressure
+from .flow import UNEVEN, GapFlow, gap_flow
+from .law import FluidPressure
 
 TOLERANCE = 1e-6
 """Rms change of the pressure of the fluid from round to round over the rms traction."""

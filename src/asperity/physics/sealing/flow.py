@@ -33,6 +33,17 @@ Way: TypeAlias = Literal["x", "y"]
 
 WAYS: tuple[Way, Way] = ("x", "y")
 
+Driven: TypeAlias = Literal["auto", "sides", "gradient"]
+"""How the flow is driven: by pressures at two sides of the grid, or by a mean gradient on a grid
+that repeats; ``"auto"`` takes the latter wherever the grid repeats along the flow."""
+
+DRIVEN = ("auto", "sides", "gradient")
+
+
+UNEVEN = 1e-6
+"""Relative difference between the flows through cross-sections from which the flow is not
+solved."""
+
 
 @dataclass(frozen=True, eq=False)
 class GapFlow:
@@ -321,6 +332,31 @@ def flow_through(
     if not through:
         return _nothing(posed)
     return _solved(posed, System(net, posed.labels, method))
+
+
+def drives(driven: Driven, way: Way, wraps: tuple[bool, bool]) -> bool:
+    """Whether a mean gradient drives the flow along ``way`` on a grid that ``wraps``.
+
+    Raises
+    ------
+    InputError
+        If it is asked for where the grid does not repeat.
+    """
+    repeats = wraps[WAYS.index(way)] and driven != "sides"
+    if driven == "gradient" and not repeats:
+        raise InputError(
+            f'way of driving the flow must be "sides" where the contact does not repeat along {way}, but is "gradient".'
+        )
+    return repeats
+
+
+def gap_flow(
+    gap: RealArray, touching: BoolArray, grid: Grid, wraps: tuple[bool, bool], way: Way, driven: Driven
+) -> GapFlow:
+    """Flow through the ``gap`` (nx, ny) in m of a contact, closed where surfaces are ``touching``
+    (nx, ny)."""
+    opened = np.maximum(np.where(touching, 0.0, gap), 0.0)
+    return flow_through(opened, grid, way, wraps=wraps, repeats=drives(driven, way, wraps))
 
 
 def _fitting(gap: RealArray, grid: Grid, way: Way, wraps: tuple[bool, bool], repeats: bool) -> tuple[RealArray, int]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import ClassVar
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 
@@ -143,6 +143,9 @@ class IdealGas:
         number = float((spent * self.slip_length / (gap * at[flow.net.carrying])).sum() / spent.sum())
         return Leak(rate, inside, number, rate / plain)
 
+
+Fluid: TypeAlias = ViscousLiquid | IdealGas
+"""A fluid that leaks."""
 
 GASES = MappingProxyType(
     {

@@ -5,38 +5,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 import numpy as np
 
 from ...contact.result import ContactResult
 from ...core import require
-from ...core.arrays import BoolArray, RealArray
-from ...core.errors import InputError
-from ...core.grid import Grid
+from ...core.arrays import RealArray
 from ...core.status import Advice
 from ...core.units import percent
 from ...theories.sealing.gaps import SLIP, Bounds
 from .estimates import Estimates, estimates_of
-from .flow import WAYS, GapFlow, Way, flow_through
-from .fluids import IdealGas, Leak, ViscousLiquid
+from .flow import DRIVEN, UNEVEN, WAYS, Driven, GapFlow, Way, gap_flow
+from .fluids import Fluid, Leak
 from .network import clusters, open_cells
 from .throats import RESOLVED, Throats, throats, through_corners, through_noise
 
-Fluid: TypeAlias = ViscousLiquid | IdealGas
-
-Driven: TypeAlias = Literal["auto", "sides", "gradient"]
-"""How the flow is driven: by pressures at two sides of the grid, or by a mean gradient on a grid
-that repeats; ``"auto"`` takes the latter wherever the grid repeats along the flow."""
-
-DRIVEN = ("auto", "sides", "gradient")
-
 ONE_WAY = 0.05
 """Force of the fluid over the contact force up to which it does not change the contact by much."""
-
-UNEVEN = 1e-6
-"""Relative difference between the flows through cross-sections from which the flow is not
-solved."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,31 +171,6 @@ def leakage(
     problem = result.problem
     flow = gap_flow(result.gap, result.contact, problem.grid, problem.boundary.wraps, way, driven)
     return Leakage(result, fluid, inlet, outlet, flow, fluid.leak(flow, inlet, outlet))
-
-
-def drives(driven: Driven, way: Way, wraps: tuple[bool, bool]) -> bool:
-    """Whether a mean gradient drives the flow along ``way`` on a grid that ``wraps``.
-
-    Raises
-    ------
-    InputError
-        If it is asked for where the grid does not repeat.
-    """
-    repeats = wraps[WAYS.index(way)] and driven != "sides"
-    if driven == "gradient" and not repeats:
-        raise InputError(
-            f'way of driving the flow must be "sides" where the contact does not repeat along {way}, but is "gradient".'
-        )
-    return repeats
-
-
-def gap_flow(
-    gap: RealArray, touching: BoolArray, grid: Grid, wraps: tuple[bool, bool], way: Way, driven: Driven
-) -> GapFlow:
-    """Flow through the ``gap`` (nx, ny) in m of a contact, closed where surfaces are ``touching``
-    (nx, ny)."""
-    opened = np.maximum(np.where(touching, 0.0, gap), 0.0)
-    return flow_through(opened, grid, way, wraps=wraps, repeats=drives(driven, way, wraps))
 
 
 RATES = ("leak_rate", "leak_throughput")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypedDict
 
 if TYPE_CHECKING:
     from ...core.arrays import RealArray
-    from .physics import FluidPressure
+    from .law import FluidPressure
 
 
 class FluidKeyword(TypedDict, total=False):

@@ -21,10 +21,10 @@ from ...plots.picture import Figure, figures_by
 from ...theories.sealing.gaps import ATMOSPHERE
 from .figures import CLOSED_PLOT, FLOW_PLOT, PATH_PLOT, PRESSURE_PLOT, LeakPicture
 from .flow import Way
-from .fluids import FLUIDS, IdealGas, ViscousLiquid
-from .leak import Fluid, Leakage, leakage
+from .fluids import FLUIDS, Fluid, IdealGas, ViscousLiquid
+from .law import FluidPressure
+from .leak import Leakage, leakage
 from .part import SCALARS, SealingSettings
-from .physics import FluidPressure
 from .threshold import closing_load, passes
 from .throats import closed_path
 
