@@ -323,6 +323,34 @@ def test_the_example_of_conductance(capsys):
     assert capsys.readouterr().out.count("ohm") == 3
 
 
+def test_the_example_of_sealing(capsys):
+    page, names = ROOT / "docs/how-to/sealing.md", {}
+    (code,) = blocks(page, "python")
+    exec(compile(code.replace("128, 128", "64, 64"), page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["leak"].bracket.lower < names["leak"].rate
+    assert "closes at" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_the_commands_of_sealing(tmp_path, monkeypatch):
+    """On a small scan; the study of the page varies what a seal has."""
+    monkeypatch.chdir(tmp_path)
+    page = ROOT / "docs/how-to/sealing.md"
+    spectrum = asp.generate.GaussianAutocorrelation(1e-7, 1e-6)
+    asp.files.save_surface(asp.generate.gaussian(asp.Grid((32, 32), (3e-7, 3e-7)), spectrum, seed=1), "scan.nc")
+    for line in [line for block in blocks(page, "console") for line in block.splitlines()]:
+        result = CliRunner().invoke(app, shlex.split(line.removeprefix("$ "))[1:])
+        assert result.exit_code == 0, result.output
+    assert (tmp_path / "factors" / "flow_factors.csv").exists()
+    leaks = asp.files.open_tree("run/result.nc")["sealing"]
+    assert leaks["path_leak_rate"].size == 3
+    (table,) = blocks(page, "toml")
+    assert [axis["path"] for axis in tomllib.loads(table)["axes"]] == [
+        "control.mean_pressure",
+        "surface.spectrum.rms_height",
+    ]
+
+
 @pytest.mark.slow
 def test_the_examples_of_viscoelastic_bodies():
     page, names = ROOT / "docs/how-to/viscoelastic.md", {}

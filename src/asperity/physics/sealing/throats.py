@@ -16,7 +16,8 @@ from scipy import ndimage, sparse
 from scipy.sparse import csgraph
 
 from ...core.arrays import BoolArray
-from .flow import Bounds, GapFlow
+from ...theories.sealing.gaps import Bounds
+from .flow import GapFlow
 from .network import clusters, face_transmissivity, open_cells
 
 CARRIED = 0.5

@@ -146,10 +146,9 @@ class SealingWork(WithFacts):
         throats = _throat_table(values)
         tables = (("Throats that lose half of the pressure", throats),) if throats.cells else ()
         holds, alarming = _allowed_text(values, facts, text)
-        headline = [
-            ("leak rate", text.partition(" (")[2].rstrip(")") or text),
-            ("equivalent gap", show(float(values["equivalent_gap"]), "m", 3)),
-        ]
+        place = 2 if facts["gas"] and not facts["sealed"] else 0
+        short = text.partition(" (")[place].rstrip(")")
+        headline = [("leak rate", short), ("equivalent gap", show(float(values["equivalent_gap"]), "m", 3))]
         remark = REMARK.format(TWO_WAY if facts.get("two_way") else ONE_WAY)
         return Words(sentence, headline, rows, tables, (remark,), alarming, holds)
 

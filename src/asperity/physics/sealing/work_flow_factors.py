@@ -39,34 +39,23 @@ class FlowFactorsWork(WithFacts):
     def compute(self, ask: FlowFactorsSettings, solved: Solved) -> Found:
         """Factors of the contact, and the table where lines are kept."""
         problem, result = solved.problem, solved.result
-        sigma = require_averaged(problem)
-        ratios = np.linspace(ask.least, ask.largest if ask.points > 1 else ask.least, ask.points)
-        with solved.stage("flow factors") as progress:
-            gap = np.where(result.contact, 0.0, np.maximum(result.gap, 0.0))
+        sigma, along = require_averaged(problem), ask.direction
+        gap = np.where(result.contact, 0.0, np.maximum(result.gap, 0.0))
+        with solved.stage("flow factors"):
             own = flow_factors(gap, problem.grid, sigma) if gap.any() else None
-            tables = []
-            for number in range(ask.realisations):
-                other = problem if number == 0 else _likeness(problem, number)
-                tables.append(_columns(other, ratios, ask))
-                progress.update(number + 1, 1.0 - (number + 1) / ask.realisations, 0.0)
-        along, across = ask.direction, "yx"["xy".index(ask.direction)]
         now = [math.nan] * 4
         if own is not None:
-            factors = (own.separation_over_roughness, *(getattr(own, f"pressure_{a}") for a in (along, across)))
+            factors = (own.separation_over_roughness, *(getattr(own, f"pressure_{a}") for a in (along, _other(along))))
             now = [float(item[0]) for item in (*factors, getattr(own, f"shear_{along}"))]
         values: dict[str, Any] = dict(zip((item.name for item in SCALARS), (*now, sigma), strict=True))
-        mean, error = np.mean(tables, axis=0), np.full((len(_NAMES), ratios.size), np.nan)
-        if ask.realisations > 1:
-            error = np.std(tables, axis=0, ddof=1) / math.sqrt(ask.realisations)
-        fitted = [np.where(ratios >= FITTED_FROM, column, np.nan) for column in patir_cheng(ratios)]
-        columns = (ratios, *mean, error[0], error[1], error[3], *fitted)
-        values |= {item.name: np.asarray(column) for item, column in zip(TABLE, columns, strict=True)}
+        if solved.lines:
+            values |= _table(ask, solved)
         facts = {"direction": along, "realisations": ask.realisations, "overlap": ask.overlap}
         return Found(values, facts, _scattered(values), self.citation_keys)
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """The factors against the separation."""
-        if np.size(found.values["factors_separation_ratio"]) < 2:
+        if np.size(found.values.get("factors_separation_ratio", ())) < 2:
             return ()
         return figures_by((FACTORS_PLOT,), FactorPicture(found.columns("factors_"), found.detail))
 
@@ -74,7 +63,6 @@ class FlowFactorsWork(WithFacts):
         """The factors of the contact, the table, and how it was made."""
         values, facts = found.values, found.detail
         along = facts["direction"]
-        across = "yx"["xy".index(along)]
         ratio, first, second, shear = (float(values[item.name]) for item in SCALARS[:4])
         if math.isnan(ratio):
             sentence = "The contact has no gap, and no flow factors."
@@ -89,20 +77,12 @@ class FlowFactorsWork(WithFacts):
         rows: Rows = [
             ("rms height σ", show(float(values["flow_roughness"]), "m", 3)),
             ("summits that touch", summits),
-            ("table of", surfaces),
         ]
-        columns = {name: np.atleast_1d(np.asarray(column)) for name, column in found.columns("factors_").items()}
-        names = ("separation_ratio", "pressure_along", "pressure_across", "shear", "contact_fraction")
-        names = (*names, "mean_gap_ratio", "fitted_pressure", "fitted_shear")
-        heads = ("H/σ", f"φ along {along}", f"φ along {across}", "φ_s", "contact", "h_T/σ", "φ fitted", "φ_s fitted")
-        cells = tuple(
-            tuple("" if math.isnan(value) else f"{value:.3g}" for value in row)
-            for row in zip(*(columns[name] for name in names), strict=True)
-        )
+        made = "factors_separation_ratio" in values
+        rows += [("table of", surfaces)] if made else []
+        tables = (("Flow factors against the separation", _cells(found, along)),) if made else ()
         headline = [] if math.isnan(ratio) else [("pressure flow factor", f"{first:.3g} along {along}")]
-        return Words(
-            sentence, headline, rows, (("Flow factors against the separation", Table(heads, cells)),), (REMARK,)
-        )
+        return Words(sentence, headline, rows, tables, (REMARK,))
 
 
 REMARK = (
@@ -111,6 +91,32 @@ REMARK = (
     "that is cut off, good to 7 % from H/σ = 2 on and too low below."
 )
 """What the factors mean."""
+
+_SHOWN = (
+    ("separation_ratio", "H/σ"),
+    ("pressure_along", "φ along {along}"),
+    ("pressure_across", "φ along {across}"),
+    ("shear", "φ_s"),
+    ("contact_fraction", "contact"),
+    ("mean_gap_ratio", "h_T/σ"),
+    ("fitted_pressure", "φ fitted"),
+    ("fitted_shear", "φ_s fitted"),
+)
+"""Columns of the table that are shown, and their headings."""
+
+
+def _cells(found: Found, along: str) -> Table:
+    columns = found.columns("factors_")
+    cells = tuple(
+        tuple("" if math.isnan(value) else f"{value:.3g}" for value in row)
+        for row in zip(*(columns[name] for name, _ in _SHOWN), strict=True)
+    )
+    return Table(tuple(head.format(along=along, across=_other(along)) for _, head in _SHOWN), cells)
+
+
+def _other(axis: str) -> str:
+    return "yx"["xy".index(axis)]
+
 
 _NAMES = ("along", "across", "oblique", "shear", "contact", "gap", "pressure")
 
@@ -122,18 +128,37 @@ def _likeness(problem: ContactProblem, seed: int) -> ContactProblem:
     return replace(problem, surface=problem.surface.with_heights(heights, "same spectrum"), counter_surface=Flat())
 
 
+def _table(ask: FlowFactorsSettings, solved: Solved) -> dict[str, Any]:
+    """Columns of the table: means over the realisations, and their standard errors."""
+    ratios = np.linspace(ask.least, ask.largest if ask.points > 1 else ask.least, ask.points)
+    made = []
+    with solved.stage("table of flow factors") as progress:
+        for number in range(ask.realisations):
+            other = solved.problem if number == 0 else _likeness(solved.problem, number)
+            made.append(_columns(other, ratios, ask))
+            progress.update(number + 1, 1.0 - (number + 1) / ask.realisations, 0.0)
+    mean, error = np.mean(made, axis=0), np.full((len(_NAMES), ratios.size), np.nan)
+    if ask.realisations > 1:
+        error = np.std(made, axis=0, ddof=1) / math.sqrt(ask.realisations)
+    fitted = [np.where(ratios >= FITTED_FROM, column, np.nan) for column in patir_cheng(ratios)]
+    columns = (ratios, *mean, error[0], error[1], error[3], *fitted)
+    return {item.name: np.asarray(column) for item, column in zip(TABLE, columns, strict=True)}
+
+
 def _columns(problem: ContactProblem, ratios: RealArray, ask: FlowFactorsSettings) -> RealArray:
     """(7, n) columns by ``_NAMES`` of one surface at the ``ratios``."""
     overlap: Overlap = "cut" if ask.overlap == "cut" else "deformed"
     made = tabulated_flow_factors(problem, ratios, overlap=overlap)
-    along, across = ask.direction, "yx"["xy".index(ask.direction)]
-    names = (f"pressure_{along}", f"pressure_{across}", "pressure_xy", f"shear_{along}")
+    along = ask.direction
+    names = (f"pressure_{along}", f"pressure_{_other(along)}", "pressure_xy", f"shear_{along}")
     names = (*names, "contact_fraction", "mean_gap_over_roughness", "mean_pressure")
     return np.array([getattr(made, name) for name in names])
 
 
 def _scattered(values: dict[str, Any]) -> tuple[Advice, ...]:
     """Where the realisations differ by much."""
+    if "factors_separation_ratio" not in values:
+        return ()
     share = values["factors_pressure_along_error"] / np.maximum(values["factors_pressure_along"], 1e-300)
     if not np.any(share > SCATTERED):
         return ()

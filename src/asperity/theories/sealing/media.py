@@ -348,10 +348,11 @@ class CriticalJunction(Theory):
         at = math.exp(float(bisected(beyond, np.array([math.log(NEAREST)]), np.array([math.log(last)]))[0]))
         step = min(STEP, 0.5 * at, 0.5 * (last - at))
         gaps = [self._shorter(at + shift, pressure) for shift in (-step, 0.0, step)]
-        level = spectrum.at(np.array([at]))[0] * (spectrum.wavenumber[0] * math.exp(at)) ** 4  # type: ignore[index]
+        first = float(np.asarray(self.q)[0])
+        level = float(spectrum.at(np.array([at]))[0]) * (first * math.exp(at)) ** 4
         falling = -math.exp(-(x**2)) * x * level / (math.sqrt(math.pi) * wanted)
         gap = gaps[1] + (gaps[2] - gaps[0]) / (2.0 * step) * self.percolation / falling
-        return float(gap), 2.0 * math.pi / (float(np.asarray(self.q)[0]) * math.exp(at))
+        return float(gap), 2.0 * math.pi / (first * math.exp(at))
 
     def _shorter(self, span: float, pressure: float) -> float:
         """Mean gap in m of the waves from ``span`` = ln(q/q_L) on, pressed by the ``pressure`` over
