@@ -341,6 +341,11 @@ def _hot_joint(boundary: asp.Periodic | asp.Free = asp.Periodic()) -> asp.Contac
     return asp.ContactProblem(rough((16, 16)), zirconia, counter_body=copper, boundary=boundary)
 
 
+def _source(source: asp.theories.EllipticSource | asp.theories.BandSource, thickness: float = 0.0):
+    layers = (asp.theories.HeatLayer(1.0, 1e-6, thickness),) if thickness else ()
+    return asp.theories.MovingSource(source, asp.theories.HeatConductor(46.0, 1.2e-5, layers), 1.0)
+
+
 CALLS: Mapping[str, Callable[[], object]] = {
     "MeanPressure(0.0)": lambda: asp.MeanPressure(0.0),
     "MeanPressure('50 MPa')": lambda: asp.MeanPressure("50 MPa"),  # type: ignore[arg-type]
@@ -566,6 +571,15 @@ CALLS: Mapping[str, Callable[[], object]] = {
     ),
     "conductance of neither": lambda: asp.conductance.conductance(_solved(), "magnetic"),  # type: ignore[arg-type]
     "a resistivity of zero": lambda: asp.solids.Conduction(electrical_resistivity=0.0),
+    "a band of heat at rest": lambda: asp.theories.JaegerBand(1e9, 1e-5, 46.0, 1.2e-5).at_speed(0.0),
+    "a band of heat in time": lambda: _source(asp.theories.BandSource(1e-5)).temperature(0.0, time=1.0),
+    "a band of heat on a layer": lambda: _source(asp.theories.BandSource(1e-5), thickness=1e-6),
+    "heat through a film too thin to be summed": lambda: _source(asp.theories.disc_source(1e-3), thickness=1e-6),
+    "heat below a layer": lambda: _source(asp.theories.disc_source(1e-5), thickness=1e-6).temperature(0.0, depth=1e-6),
+    "heat before it began": lambda: _source(asp.theories.disc_source(1e-5)).temperature(0.0, time=0.0),
+    "heat without a half-space": lambda: asp.theories.HeatConductor(46.0, 1.2e-5, sink_depth=0.0),
+    "heat below its sink": lambda: asp.theories.HeatConductor(46.0, 1.2e-5, sink_depth=1.0).below(2.0, 1.0, 0.0),
+    "a flash of negative speed": lambda: asp.theories.BlokFlash(0.3, 1.0, 1e-5, 46.0, 46.0, 1.2e-5).at_speed(-1.0),
     "a film that generates": lambda: asp.conductance.ConductingInterface(film_resistance=-1e-12),
     "flash temperature without friction": lambda: asp.heating.flash_temperature(
         asp.solve(_hot_joint(), asp.MeanPressure(1e7)), asp.heating.Motion.of(1.0)

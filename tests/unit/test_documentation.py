@@ -221,6 +221,17 @@ def test_the_examples_of_single_contacts(capsys):
     assert names["pressure"] < 0.0 < names["sticky"].reach
 
 
+def test_the_example_of_frictional_heating(capsys):
+    (code,) = blocks(ROOT / "docs/theory/heating.md", "python")
+    names = {}
+    exec(compile(code, "heating.md", "exec"), names)  # noqa: S102 - running the page is the test
+    assert len(capsys.readouterr().out.splitlines()) == 3
+    bare, coated = (
+        names["theories"].MovingSource(names["spot"].source, names[body], 5.0).mean() for body in ("steel", "coated")
+    )
+    assert bare < coated < bare + 2e-6  # thickness over conductivity of the layer
+
+
 def test_the_examples_of_wet_contact(tmp_path, monkeypatch, capsys):
     """On a surface as smooth as the films are thin; the table of options and keys has everything
     twice."""

@@ -99,6 +99,7 @@ def shared(
         If the equation is not solved.
     """
     first, second = kernels
+    heat = np.ascontiguousarray(heat)
     if first is None or second is None or not contact.any():
         heat_1 = heat if second is None else np.zeros_like(heat)
         fluxes = ((first, heat_1), (second, heat - heat_1))

@@ -265,9 +265,15 @@ class BlokFlash(Theory):
     friction: Annotated[float, Number(above=0.0), "coefficient of friction μ"]
     load: Annotated[float, Number("force", above=0.0), "normal force W"]
     contact_radius: Annotated[Length, "contact radius a"]
-    conductivity_1: Conductivity
-    conductivity_2: Conductivity
-    diffusivity_2: Diffusivity
+    conductivity_1: Annotated[
+        float, Number("thermal conductivity", above=0.0), Help("conductivity k1 of the body that rests", of="bodies")
+    ]
+    conductivity_2: Annotated[
+        float, Number("thermal conductivity", above=0.0), Help("conductivity k2 of the body that moves", of="bodies")
+    ]
+    diffusivity_2: Annotated[
+        float, Number("m^2/s", above=0.0), Help("diffusivity κ2 of the body that moves", of="bodies")
+    ]
     name: ClassVar[str] = "blok-flash"
     title: ClassVar[str] = "Blok, flash temperature of two bodies"
     citation_keys: ClassVar[tuple[str, ...]] = ("Blok1937", "Jaeger1942")

@@ -217,19 +217,18 @@ def after(
 
 
 def buried(
-    depth: float,
-    source_depth: float,
-    qx: ArrayLike,
-    qy: ArrayLike,
-    conductivity: float,
-    diffusivity: float,
-    speed: Speed = 0.0,
+    depth: float, source_depth: float, body: HeatConductor, qx: ArrayLike, qy: ArrayLike, speed: Speed = 0.0
 ) -> ComplexArray:
     """T̂ at the ``depth`` z of a half-space per heat made at ``source_depth`` z' (m, >= 0 each):
-    (exp(-s|z - z'|) + exp(-s (z + z')))/(2 k s)."""
+    (exp(-s|z - z'|) + exp(-s (z + z')))/(2 k s).
+
+    InputError for a ``body`` with layers or a sink.
+    """
+    if body.layers or math.isfinite(body.sink_depth):
+        raise InputError("body with heat made at depth must be a half-space without layers or a sink.")
     z, own = require.not_negative(depth, "depth (m)"), require.not_negative(source_depth, "depth of the source (m)")
-    s = decay(qx, qy, diffusivity, speed)
-    return np.asarray((np.exp(-s * abs(z - own)) + np.exp(-s * (z + own))) / (2.0 * conductivity * s))
+    s = decay(qx, qy, body.diffusivity, speed)
+    return np.asarray((np.exp(-s * abs(z - own)) + np.exp(-s * (z + own))) / (2.0 * body.conductivity * s))
 
 
 def _conducts(conductivity: float, diffusivity: float) -> None:

@@ -201,7 +201,7 @@ class BandSource(Source):
         if peclet == 0.0:
             raise InputError(
                 "speed (m/s) of the material under a band must not be zero: at rest it has no steady state. Take a "
-                "RectangularSource of its length."
+                "rectangle of its length."
             )
         return abs(peclet)
 

@@ -57,22 +57,21 @@ class SurfaceStress(NamedTuple):
 
 
 def surface_stress(
-    qx: ArrayLike,
-    qy: ArrayLike,
-    diffusivity: float,
-    expansion: float,
-    E: float,
-    nu: float,
-    speed: Speed = 0.0,
+    qx: ArrayLike, qy: ArrayLike, diffusivity: float, hindered: float, nu: float, speed: Speed = 0.0
 ) -> SurfaceStress:
     """Stresses in the surface per surface temperature of the wave (``qx``, ``qy``) in rad/m, not
-    both zero, of Young's modulus ``E`` in Pa; other arguments as of ``bulge``.
+    both zero; other arguments as of ``bulge``.
 
     -E α/(1 - ν) times (s - q)/(s + q) along the wavevector, and 1 - 2 ν q/(s + q) across it.
+
+    Parameters
+    ----------
+    hindered
+        E α in Pa/K, Young's modulus times thermal expansion.
     """
     qx, qy = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     q, s = np.hypot(qx, qy), decay(qx, qy, diffusivity, speed)
-    scale = -E * expansion / (1.0 - nu)
+    scale = -hindered / (1.0 - nu)
     along, across = scale * (s - q) / (s + q), scale * (1.0 - 2.0 * nu * q / (s + q))
     c, n = qx / q, qy / q
     return SurfaceStress(along * c**2 + across * n**2, along * n**2 + across * c**2, (along - across) * c * n)
@@ -104,32 +103,19 @@ def critical_wavelength(
     >>> round(1e3 * critical_wavelength(0.3, 1.0, 12e-6, 0.3, 115e9, 46.0), 2)  # mm
     1.07
     """
-    heating = _heating(friction, speed, expansion, nu, E_star, conductivity)
+    made = require.not_negative(friction, "coefficient of friction") * require.not_negative(speed, "speed (m/s)")
+    k = require.positive(conductivity, "thermal conductivity (W/m/K)")
+    heating = made * expansion * (1.0 + nu) * require.positive(E_star, "contact modulus E* (Pa)") / k
     return 4.0 * math.pi / heating if heating else math.inf
 
 
-def growth_rate(
-    q: ArrayLike,
-    diffusivity: float,
-    friction: float,
-    speed: float,
-    expansion: float,
-    nu: float,
-    E_star: float,
-    conductivity: float,
-) -> RealArray:
-    """Γ = κ (s² - q²) in 1/s of the wave ``q`` > 0 in rad/m, s = (sqrt(q² + 4 q H) - q)/2, H = μ v
-    α (1 + ν) E*/k; other arguments as of ``critical_wavelength``."""
+def growth_rate(q: ArrayLike, diffusivity: float, critical: float) -> RealArray:
+    """Γ = κ (s² - q²) in 1/s of waves ``q`` > 0 in rad/m, s = (sqrt(q² + 4 q H) - q)/2, H = 4π/λ_c
+    of the ``critical`` wavelength in m; ``diffusivity`` κ in m²/s."""
     waves = np.asarray(q, dtype=float)
     if not np.all(waves > 0.0):
         raise InputError(f"wavenumbers (rad/m) must be greater than zero, but the smallest is {waves.min():g}.")
-    heating = _heating(friction, speed, expansion, nu, E_star, conductivity)
-    s = 0.5 * (np.sqrt(waves**2 + 4.0 * waves * heating) - waves)
+    if not critical > 0.0:
+        raise InputError(f"critical wavelength (m) must be greater than zero, but is {critical!r}.")
+    s = 0.5 * (np.sqrt(waves**2 + 16.0 * math.pi * waves / critical) - waves)
     return np.asarray(diffusivity * (s**2 - waves**2))
-
-
-def _heating(friction: float, speed: float, expansion: float, nu: float, E_star: float, conductivity: float) -> float:
-    """H = μ v α (1 + ν) E*/k in 1/m."""
-    made = require.not_negative(friction, "coefficient of friction") * require.not_negative(speed, "speed (m/s)")
-    k = require.positive(conductivity, "thermal conductivity (W/m/K)")
-    return made * expansion * (1.0 + nu) * require.positive(E_star, "contact modulus E* (Pa)") / k
