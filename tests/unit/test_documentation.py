@@ -323,7 +323,7 @@ def test_the_example_of_conductance(capsys):
     assert capsys.readouterr().out.count("ohm") == 3
 
 
-def test_the_example_of_frictional_heating(capsys):
+def test_the_example_of_flash_temperatures(capsys):
     page, names = ROOT / "docs/how-to/frictional-heating.md", {}
     (code,) = blocks(page, "python")
     exec(compile(code.replace("128, 128", "64, 64"), page.name, "exec"), names)  # noqa: S102 - running the page is the test
