@@ -30,10 +30,6 @@ Velocity: TypeAlias = tuple[float, float]
 Response: TypeAlias = Callable[[RealArray, RealArray], ComplexArray]
 """Of the surface to waves (qx, qy) in rad/m."""
 
-Velocity: TypeAlias = tuple[float, float]
-Response: TypeAlias = Callable[[RealArray, RealArray], ComplexArray]
-"""Of the surface to waves (qx, qy) in rad/m."""
-
 _LONG = (1e-3, 0.0)
 """Wavevector in rad/m of a wave that is uniform over any contact."""
 

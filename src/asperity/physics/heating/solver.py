@@ -99,12 +99,12 @@ def shared(
         If the equation is not solved.
     """
     first, second = kernels
-    heat = np.ascontiguousarray(heat)
+    heat = np.ascontiguousarray(heat, dtype=np.float64)
     if first is None or second is None or not contact.any():
-        heat_1 = heat if second is None else np.zeros_like(heat)
-        fluxes = ((first, heat_1), (second, heat - heat_1))
+        into = heat if second is None else np.zeros(heat.shape)
+        fluxes = ((first, into), (second, heat - into))
         rises = [None if kernel is None else kernel.apply(flux) for kernel, flux in fluxes]
-        return Shared(heat_1, rises[0], rises[1], 0.0, 0.0, 0)
+        return Shared(into, rises[0], rises[1], 0.0, 0.0, 0)
     both, between = first + second, resistance[0] + resistance[1]
     if contact.all() and not between and not both.spectrum[0, 0].real:
         raise InputError(
@@ -115,11 +115,11 @@ def shared(
     alone = [kernel.apply(heat) for kernel in (first, second)]
     known = (alone[1] + resistance[1] * heat).ravel()[at] + difference
     # that of two homogeneous bodies at rest at every point: of a single pixel
-    own = [float(kernel.spectrum.real.mean()) + film for kernel, film in zip((first, second), resistance, strict=True)]
+    own = [float(kernel.spectrum.real.mean()) + more for kernel, more in zip((first, second), resistance, strict=True)]
     share = own[1] / sum(own)
-    heat_1 = np.zeros_like(heat)
+    heat_1: RealArray = np.zeros(heat.shape)
     heat_1.ravel()[at] = share * heat.ravel()[at]
-    left = known - share * (alone[0] + alone[1] + between * heat).ravel()[at]
+    left: RealArray = known - share * (alone[0] + alone[1] + between * heat).ravel()[at]
     heat_1, left, steps = _refined(both, between, at, (heat_1, left), TOLERANCE * float(np.linalg.norm(known)))
     rise_1, of_first = first.apply(heat_1), second.apply(heat_1)
     left = known - (rise_1 + of_first + between * heat_1).ravel()[at]
@@ -167,7 +167,7 @@ def _inverse(both: HeatKernel, between: float) -> HeatKernel:
     waves = both.spectrum + between
     size = np.abs(waves)
     kept = size > LEAST * float(np.median(size))
-    return replace(both, spectrum=1.0 / np.where(kept, waves, size.max()))
+    return replace(both, spectrum=np.reciprocal(np.where(kept, waves, complex(size.max()))))
 
 
 def _on_contact(
@@ -206,7 +206,7 @@ def gmres(
         for _ in range(2):  # twice, so that rounding leaves the basis orthogonal
             parts = known @ w
             column[:-1] += parts
-            w = w - parts @ known
+            w = np.asarray(w - parts @ known, np.float32)
         last = column[-1] = float(np.linalg.norm(w))
         for i, (c, s) in enumerate(turns):
             column[i], column[i + 1] = c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]
