@@ -50,3 +50,18 @@ def hertz(pixels: int, body: Any, counter: Any) -> Any:
     x = (np.arange(pixels + 2) - 0.5 * (pixels + 1)) * 2.0 / pixels
     square = x[:, None] ** 2 + x[None, :] ** 2
     return given(problem, square < 1.0, 1.5 * np.sqrt(np.maximum(1.0 - square, 0.0)))
+
+
+def waves(points: int) -> asp.Surface:
+    """Surface of the rough example on a grid of ``points`` a side: 94 waves of the golden ratio."""
+    length = 64e-6
+    x = 2.0 * np.pi * np.arange(points) / points
+    heights, n = np.zeros((points, points)), 0
+    golden = (np.sqrt(5.0) - 1.0) / 2.0
+    for kx in range(-8, 9):
+        for ky in range(9):
+            if (ky or kx > 0) and 4 <= kx * kx + ky * ky <= 64:
+                n += 1
+                phase = 2.0 * np.pi * ((n * n * golden) % 1.0)
+                heights += np.hypot(kx, ky) ** -1.8 * np.cos(kx * x[:, None] + ky * x[None, :] + phase)
+    return asp.Surface(heights * (50e-9 / heights.std()), length / points, periodic=True)

@@ -348,9 +348,13 @@ def _coated_joint() -> asp.ContactProblem:
 def _hot_joint(boundary: asp.Periodic | asp.Free = asp.Periodic()) -> asp.ContactProblem:
     zirconia, copper = asp.material("zirconia"), asp.material("copper")
     return asp.ContactProblem(rough((16, 16)), zirconia, counter_body=copper, boundary=boundary)
+
+
 def _source(source: asp.theories.EllipticSource | asp.theories.BandSource, thickness: float = 0.0):
     layers = (asp.theories.HeatLayer(1.0, 1e-6, thickness),) if thickness else ()
     return asp.theories.MovingSource(source, asp.theories.HeatConductor(46.0, 1.2e-5, layers), 1.0)
+
+
 def _pressed(inlet: float) -> asp.ContactProblem:
     fluid = asp.sealing.FluidPressure(asp.sealing.ViscousLiquid(1e-3), inlet)
     return asp.ContactProblem(rough((16, 16)), asp.material("nickel"), fluid_pressure=fluid)

@@ -323,6 +323,14 @@ def test_the_example_of_conductance(capsys):
     assert capsys.readouterr().out.count("ohm") == 3
 
 
+def test_the_example_of_flash_temperatures(capsys):
+    page, names = ROOT / "docs/how-to/frictional-heating.md", {}
+    (code,) = blocks(page, "python")
+    exec(compile(code.replace("128, 128", "64, 64"), page.name, "exec"), names)  # noqa: S102 - running the page is the test
+    assert names["hot"].share > 0.5, "the coating of the moving body sends the heat into the other one"
+    assert capsys.readouterr().out.count("into the body") == 2
+
+
 def test_the_example_of_sealing(capsys):
     page, names = ROOT / "docs/how-to/sealing.md", {}
     (code,) = blocks(page, "python")

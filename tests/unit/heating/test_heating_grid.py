@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from heating_cases import COATED, STEEL, ZIRCONIA, flat, given, hertz, rough, solid
+from heating_cases import COATED, STEEL, ZIRCONIA, flat, given, hertz, rough, solid, waves
 from reference_data import Row, every_row, reference
 from refusals import refused
 
@@ -200,6 +200,21 @@ def test_a_free_patch_of_many_is_hotter_than_a_periodic_one_by_the_nominal_rise(
     assert periodic.maximum == pytest.approx(19.55, abs=0.01)
     assert free.maximum == pytest.approx(27.89, abs=0.01)
     assert periodic.share == pytest.approx(0.4956, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("points", "maximum", "flux_mean", "mean"),
+    [(64, 19.55, 8.60, 5.94), (128, 19.67, 8.61, 6.12), (256, 19.67, 8.61, 6.20)],
+)
+def test_refinement_of_the_rough_contact(points: int, maximum: float, flux_mean: float, mean: float) -> None:
+    """Solved from its surface: maximum and mean weighted with the heat converge, the plain mean
+    follows the contact area. The numbers expected are rounded to the last digit."""
+    steel = replace(STEEL, youngs_modulus=2.0 * 115e9 * (1.0 - 0.3**2))
+    problem = asp.ContactProblem(waves(points), steel, counter_body=steel)
+    found = flash_temperature(asp.solve(problem, asp.MeanPressure(1e8)), Motion.of(1.0), 0.3)
+    assert found.maximum == pytest.approx(maximum, abs=0.0051)
+    assert found.flux_mean == pytest.approx(flux_mean, abs=0.0051)
+    assert found.mean == pytest.approx(mean, abs=0.0051)
 
 
 def test_the_mean_is_that_of_the_sinks() -> None:

@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 from study_cases import InProcess, plan
+from typer.testing import CliRunner
 
 import asperity as asp
+from asperity.cli.main import app
 from asperity.core.errors import InputError
 from asperity.heating import HeatedInterface, Motion, flash_temperature
 from asperity.physics.heating.part import QUANTITIES
@@ -184,3 +186,18 @@ def test_a_study_over_the_speed(tmp_path: Path) -> None:
     assert np.all(np.diff(share) < 0.0)
     single = asp.run(RUBBING | {"heating": RUBBING["heating"] | {"speed": "10 m/s"}})
     assert hot[2] == pytest.approx(single.values["flash_temperature"], rel=1e-6)
+
+
+def test_the_command_line_says_the_same(tmp_path: Path) -> None:
+    """Options and keys mean the same, and the page of the result has the figures."""
+    (tmp_path / "p.toml").write_text(dumps(checked(RUBBING)), encoding="utf-8")
+    options = ("--flash-speed", "2m/s", "--flash-friction", "0.2", "--moving", "opposite", "--heat-section", "1um")
+    done = CliRunner().invoke(
+        app, ["contact", "--from", str(tmp_path / "p.toml"), *options, "--out", str(tmp_path / "o")]
+    )
+    assert done.exit_code == 0, done.output
+    asked = {"speed": "2 m/s", "friction": 0.2, "moving": "opposite", "section": "1 um"}
+    single = asp.run(RUBBING | {"heating": asked})
+    tree = asp.files.open_tree(tmp_path / "o" / "result.nc")
+    assert float(tree["heating/flash_temperature"]) == pytest.approx(single.values["flash_temperature"], rel=1e-5)
+    assert {path.stem for path in (tmp_path / "o").rglob("*.png")} >= {"flash_rise", "heat_share", "heat_section"}

@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import ClassVar
 
 import numpy as np
 
 from ...contact.measure import labelled
 from ...contact.problem import ContactProblem
-from ...core.arrays import BoolArray, RealArray
+from ...core.arrays import BoolArray, ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.late import Shown
 from ...core.spectral import thread_count
 from ...core.status import Advice
+from ...solids.elastic import Elastic
 from ...solids.layers import materials_of, surface_material
 from ...theories.heating.impedance import HeatConductor, decay
 from ...theories.heating.thermoelastic import bulge, critical_wavelength
@@ -276,22 +277,24 @@ class FrictionalHeating(Shown):
             if conductor is None or kernel is None:
                 continue
             material = materials_of(body)[-1]
-            alpha, kappa = material.conduction.thermal_expansion, conductor.diffusivity
-            if math.isnan(alpha):
+            if math.isnan(material.conduction.thermal_expansion):
                 raise InputError(f"thermal expansion of the {which} must be known, but is not. Give it as alpha.")
-            spectrum = waves(
-                grid,
-                lambda qx, qy, v=velocity, k=conductor.conductivity, d=kappa, m=material, a=alpha: (
-                    bulge(qx, qy, d, a, m.poisson_ratio, v) / (k * decay(qx, qy, d, v))
-                ),
-                0.0,
-            )
+            spectrum = waves(grid, partial(_bulge, conductor, material, velocity), 0.0)
             total += HeatKernel(kernel.transform, spectrum).apply(flux)
         return total
 
     @cached_property
     def _kernels(self) -> tuple[HeatKernel | None, HeatKernel | None]:
         return kernels_of(self.problem, self.conductors, self.motion, self.interface, None)
+
+
+def _bulge(
+    conductor: HeatConductor, material: Elastic, velocity: tuple[float, float], qx: RealArray, qy: RealArray
+) -> ComplexArray:
+    """Displacement out of a body by a wave of flux into it, m/(W/m²)."""
+    of, alpha = conductor.diffusivity, material.conduction.thermal_expansion
+    flux = 1.0 / (conductor.conductivity * decay(qx, qy, of, velocity))
+    return np.asarray(bulge(qx, qy, of, alpha, material.poisson_ratio, velocity) * flux)
 
 
 def kernels_of(

@@ -106,8 +106,8 @@ def heat_made(result: ContactResult, motion: Motion, friction: float | RealArray
     shear = result.problem.shear(pressure)
     if shear is None:
         raise InputError(
-            "friction coefficient must be given where the problem has no friction, but is not. Give "
-            "{heating.friction=0.2}."
+            "friction coefficient must be given where the problem has no friction, but is not. Give it after the "
+            "motion: flash_temperature(result, motion, 0.2)."
         )
     vx, vy = motion.slip
     return np.asarray(np.abs(shear[0] * vx + shear[1] * vy))

@@ -30,10 +30,6 @@ Velocity: TypeAlias = tuple[float, float]
 Response: TypeAlias = Callable[[RealArray, RealArray], ComplexArray]
 """Of the surface to waves (qx, qy) in rad/m."""
 
-Velocity: TypeAlias = tuple[float, float]
-Response: TypeAlias = Callable[[RealArray, RealArray], ComplexArray]
-"""Of the surface to waves (qx, qy) in rad/m."""
-
 _LONG = (1e-3, 0.0)
 """Wavevector in rad/m of a wave that is uniform over any contact."""
 
@@ -145,10 +141,16 @@ class HeatKernel:
         return replace(self, spectrum=self.spectrum + other.spectrum)
 
     def apply(self, flux: RealArray) -> RealArray:
-        """Temperature rise (nx, ny) in K of the surface under ``flux`` (nx, ny) in W/m²."""
-        made = self.transform.forward(flux, np.empty(self.transform.spectrum_shape, np.complex128))
+        """Temperature rise (nx, ny) in K of the surface under ``flux`` (nx, ny) in W/m², in its
+        precision, which has to be that of the spectrum."""
+        made = self.transform.forward(flux, np.empty(self.transform.spectrum_shape, self.spectrum.dtype))
         made *= self.spectrum
         return self.transform.backward(made, np.empty_like(flux))
+
+    @property
+    def single(self) -> HeatKernel:
+        """The same in single precision."""
+        return replace(self, spectrum=self.spectrum.astype(np.complex64))
 
 
 def mean(conductor: HeatConductor, sink: float) -> float:

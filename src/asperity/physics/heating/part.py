@@ -34,7 +34,7 @@ class HeatingSettings(Settings):
     over the mean planes of the bodies, which have the bulk temperatures.
     """
 
-    speed: SlidingSpeed = setting(option="--flash-speed", help="Sliding speed: 1m/s")
+    speed: SlidingSpeed | None = setting(None, option="--flash-speed", help="Sliding speed, which must be given: 1m/s")
     friction: Coefficient | None = setting(
         None, option="--flash-friction", help="Coefficient, where the contact is solved without friction: 0.2"
     )
@@ -78,6 +78,8 @@ class HeatingSettings(Settings):
 
     @model_validator(mode="after")
     def _whole(self) -> HeatingSettings:
+        if self.speed is None:
+            raise InputError(".speed must be given, but is not. Give the sliding speed ({heating.speed=1m/s}).")
         if (self.rolling is None) != (self.moving != "rolling"):
             given = "is not" if self.rolling is None else f"is {self.rolling:g} m/s, and {WORDS[self.moving]} moves"
             raise InputError(

@@ -5,8 +5,8 @@ Equal temperature of the plane in which heat q is made, on every point of contac
     (K1 + K2 + R1 + R2) q1 = (K2 + R2) q + Tb2 - Tb1.
 
 The operator is real, not symmetric where something moves, and q·Kq > 0, so that there is exactly
-one answer, which may be negative: where the hot wake of one body warms the other. GMRES without
-restart, preconditioned by the inverse of the symmetric part of every wave.
+one answer, which may be negative: where the hot wake of one body warms the other. GMRES in
+single precision, preconditioned by the inverse of every wave, with residuals in double precision.
 """
 
 from __future__ import annotations
@@ -14,21 +14,36 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...core.arrays import BoolArray, RealArray
 from ...core.errors import ConvergenceError, InputError
 from .kernels import HeatKernel
 
 TOLERANCE = 3e-10
-"""Residual over the right-hand side, root of the mean square, at which GMRES ends."""
+"""Residual over the right-hand side, root of the mean square, at which the share is found."""
 
-_ROOM = 32
-"""Steps for which there is room at first."""
+ROUNDS = 8
+"""Rounds of GMRES in single precision at most, each with the residual in double precision; three
+are the rule."""
+
+REDUCTION = 3e-5
+"""By which a round reduces the residual: single precision gives little more."""
 
 MOST = 200
-"""Steps at most; 10 to 40 are the rule."""
+"""Steps of a round at most; 5 to 15 are the rule."""
+
+LEAST = 1e-3
+"""Waves that respond less than this share of their median are not preconditioned by their
+inverse."""
+
+_ROOM = 16
+"""Steps for which there is room at first."""
+
+SingleArray: TypeAlias = NDArray[np.float32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,92 +99,114 @@ def shared(
         If the equation is not solved.
     """
     first, second = kernels
-    nothing = np.zeros_like(heat)
+    heat = np.ascontiguousarray(heat, dtype=np.float64)
     if first is None or second is None or not contact.any():
-        heat_1 = heat if second is None else nothing
-        rises = [
-            None if kernel is None else kernel.apply(flux)
-            for kernel, flux in ((first, heat_1), (second, heat - heat_1))
-        ]
-        return Shared(heat_1, rises[0], rises[1], 0.0, 0.0, 0)
+        into = heat if second is None else np.zeros(heat.shape)
+        fluxes = ((first, into), (second, heat - into))
+        rises = [None if kernel is None else kernel.apply(flux) for kernel, flux in fluxes]
+        return Shared(into, rises[0], rises[1], 0.0, 0.0, 0)
     both, between = first + second, resistance[0] + resistance[1]
     if contact.all() and not between and not both.spectrum[0, 0].real:
         raise InputError(
             "heat sinks must be given where all points touch, since the mean heat is shared by what the bodies are in "
             "depth, but are not. Give both ({heating.sink_body=1mm}, {heating.sink_counter_body=1mm})."
         )
-
-    def applied(flux: RealArray) -> RealArray:
-        whole = np.zeros_like(heat)
-        whole[contact] = flux
-        return both.apply(whole)[contact] + between * flux
-
-    known = second.apply(heat)[contact] + resistance[1] * heat[contact] + difference
+    at = np.flatnonzero(contact)
+    alone = [kernel.apply(heat) for kernel in (first, second)]
+    known = (alone[1] + resistance[1] * heat).ravel()[at] + difference
     # that of two homogeneous bodies at rest at every point: of a single pixel
-    own = [
-        float(kernel.spectrum.real.mean()) + between
-        for kernel, between in zip((first, second), resistance, strict=True)
-    ]
-    start = own[1] / sum(own) * heat[contact]
-    left, size = known - applied(start), float(np.linalg.norm(known))
-    more, steps = gmres(applied, _preconditioner(both, contact, between), left, TOLERANCE * size)
-    found = start + more
-    heat_1 = nothing.copy()
-    heat_1[contact] = found
-    heat_2 = heat - heat_1
-    rise_1, rise_2 = first.apply(heat_1), second.apply(heat_2)
-    planes = rise_1 + resistance[0] * heat_1 - rise_2 - resistance[1] * heat_2 - difference
-    work = float(found @ applied(found))
-    return Shared(heat_1, rise_1, rise_2, float(np.abs(planes[contact]).max()), work, steps)
+    own = [float(kernel.spectrum.real.mean()) + more for kernel, more in zip((first, second), resistance, strict=True)]
+    share = own[1] / sum(own)
+    heat_1: RealArray = np.zeros(heat.shape)
+    heat_1.ravel()[at] = share * heat.ravel()[at]
+    left: RealArray = known - share * (alone[0] + alone[1] + between * heat).ravel()[at]
+    heat_1, left, steps = _refined(both, between, at, (heat_1, left), TOLERANCE * float(np.linalg.norm(known)))
+    rise_1, of_first = first.apply(heat_1), second.apply(heat_1)
+    left = known - (rise_1 + of_first + between * heat_1).ravel()[at]
+    work = float((heat_1 * (rise_1 + of_first + between * heat_1)).sum())
+    return Shared(heat_1, rise_1, alone[1] - of_first, float(np.abs(left).max()), work, steps)
 
 
-def _preconditioner(both: HeatKernel, contact: BoolArray, between: float) -> Callable[[RealArray], RealArray]:
-    """Inverse of the symmetric part of every wave, on the contact."""
-    symmetric = both.spectrum.real + between
-    least = symmetric[symmetric > 0.0]
-    safe = np.where(symmetric > 0.0, symmetric, least.max()) if least.size else np.ones_like(symmetric)
-    inverse = replace(both, spectrum=(1.0 / np.maximum(safe, 1e-3 * np.median(safe))).astype(np.complex128))
+def _refined(
+    both: HeatKernel, between: float, at: NDArray[np.intp], start: tuple[RealArray, RealArray], allowed: float
+) -> tuple[RealArray, RealArray, int]:
+    """Flux (nx, ny) and what is left of the right-hand side on the points ``at`` of contact, from a
+    ``start`` of both, and the steps taken, in rounds of single precision.
 
-    def times(residual: RealArray) -> RealArray:
-        whole = np.zeros(contact.shape)
-        whole[contact] = residual
-        return inverse.apply(whole)[contact]
+    Raises
+    ------
+    ConvergenceError
+        If the norm of what is left is far above ``allowed``.
+    """
+    (flux, left), steps = start, 0
+    forward = _on_contact(both.single, flux.shape, at)
+    backward = _on_contact(_inverse(both, between).single, flux.shape, at)
+    size = float(np.linalg.norm(left))
+    for _ in range(ROUNDS):
+        if size <= allowed:
+            return flux, left, steps
+        scaled = (left / size).astype(np.float32)
+        more, taken = gmres(
+            lambda x: forward(x) + np.float32(between) * x, backward, scaled, max(0.5 * allowed / size, REDUCTION)
+        )
+        change = np.zeros_like(flux)
+        change.ravel()[at] = size * more
+        flux, steps = flux + change, steps + taken
+        left = left - (both.apply(change) + between * change).ravel()[at]
+        size = float(np.linalg.norm(left))
+    if size > 1e3 * allowed:
+        raise ConvergenceError(
+            f"The share of the heat was not found in {steps} steps: the temperatures of both bodies still differ by "
+            f"{size / math.sqrt(at.size):.1e} K."
+        )
+    return flux, left, steps
+
+
+def _inverse(both: HeatKernel, between: float) -> HeatKernel:
+    """Inverse of every wave, but of those that give way least."""
+    waves = both.spectrum + between
+    size = np.abs(waves)
+    kept = size > LEAST * float(np.median(size))
+    return replace(both, spectrum=np.reciprocal(np.where(kept, waves, complex(size.max()))))
+
+
+def _on_contact(
+    kernel: HeatKernel, shape: tuple[int, ...], at: NDArray[np.intp]
+) -> Callable[[SingleArray], SingleArray]:
+    """``kernel`` between fluxes and temperatures of the points ``at`` of contact."""
+
+    def times(flux: SingleArray) -> SingleArray:
+        whole: Any = np.zeros(shape, np.float32)
+        whole.ravel()[at] = flux
+        return np.asarray(kernel.apply(whole).ravel()[at], np.float32)
 
     return times
 
 
 def gmres(
-    operator: Callable[[RealArray], RealArray],
-    preconditioner: Callable[[RealArray], RealArray],
-    right: RealArray,
+    operator: Callable[[SingleArray], SingleArray],
+    preconditioner: Callable[[SingleArray], SingleArray],
+    right: SingleArray,
     allowed: float,
-) -> tuple[RealArray, int]:
-    """Solution x (n,) of operator(x) = ``right``, preconditioned from the right, and its steps,
-    with a residual whose norm is ``allowed``.
-
-    Raises
-    ------
-    ConvergenceError
-        If the residual is far above that after ``MOST`` steps.
-    """
-    size = float(np.linalg.norm(right))
-    if size <= allowed:
-        return np.zeros_like(right), 0
+) -> tuple[SingleArray, int]:
+    """Solution x (n,) of operator(x) = ``right``, whose norm is one, preconditioned from the right,
+    and its steps, with a residual whose norm is ``allowed`` or after ``MOST`` steps."""
     most = min(MOST, right.size)
-    basis, turned = np.empty((0, right.size)), np.empty((0, right.size))
+    basis, turned = (np.empty((0, right.size), np.float32) for _ in range(2))
     upper, turns, g, steps = np.zeros((most + 1, most)), list[tuple[float, float]](), np.zeros(most + 1), 0
-    g[0], w, last = size, right, size
+    g[0], w, last = 1.0, right, 1.0
     while steps < most and last and abs(g[steps]) > allowed:
         if steps == len(basis):  # room for more
-            basis, turned = (np.concatenate([rows, np.empty((_ROOM, right.size))]) for rows in (basis, turned))
-        basis[steps] = w / last
+            room = np.empty((_ROOM, right.size), np.float32)
+            basis, turned = (np.concatenate([rows, room]) for rows in (basis, turned))
+        basis[steps] = w / np.float32(last)
         turned[steps] = preconditioner(basis[steps])
         w, column = operator(turned[steps]), np.zeros(steps + 2)
         known = basis[: steps + 1]
         for _ in range(2):  # twice, so that rounding leaves the basis orthogonal
             parts = known @ w
             column[:-1] += parts
-            w = w - parts @ known
+            w = np.asarray(w - parts @ known, np.float32)
         last = column[-1] = float(np.linalg.norm(w))
         for i, (c, s) in enumerate(turns):
             column[i], column[i + 1] = c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]
@@ -180,9 +217,5 @@ def gmres(
         column[-2] = radius
         upper[: steps + 1, steps] = column[:-1]
         steps += 1
-    if abs(g[steps]) > 1e3 * allowed:
-        raise ConvergenceError(
-            f"The share of the heat was not found in {steps} steps: the residual is still {abs(g[steps]) / size:.1e}."
-        )
     weights = np.linalg.solve(upper[:steps, :steps], g[:steps])
-    return np.asarray(weights @ turned[:steps]), steps
+    return np.asarray(weights.astype(np.float32) @ turned[:steps]), steps

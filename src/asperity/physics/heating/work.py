@@ -66,7 +66,7 @@ class HeatingWork(WithFacts):
                 }
         facts = {
             "where": reached.where,
-            "speed": float(ask.speed),
+            "speed": float(ask.speed or 0.0),
             "moving": WORDS[ask.moving],
             "periodic": all(solved.problem.boundary.wraps),
             "sinks": ask.sink_body is not None,
@@ -123,7 +123,7 @@ def motion_of(ask: HeatingSettings) -> Motion:
     """The motion that is asked for."""
     direction = float(ask.direction or 0.0)
     rolling = float(ask.rolling or 0.0)
-    return Motion.of(float(ask.speed), ask.moving, direction=direction, rolling=rolling)  # type: ignore[arg-type]
+    return Motion.of(float(ask.speed or 0.0), ask.moving, direction=direction, rolling=rolling)  # type: ignore[arg-type]
 
 
 def _rubs(problem: ContactProblem) -> bool:
