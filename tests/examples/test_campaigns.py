@@ -44,6 +44,7 @@ def test_every_ready_study_is_tested_here():
         "pull_off_and_roughness",
         "skewness_and_kurtosis",
         "rubber_friction",
+        "plated_connector",
         *GOLD,
     }
 
@@ -69,6 +70,21 @@ def test_a_hard_film_protects_the_steel(tmp_path):
     assert (film > 0.0).all()
     assert (np.diff(film, axis=1) < 0.0).all()
     assert (np.asarray(data["flow_layer_tension"])[:, -1] > 0.0).all()
+
+
+def test_gold_and_load_lower_the_resistance_of_a_connector(tmp_path):
+    """As does a shorter wavelength: many small spots for few large ones. The area is the load over
+    the hardness."""
+    data = finished("plated_connector", tmp_path).dataset()
+    resistance = np.asarray(data["electrical_resistance"])
+    assert resistance.shape == (3, 3, 2)
+    assert (np.diff(resistance, axis=0) < 0.0).all()
+    assert (np.diff(resistance, axis=1) < 0.0).all()
+    assert (np.diff(resistance, axis=2) > 0.0).all()
+    freed = np.asarray(data["electrical_extrapolated_conductance"]) * resistance
+    assert (np.abs(freed - 1.0) < 0.15).all()
+    shares = np.array([5e6, 20e6, 80e6]) / 1.8e9
+    np.testing.assert_allclose(np.asarray(data["area_fraction"]), shares[:, None, None] * np.ones((1, 3, 2)), rtol=0.2)
 
 
 def test_a_coating_is_felt_from_its_floor_to_its_ceiling(tmp_path):

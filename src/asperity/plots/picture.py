@@ -68,11 +68,14 @@ SETTINGS: Any = {
 }
 """Settings of figures that this package makes; axes handed in by a caller keep the caller's."""
 
+CONDUCTING = ("ohm", "K/W", "S", "W/K", "S/m**2", "W/(m**2*K)")
+"""Units of resistances, conductances and conductances per area."""
+
 KINDS = {
     unit: kind
     for kind, unit in units.DIMENSIONS.items()
     if kind in ("length", "pressure", "force", "energy", "time", "area")
-} | {"Pa/m": "stiffness", "N/m": "surface tension"}
+} | {"Pa/m": "stiffness", "N/m": "surface tension", **dict.fromkeys(CONDUCTING, "conductance")}
 """Kind of quantity by SI unit, of those that are drawn with prefixes."""
 
 
@@ -100,7 +103,7 @@ def scale(values: RealArray | float, unit: str) -> Scale:
     magnitude = np.abs(np.asarray(values, dtype=float))
     largest = float(magnitude.max(initial=0.0, where=np.isfinite(magnitude)))
     symbol = units.show(largest, unit).split(" ")[1]
-    return Scale(symbol, units.unit_factor(symbol, KINDS[unit], "unit of an axis"))
+    return Scale(symbol, units.parse_in(f"1 {symbol}", unit, "unit of an axis"))
 
 
 def colour_table(name: str) -> bytes:

@@ -3,7 +3,6 @@ conductance over the load of a path."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
@@ -38,8 +37,8 @@ class Flowing:
 UNITS = {"electrical": "S/m²", "thermal": "W/(m²·K)"}
 """Of flux density per unit drop."""
 
-PREFIXES = ("", "k", "M", "G", "T", "P")
-"""Of a thousand and its powers."""
+SI = {"electrical": "S/m**2", "thermal": "W/(m**2*K)"}
+"""The same as units are read."""
 
 
 def density_field(shown: Flowing, flow: str) -> Field:
@@ -69,16 +68,14 @@ def plot_path(shown: Flowing, ax: Axes, flow: str) -> Axes:
     """Draw on ``ax`` the conductance per area over the mean pressure of the steps, loading and
     unloading."""
     values, pressure = shown.path[flow], shown.pressure
-    in_pa = scale(pressure, "Pa")
-    power = int(np.clip(math.log10(max(float(values.max()), 1.0)) // 3, 0, len(PREFIXES) - 1))
-    values = values / 1000.0**power
+    in_pa, per_area = scale(pressure, "Pa"), scale(values, SI[flow])
     top = int(np.argmax(pressure))
     for part, colour, label in ((slice(0, top + 1), BLUE, "loading"), (slice(top, None), VERMILLION, "unloading")):
         if values[part].size > 1 or label == "loading":
-            ax.plot(in_pa(pressure[part]), values[part], color=colour, marker=".", label=label)
+            ax.plot(in_pa(pressure[part]), per_area(values[part]), color=colour, marker=".", label=label)
     ax.set(
         xlabel=f"mean pressure ({in_pa.symbol})",
-        ylabel=f"{flow} conductance per area ({PREFIXES[power]}{UNITS[flow]})",
+        ylabel=f"{flow} conductance per area ({per_area.symbol})",
         xlim=(0.0, None),
         ylim=(0.0, None),
     )
