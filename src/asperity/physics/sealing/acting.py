@@ -32,7 +32,7 @@ SIDE = 4
 """Rows of fluid beyond each side between two pressures."""
 
 
-def acting_pressure(flow: GapFlow, leak: Leak, given: FluidPressure, before: RealArray | None = None) -> RealArray:
+def acting_pressure(flow: GapFlow, leak: Leak, given: FluidPressure, before: RealArray) -> RealArray:
     """(nx, ny) pressure in Pa of the fluid on the bodies at every cell, of a ``leak`` by ``flow``
     between the pressures that are ``given``, after that ``before`` (nx, ny) in Pa.
 
@@ -44,12 +44,12 @@ def acting_pressure(flow: GapFlow, leak: Leak, given: FluidPressure, before: Rea
     inlet, outlet = given.inlet, given.outlet
     known, values = _known(flow, leak, inlet, outlet)
     opened = open_cells(flow.gap) if flow.gap.any() else np.zeros(flow.gap.shape, bool)
-    fall = (inlet - outlet) / flow.gap.shape[flow.axis] if flow.repeats and not flow.sealed else 0.0
+    fall = (inlet - outlet) / flow.gap.shape[flow.axis] if flow.repeats else 0.0
     sides = None if fall else (inlet, outlet)
     if sides is None and not known.any():
         return np.full(flow.gap.shape, 0.5 * (inlet + outlet))
     pools = opened & ~known
-    if pools.any() and before is not None:
+    if pools.any():
         labels = clusters(pools, flow.wraps).labels
         means = ndimage.mean(before, labels, np.arange(labels.max() + 1))
         values, known = np.where(pools, np.asarray(means)[labels], values), opened
@@ -64,30 +64,28 @@ def acting_pressure(flow: GapFlow, leak: Leak, given: FluidPressure, before: Rea
 def _known(flow: GapFlow, leak: Leak, inlet: float, outlet: float) -> tuple[BoolArray, RealArray]:
     """Cells (nx, ny) whose fluid is joined to one that flows or to a side, and its pressure
     (Pa)."""
-    axis, carrying = flow.axis, flow.net.carrying
-    inside = np.where(carrying, leak.pressure, 0.0)
-    if not flow.sealed and flow.repeats:
-        count, shape = carrying.shape[axis], [1, 1]
-        shape[axis] = count
-        fall = 0.5 - (np.arange(count) + 0.5) / count
-        changed = np.where(carrying, inside - (inlet - outlet) * fall.reshape(shape), 0.0)
-        # the mean over the volume of each cluster, to which a gap that closes adds less and less
-        labels = np.where(carrying, clusters(open_cells(flow.gap), flow.wraps).labels, 0)
-        volumes = np.bincount(labels.ravel(), flow.gap.ravel())
-        sums = np.bincount(labels.ravel(), (flow.gap * changed).ravel())
-        means = np.divide(sums, volumes, out=np.zeros_like(sums), where=volumes > 0.0)
-        return carrying, np.where(carrying, changed - means[labels] + 0.5 * (inlet + outlet), 0.0)
-    if not flow.gap.any():
-        return carrying, inside
-    across = flow.wraps[0] and axis != 0, flow.wraps[1] and axis != 1
-    labels = clusters(open_cells(flow.gap), across).labels
-    known = carrying.copy()
-    for place, value in ((-1, outlet), (0, inlet)):
-        there = np.unique(np.take(labels, place, axis))
-        joined = np.isin(labels, there[there > 0]) & ~carrying
-        inside[joined] = value
-        known |= joined
-    return known, inside
+    axis, known = flow.axis, flow.net.carrying.copy()
+    inside = np.where(known, leak.pressure, 0.0)
+    if flow.gap.any() and (flow.sealed or not flow.repeats):
+        across = flow.wraps[0] and axis != 0, flow.wraps[1] and axis != 1
+        labels = clusters(open_cells(flow.gap), across).labels
+        for place, value in ((-1, outlet), (0, inlet)):
+            there = np.unique(np.take(labels, place, axis))
+            joined = np.isin(labels, there[there > 0]) & ~flow.net.carrying
+            inside[joined] = value
+            known |= joined
+    if not flow.repeats or not known.any():
+        return known, inside
+    count, shape = known.shape[axis], [1, 1]
+    shape[axis] = count
+    fall = 0.5 - (np.arange(count) + 0.5) / count
+    changed = np.where(known, inside - (inlet - outlet) * fall.reshape(shape), 0.0)
+    # the mean over the volume of each cluster, to which a gap that closes adds less and less
+    labels = np.where(known, clusters(open_cells(flow.gap), flow.wraps).labels, 0)
+    volumes = np.bincount(labels.ravel(), flow.gap.ravel())
+    sums = np.bincount(labels.ravel(), (flow.gap * changed).ravel())
+    means = np.divide(sums, volumes, out=np.zeros_like(sums), where=volumes > 0.0)
+    return known, np.where(known, changed - means[labels] + 0.5 * (inlet + outlet), 0.0)
 
 
 def _at_edges(
