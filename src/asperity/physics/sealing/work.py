@@ -269,7 +269,9 @@ def _closing(ask: SealingSettings, solved: Solved, result: ContactResult) -> flo
     for _ in range(FURTHEST):
         load *= factor
         if passes(solve(solved.problem, MeanPressure(load)), way) is not opens:
-            found = closing_load(solved.problem, tuple(sorted((load, load / factor))), way=way, rounds=FINENESS)
+            found = closing_load(
+                solved.problem, (min(load, load / factor), max(load, load / factor)), way=way, rounds=FINENESS
+            )
             return math.sqrt(found.lower * found.upper)
     return math.nan
 

@@ -150,8 +150,8 @@ def _columns(problem: ContactProblem, ratios: RealArray, ask: FlowFactorsSetting
     overlap: Overlap = "cut" if ask.overlap == "cut" else "deformed"
     made = tabulated_flow_factors(problem, ratios, overlap=overlap)
     along = ask.direction
-    names = (f"pressure_{along}", f"pressure_{_other(along)}", "pressure_xy", f"shear_{along}")
-    names = (*names, "contact_fraction", "mean_gap_over_roughness", "mean_pressure")
+    names = [f"pressure_{along}", f"pressure_{_other(along)}", "pressure_xy", f"shear_{along}"]
+    names += ["contact_fraction", "mean_gap_over_roughness", "mean_pressure"]
     return np.array([getattr(made, name) for name in names])
 
 

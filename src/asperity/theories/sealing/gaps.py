@@ -177,8 +177,9 @@ class ParallelGap(_Film):
 
     Examples
     --------
-    >>> ParallelGap(gap=1e-6, viscosity=1e-3, width=1e-2, length=1e-3).at_drop(1e5).rate.item()
-    8.333333333333332e-11
+    >>> gap = ParallelGap(gap=1e-6, viscosity=1e-3, width=1e-2, length=1e-3)
+    >>> print(f"{gap.at_drop(1e5).rate:.3g} m³/s")
+    8.33e-11 m³/s
     """
 
     gap: Gap

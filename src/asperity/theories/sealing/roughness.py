@@ -72,7 +72,7 @@ def patir_cheng(separation: ArrayLike, peklenik: float = ISOTROPIC) -> tuple[Rea
     --------
     >>> pressure, shear = patir_cheng(3.0)
     >>> round(pressure.item(), 3), round(shear.item(), 3)
-    (0.832, 0.552)
+    (0.832, 0.553)
     """
     number = next((known for known in PRESSURE_FIT if math.isclose(known, peklenik, rel_tol=1e-2)), None)
     if number is None:
