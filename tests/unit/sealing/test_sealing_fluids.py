@@ -9,9 +9,10 @@ import pytest
 from refusals import refused
 from scipy import ndimage
 
-from asperity.core.errors import InputError
+from asperity.core.errors import ConvergenceError, InputError
 from asperity.core.grid import Grid
 from asperity.core.units import parse
+from asperity.physics.sealing import fluids
 from asperity.physics.sealing.flow import GapFlow, flow_through
 from asperity.physics.sealing.fluids import GASES, IdealGas, Leak, ViscousLiquid
 from asperity.theories.sealing.gaps import ATMOSPHERE
@@ -110,3 +111,12 @@ def test_units_of_leak_rates() -> None:
 def test_wrong_input(made: Callable[[], Leak], subject: str, shown: str) -> None:
     with refused(InputError, subject, shown):
         made()
+
+
+def test_gas_whose_pressure_is_not_found_is_said_to_be_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    flow = rough(scale=1e-7)
+    AIR.leak(flow, 2e5, 1e5)
+    monkeypatch.setattr(fluids, "ROUNDS", 1)
+    with pytest.raises(ConvergenceError) as caught:
+        AIR.leak(flow, 2e5, 1e5)
+    assert caught.value.subject == "pressure of a gas that slips"

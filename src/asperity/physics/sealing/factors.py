@@ -26,6 +26,7 @@ from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.late import Tabled
 from ...core.quantity import Quantity
+from ...core.spectral import RealTransform
 from .flow import FlowTensor, flow_tensor
 from .network import Network
 from .solver import Method
@@ -233,6 +234,7 @@ def require_averaged(problem: ContactProblem) -> float:
 def with_its_spectrum(heights: RealArray, seed: int) -> RealArray:
     """Heights (nx, ny) of a Gaussian surface with the power spectrum of ``heights`` and random
     phases by the ``seed``."""
-    white = np.fft.rfft2(np.random.default_rng(seed).standard_normal(heights.shape))
-    size = np.abs(np.fft.rfft2(heights - heights.mean()))
-    return np.asarray(np.fft.irfft2(size * np.exp(1j * np.angle(white)), s=heights.shape))
+    transform = RealTransform(heights.shape)
+    white = transform.forward(np.random.default_rng(seed).standard_normal(heights.shape)).copy()
+    size = np.abs(transform.forward(heights - heights.mean()))
+    return transform.backward(size * np.exp(1j * np.angle(white)))

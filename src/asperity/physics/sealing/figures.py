@@ -42,6 +42,10 @@ def flow_field(shown: LeakPicture) -> Field:
     return Field(np.where(size > 0.0, size, np.nan), shown.problem.grid, look)
 
 
+NUMBERED = 3
+"""Throats whose numbers stand beside their circles: those of the largest shares."""
+
+
 def plot_flow(shown: LeakPicture, ax: Axes) -> Axes:
     """Draw the flow on ``ax`` with lines along it and circles around the throats."""
     plot_map(flow_field(shown), ax)
@@ -53,15 +57,10 @@ def plot_flow(shown: LeakPicture, ax: Axes) -> Axes:
     along, across = shown.field("leak_flux_x"), shown.field("leak_flux_y")
     if np.any(along) or np.any(across):
         ax.streamplot(x, y, along.T, across.T, color="0.85", linewidth=0.5, arrowsize=0.5, density=1.4)
-    ax.scatter(
-        shown.column("throat_x") * factor,
-        shown.column("throat_y") * factor,
-        s=60.0,
-        facecolors="none",
-        edgecolors=VERMILLION,
-        linewidths=1.2,
-        label="throats",
-    )
+    places = np.stack([shown.column("throat_x"), shown.column("throat_y")]) * factor
+    ax.scatter(places[0], places[1], s=60.0, facecolors="none", edgecolors=VERMILLION, linewidths=1.2, label="throats")
+    for number, place in enumerate(places.T[:NUMBERED], start=1):
+        ax.annotate(str(number), place, (5.0, 4.0), textcoords="offset points", color=VERMILLION, weight="bold")
     ax.set(xlim=(low, high), ylim=(0.0, grid.size[1] * factor))
     return ax
 
@@ -115,7 +114,8 @@ def plot_path(shown: LeakPicture, ax: Axes) -> Axes:
 FLOW_PLOT = Plot(
     "leak_flow",
     "Flow and throats",
-    "Flow per width over its mean, with lines along it. Circles are the throats that lose half of the pressure.",
+    "Flow per width over its mean, with lines along it. Circles are the throats that lose half of the pressure, with "
+    "the numbers of the first in the table.",
     plot_flow,
     "map",
     shows=flow_field,

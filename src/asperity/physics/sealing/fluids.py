@@ -17,7 +17,7 @@ import numpy as np
 
 from ...core import require
 from ...core.arrays import RealArray
-from ...core.errors import InputError
+from ...core.errors import ConvergenceError, InputError
 from ...theories.sealing.gaps import ATMOSPHERE
 from .flow import GapFlow
 from .network import network
@@ -218,7 +218,8 @@ def _with_slip(flow: GapFlow, length: float) -> GapFlow:
 
 
 def _slipping(flow: GapFlow, gas: IdealGas, inlet: float, outlet: float) -> tuple[float, RealArray]:
-    """Throughput (Pa m³/s) and pressure (nx, ny) of a gas that slips between two sides.
+    """Throughput (Pa m³/s) and pressure (nx, ny) of a gas that slips between two sides;
+    ConvergenceError where it is not found.
 
     In u = P² the flow through a face is (u1 - u2) [T/2 + 6 λP S/(P1 + P2)], with its conductances T
     by the cube of the gap and S by the square: a linear balance whose coefficients change little,
@@ -247,8 +248,12 @@ def _slipping(flow: GapFlow, gas: IdealGas, inlet: float, outlet: float) -> tupl
         rate = 0.5 * float(flux[0].sum() - flux[1].sum()) * drop
         inside = np.where(carrying, np.sqrt(outlet**2 + drop * np.clip(share, 0.0, 1.0)), 0.0)
         if abs(rate - before) <= TOLERANCE * rate:
-            break
-    return rate / (12.0 * gas.viscosity), np.where(carrying, inside, np.nan)
+            return rate / (12.0 * gas.viscosity), np.where(carrying, inside, np.nan)
+    raise ConvergenceError(
+        f"The pressure of the gas that slips was not found in {ROUNDS} rounds: its leak rate still changes by "
+        f"{abs(rate - before) / rate:.1e}.",
+        subject="pressure of a gas that slips",
+    )
 
 
 def _over(conductance: RealArray, pressures: RealArray) -> RealArray:

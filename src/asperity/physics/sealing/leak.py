@@ -165,6 +165,8 @@ def leakage(
     ------
     InputError
         If a pressure, the direction or the way of driving does not fit.
+    ConvergenceError
+        If the pressure of a gas that slips is not found.
     """
     require.one_of(driven, DRIVEN, "way of driving the flow")
     require.one_of(way, WAYS, "direction of flow")

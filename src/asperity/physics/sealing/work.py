@@ -269,9 +269,8 @@ def _closing(ask: SealingSettings, solved: Solved, result: ContactResult) -> flo
     for _ in range(FURTHEST):
         load *= factor
         if passes(solve(solved.problem, MeanPressure(load)), way) is not opens:
-            found = closing_load(
-                solved.problem, (min(load, load / factor), max(load, load / factor)), way=way, rounds=FINENESS
-            )
+            between = min(load, load / factor), max(load, load / factor)
+            found = closing_load(solved.problem, between, way=way, rounds=FINENESS)
             return math.sqrt(found.lower * found.upper)
     return math.nan
 
@@ -312,8 +311,8 @@ def _throat_table(values: Mapping[str, Any]) -> Table:
     """Throats, those of the largest shares first."""
     names = ("share", "carried", "pixels", "gap", "x", "y")
     columns = [np.atleast_1d(np.asarray(values.get(f"throat_{name}", []))) for name in names]
-    cells = tuple(
-        (percent(float(share)), percent(float(carried)), f"{pixels:.3g}", *(show(float(at), "m", 3) for at in rest))
-        for share, carried, pixels, *rest in zip(*columns, strict=True)
-    )
-    return Table(("Share of the pressure", "Of the flow", "Pixels across", "Gap", "x", "y"), cells)
+    cells = []
+    for number, (share, carried, pixels, *rest) in enumerate(zip(*columns, strict=True), start=1):
+        lengths = (show(float(at), "m", 3) for at in rest)
+        cells.append((str(number), percent(float(share)), percent(float(carried)), f"{pixels:.3g}", *lengths))
+    return Table(("Throat", "Share of the pressure", "Of the flow", "Pixels across", "Gap", "x", "y"), tuple(cells))

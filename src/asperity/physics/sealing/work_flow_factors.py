@@ -94,8 +94,8 @@ REMARK = (
 
 _SHOWN = (
     ("separation_ratio", "H/σ"),
-    ("pressure_along", "φ along {along}"),
-    ("pressure_across", "φ along {across}"),
+    ("pressure_along", "φ along"),
+    ("pressure_across", "φ across"),
     ("shear", "φ_s"),
     ("contact_fraction", "contact"),
     ("mean_gap_ratio", "h_T/σ"),
@@ -111,7 +111,8 @@ def _cells(found: Found, along: str) -> Table:
         tuple("" if math.isnan(value) else f"{value:.3g}" for value in row)
         for row in zip(*(columns[name] for name, _ in _SHOWN), strict=True)
     )
-    return Table(tuple(head.format(along=along, across=_other(along)) for _, head in _SHOWN), cells)
+    axes = {"φ along": f"φ along {along}", "φ across": f"φ along {_other(along)}"}
+    return Table(tuple(axes.get(head, head) for _, head in _SHOWN), cells)
 
 
 def _other(axis: str) -> str:
