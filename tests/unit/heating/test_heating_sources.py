@@ -133,7 +133,14 @@ def test_limits_at_rest_and_fast(shape, limits) -> None:
 
 
 def test_small_peclet_numbers_cool_in_proportion() -> None:
-    """exp(-β r) to its first order: 1/2π of the mean of v/κ (r - x)/r over the area."""
+    """exp(-β r) to its first order: v/κ times the area over 4π, of the mean and of each point."""
+    square = RectangularSource(1.0, 1.0)
+    still = float(MovingSource(square, UNIT).temperature(0.3))
+    for speed in (1e-4, 1e-6, 1e-8, 1e-10, 1e-30):
+        slow = MovingSource(square, UNIT, speed)
+        assert SQUARE.rest_mean - slow.mean() == pytest.approx(speed / math.pi, rel=1e-3, abs=1e-12)
+        drift = speed * 0.3 * 0.8  # downstream of the centre it is less, by x times a slope of order one
+        assert still - float(slow.temperature(0.3)) == pytest.approx(speed / math.pi, abs=drift + 1e-12)
     moving = [MovingSource(disc_source(1.0), UNIT, 2.0 * pe).mean() for pe in (1e-5, 2e-5)]
     first, second = (8.0 / (3.0 * math.pi) - mean for mean in moving)
     assert second / first == pytest.approx(2.0, rel=1e-4)
@@ -256,7 +263,7 @@ def test_the_sides_are_alike_and_the_wake_lies_at_positive_x(peclet, x, y, b, he
     here = source.at(x, y)
     assert 0.0 <= here <= polar.ScaledEllipse(b, hertzian, 0.0).at(x, y) * (1.0 + 1e-11) + 1e-300
     assert source.at(x, -y) == pytest.approx(here, rel=1e-10, abs=1e-300)
-    assert polar.ScaledEllipse(b, hertzian, -peclet).at(-x, y) == here
+    assert polar.ScaledEllipse(b, hertzian, -peclet).at(-x, y) == pytest.approx(here, rel=1e-12, abs=1e-300)
     assert source.at(abs(x), y) >= source.at(-abs(x), y) * (1.0 - 1e-11)
 
 

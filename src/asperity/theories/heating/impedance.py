@@ -141,9 +141,7 @@ class HeatConductor:
             z -= part.thickness
             flux = flux * part.through()
         if z > self.sink_depth:
-            raise InputError(
-                f"depth (m) must be at most that of the sink, but lies {z - self.sink_depth:g} m below it."
-            )
+            raise InputError(f"depth (m) must be at most that of the sink, but is {depth:g}.")
         return flux * parts[-1].at(z)
 
     def beyond_base(self, qx: ArrayLike, qy: ArrayLike, speed: Speed = 0.0, laplace: complex = 0.0) -> ComplexArray:
@@ -188,12 +186,13 @@ class HeatConductor:
     def _parts(self, qx: ArrayLike, qy: ArrayLike, speed: Speed, laplace: complex) -> list[_Part]:
         """Layers and base from the top."""
         s = decay(qx, qy, self.diffusivity, speed, laplace)
-        found = [_Part(self.conductivity * s, s, self.sink_depth, 0.0 * s - 1.0)]
+        found = [_Part(self.conductivity * s, s, self.sink_depth, np.full(s.shape, -1.0 + 0.0j))]
         for layer in reversed(self.layers):
             s = decay(qx, qy, layer.diffusivity, speed, laplace)
             ks = layer.conductivity * s
             under = ks * (found[0].at(0.0) + layer.resistance)
-            found.insert(0, _Part(ks, s, layer.thickness, (under - 1.0) / (under + 1.0)))
+            reflection: ComplexArray = np.divide(under - 1.0, under + 1.0, dtype=complex)
+            found.insert(0, _Part(ks, s, layer.thickness, reflection))
         return found
 
 

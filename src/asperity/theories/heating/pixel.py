@@ -32,6 +32,8 @@ _SEEN = 1.0 / 13.0
 """The same where the nearest edge is one half side away: erfc(6.5) < 1e-19."""
 _LAST = 1e7
 """Of the largest distance: beyond, the tail at rest is known to the square of its inverse."""
+_STILL = 1e-18
+"""v/κ times the largest distance below which the motion changes no digit."""
 _GONE = 6.2
 """Argument x'/2w of the error functions from which on the source has passed by: their difference is
 below 1e-17."""
@@ -127,9 +129,10 @@ def rectangle_mean(
         corners = (a**2 + b**2) ** 1.5 - a**3 - b**3
         over_r = 2.0 * a * b * (a * math.asinh(b / a) + b * math.asinh(a / b)) - corners / 1.5
         return float(over_r / (a * b * 2.0 * math.pi * of.k))
-    w, weight = of.nodes(_BEGIN * min(half), (2.0 * half[0], 2.0 * half[1]))
+    reach = (2.0 * half[0], 2.0 * half[1])
+    w, weight = of.nodes(_BEGIN * min(half), reach)
     along, across = (_passing_mean(h, drift * w, w) for h, drift in zip(half, of.drift, strict=True))
-    return float(weight @ (along * across))
+    return float(weight @ (along * across)) + of.tail(half, reach)
 
 
 class _Moving:
@@ -173,14 +176,15 @@ class _Moving:
         passed = [
             (_GONE + math.sqrt(_GONE**2 + speed * far)) / speed
             for speed, far in zip(np.abs(self.drift), reach, strict=True)
-            if speed > 0.0
+            if speed * far > _STILL
         ]
-        return float(min([*passed, _LAST * max(*reach, self.z)]))
+        return float(min(passed)) if passed else _LAST * max(*reach, self.z)
 
     def tail(self, half: tuple[float, float], reach: tuple[float, float]) -> float:
         """What comes after the last node in steady state at rest."""
         last = self._last(reach)
-        if last < _LAST * max(*reach, self.z) or self.end <= last:
+        moves = any(speed * far > _STILL for speed, far in zip(np.abs(self.drift), reach, strict=True))
+        if moves or self.end <= last:
             return 0.0
         after = 0.0 if math.isinf(self.end) else 1.0 / self.end
         return float(2.0 * half[0] * half[1] / (math.pi**1.5 * self.k) * (1.0 / last - after))

@@ -326,7 +326,7 @@ class MovingSource:
         if first < _THINNEST:
             raise InputError(
                 f"thickness of the first layer (m) must be at least {_THINNEST * a:g} m for a source of this size, but "
-                f"is {first * a:g} m. Leave it out, and add thickness over conductivity to the temperature of the base."
+                f"is {first * a:g} m. Leave it out: if it conducts poorly, it adds thickness over conductivity."
             )
         return FromBelow(scaled, 2.0 * self.peclet, self.source.area, self.source.transform(uniform=False), 2.0)
 
