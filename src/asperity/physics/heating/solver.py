@@ -204,9 +204,9 @@ def gmres(
         w, column = operator(turned[steps]), np.zeros(steps + 2)
         known = basis[: steps + 1]
         for _ in range(2):  # twice, so that rounding leaves the basis orthogonal
-            parts = known @ w
+            parts = np.einsum("kn,n->k", known, w)  # matrix products wait for threads that are busy elsewhere
             column[:-1] += parts
-            w = np.asarray(w - parts @ known, np.float32)
+            w = w - np.einsum("k,kn->n", parts, known)
         last = column[-1] = float(np.linalg.norm(w))
         for i, (c, s) in enumerate(turns):
             column[i], column[i + 1] = c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]
@@ -218,4 +218,4 @@ def gmres(
         upper[: steps + 1, steps] = column[:-1]
         steps += 1
     weights = np.linalg.solve(upper[:steps, :steps], g[:steps])
-    return np.asarray(weights.astype(np.float32) @ turned[:steps]), steps
+    return np.einsum("k,kn->n", weights.astype(np.float32), turned[:steps]), steps
