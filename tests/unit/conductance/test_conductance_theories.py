@@ -42,6 +42,15 @@ def test_elastic_joints_conduct_as_mikic_says() -> None:
     assert found.conductance[1] == pytest.approx(1.55 * 50.0 * 0.2 / 2e-6 * share**0.94)
 
 
+def test_the_slope_of_joints_is_the_mean_absolute_one_of_profiles() -> None:
+    """The area of elastic joints is then that of Bush, Gibson and Thomas: √(2π) P over E* and the
+    rms gradient, which is √2 the rms slope of profiles, √(π/2) of their mean absolute slope."""
+    gradient, pressure = 0.3, 1e6
+    slope = gradient / math.sqrt(2.0) * math.sqrt(2.0 / math.pi)
+    found = ElasticJoint(50.0, 1e11, 1e-6, slope).at_pressure([pressure]).area_fraction[0]
+    assert found == pytest.approx(math.sqrt(2.0 * math.pi) * pressure / (1e11 * gradient), rel=1e-12)
+
+
 def test_a_wave_has_the_stiffness_of_strips() -> None:
     """Barber: h = (k_s/E*) dp/dδ of one wave is that of parallel strips of its contact fraction."""
     wave = Westergaard(1e11, 1e-8, 1e-5)
