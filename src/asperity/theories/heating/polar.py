@@ -72,7 +72,9 @@ class ScaledEllipse:
     def mean(self, *, weighted: bool = False) -> float:
         """Mean of θ over the source, or ``weighted`` with its flux, in steady state at the
         surface."""
-        psi, weight = _graded(((0.0, self._levels), (0.5 * math.pi, 8), (math.pi, 4)), 0.0, math.pi)
+        psi, weight = _graded(
+            ((0.0, self._levels), (0.5 * math.pi, 8 + self._slender), (math.pi, 4 + self._slender)), 0.0, math.pi
+        )
         c, s = np.cos(psi), np.sin(psi)
         n = np.sqrt(c**2 + (self.b * s) ** 2)
         beta = ScaledEllipse(self.b, self.hertzian, abs(self.peclet))._falls(n, c, s)
@@ -82,7 +84,12 @@ class ScaledEllipse:
     @property
     def _levels(self) -> int:
         """Panels that grow twofold from a point where the flow upstream is felt."""
-        return 6 + math.ceil(0.5 * math.log2(1.0 + abs(self.peclet)))
+        return 6 + self._slender + math.ceil(0.5 * math.log2(1.0 + abs(self.peclet)))
+
+    @property
+    def _slender(self) -> int:
+        """Further panels of a slender ellipse, whose directions crowd about its axes."""
+        return math.ceil(abs(math.log2(self.b)))
 
     def _falls(self, n: RealArray, c: RealArray, s: RealArray) -> RealArray:
         """β of lengths t in the direction ψ, Pe (n - cos ψ), without cancellation upstream."""
@@ -93,7 +100,14 @@ class ScaledEllipse:
         """Directions ψ in which the source is seen, and weights."""
         rim = 4 + math.ceil(0.5 * math.log2(1.0 / max(abs(out), 1e-12))) if abs(out) < 1.0 else 0
         towards = math.atan2(Y, X)
-        marks = [(0.0, self._levels), (0.5 * math.pi, 8), (-0.5 * math.pi, 8), (math.pi, 4), (-math.pi, 4)]
+        across, along = 8 + self._slender, 4 + self._slender
+        marks = [
+            (0.0, self._levels),
+            (0.5 * math.pi, across),
+            (-0.5 * math.pi, across),
+            (math.pi, along),
+            (-math.pi, along),
+        ]
         if out < 0.0 and Y == 0.0:  # both sides alike
             psi, weight = _graded((*marks, (0.5 * math.pi, rim)), 0.0, math.pi)
             return psi, 2.0 * weight

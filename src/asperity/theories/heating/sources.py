@@ -234,13 +234,13 @@ class MovingSource:
 
     Examples
     --------
-    A micrometre of steel under a megawatt per square millimetre, at rest and at 10 m/s:
+    Steel under a terawatt per square metre on a radius of 1 µm, at rest and at 10 m/s, in K:
 
     >>> steel = HeatConductor(46.0, 1.2e-5)
     >>> round(1e12 * MovingSource(disc_source(1e-6), steel).hottest().temperature)
     21739
     >>> round(1e12 * MovingSource(disc_source(1e-6), steel, 10.0).hottest().temperature)
-    18460
+    18476
     """
 
     def __init__(self, source: Source, body: HeatConductor, speed: float = 0.0) -> None:
