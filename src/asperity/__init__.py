@@ -13,13 +13,13 @@ Everything of a subject stands in its module. Numbers are in SI units, arrays ar
     files           results, surfaces and stress fields saved, loaded and exported
     friction        laws, stick and slip under a tangential load, tangential stiffness
     generate        deterministic shapes and textures, Gaussian and other random roughness
+    heating         flash temperature of sliding contacts, share of the heat between bodies
     menisci         liquid films and bridges between surfaces, liquids, wet summits
     plasticity      hardness of the interface, plastic flow of the bodies, hardening
     plots           figures of surfaces, contacts, stresses and campaigns, on axes or as files
     report          self-contained pages of results, surfaces and comparisons, and animations
     rolling         creepage, creep forces and their curve, of smooth and of rough bodies
     roughness       every quantity of a surface, one function or record each
-    heating         flash temperature of sliding contacts, share of the heat between bodies
     sealing         flow through the gap, leak rates, throats, flow factors
     solids          elastic, layered and graded bodies, the library of materials
     solvers         methods of the normal contact, prepared operators, rounds of couplings
