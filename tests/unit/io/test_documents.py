@@ -456,6 +456,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "passes",
         "conductance",
         "sealing",
+        "flow_factors",
     }
     assert schema["additionalProperties"] is False
     body = schema["$defs"]["BodyTable"]
