@@ -457,6 +457,7 @@ def test_schema_is_json_and_names_every_table() -> None:
         "conductance",
         "sealing",
         "heating",
+        "flow_factors",
     }
     assert schema["additionalProperties"] is False
     body = schema["$defs"]["BodyTable"]
