@@ -78,8 +78,8 @@ class PlasticJoint(_Joint):
 
         P/H = erfc(Λ/√2)/2,  h σ/(k_s m) = exp(-Λ²/2)/(2 √(2π) (1 - √(P/H))^1.5).
 
-    Its usual correlation is ``correlation``. Joints that are solved on a grid lie 5 % below at P/H =
-    0.001 and 20 % at 0.1.
+    Its usual correlation is ``correlation``. Joints that are solved on a grid lie 5 % below at
+    P/H = 0.001 and 20 % at 0.1.
     """
 
     conductivity: MeanConductivity
