@@ -75,7 +75,7 @@ def freed_of_pixels(edges: Edges, density: RealArray, conductivity: float, film_
     bias = _bias(edges) * spread * (WIDER * spread / strip)
 
     def of_spots(values: RealArray) -> RealArray:
-        return np.bincount(spot, values, minlength=count + 1).astype(float, copy=False)
+        return np.asarray(np.bincount(spot, values, minlength=count + 1), dtype=float)
 
     size = np.bincount(labels.ravel(), minlength=count + 1).astype(float)
     length = np.maximum(of_spots(edges.cosine), 1.0)

@@ -97,7 +97,7 @@ def flux(operator: Operator, contact: BoolArray) -> Flux:
         density = density + found.pressure
         drop = operator.apply(density)
         left = np.where(contact, 1.0 - drop, 0.0)
-        bounded = _bounded(operator, density, drop, left, contact)
+        bounded = _bounded(operator, density, drop, contact)
         if bounded.upper - bounded.lower <= CLOSE * bounded.lower:
             break
     return bounded
@@ -129,7 +129,7 @@ def flux_with_gap(operator: Operator, contact: BoolArray, gap_resistance: RealAr
         through_bodies = operator.apply(density)
         drop = through_bodies + more * density
         left = np.where(conducts, 1.0 - drop, 0.0)
-        bounded = _bounded(operator, density, drop, left, conducts, more, film_resistance)
+        bounded = _bounded(operator, density, drop, conducts, more, film_resistance)
         if bounded.upper - bounded.lower <= CLOSE * bounded.lower:
             break
     in_bodies = np.where(contact, drop, through_bodies - film_resistance * density)
@@ -220,7 +220,6 @@ def _bounded(
     operator: Operator,
     density: RealArray,
     drop: RealArray,
-    left: RealArray,
     points: BoolArray,
     more: RealArray | float = 0.0,
     film_resistance: float = 0.0,
@@ -230,7 +229,7 @@ def _bounded(
     Thomson: (1·j)²/(j·Aj) is below it for any j. Above it is what a smaller matrix gives in r·A⁻¹r
     (``_weights``).
     """
-    n = operator.grid.n_points
+    n, left = operator.grid.n_points, np.where(points, 1.0 - drop, 0.0)
     total, energy = float(density[points].sum()), float((density * drop)[points].sum())
     lower = total * total / energy / n if energy > 0.0 else 0.0
     weight, uniform = _weights(operator, points, more, film_resistance)
