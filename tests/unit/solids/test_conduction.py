@@ -52,7 +52,7 @@ def test_values_have_sources_and_lie_in_the_range_of_solids() -> None:
     assert len(METALS) >= 15
     for record in materials():
         values = record.values
-        for key in ("thermal_conductivity", "electrical_resistivity"):
+        for key in ("thermal_conductivity", "electrical_resistivity", "volumetric_heat_capacity", "thermal_expansion"):
             assert key not in values or len(values[key].source) > 10
         if "thermal_conductivity" in values:
             assert 0.1 <= values["thermal_conductivity"].value <= 430.0

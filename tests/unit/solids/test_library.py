@@ -126,7 +126,8 @@ def test_assumed_values_are_exactly_these() -> None:
     ceramics = {"soda-lime glass", "silicon nitride", "silicon carbide", "zirconia"}
     conducting = {(name, "thermal_conductivity") for name in (*ceramics, "Ti-6Al-4V")}
     conducting |= {(name, "electrical_resistivity") for name in ("stainless steel", "cast iron")}
-    assert assumed == {(name, "poisson_ratio") for name in names} | conducting
+    warming = {("bearing steel", "volumetric_heat_capacity")}
+    assert assumed == {(name, "poisson_ratio") for name in names} | conducting | warming
 
 
 @pytest.mark.parametrize("name", ["DLC", "dlc", " DLC ", "Diamond-Like  Carbon"])
