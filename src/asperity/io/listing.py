@@ -42,8 +42,6 @@ RECORDS = {
         ("yield_stress", "yield stress", "Pa"),
         ("thermal_conductivity", "k", "W/(m*K)"),
         ("electrical_resistivity", "ρ", "ohm*m"),
-        ("volumetric_heat_capacity", "ρc", "J/(m**3*K)"),
-        ("thermal_expansion", "α", "1/K"),
     ),
     LiquidRecord: (
         ("surface_tension", "surface tension", "N/m"),
@@ -52,7 +50,8 @@ RECORDS = {
         ("viscosity", "viscosity", "Pa*s"),
     ),
 }
-"""Values of a record that lists show: key, heading and SI unit."""
+"""Values of a record that lists show: key, heading and SI unit; others stand in the material itself,
+since a line has room for so many."""
 
 
 def entry_text(record: MaterialRecord | LiquidRecord, key: str) -> str:
