@@ -21,8 +21,9 @@ COLOURS = (BLUE, VERMILLION, GREEN, ORANGE)
 
 
 def joints(figure: Figure) -> None:
-    """Dimensionless conductance over P/H: theory, correlation, and solved joints."""
-    ax = figure.subplots()
+    """Dimensionless conductance over P/H: theory, correlation and solved joints, and both over the
+    theory."""
+    ax, beside = figure.subplots(1, 2)
     exact, fitted = joint_conductance.theory()
     shares = np.array(joint_conductance.SHARES)
     ax.loglog(shares, exact, color=BLACK, label="Cooper, Mikic & Yovanovich")
@@ -31,6 +32,10 @@ def joints(figure: Figure) -> None:
         found = joint_conductance.solved(slope, hardness, 512, 12.0, 2)
         label = f"rms slope {slope:g}, H = {hardness:g} E*"
         ax.loglog(shares, found.scaled.mean(axis=0), "o", color=colour, label=label, fillstyle="none")
+        beside.semilogx(shares, found.scaled.mean(axis=0) / exact, "o-", color=colour, fillstyle="none")
+    beside.semilogx(shares, fitted / exact, "--", color=BLACK)
+    beside.axhline(1.0, color=BLACK)
+    beside.set(xlabel="P/H", ylabel="conductance / Cooper, Mikic & Yovanovich", ylim=(0.0, 1.2))
     ax.set(xlabel="P/H", ylabel="h σ/(k_s m)")
     ax.legend()
 
@@ -52,7 +57,7 @@ def stiffness(figure: Figure) -> None:
 
 
 FIGURES: dict[str, tuple[Callable[[Figure], None], tuple[float, float]]] = {
-    "joint_conductance": (joints, (5.0, 4.0)),
+    "joint_conductance": (joints, (9.0, 4.0)),
     "conductance_stiffness": (stiffness, (5.0, 4.0)),
 }
 """Name of the file -> how to draw it, width and height in inches."""

@@ -28,7 +28,6 @@ LIMITS: dict[str, dict[str, str]] = {
         "read": "independent keyword-only choices of the user, each with a default",
         "filter_waves": "independent keyword-only choices of the user, each with a default",
         "fitted_solid": "three measured columns, and independent keyword-only choices of the user",
-        "_bounded": "a flux, what is left of its equation, and what conducts where",
         "rectangle": "a point, a rectangle and the body it moves on, and keyword-only depth and time",
         "pixel_kernel": "a grid and the body it moves on, and keyword-only depth and time",
         "finished": "what a solve ends with, and who asks: a history, a step of time or a sliding contact",

@@ -224,12 +224,13 @@ powers."""
 @cache
 def _factor(name: str, unit: str) -> float:
     """One ``name`` in ``unit``."""
-    if name == unit:
+    plain = name.replace("^", "**")
+    if plain == unit:
         return 1.0
     if (name, unit) in _DIRECT:
         return _DIRECT[name, unit]
-    if (unit in _PREFIXED or unit in _WRITTEN) and name.endswith(unit) and name.removesuffix(unit) in _PREFIXES:
-        return float(f"1e{_PREFIXES[name.removesuffix(unit)]}")
+    if (unit in _PREFIXED or unit in _WRITTEN) and plain.endswith(unit) and plain.removesuffix(unit) in _PREFIXES:
+        return float(f"1e{_PREFIXES[plain.removesuffix(unit)]}")
     if len(name) > 60 or not _GRAMMAR.fullmatch(name):
         raise ValueError(name)
     import pint

@@ -50,8 +50,8 @@ RECORDS = {
         ("viscosity", "viscosity", "Pa*s"),
     ),
 }
-"""Values of a record that lists show: key, heading and SI unit; others stand in the material itself,
-since a line has room for so many."""
+"""Values of a record that lists show: key, heading and SI unit. A line has room for so many; others
+stand in the material itself."""
 
 
 def entry_text(record: MaterialRecord | LiquidRecord, key: str) -> str:

@@ -76,7 +76,7 @@ class _Joint(Theory):
 class PlasticJoint(_Joint):
     """Summits of a Gaussian surface that flow, each a circle at the end of a tube:
 
-        P/H = erfc(Λ/√2)/2,  h σ/(k_s m) = exp(-Λ²/2)/(2 √(2π) (1 - √(P/H))^1.5).
+        P/H = erfc(Λ/√2)/2,  h σ/(k_s m) = exp(-Λ²/2)/(2 √(2π) (1 - √(P/H))^(3/2)).
 
     Its usual correlation is ``correlation``. Joints that are solved on a grid lie 5 % below at
     P/H = 0.001 and 20 % at 0.1.
@@ -126,7 +126,9 @@ class PlasticJoint(_Joint):
 
 @dataclass(frozen=True)
 class ElasticJoint(_Joint):
-    """Summits of a Gaussian surface that stay elastic: h σ/(k_s m) = 1.55 (√2 P/(E* m))^0.94.
+    """Summits of a Gaussian surface that stay elastic:
+
+        h σ/(k_s m) = 1.55 (√2 P/(E* m))^(0.94).
 
     The real area is P √2/(E* m), half of that of plastic summits of this hardness, and with the
     mean absolute slope m that of Bush, Gibson and Thomas at light load, √(2π) P/(E* h'), h' the rms

@@ -186,10 +186,11 @@ class SpotAnswer(Tabled):
 
 @dataclass(frozen=True)
 class HolmSpot(Theory):
-    """One circular spot between two bodies, R = Γ(ℓ/a)/(2 k_s a) + 4 ℓ/(3 π k_s a²) with the mean
-    free path ℓ of electrons; without one R = (ρ1 + ρ2)/4a.
+    """One circular spot between two bodies, with the mean free path ℓ of electrons:
 
-    With thermal conductivities in place of electrical ones K/W for Ω.
+        R = Γ(ℓ/a)/(2 k_s a) + 4 ℓ/(3 π k_s a²).
+
+    Without one R = (ρ1 + ρ2)/4a. With thermal conductivities in place of electrical ones K/W for Ω.
     """
 
     conductivity: Annotated[

@@ -180,7 +180,9 @@ class MovingHeatSource(Theory):
 class JaegerBand(Theory):
     """A uniform band of heat across the motion, in closed form with X = v x/2κ:
 
-    T = 2 q κ/(π k v) (P(X + Pe) - P(X - Pe)),  P(U) = ∫ exp(u) K0|u| du from 0 to U.
+        T = 2 q κ/(π k v) (P(X + Pe) - P(X - Pe)),  P(U) = ∫_0^U exp(u) K_0(u) du
+
+    with the size of u in K_0.
     """
 
     flux: Flux
@@ -203,9 +205,10 @@ class JaegerBand(Theory):
 class TianKennedy(Theory):
     """A disc of heat on a half-space that moves by under it, between its limits at rest and fast:
 
-        T = c q̄ a/(k sqrt(π (d + Pe))),  c = 2, d = 1.273, Hertzian flux c = 2.32, d = 1.234.
+        T = c q̄ a/(k sqrt(π (d + Pe))).
 
-    Largest temperatures within -1.1 and +2.3 %; means of the same form up to 4.6 % low.
+    Under even flux c = 2 and d = 1.273, under Hertz's c = 2.32 and d = 1.234. Largest temperatures
+    are within -1.1 and +2.3 %; means of the same form are up to 4.6 % low.
     """
 
     flux: Flux

@@ -170,7 +170,9 @@ OfFluid = Annotated[Viscosity, "viscosity η of the fluid"]
 
 @dataclass(frozen=True)
 class ParallelGap(_Film):
-    """An even gap, Q = W g³ ΔP/(12 η L) of a liquid.
+    """An even gap, of a liquid:
+
+        Q = W g³ ΔP/(12 η L).
 
     Of an ideal gas with slip the throughput is W g³ (P_i² - P_o²)/(24 η L) (1 + 6 Kn), Kn the mean
     free path at the mean pressure over the gap.
@@ -218,7 +220,10 @@ class ParallelGap(_Film):
 
 @dataclass(frozen=True)
 class TaperedGap(_Film):
-    """A gap that changes linearly along the flow from g_1 to g_2, K = 2 g_1² g_2²/(g_1 + g_2)."""
+    """A gap that changes linearly along the flow from g_1 to g_2:
+
+    K = 2 g_1² g_2²/(g_1 + g_2).
+    """
 
     first_gap: Annotated[Length, "gap g_1 at one end"]
     last_gap: Annotated[Length, "gap g_2 at the other end"]
@@ -250,8 +255,12 @@ class TaperedGap(_Film):
 
 @dataclass(frozen=True)
 class AnnularGap(_Film):
-    """An even gap between two flat rings with flow along the radius, as of a flange: Q = π g³ ΔP/(6
-    η ln(r_o/r_i)). InputError if the outer radius is not the larger."""
+    """An even gap between two flat rings with flow along the radius, as of a flange:
+
+        Q = π g³ ΔP/(6 η ln(r_o/r_i)).
+
+    InputError if the outer radius is not the larger.
+    """
 
     gap: Gap
     viscosity: OfFluid
@@ -283,8 +292,10 @@ class AnnularGap(_Film):
 
 @dataclass(frozen=True)
 class ParabolicThroat(_Film):
-    """A throat across the flow, as under a cylinder: gap g + x²/(2 R), Q = W ΔP 8 g^2.5/(3 π √(2
-    R))/(12 η)."""
+    """A throat across the flow, as under a cylinder, of the gap g + x²/(2 R):
+
+    Q = (W ΔP/(12 η)) 8 g^(5/2)/(3 π √(2 R)).
+    """
 
     gap: Annotated[Length, "smallest gap g"]
     viscosity: OfFluid
@@ -308,7 +319,10 @@ class ParabolicThroat(_Film):
 @dataclass(frozen=True)
 class ParabolicChannel(_Film):
     """A channel along the flow, as a groove or a scratch: its section is a parabola that closes at
-    both sides, K = 16/35 of the cube of its height."""
+    both sides, at the height h in the middle:
+
+        K = (16/35) h³.
+    """
 
     height: Annotated[Length, "height in the middle"]
     viscosity: OfFluid
@@ -332,8 +346,12 @@ class ParabolicChannel(_Film):
 @dataclass(frozen=True)
 class SaddleThroat(Theory):
     """A constriction between two spots of contact: gap g + x²/(2 R_x) - y²/(2 R_y) with the flow
-    along x. 12 η Q/ΔP is from 5/6 to 6/7 of g³ √(R_y/R_x): without flow across, and with a pressure
-    that varies along x only."""
+    along x.
+
+        5/6 ≤ 12 η Q/(ΔP g³ √(R_y/R_x)) ≤ 6/7
+
+    From below without flow across, from above with a pressure that varies along x only.
+    """
 
     gap: Annotated[Length, "gap g in the middle"]
     viscosity: OfFluid

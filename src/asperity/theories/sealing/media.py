@@ -144,8 +144,10 @@ def lattice_sums(largest: int) -> RealArray:
 
 @dataclass(frozen=True, eq=False)
 class EffectiveMedium(Theory):
-    """An even mixture of gaps of any shape, by Bruggeman: <(g³ - K)/(g³ + K)> = 0, between layers
-    across and along the flow.
+    """An even mixture of gaps g_i of any shape with shares f_i of the area, by Bruggeman, between
+    layers across and along the flow:
+
+        Σ f_i (g_i³ - K)/(g_i³ + K) = 0.
 
     InputError if a gap or share is negative, all are zero, or their numbers differ.
     """
@@ -212,8 +214,13 @@ class ArrayAnswer(Tabled):
 
 @dataclass(frozen=True)
 class ObstacleArray(Theory):
-    """Circular spots of contact in a square array in an even gap, by Rayleigh's multipoles; circles
-    without resistance have the reciprocal (Keller 1964)."""
+    """Circular spots of contact that cover the fraction f in a square array in an even gap, by
+    Rayleigh's multipoles; circles without resistance have the reciprocal (Keller 1964).
+
+    For small f the transmissivity over that of the gap is that of Maxwell and Garnett:
+
+        K ≈ (1 - f)/(1 + f).
+    """
 
     name: ClassVar[str] = "obstacle-array"
     title: ClassVar[str] = "Rayleigh, square array of spots"
@@ -270,8 +277,11 @@ class CriticalJunction(Theory):
     of Persson's theory closes the gap (Persson & Yang 2008).
 
     With the waves up to q_c the contact covers the fraction at which it percolates. The gap of what
-    comes out of contact there is u_c = ū + ū' A/A', with the mean gap ū of the shorter waves under
-    the pressure p A_n/A and derivatives by q, and a square lets Q = u_c³ ΔP/(12 η) through: an
+    comes out of contact there, and what a square lets through, are
+
+        u_c = ū + ū' A/A',  Q = u_c³ ΔP/(12 η)
+
+    with the mean gap ū of the shorter waves under the pressure p A_n/A and derivatives by q: an
     order of magnitude.
     """
 

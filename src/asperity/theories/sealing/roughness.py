@@ -134,8 +134,12 @@ class WaveFactors(Tabled):
 
 @dataclass(frozen=True)
 class GroovedGap(Theory):
-    """A sinusoidal gap H + A cos: φ = 1 + 3/2 (A/H)² along the grooves, (1 - ε²)^2.5/(1 + ε²/2)
-    with ε = A/H across, and φ_s = 3 (σ/H)/(1 + (σ/H)²) with σ = A/√2.
+    """A sinusoidal gap H + A cos, along the grooves, across them, and sheared, with ε = A/H and the
+    rms height σ = A/√2:
+
+        φ_x = 1 + (3/2) ε²,  φ_y = (1 - ε²)^(5/2)/(1 + ε²/2)
+
+        φ_s = 3 (σ/H)/(1 + (σ/H)²).
 
     Below H = A the crests are cut off where they reach the other surface.
     """
@@ -199,7 +203,9 @@ class FittedFactors(Tabled):
 @dataclass(frozen=True)
 class PatirCheng(Theory):
     """Flow factors of a Gaussian surface whose correlation length along the flow is γ times that
-    across, as fitted by Patir and Cheng: φ = 1 - 0.9 exp(-0.56 H/σ) if isotropic.
+    across, as fitted by Patir and Cheng. If it is isotropic,
+
+        φ = 1 - 0.9 exp(-0.56 H/σ).
 
     InputError if the fit has no such γ.
     """
