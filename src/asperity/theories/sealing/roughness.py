@@ -203,7 +203,7 @@ class FittedFactors(Tabled):
 @dataclass(frozen=True)
 class PatirCheng(Theory):
     """Flow factors of a Gaussian surface whose correlation length along the flow is γ times that
-    across, as fitted by Patir and Cheng. If it is isotropic,
+    across, as fitted by Patir and Cheng; if isotropic:
 
         φ = 1 - 0.9 exp(-0.56 H/σ).
 
