@@ -9,12 +9,10 @@ cold solves of the normal contact.
 from __future__ import annotations
 
 import argparse
-import time
-from collections.abc import Callable
 from functools import partial
-from typing import Any
 
-import numpy as np
+from clock import timed
+from surfaces import self_affine
 from tables import add_option, made, show
 
 import asperity as asp
@@ -35,37 +33,21 @@ BETWEEN = {
 
 def joint(n: int, coated: bool) -> asp.ContactProblem:
     """A rough surface of rms slope one and unit contact modulus, bare or coated."""
-    spectrum = asp.generate.SelfAffine(
-        amplitude=asp.generate.RmsSlope(1.0), hurst=0.8, rolloff_wavelength=n / 4.0, shortest_wavelength=8.0
-    )
-    surface = asp.generate.gaussian(asp.Grid((n, n), (1.0, 1.0)), spectrum, seed=1)
     body: asp.Elastic | asp.Layered = asp.Elastic(0.91, 0.3, conduction=Conduction(1.0, 1.0))
     if coated:
         film = asp.Elastic(2.0, 0.3, conduction=Conduction(0.1, 0.1))
         body = asp.Layered([asp.Layer(film, 20.0)], body)
-    return asp.ContactProblem(surface, body)
-
-
-def timed(run: Callable[[], Any], repeats: int) -> tuple[Any, float]:
-    """What ``run`` gives, and its least processor time in s; the first run, which prepares, does
-    not count."""
-    run()
-    best, found = np.inf, None
-    for _ in range(repeats):
-        start = time.process_time()
-        found = run()
-        best = min(best, time.process_time() - start)
-    return found, best
+    return asp.ContactProblem(self_affine(n), body)
 
 
 def row(n: int, coated: bool, pressure: float, threads: int, repeats: int) -> list[str]:
     """Row of one size, body and pressure."""
     problem, engine = joint(n, coated), CpuEngine(threads)
-    result, solve = timed(lambda: asp.solve(problem, asp.MeanPressure(pressure), engine=engine), repeats)
+    result, solve = timed(lambda: asp.solve(problem, asp.MeanPressure(pressure), engine=engine), repeats, before=1)
     _ = result.gap, result.edges  # of the result, whatever follows
     numbers, apart = [], 0.0
     for interface in BETWEEN.values():
-        answer, seconds = timed(partial(conductance, result, "thermal", interface, engine=engine), repeats)
+        answer, seconds = timed(partial(conductance, result, "thermal", interface, engine=engine), repeats, before=1)
         numbers += [f"{seconds:.2f}", f"{seconds / solve:.2f}"]
         apart = max(apart, answer.upper / answer.lower - 1.0)
     return [str(n), "coated" if coated else "bare", f"{pressure:g}", f"{solve:.2f}", *numbers, f"{apart:.0e}"]

@@ -13,11 +13,9 @@ packages in the same process.
 from __future__ import annotations
 
 import argparse
-import time
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
+from clock import timed
 from surfaces import self_affine
 from tables import add_option, made, show
 
@@ -32,16 +30,6 @@ LOAD = 0.05
 MOST_OF_TAMAAS = 5000
 """Iterations of Tamaas at most, five times its own limit."""
 PLAIN = asp.Keep(stiffness=False)
-
-
-def timed(run: Callable[[], Any], repeats: int) -> tuple[Any, float]:
-    """What ``run`` gives, and its least processor time in s."""
-    best, found = np.inf, None
-    for _ in range(repeats):
-        start = time.process_time()
-        found = run()
-        best = min(best, time.process_time() - start)
-    return found, best
 
 
 def one_step(n: int, nu: float, repeats: int) -> list[str]:

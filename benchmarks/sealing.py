@@ -11,11 +11,10 @@ several runs.
 from __future__ import annotations
 
 import argparse
-import time
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from clock import timed
 from scipy.sparse.linalg import splu
 from surfaces import self_affine
 from tables import add_option, made, show
@@ -26,16 +25,6 @@ from asperity.physics.sealing.network import network
 
 OPEN = (1.0, 0.7)
 """Shares of the area that are open."""
-
-
-def timed(run: Callable[[], Any], repeats: int) -> tuple[Any, float]:
-    """What ``run`` gives, and its least processor time in s."""
-    best, found = np.inf, None
-    for _ in range(repeats):
-        start = time.process_time()
-        found = run()
-        best = min(best, time.process_time() - start)
-    return found, best
 
 
 def fresh(flow: GapFlow) -> tuple[float, float]:

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from cli.conftest import Runner
 from refusals import refused
+from sealing_cases import seal
 from study_cases import InProcess, plan
 
 import asperity as asp
@@ -24,19 +25,7 @@ from asperity.studies.collect import dataset
 from asperity.studies.run import carry_out
 from asperity.theories import GroovedGap
 
-SEAL: dict[str, Any] = {
-    "version": 2,
-    "surface": {
-        "kind": "rough",
-        "points": [32, 32],
-        "size": "10 um",
-        "seed": 2,
-        "spectrum": {"kind": "gaussian", "rms_height": "100 nm", "correlation_length": "1 um"},
-    },
-    "body": "E=100GPa,nu=0.3",
-    "counter_body": {"rigid": True},
-    "control": {"mean_pressure": "300 MPa"},
-}
+SEAL = seal(32)
 FREE = {"boundary": {"kind": "free"}, "control": {"force": "1 mN"}}
 WAVE = SEAL | {
     "surface": {

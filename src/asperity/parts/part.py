@@ -3,12 +3,12 @@ figures and words."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 
 from ..core.errors import InputError
 from ..core.registry import home
@@ -132,9 +132,9 @@ class Solved:
     lines: bool = True
     stage: Stage = no_stage
 
-    def at(self, step: Literal["peak", "last"] | int = "peak") -> Reached:
-        """The contact at a ``step`` of the load path: that of the largest force, the last one, or
-        by its number from 1.
+    def at(self, step: float | str = "peak") -> Reached:
+        """The contact at a ``step`` of the load path: ``"peak"`` for that of the largest force,
+        ``"last"``, or its number from 1.
 
         Raises
         ------
@@ -142,14 +142,31 @@ class Solved:
             If the path has no such step, or its steps were not kept.
         """
         if self.path is None:
-            if isinstance(step, int) and step != 1:
-                raise InputError(f"step must be one of a load path, but there is no path and it is {step}.")
+            if not isinstance(step, str) and int(step) != 1:
+                raise InputError(f"step must be one of a load path, but there is no path and it is {step:g}.")
             return Reached(self.result, 1, 1)
         steps = self.path.steps
-        number = {"peak": self.path.peak + 1, "last": len(steps)}.get(step, step) if isinstance(step, str) else step
-        if not 1 <= int(number) <= len(steps):
-            raise InputError(f"step must be from 1 to {len(steps)}, those of the load path, but is {step}.")
-        return Reached(steps[int(number) - 1], int(number), len(steps))
+        named = {"peak": self.path.peak + 1, "last": len(steps)}
+        number = named[step] if isinstance(step, str) else int(step)
+        if not 1 <= number <= len(steps):
+            raise InputError(f"step must be from 1 to {len(steps)}, those of the load path, but is {number}.")
+        return Reached(steps[number - 1], number, len(steps))
+
+
+def require_step(step: float | str, controls: Sequence[Any], what: str, last: str) -> None:
+    """Refuse a ``step`` of the load path, as of ``Solved.at``, beyond the ``controls`` that are
+    solved, before they are; ``what`` it is and how to ask for the ``last`` are said.
+
+    Raises
+    ------
+    InputError
+        If it is not among them.
+    """
+    most = max(1, len(controls))
+    if not isinstance(step, str) and int(step) > most:
+        raise InputError(
+            f"{what} must be from 1 to {most}, those of the load, but is {step:g}; take the last ({last})."
+        )
 
 
 class Reached(NamedTuple):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -112,6 +113,35 @@ class Conduction:
     def diffusivity(self) -> float:
         """κ = k/ρc in m²/s; ``nan`` where one of both is not known."""
         return self.thermal_conductivity / self.volumetric_heat_capacity
+
+
+_GIVEN = MappingProxyType(
+    {
+        "thermal_conductivity": "Give {thermal_conductivity}.",
+        "electrical_resistivity": "Give {electrical_resistivity}.",
+        "volumetric_heat_capacity": "Give {volumetric_heat_capacity}.",
+    }
+)
+"""What to do where one of these is not known."""
+
+
+def known_conduction(material: Elastic, key: str, which: str, use: str = "") -> float:
+    """Value of ``key`` of the ``conduction`` of a ``material``, SI; ``which`` body or layer it is,
+    and for what ``use``, such as ``" for Joule heat"``, are said in the message.
+
+    Raises
+    ------
+    InputError
+        If it is not known.
+    """
+    value: float = getattr(material.conduction, key)
+    if math.isnan(value):
+        missing, name = key.replace("_", " "), f"{material.name} ({which})" if material.name else f"the {which}"
+        raise InputError(
+            f"{missing} of {name} must be known{use}, but is not. {_GIVEN[key]}",
+            subject=f"{missing} of {material.name or which}",
+        )
+    return value
 
 
 INCOMPRESSIBLE = "Use 0.5 for an incompressible solid."

@@ -54,8 +54,9 @@ def test_rough_contacts(row: Row) -> None:
     for name, value in expected.items():
         assert value == pytest.approx(row[name], rel=1e-6), name
     assert found.hottest == (row["i_max"], row["j_max"])
+    assert found.place == pytest.approx(((row["i_max"] + 0.5) * 1e-6, (row["j_max"] + 0.5) * 1e-6), rel=1e-12)
     assert found.mismatch < 1e-8 * found.maximum
-    assert found.heat_error < 1e-12
+    assert found.power == pytest.approx(0.3 * row["v_heat_m_per_s"] * found.normal_force, rel=1e-12)
     assert found.work > 0.0
     if not (row["R1_m2K_per_W"] or row["R2_m2K_per_W"]):
         assert found.blok == pytest.approx(row["T_max_blok_K"], rel=1e-6)

@@ -151,6 +151,7 @@ REFUSED = {
     "no conductivity": ({"body": "DLC:5nm/nickel"}, "thermal conductivity of DLC"),
     "no friction": ({"heating": {"speed": "1 m/s"}}, "heating.friction"),
     "no speed": ({"heating": {"friction": 0.3}}, "heating.speed"),
+    "step beyond the load": ({"heating": {"speed": "1 m/s", "friction": 0.3, "step": 3}}, "heating.step"),
     "speed of zero": ({"heating": {"speed": "0 m/s", "friction": 0.3}}, "heating.speed"),
     "moving": ({"heating": {"speed": "1 m/s", "moving": "both"}}, "heating.moving"),
     "rolling without its speed": ({"heating": {"speed": "1 m/s", "moving": "rolling"}}, "heating.rolling"),

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from refusals import refused
+from sealing_cases import seal
 
 import asperity as asp
 from asperity.core.errors import InputError
@@ -20,20 +21,7 @@ from asperity.run.document import checked, dumps, loads
 from asperity.run.execute import Outcome
 from asperity.run.stored import load_outcome, save_outcome
 
-SEAL: dict[str, Any] = {
-    "version": 2,
-    "surface": {
-        "kind": "rough",
-        "points": [48, 48],
-        "size": "10 um",
-        "seed": 2,
-        "spectrum": {"kind": "gaussian", "rms_height": "100 nm", "correlation_length": "1 um"},
-    },
-    "body": "E=100GPa,nu=0.3",
-    "counter_body": {"rigid": True},
-    "control": {"mean_pressure": "300 MPa"},
-    "sealing": {},
-}
+SEAL = seal(48, sealing={})
 
 
 def words_of(outcome: Outcome) -> Any:

@@ -19,12 +19,11 @@ from pydantic import Field, model_validator
 
 from ...core.errors import InputError
 from ...core.settings import Settings, setting
-from ...core.values import Count, Fraction, NonEmpty, Number, Positive, Pressure
+from ...core.values import Count, Fraction, NonEmpty, Number, Positive, Pressure, Temperature
 from ...solids.relaxation_text import AT, SHIFT_KEYS, series_parts
 
 Time: TypeAlias = Annotated[float, Number("time", above=0.0)]
 RelaxedModulus: TypeAlias = Annotated[float, Number("pressure", least=0.0)]
-Temperature: TypeAlias = Annotated[float, Number("temperature", above=0.0)]
 
 USUAL_RATIO = 1e4
 """First over relaxed modulus of a Kelvin-Voigt solid, if not said otherwise."""

@@ -11,7 +11,6 @@ densities for pressures, and the operators, solvers and preconditioners of the c
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -20,7 +19,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.arrays import RealArray
-from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.late import Shown
 from ...solids.compliance.halfspace import Compliance, HalfSpace, SumOfCompliances
@@ -33,8 +31,8 @@ from ...solids.compliance.influence import (
     wavenumber_grid,
     wavenumbers,
 )
-from ...solids.elastic import Elastic, Rigid
-from ...solids.layers import Body, Layered
+from ...solids.elastic import Elastic, Rigid, known_conduction
+from ...solids.layers import Body, Layered, deformable, surface_material
 
 
 @dataclass(frozen=True)
@@ -135,47 +133,31 @@ class Filmed:
 
 @dataclass(frozen=True, repr=False)
 class Flow(Shown):
-    """What flows: its words and units, and the conductivity of a material.
+    """What flows, and by which property of a material.
 
     Attributes
     ----------
     name
         ``"electrical"`` or ``"thermal"``.
-    conductivity
-        Conductivity of a material in S/m or W/(m K), NaN where not known.
-    missing, remedy
-        What is said to be missing, and how it is given.
-    potential, flow, resistance
-        Units: V and A and ohm, or K and W and K/W.
+    key
+        Of the property, a field of ``Conduction``.
+    resistivity
+        Whether that is one over the conductivity.
     """
 
     name: str
-    conductivity: Callable[[Elastic], float]
-    missing: str
-    remedy: str
-    potential: str
-    flow: str
-    resistance: str
+    key: str
+    resistivity: bool = False
+
+    def conductivity(self, material: Elastic, which: str) -> float:
+        """That of a ``material`` in S/m or W/(m K); InputError, which names ``which`` body or layer
+        it is, if it is not known."""
+        value = known_conduction(material, self.key, which)
+        return 1.0 / value if self.resistivity else value
 
 
-ELECTRICAL = Flow(
-    "electrical",
-    lambda material: 1.0 / material.conduction.electrical_resistivity,
-    "electrical resistivity",
-    "Give {electrical_resistivity}.",
-    "V",
-    "A",
-    "ohm",
-)
-THERMAL = Flow(
-    "thermal",
-    lambda material: material.conduction.thermal_conductivity,
-    "thermal conductivity",
-    "Give {thermal_conductivity}.",
-    "K",
-    "W",
-    "K/W",
-)
+ELECTRICAL = Flow("electrical", "electrical_resistivity", resistivity=True)
+THERMAL = Flow("thermal", "thermal_conductivity")
 
 
 def conductor_of(body: Body, flow: Flow, which: str) -> Compliance | None:
@@ -192,24 +174,11 @@ def conductor_of(body: Body, flow: Flow, which: str) -> Compliance | None:
     if isinstance(body, Rigid):
         return None
     stack = body.reduced if isinstance(body, Layered) else Layered((), body)
-    layers = [
-        _conductivity(layer.material, flow, f"layer {n} of the {which}") for n, layer in enumerate(stack.layers, 1)
-    ]
-    base = _conductivity(stack.base, flow, which) if isinstance(stack.base, Elastic) else math.inf
+    layers = [flow.conductivity(layer.material, f"layer {n} of the {which}") for n, layer in enumerate(stack.layers, 1)]
+    base = flow.conductivity(stack.base, which) if isinstance(stack.base, Elastic) else math.inf
     if not layers:
         return None if math.isinf(base) else HalfSpace(2.0 * base)
     return LayeredConductor(tuple(layer.thickness for layer in stack.layers), (*layers, base))
-
-
-def _conductivity(material: Elastic, flow: Flow, which: str) -> float:
-    found = flow.conductivity(material)
-    if math.isnan(found):
-        name = f"{material.name} ({which})" if material.name else f"the {which}"
-        raise InputError(
-            f"{flow.missing} of {name} must be known, but is not. {flow.remedy}",
-            subject=f"{flow.missing} of {material.name or which}",
-        )
-    return found
 
 
 def conductors(body: Body, counter_body: Body, flow: Flow, film_resistance: float = 0.0) -> Compliance:
@@ -223,9 +192,8 @@ def conductors(body: Body, counter_body: Body, flow: Flow, film_resistance: floa
         If the conductivity of a material is not known, or neither body has a resistance.
     """
     named = ((body, "body"), (counter_body, "counter body"))
+    deformable(body, counter_body)  # not both rigid
     found = [item for item in (conductor_of(solid, flow, which) for solid, which in named) if item is not None]
-    if not found:
-        raise InputError("body and counter_body must not both be rigid to conduct; make at least one of them Elastic.")
     spaces = [item for item in found if isinstance(item, HalfSpace)]
     if len(spaces) == 2:
         total: Compliance = HalfSpace(1.0 / sum(1.0 / item.modulus for item in spaces))
@@ -243,13 +211,12 @@ def harmonic_mean(body: Body, counter_body: Body, flow: Flow) -> float:
     InputError
         If the conductivity of a material is not known.
     """
+    deformable(body, counter_body)  # not both rigid
     inverse = 0.0
     for solid, named in ((body, "body"), (counter_body, "counter body")):
-        material = solid.surface_material if isinstance(solid, Layered) else solid
+        material = surface_material(solid)
         which = f"layer 1 of the {named}" if isinstance(solid, Layered) and solid.reduced.layers else named
-        inverse += 1.0 / _conductivity(material, flow, which) if isinstance(material, Elastic) else 0.0
-    if not inverse:
-        raise InputError("body and counter_body must not both be rigid to conduct; make at least one of them Elastic.")
+        inverse += 0.0 if material is None else 1.0 / flow.conductivity(material, which)
     return 2.0 / inverse
 
 
@@ -265,5 +232,5 @@ def layers_in_series(body: Body, counter_body: Body, flow: Flow) -> float:
     total = 0.0
     for solid, which in ((body, "body"), (counter_body, "counter body")):
         for n, layer in enumerate(solid.reduced.layers if isinstance(solid, Layered) else (), 1):
-            total += layer.thickness / _conductivity(layer.material, flow, f"layer {n} of the {which}")
+            total += layer.thickness / flow.conductivity(layer.material, f"layer {n} of the {which}")
     return total

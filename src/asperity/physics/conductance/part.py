@@ -9,7 +9,7 @@ from pydantic import model_validator
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.values import Choice, Length, Number, ThermalConductivity
+from ...core.values import Choice, Length, Number, Temperature, ThermalConductivity, ThermalResistance, Voltage
 from ...parts.part import Part
 
 WORDS = ("known", "electrical", "thermal", "both")
@@ -19,10 +19,7 @@ FLOWS = ("electrical", "thermal")
 
 Which = Annotated[str, Choice({name: name for name in WORDS})]
 ElectricalFilm = Annotated[float, Number("ohm*m^2", least=0.0)]
-ThermalFilm = Annotated[float, Number("m^2*K/W", least=0.0)]
 Emissivity = Annotated[float, Number(above=0.0, most=1.0)]
-Temperature = Annotated[float, Number("temperature", above=0.0)]
-Voltage = Annotated[float, Number("V", least=0.0)]
 
 
 class ConductanceSettings(Settings):
@@ -45,7 +42,7 @@ class ConductanceSettings(Settings):
         option="--film-resistance",
         help="Specific electrical resistance of a film in contact: 1e-12ohm*m^2",
     )
-    thermal_film_resistance: ThermalFilm = setting(
+    thermal_film_resistance: ThermalResistance = setting(
         "0 m^2*K/W", option="--thermal-film", help="Specific thermal resistance of a film in contact: 1e-6m^2*K/W"
     )
     gap_conductivity: ThermalConductivity | None = setting(

@@ -57,8 +57,11 @@ class ConductanceWork(WithFacts):
                 findings += _findings(found)
                 name = f"path_{flow}_conductance_per_area"
                 if solved.path is not None and (solved.wanted is None or name in solved.wanted):
-                    steps = [conductance(step, flow, between, engine=engine) for step in solved.path.steps]  # type: ignore[arg-type]
-                    values[name] = np.array([step.per_area for step in steps])
+                    others = (
+                        found if number == reached.number else conductance(step, flow, between, engine=engine)  # type: ignore[arg-type]
+                        for number, step in enumerate(solved.path.steps, start=1)
+                    )
+                    values[name] = np.array([step.per_area for step in others])
         if isinstance(solved.problem.body, Rigid) or isinstance(solved.problem.counter_body, Rigid):
             fact = "The rigid body is taken for a perfect conductor: all of the resistance is that of the other one."
             findings.append(Advice("note", "rigid conductor", fact))

@@ -15,7 +15,7 @@ from ...contact.problem import ContactProblem
 from ...core.arrays import BoolArray, ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.late import Shown
-from ...core.spectral import thread_count
+from ...core.spectral import RealTransform, thread_count
 from ...core.status import Advice
 from ...solids.elastic import Elastic
 from ...solids.layers import materials_of, surface_material
@@ -113,7 +113,7 @@ class FrictionalHeating(Shown):
         total = float(self.heat.sum())
         return float(self.heat_1.sum()) / total if total else math.nan
 
-    @property
+    @cached_property
     def hottest(self) -> tuple[int, int]:
         """Pixel of the largest temperature on the contact."""
         found = int(np.argmax(np.where(self.contact, self.temperature, -np.inf)))
@@ -122,9 +122,9 @@ class FrictionalHeating(Shown):
 
     @property
     def place(self) -> tuple[float, float]:
-        """(x, y) in m of that pixel."""
+        """(x, y) in m of the middle of that pixel."""
         (i, j), (dx, dy) = self.hottest, self.problem.grid.spacing
-        return i * dx, j * dy
+        return (i + 0.5) * dx, (j + 0.5) * dy
 
     @property
     def maximum(self) -> float:
@@ -160,12 +160,16 @@ class FrictionalHeating(Shown):
         return ordered, (np.arange(ordered.size) + 1.0) / max(ordered.size, 1)
 
     @cached_property
-    def spot_pixels(self) -> int:
-        """Pixels of the hottest spot, pixels joined by their sides; 0 without contact."""
-        if not self.contact.any():
-            return 0
+    def spot(self) -> BoolArray:
+        """(nx, ny) True in the hottest spot, pixels joined by their sides; nowhere without
+        contact."""
         labels, _ = labelled(self.contact, wraps=self.problem.boundary.wraps)
-        return int(np.count_nonzero(labels == labels[self.hottest]))
+        return np.asarray(self.contact & (labels == labels[self.hottest]))
+
+    @property
+    def spot_pixels(self) -> int:
+        """Pixels of the hottest spot; 0 without contact."""
+        return int(np.count_nonzero(self.spot))
 
     @property
     def spot_radius(self) -> float:
@@ -198,12 +202,6 @@ class FrictionalHeating(Shown):
         return float(np.nanmax((0.0, *self.peclet(self.spot_radius))))
 
     @property
-    def heat_error(self) -> float:
-        """Relative difference between the heat into both bodies and that made."""
-        into = float(self.heat_1.sum()) + float((self.heat - self.heat_1).sum())
-        return abs(into / float(self.heat.sum()) - 1.0) if self.rubs else 0.0
-
-    @property
     def critical_wavelength(self) -> float:
         """Length in m beyond which the pressure of sliding surfaces grows by thermal expansion
         (Burton 1980); NaN where no expansion is known.
@@ -234,17 +232,16 @@ class FrictionalHeating(Shown):
         InputError
             If a depth is negative, or below a rigid base.
         """
-        grid, row, made = self.problem.grid, self.hottest[1], []
+        row, made, threads = self.hottest[1], [], thread_count()
         fluxes = (self.heat_1, self.heat - self.heat_1)
-        sinks, kernels = self.interface.sink, self._kernels
-        for conductor, kernel, velocity, flux, sink in zip(
-            self.conductors, kernels, self.motion.velocities, fluxes, sinks, strict=True
+        for conductor, velocity, flux, sink in zip(
+            self.conductors, self.motion.velocities, fluxes, self.interface.sink, strict=True
         ):
-            if conductor is None or kernel is None:
-                made.append(np.full((len(depths), grid.shape[0]), math.nan))
+            if conductor is None:
+                made.append(np.full((len(depths), self.problem.grid.shape[0]), math.nan))
                 continue
-            fields = [kernel.at_depth(z, conductor, velocity, grid, sink).apply(flux)[:, row] for z in depths]
-            made.append(np.array(fields))
+            below = (HeatKernel.of(conductor, velocity, self.problem, sink, threads, z) for z in depths)
+            made.append(np.array([kernel.apply(flux)[:, row] for kernel in below]))
         return made[0], made[1]
 
     def displacement(self) -> RealArray:
@@ -265,27 +262,18 @@ class FrictionalHeating(Shown):
             )
         total = np.zeros(grid.shape)
         fluxes = (self.heat_1, self.heat - self.heat_1)
-        for body, which, conductor, kernel, velocity, flux in zip(
-            (problem.body, problem.counter_body),
-            BODIES,
-            self.conductors,
-            self._kernels,
-            self.motion.velocities,
-            fluxes,
-            strict=True,
+        transform = RealTransform(grid.shape, thread_count())
+        for body, which, conductor, velocity, flux in zip(
+            (problem.body, problem.counter_body), BODIES, self.conductors, self.motion.velocities, fluxes, strict=True
         ):
-            if conductor is None or kernel is None:
+            if conductor is None:
                 continue
             material = materials_of(body)[-1]
             if math.isnan(material.conduction.thermal_expansion):
                 raise InputError(f"thermal expansion of the {which} must be known, but is not. Give it as alpha.")
             spectrum = waves(grid, partial(_bulge, conductor, material, velocity), 0.0)
-            total += HeatKernel(kernel.transform, spectrum).apply(flux)
+            total += HeatKernel(transform, spectrum).apply(flux)
         return total
-
-    @cached_property
-    def _kernels(self) -> tuple[HeatKernel | None, HeatKernel | None]:
-        return kernels_of(self.problem, self.conductors, self.motion, self.interface, None)
 
 
 def _bulge(
@@ -295,20 +283,3 @@ def _bulge(
     of, alpha = conductor.diffusivity, material.conduction.thermal_expansion
     flux = 1.0 / (conductor.conductivity * decay(qx, qy, of, velocity))
     return np.asarray(bulge(qx, qy, of, alpha, material.poisson_ratio, velocity) * flux)
-
-
-def kernels_of(
-    problem: ContactProblem,
-    conductors: tuple[HeatConductor | None, HeatConductor | None],
-    motion: Motion,
-    interface: HeatedInterface,
-    threads: int | None,
-) -> tuple[HeatKernel | None, HeatKernel | None]:
-    """Both bodies on the grid of the problem; None of one that takes no heat."""
-    first, second = (
-        None
-        if conductor is None
-        else HeatKernel.of(conductor, velocity, problem.grid, problem.boundary, sink, thread_count(threads))
-        for conductor, velocity, sink in zip(conductors, motion.velocities, interface.sink, strict=True)
-    )
-    return first, second

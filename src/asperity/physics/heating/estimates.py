@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from ...contact.measure import labelled
 from ...theories.heating.estimates import interpolated, together
 from .answer import FrictionalHeating
 
@@ -16,8 +15,7 @@ def disc_estimate(found: FrictionalHeating) -> float:
     """
     if not found.rubs or not found.contact.any():
         return math.nan
-    labels, _ = labelled(found.contact, wraps=found.problem.boundary.wraps)
-    mean = float(found.heat[labels == labels[found.hottest]].mean())
+    mean = float(found.heat[found.spot].mean())
     rises = []
     for conductor, velocity in zip(found.conductors, found.motion.velocities, strict=True):
         if conductor is not None:

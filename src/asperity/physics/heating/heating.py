@@ -4,7 +4,8 @@ of both surfaces and below."""
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -14,9 +15,11 @@ from ...contact.result import ContactResult
 from ...core import require
 from ...core.arrays import RealArray
 from ...core.errors import InputError
-from ...solids.layers import surface_material
+from ...core.spectral import thread_count
+from ...solids.elastic import known_conduction
+from ...solids.layers import deformable, surface_material
 from ...theories.heating.impedance import HeatConductor
-from .answer import BODIES, FrictionalHeating, kernels_of
+from .answer import BODIES, FrictionalHeating
 from .findings import findings
 from .kernels import HeatKernel, heat_conductor
 from .law import HeatedInterface, Motion
@@ -123,49 +126,90 @@ def heating_of(
     threads: int | None = None,
 ) -> FrictionalHeating:
     """The same for a given ``heat`` (nx, ny) in W/m² on the contact."""
-    problem, contact = result.problem, result.contact
-    require_heatable(problem, interface)
-    conductors = _conductors(problem, interface)
-    kernels = kernels_of(problem, conductors, motion, interface, threads)
-    found = shared(kernels, heat, contact, interface.resistance, interface.difference)
-    joule = _joule(problem, voltage)
-    plane = _plane(found, heat, interface)
-    nowhere = np.full(heat.shape, math.nan)
-    alone = [
-        math.inf if kernel is None else float((kernel.apply(heat) + between * heat)[contact].max(initial=0.0))
-        for kernel, between in zip(kernels, interface.resistance, strict=True)
-    ]
-    heated = FrictionalHeating(
-        problem=problem,
-        motion=motion,
-        interface=interface,
-        contact=contact,
-        heat=heat,
-        heat_1=found.heat_1,
-        temperature=np.where(contact, plane + joule, math.nan),
-        surface_1=nowhere if found.rise_1 is None else found.rise_1,
-        surface_2=nowhere if found.rise_2 is None else found.rise_2,
-        joule=joule,
-        mismatch=found.mismatch,
-        work=found.work,
-        wake=_wake(kernels, motion, heat.shape),
-        alone=(alone[0], alone[1]),
-        normal_force=result.force,
-        steps=found.steps,
-        conductors=conductors,
-    )
-    return replace(heated, findings=findings(heated))
+    return HeatedBodies.of(result.problem, motion, interface, voltage, threads).under(result, heat)
+
+
+@dataclass(frozen=True, eq=False)
+class HeatedBodies:
+    """Both bodies of a problem prepared for the heat of any contact of them.
+
+    Attributes
+    ----------
+    motion, interface
+        How they move, and what heat meets.
+    conductors, kernels
+        What they are for heat, and from flux to temperature on the grid; None of a rigid one.
+    joule
+        Rise in K by Joule heat.
+    """
+
+    motion: Motion
+    interface: HeatedInterface
+    conductors: tuple[HeatConductor | None, HeatConductor | None]
+    kernels: tuple[HeatKernel | None, HeatKernel | None]
+    joule: float
+
+    @classmethod
+    def of(
+        cls, problem: ContactProblem, motion: Motion, interface: HeatedInterface, voltage: float, threads: int | None
+    ) -> Self:
+        """Those of ``problem``; other arguments and errors as of ``flash_temperature``."""
+        require_heatable(problem, interface)
+        conductors = _conductors(problem, interface)
+        first, second = (
+            None if conductor is None else HeatKernel.of(conductor, velocity, problem, sink, thread_count(threads))
+            for conductor, velocity, sink in zip(conductors, motion.velocities, interface.sink, strict=True)
+        )
+        return cls(motion, interface, conductors, (first, second), _joule(problem, voltage))
+
+    def under(self, result: ContactResult, heat: RealArray) -> FrictionalHeating:
+        """Temperatures of the contact ``result`` under ``heat`` (nx, ny) in W/m².
+
+        Raises
+        ------
+        InputError
+            If all points touch and nothing determines how the mean heat is shared.
+        ConvergenceError
+            If the linear system is not solved.
+        """
+        contact, interface = result.contact, self.interface
+        found = shared(self.kernels, heat, contact, interface.resistance, interface.difference)
+        plane = _plane(found, heat, interface)
+        nowhere = np.full(heat.shape, math.nan)
+        alone = [
+            math.inf if kernel is None else float((kernel.apply(heat) + between * heat)[contact].max(initial=0.0))
+            for kernel, between in zip(self.kernels, interface.resistance, strict=True)
+        ]
+        heated = FrictionalHeating(
+            problem=result.problem,
+            motion=self.motion,
+            interface=interface,
+            contact=contact,
+            heat=heat,
+            heat_1=found.heat_1,
+            temperature=np.where(contact, plane + self.joule, math.nan),
+            surface_1=nowhere if found.rise_1 is None else found.rise_1,
+            surface_2=nowhere if found.rise_2 is None else found.rise_2,
+            joule=self.joule,
+            mismatch=found.mismatch,
+            work=found.work,
+            wake=_wake(self.kernels, self.motion, heat.shape),
+            alone=(alone[0], alone[1]),
+            normal_force=result.force,
+            steps=found.steps,
+            conductors=self.conductors,
+        )
+        return replace(heated, findings=findings(heated))
 
 
 def _conductors(
     problem: ContactProblem, interface: HeatedInterface
 ) -> tuple[HeatConductor | None, HeatConductor | None]:
+    bodies = problem.body, problem.counter_body
+    deformable(*bodies)  # not both rigid
     first, second = (
-        heat_conductor(body, which, bonds)
-        for body, which, bonds in zip((problem.body, problem.counter_body), BODIES, interface.bonds, strict=True)
+        heat_conductor(body, which, bonds) for body, which, bonds in zip(bodies, BODIES, interface.bonds, strict=True)
     )
-    if first is None and second is None:
-        raise InputError("body and counter_body must not both be rigid to conduct; make at least one of them Elastic.")
     return first, second
 
 
@@ -192,16 +236,8 @@ def _joule(problem: ContactProblem, voltage: float) -> float:
         material = surface_material(body)
         if material is None:
             continue
-        known = material.conduction
-        if math.isnan(known.electrical_resistivity):
-            name = f"{material.name} ({which})" if material.name else f"the {which}"
-            raise InputError(
-                f"electrical resistivity of {name} must be known for Joule heat, but is not. Give "
-                "{electrical_resistivity}.",
-                subject=f"electrical resistivity of {material.name or which}",
-            )
-        resistivity += known.electrical_resistivity
-        conductivity += known.thermal_conductivity
+        resistivity += known_conduction(material, "electrical_resistivity", which, " for Joule heat")
+        conductivity += material.conduction.thermal_conductivity
     return voltage**2 / (2.0 * resistivity * conductivity)
 
 

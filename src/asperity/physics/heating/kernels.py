@@ -14,14 +14,14 @@ from typing import Self, TypeAlias
 
 import numpy as np
 
-from ...contact.boundary import Boundary
+from ...contact.problem import ContactProblem
 from ...core import require
 from ...core.arrays import ComplexArray, RealArray
 from ...core.errors import InputError
 from ...core.grid import Grid
 from ...core.quadrature import gauss
 from ...core.spectral import PaddedTransform, RealTransform, fast_length
-from ...solids.elastic import Elastic, Rigid
+from ...solids.elastic import Elastic, Rigid, known_conduction
 from ...solids.layers import Body, Layered
 from ...theories.heating.impedance import HeatConductor, HeatLayer, decay
 from ...theories.heating.pixel import pixel_kernel
@@ -78,18 +78,9 @@ def heat_conductor(body: Body, which: str, bonds: tuple[float, ...] = ()) -> Hea
 
 def _conducts(material: Elastic, which: str) -> tuple[float, float]:
     """k and κ of a material."""
-    known = material.conduction
-    for missing, value, remedy in (
-        ("thermal conductivity", known.thermal_conductivity, "Give {thermal_conductivity}."),
-        ("volumetric heat capacity", known.volumetric_heat_capacity, "Give {volumetric_heat_capacity}."),
-    ):
-        if math.isnan(value):
-            name = f"{material.name} ({which})" if material.name else f"the {which}"
-            raise InputError(
-                f"{missing} of {name} must be known, but is not. {remedy}",
-                subject=f"{missing} of {material.name or which}",
-            )
-    return known.thermal_conductivity, known.diffusivity
+    keys = ("thermal_conductivity", "volumetric_heat_capacity")
+    conductivity, capacity = (known_conduction(material, key, which) for key in keys)
+    return conductivity, conductivity / capacity
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,33 +99,27 @@ class HeatKernel:
 
     @classmethod
     def of(
-        cls, conductor: HeatConductor, velocity: Velocity, grid: Grid, boundary: Boundary, sink: float, threads: int
+        cls,
+        conductor: HeatConductor,
+        velocity: Velocity,
+        problem: ContactProblem,
+        sink: float,
+        threads: int,
+        depth: float = 0.0,
     ) -> Self:
-        """That of the ``conductor`` whose material moves with ``velocity`` (m/s), and that in
-        periodic contact has a ``sink`` for the mean flux at that depth (m), which may be
-        infinite."""
-        if all(boundary.wraps):
-            transform = RealTransform(grid.shape, threads)
-            return cls(
-                transform, waves(grid, lambda qx, qy: conductor.impedance(qx, qy, velocity), mean(conductor, sink))
-            )
-        padded = (fast_length(2 * grid.shape[0] - 1), fast_length(2 * grid.shape[1] - 1))
-        kernel = free_pixel(conductor, velocity, grid)
-        return cls(PaddedTransform(grid.shape, padded, threads), _cyclic(kernel, grid, padded))
+        """That of the ``conductor`` whose material moves with ``velocity`` (m/s) on the grid of the
+        ``problem``, to the temperature at the ``depth`` in m, >= 0; in periodic contact the mean
+        flux has a ``sink`` at that depth (m), which may be infinite."""
+        z, grid = require.not_negative(depth, "depth (m)"), problem.grid
+        if all(problem.boundary.wraps):
 
-    def at_depth(
-        self, depth: float, conductor: HeatConductor, velocity: Velocity, grid: Grid, sink: float
-    ) -> HeatKernel:
-        """That of the temperature at the ``depth`` in m, >= 0, below the surface; other arguments
-        as of ``of``."""
-        z = require.not_negative(depth, "depth (m)")
-        if isinstance(self.transform, RealTransform):
-            at_mean = mean(conductor, sink)
-            if at_mean:  # what of the mean is left below
-                whole = conductor if math.isfinite(conductor.sink_depth) else replace(conductor, sink_depth=sink)
-                at_mean = float(whole.below(z, *_LONG).real)
-            return replace(self, spectrum=waves(grid, lambda qx, qy: conductor.below(z, qx, qy, velocity), at_mean))
-        return replace(self, spectrum=_cyclic(free_pixel(conductor, velocity, grid, z), grid, self.transform.padded))
+            def response(qx: RealArray, qy: RealArray) -> ComplexArray:
+                return conductor.below(z, qx, qy, velocity) if z else conductor.impedance(qx, qy, velocity)
+
+            return cls(RealTransform(grid.shape, threads), waves(grid, response, mean(conductor, sink, z)))
+        padded = (fast_length(2 * grid.shape[0] - 1), fast_length(2 * grid.shape[1] - 1))
+        kernel = free_pixel(conductor, velocity, grid, z)
+        return cls(PaddedTransform(grid.shape, padded, threads), _cyclic(kernel, grid, padded))
 
     def __add__(self, other: HeatKernel) -> HeatKernel:
         """Both bodies in series."""
@@ -153,12 +138,13 @@ class HeatKernel:
         return replace(self, spectrum=self.spectrum.astype(np.complex64))
 
 
-def mean(conductor: HeatConductor, sink: float) -> float:
-    """Impedance of the mean flux: of layers, bonds and a base that is ``sink`` m deep; zero where
-    the mean is left out."""
-    if math.isfinite(conductor.sink_depth):
-        return conductor.mean_mode()
-    return replace(conductor, sink_depth=sink).mean_mode() if math.isfinite(sink) else 0.0
+def mean(conductor: HeatConductor, sink: float, depth: float = 0.0) -> float:
+    """Temperature at the ``depth`` (m) over the mean flux: that of layers, bonds and a base that is
+    ``sink`` m deep; zero where the mean is left out."""
+    whole = conductor if math.isfinite(conductor.sink_depth) else replace(conductor, sink_depth=sink)
+    if not math.isfinite(whole.sink_depth):
+        return 0.0
+    return float(whole.below(depth, *_LONG).real) if depth else whole.mean_mode()
 
 
 def waves(grid: Grid, response: Response, at_mean: float) -> ComplexArray:

@@ -10,7 +10,7 @@ from pydantic import model_validator
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.values import Angle, Choice, Length, Number
+from ...core.values import Angle, Choice, Length, Number, StepOfPath, Temperature, ThermalResistance, Voltage
 from ...parts.part import Part
 
 WORDS = {"counter_body": "counter body", "body": "body", "opposite": "opposite", "rolling": "rolling"}
@@ -19,10 +19,6 @@ Moving = Annotated[str, Choice({name: name for name in WORDS})]
 SlidingSpeed = Annotated[float, Number("speed", above=0.0)]
 RollingSpeed = Annotated[float, Number("speed")]
 Coefficient = Annotated[float, Number(least=0.0)]
-Resistance = Annotated[float, Number("m^2*K/W", least=0.0)]
-Temperature = Annotated[float, Number("temperature", above=0.0)]
-Voltage = Annotated[float, Number("V", least=0.0)]
-StepOfPath = Annotated[float | str, Number(least=1.0, words=("peak", "last"))]
 
 
 class HeatingSettings(Settings):
@@ -51,10 +47,10 @@ class HeatingSettings(Settings):
     bulk_counter_body: Temperature = setting(
         "293.15 K", option="--bulk-counter-body", help="Temperature of the counter body: 350K"
     )
-    resistance_body: Resistance = setting(
+    resistance_body: ThermalResistance = setting(
         "0 m^2*K/W", option="--heat-film-body", help="Between the rubbing plane and the body: 1e-7m^2*K/W"
     )
-    resistance_counter_body: Resistance = setting(
+    resistance_counter_body: ThermalResistance = setting(
         "0 m^2*K/W", option="--heat-film-counter-body", help="The same on the side of the counter body"
     )
     sink_body: Length | None = setting(

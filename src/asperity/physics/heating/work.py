@@ -9,16 +9,18 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ...contact.controls import Control, Step
 from ...contact.problem import ContactProblem
+from ...contact.result import ContactResult
 from ...core.errors import InputError
 from ...core.units import percent, show
 from ...io.words import value_text
-from ...parts.part import Found, Reached, Rows, Solved, Table, WithFacts, Words
+from ...parts.part import Found, Reached, Rows, Solved, Table, WithFacts, Words, require_step
 from ...plots.picture import Figure, figures_by
 from .answer import FrictionalHeating
 from .estimates import disc_estimate
 from .figures import DISTRIBUTION_PLOT, PATH_PLOT, RISE_PLOT, SECTION_PLOT, SHARE_PLOT, HeatPicture
-from .heating import flash_temperature, require_heatable
+from .heating import HeatedBodies, heat_made, require_heatable
 from .law import HeatedInterface, Motion
 from .part import SCALARS, WORDS, HeatingSettings
 
@@ -38,17 +40,25 @@ class HeatingWork(WithFacts):
         """Refuse what cannot be heated, materials that are not known, and contacts without
         friction."""
         require_heatable(problem, interface_of(ask))
-        if ask.friction is None and not _rubs(problem):
+        if ask.friction is None and problem.friction is None:
             raise InputError(
                 "heating.friction must be given where the contact is solved without friction, but is not. Give "
                 "{heating.friction=0.2}."
             )
 
+    def course(self, ask: HeatingSettings, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
+        """The same steps; refuses one that is not among them."""
+        require_step(ask.step, controls, "heating.step", "{heating.step=last}")
+        return controls
+
     def compute(self, ask: HeatingSettings, solved: Solved) -> Found:
         """Temperatures at the step that is asked for, and those of all steps of a path."""
-        reached: Reached = solved.at(ask.step if isinstance(ask.step, str) else int(ask.step))  # type: ignore[arg-type]
+        reached: Reached = solved.at(ask.step)
         with solved.stage("frictional heating"):
-            heated = _heated(ask, reached.result, solved.threads)
+            bodies = HeatedBodies.of(
+                solved.problem, motion_of(ask), interface_of(ask), float(ask.voltage or 0.0), solved.threads
+            )
+            heated = _heated(ask, bodies, reached.result)
             values: dict[str, Any] = {**_numbers(heated), **_fields(heated)}
             if ask.section is not None and heated.rubs:
                 depths = np.linspace(0.0, float(ask.section), DEPTHS + 1)
@@ -56,7 +66,7 @@ class HeatingWork(WithFacts):
                 values |= {"heat_depth": depths, "heat_section_body": first, "heat_section_counter_body": second}
             if solved.path is not None and _wanted(solved):
                 steps = [
-                    heated if number == reached.number else _heated(ask, step, solved.threads)
+                    heated if number == reached.number else _heated(ask, bodies, step)
                     for number, step in enumerate(solved.path.steps, start=1)
                 ]
                 values |= {
@@ -126,16 +136,9 @@ def motion_of(ask: HeatingSettings) -> Motion:
     return Motion.of(float(ask.speed or 0.0), ask.moving, direction=direction, rolling=rolling)  # type: ignore[arg-type]
 
 
-def _rubs(problem: ContactProblem) -> bool:
-    """Whether the problem has friction, with or without sticking points."""
-    return problem.friction is not None
-
-
-def _heated(ask: HeatingSettings, result: Any, threads: int | None) -> FrictionalHeating:
+def _heated(ask: HeatingSettings, bodies: HeatedBodies, result: ContactResult) -> FrictionalHeating:
     friction = None if ask.friction is None else float(ask.friction)
-    motion = motion_of(ask)
-    voltage = float(ask.voltage or 0.0)
-    return flash_temperature(result, motion, friction, interface_of(ask), voltage=voltage, threads=threads)
+    return bodies.under(result, heat_made(result, bodies.motion, friction))
 
 
 def _wanted(solved: Solved) -> bool:

@@ -10,7 +10,7 @@ from pydantic import model_validator
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.values import Choice, NonNegativeLength, Number, Viscosity
+from ...core.values import Choice, NonNegativeLength, Number, StepOfPath, Viscosity
 from ...parts.part import Part
 
 KNOWN = ("water", "liquid", "air", "nitrogen", "helium", "hydrogen", "argon", "gas")
@@ -23,7 +23,6 @@ Inlet = Annotated[float, Number("pressure", above=0.0)]
 Outlet = Annotated[float, Number("pressure", least=0.0)]
 VolumeRate = Annotated[float, Number("m**3/s", above=0.0)]
 Throughput = Annotated[float, Number("Pa*m**3/s", above=0.0)]
-StepOfPath = Annotated[float | str, Number(least=1.0, words=("peak", "last"))]
 
 
 class SealingSettings(Settings):

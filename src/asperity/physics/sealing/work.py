@@ -16,7 +16,7 @@ from ...contact.solve import solve
 from ...core.errors import InputError
 from ...core.units import percent, show
 from ...io.words import value_text
-from ...parts.part import Found, Reached, Rows, Solved, Table, WithFacts, Words
+from ...parts.part import Found, Reached, Rows, Solved, Table, WithFacts, Words, require_step
 from ...plots.picture import Figure, figures_by
 from ...theories.sealing.gaps import ATMOSPHERE
 from .figures import CLOSED_PLOT, FLOW_PLOT, PATH_PLOT, PRESSURE_PLOT, LeakPicture
@@ -57,11 +57,7 @@ class SealingWork(WithFacts):
 
     def course(self, ask: SealingSettings, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """The same steps; refuses one that is not among them."""
-        if not isinstance(ask.step, str) and int(ask.step) > len(controls):
-            raise InputError(
-                f"sealing.step must be from 1 to {len(controls)}, those of the load, but is {ask.step:g}; take the "
-                "last ({sealing.step=last})."
-            )
+        require_step(ask.step, controls, "sealing.step", "{sealing.step=last}")
         return controls
 
     @staticmethod
@@ -73,7 +69,7 @@ class SealingWork(WithFacts):
 
     def compute(self, ask: SealingSettings, solved: Solved) -> Found:
         """Rate, throats and fields at the step that is asked for; rates of all steps of a path."""
-        reached: Reached = solved.at(ask.step if isinstance(ask.step, str) else int(ask.step))  # type: ignore[arg-type]
+        reached: Reached = solved.at(ask.step)
         with solved.stage("leakage"):
             leak = _leak(ask, reached.result)
             values: dict[str, Any] = {"sealing_pressure": math.nan, **_numbers(leak), **_fields(leak)}

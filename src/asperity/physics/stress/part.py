@@ -14,7 +14,7 @@ from pydantic import model_validator
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.values import Choice, Length, NonNegativeLength, Number, Pressure
+from ...core.values import Choice, Length, NonNegativeLength, Number, Pressure, StepOfPath
 from ...parts.part import Part
 
 if TYPE_CHECKING:
@@ -73,8 +73,6 @@ class ProfileTable(Placed):
     """Line into the body; a position that is left out is that of the largest equivalent stress,
     ``"max"``."""
 
-
-StepOfPath: TypeAlias = Annotated[float | str, Number(least=1.0, words=("peak", "last"))]
 
 Body = Annotated[str, Choice({"body": "body", "counter_body": "counter_body", "counter": "counter_body"})]
 

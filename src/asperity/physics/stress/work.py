@@ -15,7 +15,7 @@ from ...contact.controls import Control, Step
 from ...contact.problem import ContactProblem
 from ...core.errors import InputError
 from ...core.units import percent, show, times
-from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work
+from ...parts.part import Found, Rows, Solved, Stored, Table, Words, Work, require_step
 from ...plots.picture import Figure
 from ...solids.elastic import TABOR, Rigid
 from .figures import line_figures, map_figure
@@ -42,10 +42,7 @@ class StressWork(Work):
 
     def course(self, ask: StressRequest, controls: tuple[Step | Control, ...]) -> tuple[Step | Control, ...]:
         """The same steps; InputError if the one that is asked for is not among them."""
-        if isinstance(ask.step, int) and ask.step > max(1, len(controls)):
-            raise InputError(
-                f"step of the stresses must be peak, last or from 1 to {max(1, len(controls))}, but is {ask.step}."
-            )
+        require_step(ask.step, controls, "step of the stresses", "{stress.step=last}")
         return controls
 
     def compute(self, ask: StressRequest, solved: Solved) -> Found:

@@ -15,14 +15,13 @@ from pydantic import model_validator
 from ...core.errors import InputError
 from ...core.quantity import Quantity
 from ...core.settings import Settings, setting
-from ...core.values import Count, Fraction, Length, Number, Whole
+from ...core.values import Count, Fraction, Length, Number, Temperature, Whole
 from ...parts.part import Part
 
 if TYPE_CHECKING:
     from ...contact.controls import Control, Step
 
 Duration = Annotated[float, Number("time", least=0.0)]
-Temperature = Annotated[float, Number("temperature", above=0.0)]
 Frequency = Annotated[float, Number("Hz", above=0.0)]
 
 

@@ -31,10 +31,8 @@ class Source(ABC):
     """Shape and distribution of a flux about the origin; in all methods lengths are in units of the
     half length along the motion, and temperatures are θ of a half-space."""
 
-    @property
-    @abstractmethod
-    def half_length(self) -> float:
-        """a in m, along the motion."""
+    length: float
+    """Half length a along the motion, m."""
 
     @property
     @abstractmethod
@@ -73,11 +71,6 @@ class EllipticSource(Source):
     def __post_init__(self) -> None:
         """InputError for values that cannot be."""
         _sizes(self.length, self.width)
-
-    @property
-    def half_length(self) -> float:
-        """a in m."""
-        return self.length
 
     @property
     def area(self) -> float:
@@ -131,11 +124,6 @@ class RectangularSource(Source):
         _sizes(self.length, self.width)
 
     @property
-    def half_length(self) -> float:
-        """a in m."""
-        return self.length
-
-    @property
     def area(self) -> float:
         """Over a²."""
         return 4.0 * self.width / self.length
@@ -170,11 +158,6 @@ class BandSource(Source):
     def __post_init__(self) -> None:
         """InputError for values that cannot be."""
         _sizes(self.length, self.length)
-
-    @property
-    def half_length(self) -> float:
-        """l in m."""
-        return self.length
 
     @property
     def area(self) -> float:
@@ -246,7 +229,7 @@ class MovingSource:
     def __init__(self, source: Source, body: HeatConductor, speed: float = 0.0) -> None:
         self.source, self.body = source, body
         self.speed = require.finite(speed, "speed (m/s)")
-        a = source.half_length
+        a = source.length
         self.peclet = 0.5 * self.speed * a / body.diffusivity
         """v a/2κ of the base."""
         surface = body.layers[0] if body.layers else body
@@ -259,7 +242,7 @@ class MovingSource:
     @property
     def unit(self) -> float:
         """Temperature per mean flux at θ = 1: a/k of the base, in K m²/W."""
-        return self.source.half_length / self.body.conductivity
+        return self.source.length / self.body.conductivity
 
     def temperature(self, x: ArrayLike, y: ArrayLike = 0.0, *, depth: float = 0.0, time: float = math.inf) -> RealArray:
         """At points ``x``, ``y`` in m, broadcast, at the ``depth`` in m, the ``time`` in s after
@@ -270,7 +253,7 @@ class MovingSource:
         InputError
             If a depth or time is asked for below a layered body, or a time of a band.
         """
-        a = self.source.half_length
+        a = self.source.length
         x, y = np.broadcast_arrays(np.asarray(x, dtype=float) / a, np.asarray(y, dtype=float) / a)
         z = require.not_negative(depth, "depth (m)") / a
         if not time > 0.0:
@@ -290,7 +273,7 @@ class MovingSource:
         """Temperature and place of the hottest point, on the axis of the motion."""
         if self.speed == 0.0:
             return Hottest(float(self.temperature(0.0)), 0.0)
-        a, sign = self.source.half_length, math.copysign(1.0, self.speed)
+        a, sign = self.source.length, math.copysign(1.0, self.speed)
         found = optimize.minimize_scalar(
             lambda x: -float(self.temperature(sign * x * a)),
             bounds=(0.0, 1.0),
