@@ -17,7 +17,7 @@ from scipy import ndimage
 from ...core.arrays import BoolArray, RealArray
 from ...core.spectral import RealTransform, fast_length
 from .flow import GapFlow
-from .fluids import IdealGas, Leak
+from .fluids import IdealGas, Leak, with_dead_ends
 from .network import clusters, open_cells
 
 if TYPE_CHECKING:
@@ -64,18 +64,13 @@ def acting_pressure(flow: GapFlow, leak: Leak, given: FluidPressure, before: Rea
 def _known(flow: GapFlow, leak: Leak, inlet: float, outlet: float) -> tuple[BoolArray, RealArray]:
     """Cells (nx, ny) whose fluid is joined to one that flows or to a side, and its pressure
     (Pa)."""
-    axis, known = flow.axis, flow.net.carrying.copy()
-    inside = np.where(known, leak.pressure, 0.0)
-    if flow.gap.any() and (flow.sealed or not flow.repeats):
-        across = flow.wraps[0] and axis != 0, flow.wraps[1] and axis != 1
-        labels = clusters(open_cells(flow.gap), across).labels
-        for place, value in ((-1, outlet), (0, inlet)):
-            there = np.unique(np.take(labels, place, axis))
-            joined = np.isin(labels, there[there > 0]) & ~flow.net.carrying
-            inside[joined] = value
-            known |= joined
+    if flow.sealed or not flow.repeats:
+        known, inside = with_dead_ends(flow, leak, inlet, outlet)
+    else:
+        known, inside = flow.net.carrying, np.where(flow.net.carrying, leak.pressure, 0.0)
     if not flow.repeats or not known.any():
         return known, inside
+    axis = flow.axis
     count, shape = known.shape[axis], [1, 1]
     shape[axis] = count
     fall = 0.5 - (np.arange(count) + 0.5) / count

@@ -16,11 +16,11 @@ from typing import ClassVar, TypeAlias
 import numpy as np
 
 from ...core import require
-from ...core.arrays import RealArray
+from ...core.arrays import BoolArray, RealArray
 from ...core.errors import ConvergenceError, InputError
 from ...theories.sealing.gaps import ATMOSPHERE
 from .flow import GapFlow
-from .network import network
+from .network import clusters, network, open_cells
 from .solver import System
 
 GAS_CONSTANT = 8.31446261815324
@@ -185,6 +185,22 @@ class Leak:
     pressure: RealArray
     knudsen: float
     slip_factor: float
+
+
+def with_dead_ends(flow: GapFlow, leak: Leak, inlet: float, outlet: float) -> tuple[BoolArray, RealArray]:
+    """Cells (nx, ny) whose fluid is joined to one that flows or to a side, and its pressure in Pa:
+    in dead ends that of the side they open to; zero in closed pools and in contact."""
+    axis, known = flow.axis, flow.net.carrying.copy()
+    inside = np.where(known, leak.pressure, 0.0)
+    if flow.gap.any():
+        across = flow.wraps[0] and axis != 0, flow.wraps[1] and axis != 1
+        labels = clusters(open_cells(flow.gap), across).labels
+        for place, value in ((-1, outlet), (0, inlet)):
+            there = np.unique(np.take(labels, place, axis))
+            joined = np.isin(labels, there[there > 0]) & ~flow.net.carrying
+            inside[joined] = value
+            known |= joined
+    return known, inside
 
 
 def _drop(inlet: float, outlet: float) -> float:

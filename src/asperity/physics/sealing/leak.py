@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from ...contact.result import ContactResult
 from ...core import require
 from ...core.arrays import RealArray
@@ -17,8 +15,7 @@ from ...core.units import percent
 from ...theories.sealing.gaps import SLIP, Bounds
 from .estimates import Estimates, estimates_of
 from .flow import DRIVEN, UNEVEN, WAYS, Driven, GapFlow, Way, gap_flow
-from .fluids import Fluid, Leak
-from .network import clusters, open_cells
+from .fluids import Fluid, Leak, with_dead_ends
 from .throats import RESOLVED, Throats, throats, through_corners, through_noise
 
 ONE_WAY = 0.05
@@ -103,15 +100,7 @@ class Leakage:
     def fluid_pressure(self) -> RealArray:
         """(nx, ny) pressure of the fluid in Pa wherever it gets: in dead ends that of the side they
         open to, in closed pools and in contact zero."""
-        flow, axis = self.flow, self.flow.axis
-        across = flow.wraps[0] and axis != 0, flow.wraps[1] and axis != 1
-        found = clusters(open_cells(flow.gap), across) if flow.gap.any() else None
-        inside = np.zeros(flow.gap.shape)
-        if found is not None:
-            for place, value in ((-1, self.outlet), (0, self.inlet)):
-                there = np.unique(np.take(found.labels, place, axis))
-                inside[np.isin(found.labels, there[there > 0])] = value
-        return np.where(flow.net.carrying, self.leak.pressure, inside)
+        return with_dead_ends(self.flow, self.leak, self.inlet, self.outlet)[1]
 
     @property
     def pressed(self) -> Any:
