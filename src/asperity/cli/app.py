@@ -61,18 +61,23 @@ def app(
     if importlib.util.find_spec("nicegui") is None:
         raise InputError('NiceGUI must be installed for the application, but is missing: pip install "asperity[web]".')
     options = Options(file or (), demo, host, port, folder, most_upload, time_limit, memory, threads)
-    serve(options, lambda address: _opened(address, host, browser=not no_browser))
+    serve(
+        options,
+        lambda address, file: _opened(address, file, host, browser=not no_browser),
+        lambda address: say(f"The next window opens by {address}", "dim"),
+    )
 
 
-def _opened(address: str, host: str, *, browser: bool) -> None:
-    """Print the address, and open it."""
+def _opened(address: str, file: Path, host: str, *, browser: bool) -> None:
+    """Print the address, and open it by the private ``file`` that leads there: the list of
+    processes shows what is opened."""
     say(f"asperity is at {address}")
     if not is_loopback(host):
         text = (
-            f"Others reach it at {host}, without encryption: whoever has this address with its token may "
+            f"Others reach it at {host}, without encryption: whoever opens an address with its token first may "
             "use it as you do."
         )
         say(text, "yellow", warning=True)
     say("It ends with Ctrl-C.", "dim")
     if browser:
-        webbrowser.open(address)
+        webbrowser.open(file.as_uri())

@@ -3,7 +3,7 @@ ends."""
 
 from __future__ import annotations
 
-import secrets
+import os
 import signal
 import socket
 import tempfile
@@ -18,7 +18,7 @@ from ..core.errors import InputError
 from ..core.spectral import thread_count
 from ..core.words import speaking
 from .beginning import fill
-from .security import MIB, Guard, host_names, is_loopback
+from .security import MIB, Guard, host_names, is_loopback, leading_to
 from .session import Place
 from .workers import Limits
 
@@ -38,8 +38,9 @@ class Options:
     threads: int | None = None
 
 
-def serve(options: Options, opened: Callable[[str], None]) -> None:
-    """Serve until interrupted; ``opened`` is told the address with its token when it can be opened.
+def serve(options: Options, opened: Callable[[str, Path], None], renewed: Callable[[str], None]) -> None:
+    """Serve until interrupted; ``opened`` is told the address with its token when it can be opened,
+    and a private file that leads there, ``renewed`` the next address whenever one has been used.
 
     Raises
     ------
@@ -63,13 +64,20 @@ def serve(options: Options, opened: Callable[[str], None]) -> None:
             f"--host and --port must be free addresses of this machine, but {host}:{options.port} is not: "
             f"{error.strerror}; leave --port out for any free one."
         ) from None
-    with listener:
+    with listener, _private_files():
         port = listener.getsockname()[1]
         place = _place(options)
+        first = place.folder / "open.html"
+
+        def address(token: str) -> str:
+            return f"http://{f'[{host}]' if ':' in host else host}:{port}/?token={token}"
+
+        def used(token: str) -> None:
+            first.unlink(missing_ok=True)
+            renewed(address(token))
+
         try:
-            token = secrets.token_urlsafe(24)
-            app = application(place)
-            guard: Any = Guard(app, host_names(host, port), token, place.largest)
+            guard: Any = Guard(application(place), host_names(host, port), place.largest, used)
             config = uvicorn.Config(
                 guard,
                 log_level="error",
@@ -79,14 +87,24 @@ def serve(options: Options, opened: Callable[[str], None]) -> None:
                 timeout_graceful_shutdown=2,
             )
             server = uvicorn.Server(config)
-            shown = f"[{host}]" if ":" in host else host
-            opened(f"http://{shown}:{port}/?token={token}")
+            first.write_text(leading_to(address(guard.token)), encoding="utf-8")
+            opened(address(guard.token), first)
             with _ended_by_signals(server), speaking("form"):
                 server.run(sockets=[listener])
         except KeyboardInterrupt:
             pass
         finally:
             place.close()
+
+
+@contextmanager
+def _private_files() -> Iterator[None]:
+    """Make all files and folders, also those of workers, readable by their owner only."""
+    before = os.umask(0o077)
+    try:
+        yield
+    finally:
+        os.umask(before)
 
 
 @contextmanager
@@ -115,7 +133,6 @@ def _place(options: Options) -> Place:
     usual = Limits.usual(options.time_limit)
     limits = usual if options.memory is None else Limits(options.memory * 2**30, options.time_limit)
     private = Path(tempfile.mkdtemp(prefix="asperity-app-"))
-    private.chmod(0o700)
     roots = () if is_loopback(options.host) else (Path.cwd().resolve(),)
     threads = thread_count(options.threads)
     place = Place(private, limits, threads, int(options.most_upload * MIB), roots)

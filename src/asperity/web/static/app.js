@@ -2,12 +2,15 @@
 (function () {
 "use strict";
 
+/* Addresses of the pages begin with a path of their own, below which this file lies, too. */
+const root = document.currentScript.src.replace(/\/static\/app\.js.*$/, "");
+
 async function send(area, files) {
   const state = area.querySelector(".drop-state");
   for (const file of files) {
     state.textContent = `reading ${file.name} …`;
     try {
-      const answer = await fetch(`${area.dataset.upload}?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
+      const answer = await fetch(`${root}${area.dataset.upload}?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
       const found = await answer.json();
       state.textContent = found.error || `${file.name} is here`;
       area.classList.toggle("refused", Boolean(found.error));
@@ -52,7 +55,7 @@ async function mount(area) {
   area.dataset.mounted = "1";
   area.textContent = "loading the maps …";
   try {
-    const answer = await fetch(area.dataset.scene);
+    const answer = await fetch(root + area.dataset.scene);
     const scene = answer.ok ? await answer.json() : null;
     area.textContent = scene ? "" : "This contact has no maps: its grid is one line.";
     if (!scene) return;
