@@ -20,8 +20,8 @@ import pytest
 
 pytest.importorskip("nicegui", reason="the extra web is not installed")
 
+from asperity.web.kept import label_of
 from asperity.web.security import host_names, is_loopback
-from asperity.web.session import label_of
 
 from .app_server import AppServer
 
@@ -256,17 +256,22 @@ NAMES = (
 )
 
 
-def test_names_of_uploads_are_never_paths(app: AppServer, cookie: str) -> None:
+def test_names_of_uploads_lead_nowhere_else(app: AppServer, cookie: str) -> None:
     session = app.session(cookie)
-    for name in NAMES:
-        status, answer = app.upload(cookie, session, name, b"1 2\n3 4\n")
+    names = []
+    for number, name in enumerate((*NAMES, *NAMES), start=1):
+        content = f"1 2\n3 {number}\n".encode()
+        status, answer = app.upload(cookie, session, name, content)
         assert status == 200, name
         path = Path(answer["path"])
-        assert re.fullmatch(r"[0-9a-f]{16}(\.[a-z0-9]{1,12})?", path.name)
+        names.append(path.name)
+        assert path.resolve() == path
         assert path.parent.name == "files"
         assert path.parents[2].name.startswith("asperity-app-")
         assert path.parents[2].stat().st_mode & 0o077 == 0, "the folder of uploads is private"
-        assert path.read_bytes() == b"1 2\n3 4\n"
+        assert path.read_bytes() == content
+    assert len(set(names)) == len(names), "none replaces another one"
+    assert names[len(NAMES)] == "passwd (2)"
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX systems")
@@ -289,6 +294,12 @@ def test_labels_show_no_folders_and_no_hidden_letters() -> None:
     assert labels[0] == "passwd"
     assert labels[1] == "evil.txt"
     assert all(label.isprintable() and 0 < len(label) <= 80 for label in labels)
+    for name in ("..", ".", "a/..", "..\\..", "…" * 500, "\U0001f4a5" * 90, "\\", "/", " ", "\n"):
+        label = label_of(name)
+        assert label == label_of(label), name
+        assert not label.startswith(".")
+        assert "/" not in label
+        assert len(f"{label} (12345)".encode()) < 200
 
 
 def test_no_path_leads_out_of_what_is_given_out(app: AppServer, cookie: str) -> None:

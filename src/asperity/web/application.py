@@ -11,6 +11,7 @@ from fastapi.responses import FileResponse, JSONResponse, Response
 from nicegui import ui
 
 from ..report import page
+from .kept import is_within
 from .pages import add_pages
 from .session import Place
 from .views import SCENE
@@ -52,7 +53,7 @@ def application(place: Place) -> Any:
             return Response("no such run", 404, media_type="text/plain")
         views = session.views_of(known)
         file = views.with_name(views.name + SCENE)
-        if not file.is_file():
+        if not file.is_file() or not is_within(file, session.folder):
             return Response("no maps", 404, media_type="text/plain")
         return FileResponse(file, media_type="application/json", headers={"cache-control": "no-store"})
 

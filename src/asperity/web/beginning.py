@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
@@ -11,7 +11,9 @@ from typing import Any
 
 from ..core.errors import InputError
 from ..run.document import read_table
-from .session import Kept, Session
+from .draft import relabelled
+from .kept import files_named
+from .session import Session
 
 LEVELLED = MappingProxyType({"step": "level", "form": "plane"})
 FILLED = MappingProxyType({"step": "fill", "method": "harmonic"})
@@ -46,9 +48,26 @@ def fill(session: Session, *, files: Sequence[Path] = (), demo: bool = False) ->
                 f"FILE must be a file with heights or a problem document, but {file} is none; check the path."
             )
         if file.suffix.lower() in (".toml", ".json"):
-            session.draft.replace(read_table(file))
+            session.draft.replace(taken(session, read_table(file), file))
             continue
-        path = str(file.absolute())
-        session.files.append(Kept(path, str(file)))
+        path = session.take_file(file)
         if session.draft.get("surface") is None:
             session.draft.set(("surface",), measured(path))
+
+
+def taken(session: Session, table: Mapping[str, Any], document: Path) -> dict[str, Any]:
+    """``table`` of the file ``document`` with the files that it names, which become files of the
+    ``session``.
+
+    Raises
+    ------
+    InputError
+        If one is no file.
+    """
+    paths: dict[str, str] = {}
+    for name in files_named(table):
+        if not (document.parent / name).is_file():
+            raise InputError(f"problem document must name files that exist, but {name} of {document} is none.")
+        paths[name] = session.take_file(document.parent / name)
+    found: dict[str, Any] = relabelled(table, paths)
+    return found

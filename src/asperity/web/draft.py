@@ -100,6 +100,11 @@ class Draft:
             self.before.append(self.table)
             self.table = self.after.pop()
 
+    def rename(self, names: Mapping[str, str]) -> None:
+        """Call files by other ``names`` from now on; what was before and after is the same."""
+        self.table = relabelled(self.table, names)
+        self.before, self.after = relabelled(self.before, names), relabelled(self.after, names)
+
     def document(self) -> ProblemDocument:
         """The document, checked.
 

@@ -15,6 +15,7 @@ from ..run.build import large_grid, stated_points
 from ..run.document import save_document
 from .layout import failure
 from .session import Run, Session
+from .widgets import Context
 from .workers import CANCELLED, Worker, reported
 
 STATES = {"running": "sync", "done": "check_circle", "cancelled": "block", "failed": "error"}
@@ -75,6 +76,7 @@ def cancel(session: Session, run: Run) -> None:
 def run_page(key: str, session: Session) -> None:
     """Problems of the document, the button that starts it, and all runs."""
     drawn: dict[str, str] = {}
+    context = Context(session, lambda keys: None)
 
     def begin() -> None:
         try:
@@ -88,7 +90,7 @@ def run_page(key: str, session: Session) -> None:
             ui.input(
                 "Title",
                 value=str(session.draft.get("title") or ""),
-                on_change=lambda e: session.draft.set(("title",), e.value or None),
+                on_change=lambda e: context.set(("title",), e.value or None),
             ).props("dense debounce=300 data-key=title").classes("wide")
             missing = session.draft.problems()
             if missing:

@@ -140,6 +140,7 @@ def _place(options: Options) -> Place:
         try:
             _, session = place.new(options.folder)
             fill(session, files=options.files, demo=options.demo)
+            session.touched()
         except BaseException:
             place.close()
             raise
