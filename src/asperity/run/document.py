@@ -12,7 +12,7 @@ import json
 import os
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Any, Optional, TypeVar
@@ -229,7 +229,7 @@ def relocated(document: D, source: Path, target: Path) -> D:
         except ValueError:  # on Windows: another drive
             return str(found)
 
-    elsewhere: D = _with_paths(document, moved)
+    elsewhere: D = with_paths(document, moved)
     return elsewhere
 
 
@@ -241,8 +241,19 @@ def files_of(document: ProblemDocument, folder: Path) -> list[Path]:
         found.append(folder / path)
         return path
 
-    _with_paths(document, seen)
+    with_paths(document, seen)
     return found
+
+
+def files_named(table: Any) -> Iterator[str]:
+    """Names of files in the nested ``table``, which has not been checked."""
+    for key, value in table.items() if isinstance(table, Mapping) else ():
+        if isinstance(value, str) and names_file(str(key)):
+            yield value
+        else:
+            yield from files_named(value)
+    for item in table if isinstance(table, list) else ():
+        yield from files_named(item)
 
 
 def tidy(table: dict[str, Any]) -> dict[str, Any]:
@@ -252,18 +263,23 @@ def tidy(table: dict[str, Any]) -> dict[str, Any]:
     return dict(sorted(kept.items(), key=lambda item: (item[0] != "kind") + (item[0] == "prepare")))
 
 
-def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
+def names_file(key: str) -> bool:
+    """Whether the text at ``key`` names a file."""
+    return key == "path" or key.endswith("_file")
+
+
+def with_paths(table: Any, moved: Callable[[str], str]) -> Any:
     """``table`` with the file names in it and in the tables within it replaced."""
     if type(table) is tuple and any(isinstance(item, Settings) for item in table):
-        return tuple(_with_paths(item, moved) for item in table)
+        return tuple(with_paths(item, moved) for item in table)
     if not isinstance(table, Settings):
         return table
     changed: dict[str, Any] = {}
     for key in type(table).model_fields:
         value = getattr(table, key)
         if isinstance(value, Settings | tuple):
-            changed[key] = _with_paths(value, moved)
-        elif value is not None and (key == "path" or key.endswith("_file")):
+            changed[key] = with_paths(value, moved)
+        elif value is not None and names_file(key):
             changed[key] = moved(value)
     return table.model_copy(update=changed) if changed else table
 

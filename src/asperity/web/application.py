@@ -10,6 +10,7 @@ from fastapi import FastAPI, Request
 from fastapi.responses import FileResponse, JSONResponse, Response
 from nicegui import ui
 
+from ..core.errors import AsperityError
 from ..report import page
 from .kept import is_within
 from .pages import add_pages
@@ -68,8 +69,7 @@ def application(place: Place) -> Any:
                 async for part in request.stream():
                     target.write(part)
         except BaseException:
-            path.unlink(missing_ok=True)
-            session.files = [item for item in session.files if item.path != str(path)]
+            session.forget_file(path)
             raise
         session.touched()
         return JSONResponse({"path": str(path)})
@@ -83,6 +83,18 @@ def application(place: Place) -> Any:
         kind = TYPES.get(found.suffix, "application/octet-stream")
         policy = {"content-security-policy": SANDBOX} if kind == "text/html" else {}
         return FileResponse(found, media_type=kind, headers={"cache-control": "no-store", **policy})
+
+    @app.get("/share/{key}/{run}")
+    def share(key: str, run: str) -> Response:
+        session = place.sessions.get(key)
+        known = None if session is None else session.runs.get(run)
+        if session is None or known is None:
+            return Response("no such run", 404, media_type="text/plain")
+        try:
+            archive = session.shared(known)
+        except AsperityError as error:
+            return Response(session.said(str(error)), 404, media_type="text/plain")
+        return FileResponse(archive, media_type="application/zip", headers={"cache-control": "no-store"})
 
     add_pages(app, place)
     ui.run_with(

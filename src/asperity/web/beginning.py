@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import tempfile
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from ..core.errors import InputError
-from ..run.document import read_table
+from ..run.archive import is_archive, unpack
+from ..run.document import files_named, read_table
 from .draft import relabelled
-from .kept import files_named
 from .session import Session
 
 LEVELLED = MappingProxyType({"step": "level", "form": "plane"})
@@ -47,27 +48,33 @@ def fill(session: Session, *, files: Sequence[Path] = (), demo: bool = False) ->
             raise InputError(
                 f"FILE must be a file with heights or a problem document, but {file} is none; check the path."
             )
-        if file.suffix.lower() in (".toml", ".json"):
-            session.draft.replace(taken(session, read_table(file), file))
+        if is_document(file):
+            open_document(session, file)
             continue
         path = session.take_file(file)
         if session.draft.get("surface") is None:
             session.draft.set(("surface",), measured(path))
 
 
-def taken(session: Session, table: Mapping[str, Any], document: Path) -> dict[str, Any]:
-    """``table`` of the file ``document`` with the files that it names, which become files of the
-    ``session``.
+def is_document(file: Path) -> bool:
+    """Whether ``file`` is a problem document, or an archive with one."""
+    return file.suffix.lower() in (".toml", ".json") or is_archive(file)
+
+
+def open_document(session: Session, file: Path) -> None:
+    """Take the problem of the document or archive ``file``, with the files that it names, which
+    become files of the ``session``.
 
     Raises
     ------
     InputError
-        If one is no file.
+        If it is damaged, or names a file that is not there.
     """
-    paths: dict[str, str] = {}
+    if is_archive(file):
+        file = unpack(file, Path(tempfile.mkdtemp(prefix="archive-", dir=session.scratch)))
+    table, paths = read_table(file), {}
     for name in files_named(table):
-        if not (document.parent / name).is_file():
-            raise InputError(f"problem document must name files that exist, but {name} of {document} is none.")
-        paths[name] = session.take_file(document.parent / name)
-    found: dict[str, Any] = relabelled(table, paths)
-    return found
+        if not (file.parent / name).is_file():
+            raise InputError(f"problem document must name files that exist, but {name} of {file} is none.")
+        paths[name] = session.take_file(file.parent / name)
+    session.draft.replace(relabelled(table, paths))

@@ -20,7 +20,7 @@ from typing import Any
 
 from ..core.errors import FileFormatError, OutputError
 from ..core.words import printable
-from .draft import is_file
+from ..run.document import files_named
 
 STATE = "session.json"
 """File of a session in its folder; the rest are the folders ``files``, ``runs`` and ``sweeps``."""
@@ -189,16 +189,3 @@ def label_of(name: str) -> str:
     while len(f"{head}…{tail}".encode()) > LONGEST:
         head = head[:-1]
     return f"{head}…{tail}"
-
-
-def files_named(table: Any) -> Iterator[str]:
-    """Names of files in the nested ``table``."""
-    if isinstance(table, Mapping):
-        for key, value in table.items():
-            if isinstance(value, str) and is_file(str(key)):
-                yield value
-            else:
-                yield from files_named(value)
-    elif isinstance(table, list):
-        for item in table:
-            yield from files_named(item)

@@ -13,6 +13,7 @@ from nicegui import ui
 from ..core.errors import AsperityError
 from ..run.build import large_grid, stated_points
 from ..run.document import save_document
+from .draft import plain_name, relabelled
 from .layout import failure
 from .session import Run, Session
 from .widgets import Context
@@ -42,7 +43,9 @@ def start(session: Session, title: str) -> Run:
 def start_sweep(session: Session, title: str, table: dict[str, Any]) -> Run:
     """Begin the sweep of a study ``table``."""
     run = session.new_run("sweep", title, table)
-    _begin(session, run, "study", {"table": table, "folder": str(session.folder), "workers": None})
+    own = [Path(path) for path in session.labels if Path(path).is_relative_to(session.folder)]
+    there = relabelled(table, {str(path): path.relative_to(session.folder).as_posix() for path in own})
+    _begin(session, run, "study", {"table": there, "folder": str(session.folder), "workers": None})
     return run
 
 
@@ -171,6 +174,10 @@ def downloads(key: str, session: Session, run: Run) -> None:
             if name in files:
                 target = f"/files/{key}/{run.key}/{name}"
                 ui.link(text, target, new_tab=True).props("" if name == "report.html" else f'download="{name}"')
+        if run.kind == "run":
+            name = f"{plain_name(run.title) or 'contact'}.zip"
+            link = ui.link("Share", f"/share/{key}/{run.key}").props(f'download="{name}" data-share')
+            link.tooltip("document, scans and report in one archive, which asperity contact and this application open")
     pictures = [name for name in files if name.startswith("plots/")]
     with ui.expansion(f"Pictures ({len(pictures)})").classes("wide"), ui.element("div").classes("gallery"):
         for name in sorted(pictures):

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from nicegui import events, ui
+from nicegui import events, run, ui
 
+from ..core.errors import AsperityError
 from ..core.units import show
 from ..io.schemas.surfaces import FileSurface
+from ..run.archive import is_archive
 from ..run.document import document_model
 from . import maps
-from .beginning import measured, scanned
+from .beginning import measured, open_document, scanned
 from .draft import Keys
 from .forms import asked_of
 from .layout import drop, failure, rows
@@ -135,9 +138,12 @@ def surface_page(key: str, session: Session) -> None:
             context.set((SURFACE,), {"kind": "rough", "points": "256x256", "size": "10 um x 10 um", "seed": 1})
         source.refresh()
 
-    def uploaded(event: events.GenericEventArguments) -> None:
+    async def uploaded(event: events.GenericEventArguments) -> None:
         path = str(event.args.get("path") if isinstance(event.args, dict) else "")
         if path not in session.labels:
+            return
+        if is_archive(path):
+            await _opened(session, Path(path))
             return
         if chosen() == "scans":  # one more
             scans = session.draft.get(*SCANS)
@@ -153,7 +159,8 @@ def surface_page(key: str, session: Session) -> None:
                 key,
                 "drop files with heights, or choose them",
                 "Drop files with heights here, or press to choose",
-                "any format of instruments, text, pictures, NumPy arrays; nothing leaves this machine",
+                "any format of instruments, text, pictures, NumPy arrays, archives of problems that were shared; "
+                "nothing leaves this machine",
             )
             ui.on("asperity-uploaded", uploaded)
             sources = {"file": "A file", "scans": "Many scans", "made": "A generator"}
@@ -165,6 +172,19 @@ def surface_page(key: str, session: Session) -> None:
                 kinds(context, other, ("counter_surface",))
         shown["map"] = Preview(session, "Surface as prepared", lambda: None, "surface")
     ui.timer(0.01, shown["map"].now, once=True)
+
+
+async def _opened(session: Session, archive: Path) -> None:
+    """Take the problem of an ``archive`` that was dropped, which is not needed any more then."""
+    try:
+        await run.io_bound(open_document, session, archive)
+    except AsperityError as error:
+        ui.notify(session.said(str(error)), type="negative", multi_line=True)
+        return
+    finally:
+        session.forget_file(archive)
+    session.touched()
+    ui.navigate.reload()
 
 
 def _file_form(context: Context, leave: frozenset[str]) -> None:

@@ -16,7 +16,9 @@ from typing import Any, Literal
 
 from ..core.errors import InputError, OutputError
 from ..io.atomic import atomic_file
-from ..report.folder import NAMES, PATH, STRESSES
+from ..report.folder import ALL_NAMES
+from ..run.archive import PROBLEM, write_archive
+from ..run.document import files_of, load_document
 from .draft import Draft, relabelled
 from .kept import LOCK, STATE, Held, is_within, label_of, state_in
 from .workers import Limits, Worker
@@ -107,9 +109,15 @@ class Session:
         self.files.append(Kept(str(folder / label), label))
         return folder / label
 
+    def forget_file(self, path: Path) -> None:
+        """Remove an upload."""
+        self.files = [item for item in self.files if item.path != str(path)]
+        if path.parent == self.folder / "files":
+            path.unlink(missing_ok=True)
+
     def _free(self, label: str) -> str:
         """``label``, or one like it that no other file and nothing that a run leaves has."""
-        taken = {item.label.casefold() for item in self.files} | {name.casefold() for name in (*NAMES, PATH, STRESSES)}
+        taken = {item.label.casefold() for item in self.files} | {name.casefold() for name in ALL_NAMES}
         stem, dot, ending = label.rpartition(".") if "." in label[1:] else (label, "", "")
         numbered = (f"{stem} ({number}){dot}{ending}" for number in count(2))
         return label if label.casefold() not in taken else next(one for one in numbered if one.casefold() not in taken)
@@ -154,6 +162,26 @@ class Session:
             return {}
         files = [path for path in folder.rglob("*") if path.is_file() and is_within(path, folder)]
         return {path.relative_to(folder).as_posix(): path for path in files}
+
+    def shared(self, run: Run) -> Path:
+        """Archive with document, files and report of ``run``, for others.
+
+        Raises
+        ------
+        InputError
+            If its document is damaged, or names a file that is not of this session.
+        OutputError
+            If the archive cannot be written.
+        """
+        given, archive = self.given_out(run.key), self.scratch / f"{run.key}.zip"
+        if not archive.is_file():
+            document = load_document(given.get(PROBLEM, self.folder_of(run) / PROBLEM))
+            for file in files_of(document, self.folder_of(run)):
+                if not is_within(file, self.folder) and str(file) not in self.labels:
+                    raise InputError(f"files of a run must be those of its session, but {file} is none of them.")
+            report = {name: path for name, path in given.items() if name == "report.html"}
+            write_archive(archive, document, self.folder_of(run), report, overwrite=True)
+        return archive
 
     # Kept and opened again.
 

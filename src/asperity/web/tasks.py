@@ -32,12 +32,13 @@ from ..plots.picture import Figure
 from ..plots.profile import profile_figures
 from ..plots.surface import roughness_figures
 from ..plots.together import save_pictures
-from ..report.folder import write_run
+from ..report.folder import ALL_NAMES, write_run
 from ..report.profile import profile_headline, profile_rows, write_profile_report
 from ..report.roughness import headline_values, quantity_rows, write_roughness_report
 from ..report.scans import ScansInWords, write_page_of_scans
+from ..run.archive import carried
 from ..run.build import build, build_surface
-from ..run.document import load_document, loads, relocated
+from ..run.document import load_document, loads
 from ..run.execute import analysed, execute
 from ..run.stored import load_outcome
 from ..studies.campaign import prepare_study
@@ -257,7 +258,8 @@ def contact(task: Task) -> dict[str, Any]:
     with atomic_folder(out) as folder:
         outcome = execute(case, stage=stage)
         with stage("writing report and pictures"):
-            write_run(outcome, folder, relocated(document, base, out))
+            found = carried(document, base, folder, ALL_NAMES, within=base)
+            write_run(outcome, folder, found)
     with stage("making it explorable"):
         write_views(outcome, Path(task["views"]))
     return {"converged": outcome.converged, "message": outcome.status.message, "remedy": outcome.status.remedy}
