@@ -152,6 +152,9 @@ LEADING_OUT: dict[str, Callable[[dict[str, Any]], object]] = {
     "moduli": lambda state: state["table"].update(body={"relaxation": {"moduli_file": "/etc/passwd"}}),
     "before": lambda state: state["before"].append({"surface": {"path": "/etc/passwd"}}),
     "document of a run": lambda state: state["runs"][0].update(table={"materials_file": "../secret.txt"}),
+    "line of text": lambda state: state["table"].update(spectrum={"scans": ["/etc/passwd, size=1um"]}),
+    "text of a body": lambda state: state["table"].update(body="moduli=../secret.csv,nu=0.5"),
+    "text of a layer": lambda state: state["table"].update(body={"layers": ["moduli=/etc/passwd,nu=0.5:1um"]}),
     "null": lambda state: state["table"]["surface"].update(path="files/a\0b"),
 }
 """States that name files elsewhere."""

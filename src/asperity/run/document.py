@@ -13,8 +13,10 @@ import os
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Optional, TypeVar
 
 from pydantic import Field, create_model
@@ -23,7 +25,9 @@ from ..core.errors import FileFormatError, InputError
 from ..core.settings import Settings, validated
 from ..core.text import read_text
 from ..io.atomic import atomic_file
+from ..io.schemas.bodies import base_from_text, body_from_text
 from ..io.schemas.problem import ProblemDocument
+from ..io.schemas.surfaces import ScanFile
 from ..parts.part import Part
 from ..parts.registry import parts
 
@@ -245,15 +249,51 @@ def files_of(document: ProblemDocument, folder: Path) -> list[Path]:
     return found
 
 
+_MODULI = re.compile(r"moduli\s*=\s*([^,:}]+)")
+"""File of moduli in the text of a body."""
+
+
 def files_named(table: Any) -> Iterator[str]:
-    """Names of files in the nested ``table``, which has not been checked."""
-    for key, value in table.items() if isinstance(table, Mapping) else ():
-        if isinstance(value, str) and names_file(str(key)):
-            yield value
+    """Names of files in the nested ``table``, which has not been checked; in doubt too many."""
+    found: list[str] = []
+
+    def seen(name: str) -> str:
+        found.append(name)
+        return name
+
+    level = [with_files(table, seen)]
+    yield from found
+    while level:
+        item = level.pop()
+        if isinstance(item, str):
+            yield from (name.strip() for name in _MODULI.findall(item))
+        level += item.values() if isinstance(item, Mapping) else item if isinstance(item, list) else ()
+
+
+def with_files(table: Any, moved: Callable[[str], str]) -> Any:
+    """Nested ``table``, which has not been checked, with the file names in it replaced. The text of
+    a body or a scan with a file becomes a table."""
+    if isinstance(table, list):
+        return [with_files(item, moved) for item in table]
+    if not isinstance(table, Mapping):
+        return table
+    made: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, str) and names_file(key):
+            made[key] = moved(value)
+        elif key == "scans" and isinstance(value, list):
+            made[key] = with_files([ScanFile.from_text(v) if isinstance(v, str) else v for v in value], moved)
+        elif key in _BODIES and isinstance(value, str) and _MODULI.search(value):
+            with suppress(InputError):
+                value = with_files(_BODIES[key](value), moved)
+            made[key] = value
         else:
-            yield from files_named(value)
-    for item in table if isinstance(table, list) else ():
-        yield from files_named(item)
+            made[key] = with_files(value, moved)
+    return made
+
+
+_BODIES = MappingProxyType({"body": body_from_text, "counter_body": body_from_text, "base": base_from_text})
+"""What reads the text at a key."""
 
 
 def tidy(table: dict[str, Any]) -> dict[str, Any]:

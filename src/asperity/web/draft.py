@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 from ..core.errors import AsperityError
-from ..run.document import ProblemDocument, checked, dumps, names_file, tidy
+from ..run.document import ProblemDocument, checked, dumps, tidy, with_files
 
 Keys: TypeAlias = tuple[str | int, ...]
 """Where a value stands: keys of tables and places in lists."""
@@ -164,9 +164,4 @@ def plain_name(title: str) -> str:
 
 def relabelled(table: Any, labels: Mapping[str, str]) -> Any:
     """Nested ``table`` in which names of files are replaced by their ``labels``."""
-    if isinstance(table, Mapping):
-        return {
-            key: labels.get(value, value) if isinstance(value, str) and names_file(key) else relabelled(value, labels)
-            for key, value in table.items()
-        }
-    return [relabelled(item, labels) for item in table] if isinstance(table, list) else table
+    return with_files(table, lambda name: labels.get(name, name))

@@ -21,7 +21,7 @@ from asperity.files import save_surface
 from asperity.generate import ExponentialAutocorrelation, gaussian
 from asperity.run.archive import PROBLEM, carried, gathered, is_archive, unpack, write_archive
 from asperity.run.build import build
-from asperity.run.document import checked, files_of, load_document
+from asperity.run.document import checked, files_named, files_of, load_document, with_files
 
 ARCHIVE = "archive of a problem"
 
@@ -191,6 +191,23 @@ def test_what_is_larger_than_there_is_room_for_is_refused(tmp_path: Path) -> Non
     with refused(FileFormatError, ARCHIVE, "scan.txt"):
         unpack(bomb, tmp_path / "out", largest=4_000_000)
     assert not (tmp_path / "out" / "scan.txt").exists()
+
+
+def test_files_in_texts_are_named_and_renamed() -> None:
+    table = {
+        "surface": {"path": "a.di", "spectrum": {"scans": ["b.txt, size=5um", {"path": "c, d.txt"}]}},
+        "body": "nu=0.5,moduli=e.csv:1um/steel",
+        "counter_body": {"base": "moduli=f.csv,nu=0.5", "layers": ["DLC:5nm"]},
+        "path": ["1 MPa", "0 Pa"],
+        "title": "a.di",
+    }
+    names = ["a.di", "b.txt", "c, d.txt", "e.csv", "f.csv"]
+    assert sorted(set(files_named(table))) == names
+    moved = with_files(table, lambda name: f"there/{name}")
+    assert sorted(set(files_named(moved))) == [
+        f"there/{name}" for name in ("a.di", "b.txt", "c, d.txt", "e.csv", "f.csv")
+    ]
+    assert (moved["title"], moved["path"]) == ("a.di", ["1 MPa", "0 Pa"])
 
 
 def test_a_zip_file_without_a_document_is_none(tmp_path: Path) -> None:
