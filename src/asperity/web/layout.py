@@ -173,3 +173,18 @@ def rows(pairs: list[list[str]] | list[tuple[str, str]]) -> None:
                 ui.label(str(label))
             with ui.element("dd"):
                 ui.label(str(text))
+
+
+def text_table(headings: list[str], rows: list[list[str]]) -> None:
+    """A table of text that scrolls where it is wide."""
+    with ui.element("div").classes("spots"), ui.element("table"):
+        with ui.element("thead"), ui.element("tr"):
+            for text in headings:
+                with ui.element("th"):
+                    ui.label(text)
+        with ui.element("tbody"):
+            for row in rows:
+                with ui.element("tr"):
+                    for text in row:
+                        with ui.element("td"):
+                            ui.label(text)

@@ -13,7 +13,7 @@ from nicegui import ui
 from ..core.errors import AsperityError
 from ..run.build import large_grid, stated_points
 from ..run.document import save_document
-from .draft import plain_name, relabelled
+from .draft import plain_name
 from .layout import failure
 from .session import Run, Session
 from .widgets import Context
@@ -41,11 +41,10 @@ def start(session: Session, title: str) -> Run:
 
 
 def start_sweep(session: Session, title: str, table: dict[str, Any]) -> Run:
-    """Begin the sweep of a study ``table``."""
+    """Begin the sweep of a study ``table``, whose relative paths start at the folder of a sweep."""
     run = session.new_run("sweep", title, table)
-    own = [Path(path) for path in session.labels if Path(path).is_relative_to(session.folder)]
-    there = relabelled(table, {str(path): path.relative_to(session.folder).as_posix() for path in own})
-    _begin(session, run, "study", {"table": there, "folder": str(session.folder), "workers": None})
+    study = {**table, "problem": session.named_from_sweeps(table["problem"])}
+    _begin(session, run, "study", {"table": study, "folder": str(session.folder_of(run)), "workers": None})
     return run
 
 

@@ -20,6 +20,7 @@ from .beginning import measured, open_document, scanned
 from .draft import Keys
 from .forms import asked_of
 from .layout import drop, failure, rows
+from .pages_files import FileList
 from .session import Session
 from .widgets import Context, entry, kinds, listed
 
@@ -106,7 +107,7 @@ AXES = ("xaxis.range[0]", "xaxis.range[1]", "yaxis.range[0]", "yaxis.range[1]")
 
 def surface_page(key: str, session: Session) -> None:
     """Choose a file or a generator; the preview follows."""
-    shown: dict[str, Preview] = {}
+    shown: dict[str, Any] = {}
 
     context = Context(session, lambda keys: shown["map"].later())
     item = next(item for item in asked_of(document_model()) if item.name == SURFACE)
@@ -139,19 +140,24 @@ def surface_page(key: str, session: Session) -> None:
         source.refresh()
 
     async def uploaded(event: events.GenericEventArguments) -> None:
-        path = str(event.args.get("path") if isinstance(event.args, dict) else "")
-        if path not in session.labels:
+        given = event.args.get("paths") if isinstance(event.args, dict) else None
+        paths = [path for path in given or () if path in session.labels]
+        archives = [path for path in paths if is_archive(path)]
+        if archives:
+            await _opened(session, Path(archives[-1]))
             return
-        if is_archive(path):
-            await _opened(session, Path(path))
+        if not paths:
             return
-        if chosen() == "scans":  # one more
+        if chosen() == "scans":  # more of them
             scans = session.draft.get(*SCANS)
-            context.set(SCANS, [*(scans if isinstance(scans, list) else []), {"path": path}])
+            new = [{"path": path} for path in paths]
+            context.set(SCANS, [*(scans if isinstance(scans, list) else []), *new])
             source.refresh()
-        else:
-            context.set((SURFACE,), measured(path))
+        elif len(paths) == 1 or session.draft.get(SURFACE) is None:
+            context.set((SURFACE,), measured(paths[0]))
             ui.navigate.reload()
+            return
+        shown["files"].draw()
 
     with ui.element("div").classes("two"):
         with ui.element("section"):
@@ -167,10 +173,12 @@ def surface_page(key: str, session: Session) -> None:
             ui.toggle(sources, value=chosen(), on_change=lambda e: choose(e.value)).props("no-caps dense")
             ui.label("Many scans: all files are scans of one surface, and one like it is generated.").classes("hint")
             source()
+            shown["files"] = FileList(key, context, lambda: below)
             with ui.expansion("Counter surface (rough, too)").classes("wide"):
                 other = next(entry for entry in asked_of(document_model()) if entry.name == "counter_surface")
                 kinds(context, other, ("counter_surface",))
         shown["map"] = Preview(session, "Surface as prepared", lambda: None, "surface")
+    below = ui.element("section").classes("whole")
     ui.timer(0.01, shown["map"].now, once=True)
 
 

@@ -65,6 +65,7 @@ class Session:
         self.helper = Worker(limits, threads)
         self.workers: dict[str, Worker] = {}
         self.tasks: list[Any] = []
+        self.glances: dict[str, Any] = {}
         self.version, self.changed_by = 0, ""
         self._held = Held(folder) if kept else None
         self.scratch = Path(tempfile.mkdtemp(prefix=SCRATCH, dir=folder))
@@ -143,6 +144,17 @@ class Session:
         except OSError as error:
             raise OutputError(f"{own} cannot be written: {error.strerror}; choose another folder.") from None
         return str(own)
+
+    def from_sweeps(self, path: str) -> str:
+        """``path`` of a file as studies name it, from the folder of any sweep, with which it moves;
+        files from elsewhere stay where they are."""
+        there = Path(path)
+        return f"../../{there.relative_to(self.folder).as_posix()}" if there.is_relative_to(self.folder) else path
+
+    def named_from_sweeps(self, table: Mapping[str, Any]) -> dict[str, Any]:
+        """``table`` with its files as studies name them."""
+        found: dict[str, Any] = relabelled(table, {path: self.from_sweeps(path) for path in self.labels})
+        return found
 
     def new_run(self, kind: Kind, title: str, table: Mapping[str, Any]) -> Run:
         """A run that begins now."""
