@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import math
 import webbrowser
 from pathlib import Path
 from typing import Annotated
@@ -37,9 +38,17 @@ def app(
     most_upload: Annotated[
         float, typer.Option("--most-upload", help="Largest file through the browser, in MiB.")
     ] = 512.0,
+    all_uploads: Annotated[
+        float, typer.Option("--all-uploads", help="All files through the browser together, in MiB.")
+    ] = 4096.0,
     time_limit: Annotated[float, typer.Option("--time-limit", help="Longest time of one run in seconds.")] = 43200.0,
+    total_time: Annotated[
+        float, typer.Option("--total-time", help="Time of all runs together in seconds; unlimited by default.")
+    ] = math.inf,
+    at_once: Annotated[int, typer.Option("--at-once", help="Runs that work at the same time; others wait.")] = 4,
     memory: Annotated[
-        float | None, typer.Option("--memory", help="Memory of one run in GiB; most of what is free by default.")
+        float | None,
+        typer.Option("--memory", help="Memory of all runs together in GiB; most of what is free by default."),
     ] = None,
     threads: Annotated[int | None, typer.Option("--threads", help="Threads of one run; all cores by default.")] = None,
 ) -> None:
@@ -53,14 +62,29 @@ def app(
     require.integer(port, 0, "--port", "Give 0 for any free one.")
     if port > 65535:
         raise InputError(f"--port must be at most 65535, but is {port}.")
-    for name, value in (("--most-upload", most_upload), ("--time-limit", time_limit), ("--memory", memory)):
+    require.integer(at_once, 1, "--at-once", "Give 1 or more.")
+    given = {"--most-upload": most_upload, "--all-uploads": all_uploads, "--time-limit": time_limit}
+    for name, value in (given | {"--total-time": total_time, "--memory": memory}).items():
         if value is not None and not value > 0.0:
             raise InputError(f"{name} must be greater than zero, but is {value:g}.")
     if threads is not None:
         require.integer(threads, 1, "--threads", "Give 1 or more.")
     if importlib.util.find_spec("nicegui") is None:
         raise InputError('NiceGUI must be installed for the application, but is missing: pip install "asperity[web]".')
-    options = Options(file or (), demo, host, port, folder, most_upload, time_limit, memory, threads)
+    options = Options(
+        files=file or (),
+        demo=demo,
+        host=host,
+        port=port,
+        folder=folder,
+        most_upload=most_upload,
+        time_limit=time_limit,
+        memory=memory,
+        threads=threads,
+        at_once=at_once,
+        total_time=total_time,
+        all_uploads=all_uploads,
+    )
     serve(
         options,
         lambda address, file: _opened(address, file, host, browser=not no_browser),

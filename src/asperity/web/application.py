@@ -14,6 +14,7 @@ from ..core.errors import AsperityError
 from ..report import page
 from .kept import is_within
 from .pages import add_pages
+from .security import MIB, quota_text
 from .session import Place
 from .views import SCENE
 
@@ -63,14 +64,27 @@ def application(place: Place) -> Any:
         session = place.sessions.get(key)
         if session is None:
             return JSONResponse({"error": "This session has ended; begin a new one."}, 404)
+        length = int(request.headers.get("content-length", "0"))
+        if length > place.room():
+            return JSONResponse({"error": quota_text(place.quota)}, 413)
         path = session.add_file(name)
         try:
             with path.open("xb") as target:
+                unseen = 0
                 async for part in request.stream():
                     target.write(part)
+                    unseen += len(part)
+                    if unseen > MIB:  # also what others send meanwhile
+                        unseen = target.flush() or 0
+                        if place.room() < 0:
+                            break
+            full = place.room() < 0
         except BaseException:
             session.forget_file(path)
             raise
+        if full:
+            session.forget_file(path)
+            return JSONResponse({"error": quota_text(place.quota)}, 413)
         session.touched()
         return JSONResponse({"path": str(path)})
 

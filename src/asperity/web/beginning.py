@@ -68,10 +68,10 @@ def open_document(session: Session, file: Path) -> None:
     Raises
     ------
     InputError
-        If it is damaged, or names a file that is not there.
+        If it is damaged or too large, or names a file that is not there.
     """
     if is_archive(file):
-        file = unpack(file, Path(tempfile.mkdtemp(prefix="archive-", dir=session.scratch)))
+        file = unpack(file, Path(tempfile.mkdtemp(prefix="archive-", dir=session.scratch)), session.room())
     table, paths = read_table(file), {}
     for name in files_named(table):
         if not (file.parent / name).is_file():

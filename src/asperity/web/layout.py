@@ -177,7 +177,7 @@ def rows(pairs: list[list[str]] | list[tuple[str, str]]) -> None:
 
 def text_table(headings: list[str], rows: list[list[str]]) -> None:
     """A table of text that scrolls where it is wide."""
-    with ui.element("div").classes("spots"), ui.element("table"):
+    with ui.element("div").classes("spots texts"), ui.element("table"):
         with ui.element("thead"), ui.element("tr"):
             for text in headings:
                 with ui.element("th"):

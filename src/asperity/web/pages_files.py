@@ -4,6 +4,7 @@ pressed in one batch, compared, or taken for scans of one surface."""
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from nicegui import ui
@@ -12,6 +13,7 @@ from ..core.errors import AsperityError
 from ..core.units import show
 from ..io.schemas.study import DEFAULT_QUANTITIES
 from ..io.schemas.surfaces import FileReading
+from ..parts.registry import parts
 from ..run.document import files_named
 from ..studies.documents import study_from_table
 from ..studies.plan import make_plan
@@ -53,11 +55,12 @@ def batch(session: Session, files: list[Kept]) -> dict[str, Any]:
     table = session.draft.get("surface")
     surface = table if isinstance(table, dict) and table.get("kind") == "file" else measured(files[0].path)
     problem = {**session.draft.table, "surface": {**surface, "path": files[0].path}}
+    asked = [part.headline for part in parts() if part.headline and part.table in problem]
     return {
         "version": 1,
         "title": f"{session.draft.get('title') or 'Contact'}: {len(files)} files",
         "problem": session.named_from_sweeps(problem),
-        "quantities": list(DEFAULT_QUANTITIES),
+        "quantities": [*DEFAULT_QUANTITIES, *asked],
         "axes": [{"path": "surface.path", "name": "file", "values": paths}],
     }
 
@@ -98,7 +101,8 @@ class FileList:
                 "For the files that are ticked: beside one another; the whole problem with each of them, as a sweep; "
                 "or one surface generated from all."
             ).classes("hint")
-        ui.timer(0.01, self.look, once=True)
+        with self.box:
+            ui.timer(0.01, self.look, once=True)
 
     def _row(self, item: Kept, *, here: bool) -> None:
         with ui.element("li").classes("file" + (" here" if here else "")).props(f'data-file="{item.label}"'):
@@ -112,9 +116,10 @@ class FileList:
             if here:
                 ui.label("chosen").classes("hint file-use")
             else:
-                ui.button("Choose", on_click=lambda: self.choose(item)).props("flat dense no-caps data-choose").classes(
-                    "file-use"
-                )
+                for props, icon, work in (("data-choose", None, self.choose), ("data-remove", "delete", self.remove)):
+                    button = ui.button("Choose" if icon is None else "", icon=icon, on_click=lambda w=work: w(item))
+                    name = "" if icon is None else f'aria-label="remove {item.label}"'
+                    button.props(f"flat dense no-caps {props} {name}").classes("file-use")
 
     async def look(self) -> None:
         """Draw the pictures, one after the other."""
@@ -150,6 +155,15 @@ class FileList:
         """Take one file for the surface; what is said of the one before stays."""
         self.context.set(("surface",), {**measured(item.path), **self._said_of(item)})
         ui.navigate.reload()
+
+    def remove(self, item: Kept) -> None:
+        """Remove a file that the document does not name; runs have their own."""
+        if item.path in set(files_named(self.session.draft.table)):
+            ui.notify("The document names this file: choose another one first.")
+            return
+        self.session.forget_file(Path(item.path))
+        self.session.touched()
+        self.draw()
 
     def _said_of(self, item: Kept) -> dict[str, Any]:
         """What the document says of its file, if this one does not say it itself."""
@@ -198,6 +212,7 @@ class FileList:
         box.clear()
         with box:
             _compared(found, known, ends, self.session)
+        self._client.run_javascript(f"getHtmlElement({box.id}).scrollIntoView({{ behavior: 'smooth' }})")
 
 
 def _look(item: Kept, answer: dict[str, Any], session: Session) -> None:

@@ -54,7 +54,7 @@ def _begin(session: Session, run: Run, function: str, task: dict[str, Any]) -> N
     out, progress = str(session.folder_of(run)), str(session.progress_of(run))
 
     async def work() -> None:
-        answer = await worker.call(function, **task, out=out, progress=progress)
+        answer = await worker.run(function, **task, out=out, progress=progress)
         await worker.end()  # a worker serves one run
         session.workers.pop(run.key, None)
         if "error" in answer:
@@ -109,7 +109,7 @@ def run_page(key: str, session: Session) -> None:
             memory = (
                 f"{session.limits.memory / 2**30:.3g} GiB of memory" if session.limits.memory < 2**60 else "all memory"
             )
-            ui.label(f"A worker process of its own may take {memory} and {minutes:.4g} minutes.").classes("hint")
+            ui.label(f"All runs together may take {memory}, each of them {minutes:.4g} minutes.").classes("hint")
         with ui.element("section"):
 
             @ui.refreshable
@@ -192,7 +192,10 @@ def progress(session: Session, run: Run) -> None:
     def look() -> None:
         state = reported(file)
         bar.value = state.share
-        if state.stage:
+        worker = session.workers.get(run.key)
+        if worker is not None and worker.waiting:
+            text.text = "waiting until another run is done"
+        elif state.stage:
             text.text = ", ".join(filter(None, (state.stage, state.text)))
 
     ui.timer(0.2, look)

@@ -172,8 +172,8 @@ def surface_page(key: str, session: Session) -> None:
             sources = {"file": "A file", "scans": "Many scans", "made": "A generator"}
             ui.toggle(sources, value=chosen(), on_change=lambda e: choose(e.value)).props("no-caps dense")
             ui.label("Many scans: all files are scans of one surface, and one like it is generated.").classes("hint")
-            source()
             shown["files"] = FileList(key, context, lambda: below)
+            source()
             with ui.expansion("Counter surface (rough, too)").classes("wide"):
                 other = next(entry for entry in asked_of(document_model()) if entry.name == "counter_surface")
                 kinds(context, other, ("counter_surface",))

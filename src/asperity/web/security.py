@@ -277,6 +277,15 @@ def cap_text(largest: int) -> str:
     )
 
 
+def quota_text(quota: float) -> str:
+    """What is said of a file for which there is no room among ``quota`` bytes."""
+    return (
+        f"All files of the application together may have {quota / MIB:g} MiB, and this one would be more. Remove files "
+        "that are not needed, start the application with the file instead, asperity app FILE, or raise the limit: "
+        "--all-uploads."
+    )
+
+
 async def _too_large(send: Send, largest: int) -> None:
     body = json.dumps({"error": cap_text(largest)}).encode()
     await _answer(send, 413, body, [("content-type", "application/json"), *_strict("", "'none'")])

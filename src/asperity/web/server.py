@@ -3,6 +3,7 @@ ends."""
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import socket
@@ -10,7 +11,7 @@ import tempfile
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from ..core.words import speaking
 from .beginning import fill
 from .security import MIB, Guard, host_names, is_loopback, leading_to
 from .session import Place
-from .workers import Limits
+from .workers import Limits, Together
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,9 @@ class Options:
     time_limit: float = 12 * 3600.0
     memory: float | None = None
     threads: int | None = None
+    at_once: int = 4
+    total_time: float = math.inf
+    all_uploads: float = 4096.0
 
 
 def serve(options: Options, opened: Callable[[str, Path], None], renewed: Callable[[str], None]) -> None:
@@ -131,11 +135,12 @@ def _ended_by_signals(server: Any) -> Iterator[None]:
 def _place(options: Options) -> Place:
     """Where sessions live, with the first one if there is anything to begin with."""
     usual = Limits.usual(options.time_limit)
-    limits = usual if options.memory is None else Limits(options.memory * 2**30, options.time_limit)
+    memory = usual.memory if options.memory is None else options.memory * 2**30
+    limits = replace(usual, memory=memory, together=Together(options.at_once, options.total_time))
     private = Path(tempfile.mkdtemp(prefix="asperity-app-"))
     roots = () if is_loopback(options.host) else (Path.cwd().resolve(),)
     threads = thread_count(options.threads)
-    place = Place(private, limits, threads, int(options.most_upload * MIB), roots)
+    place = Place(private, limits, threads, int(options.most_upload * MIB), roots, options.all_uploads * MIB)
     if options.files or options.demo or options.folder is not None:
         try:
             _, session = place.new(options.folder)

@@ -4,10 +4,11 @@ can be opened again."""
 from __future__ import annotations
 
 import json
+import math
 import secrets
 import shutil
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from itertools import count
@@ -66,6 +67,7 @@ class Session:
         self.workers: dict[str, Worker] = {}
         self.tasks: list[Any] = []
         self.glances: dict[str, Any] = {}
+        self.room: Callable[[], float] = lambda: math.inf
         self.version, self.changed_by = 0, ""
         self._held = Held(folder) if kept else None
         self.scratch = Path(tempfile.mkdtemp(prefix=SCRATCH, dir=folder))
@@ -74,6 +76,10 @@ class Session:
     def labels(self) -> dict[str, str]:
         """Label of every file by its path."""
         return {item.path: item.label for item in self.files}
+
+    def owns(self, path: str) -> bool:
+        """Whether the file at ``path`` lies in the folder of the session."""
+        return Path(path).is_relative_to(self.folder)
 
     def said(self, text: str) -> str:
         """``text`` of a message with the labels of files in place of their paths."""
@@ -148,8 +154,7 @@ class Session:
     def from_sweeps(self, path: str) -> str:
         """``path`` of a file as studies name it, from the folder of any sweep, with which it moves;
         files from elsewhere stay where they are."""
-        there = Path(path)
-        return f"../../{there.relative_to(self.folder).as_posix()}" if there.is_relative_to(self.folder) else path
+        return f"../../{Path(path).relative_to(self.folder).as_posix()}" if self.owns(path) else path
 
     def named_from_sweeps(self, table: Mapping[str, Any]) -> dict[str, Any]:
         """``table`` with its files as studies name them."""
@@ -283,14 +288,17 @@ class Session:
 
 @dataclass
 class Place:
-    """Where sessions live: a private temporary ``folder``, and those that are open, by their
-    keys."""
+    """Where sessions live: a private temporary ``folder``, and those that are open, by their keys.
+
+    ``largest`` is the most bytes of one upload, ``quota`` of all that the sessions have.
+    """
 
     folder: Path
     limits: Limits
     threads: int
     largest: int
     roots: tuple[Path, ...] = ()
+    quota: float = math.inf
     sessions: dict[str, Session] = field(default_factory=dict)
 
     def new(self, folder: Path | None = None) -> tuple[str, Session]:
@@ -310,6 +318,7 @@ class Place:
         if folder is not None and there - {LOCK} and not (own / STATE).is_file():
             raise OutputError(f"folder of a session must be new, empty, or hold one, but {own} holds something else.")
         session = Session(own, self.limits, self.threads, kept=folder is not None)
+        session.room = self.room
         try:
             if folder is not None and STATE in there:
                 session.reopen()
@@ -321,6 +330,12 @@ class Place:
             raise
         self.sessions[key] = session
         return key, session
+
+    def room(self) -> float:
+        """Bytes that may still be uploaded."""
+        sessions = self.sessions.values()
+        files = [Path(item.path) for session in sessions for item in session.files if session.owns(item.path)]
+        return self.quota - sum(path.stat().st_size for path in files if path.is_file())
 
     def allowed(self, text: str) -> Path:
         """Folder that a person has typed; with ``roots`` it must lie in one of them.
