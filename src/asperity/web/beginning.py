@@ -75,6 +75,9 @@ def open_document(session: Session, file: Path) -> None:
     table, paths = read_table(file), {}
     for name in files_named(table):
         if not (file.parent / name).is_file():
-            raise InputError(f"problem document must name files that exist, but {name} of {file} is none.")
+            raise InputError(
+                f"problem document must name files that exist, but {name} of {file} is none; correct its path, which "
+                "starts at the folder of the document."
+            )
         paths[name] = session.take_file(file.parent / name)
     session.draft.replace(relabelled(table, paths))

@@ -74,7 +74,7 @@ class Held:
         try:
             fcntl.flock(self._held, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            owner = printable(os.read(self._held, 300).decode("utf-8", "replace")).strip() or "another application"
+            owner = printable(os.read(self._held, 300).decode("utf-8", "replace").strip()) or "another application"
             os.close(self._held)
             raise OutputError(
                 f"folder of a session must be open in one application only, but {self._file.parent} is open in "

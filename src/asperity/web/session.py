@@ -195,7 +195,10 @@ class Session:
             document = load_document(given.get(PROBLEM, self.folder_of(run) / PROBLEM))
             for file in files_of(document, self.folder_of(run)):
                 if not is_within(file, self.folder) and str(file) not in self.labels:
-                    raise InputError(f"files of a run must be those of its session, but {file} is none of them.")
+                    raise InputError(
+                        f"files of a run must be those of its session, but {file} is none of them. Open its document "
+                        "where that file may be read."
+                    )
             report = {name: path for name, path in given.items() if name == "report.html"}
             write_archive(archive, document, self.folder_of(run), report, overwrite=True)
         return archive
@@ -316,7 +319,9 @@ class Place:
         except OSError as error:
             raise OutputError(f"folder {own} cannot be written: {error.strerror}; choose another.") from None
         if folder is not None and there - {LOCK} and not (own / STATE).is_file():
-            raise OutputError(f"folder of a session must be new, empty, or hold one, but {own} holds something else.")
+            raise OutputError(
+                f"folder of a session must be new, empty, or hold one, but {own} holds something else; choose another."
+            )
         session = Session(own, self.limits, self.threads, kept=folder is not None)
         session.room = self.room
         try:
