@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import http.client
 import subprocess
 import sys
 import time
@@ -195,8 +196,6 @@ def test_uploads_have_a_limit_in_total(app: AppServer, open_page: Callable[..., 
 
 
 def test_a_body_that_hides_its_length_counts_in_total(app: AppServer) -> None:
-    import http.client
-
     cookie = app.cookie()
     session = app.session(cookie)
     answers = []

@@ -6,7 +6,6 @@ A folder may come from somebody else. What it holds is read, and nothing that it
 from __future__ import annotations
 
 import getpass
-import importlib.util
 import json
 import os
 import re
@@ -20,6 +19,7 @@ from typing import Any
 
 from ..core.errors import FileFormatError, OutputError
 from ..core.words import printable
+from ..io.atomic import lock
 from ..run.document import files_named
 
 STATE = "session.json"
@@ -27,6 +27,9 @@ STATE = "session.json"
 
 LOCK = "session.lock"
 """File that the application that has a session open keeps locked, with its owner."""
+
+NOT_FOLLOWED = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+"""How a file is opened that somebody else may have made a link or a pipe."""
 
 LONGEST = 160
 """Bytes of the name of a file, to which systems set a limit."""
@@ -48,16 +51,12 @@ class Held:
 
     def __init__(self, folder: Path) -> None:
         self._file, self._held = folder / LOCK, -1
-        if importlib.util.find_spec("fcntl") is None:  # Windows
-            return
         try:
             while not self._locked():
-                os.close(self._held)
+                pass  # whoever had it has removed it meanwhile
         except OutputError:
-            self._held = -1
             raise
         except OSError as error:
-            self._held = -1
             raise OutputError(
                 f"folder of a session must be one that can be written, but {self._file} cannot: {error.strerror}; "
                 "choose another."
@@ -65,30 +64,30 @@ class Held:
 
     def _locked(self) -> bool:
         """Whether the file that was locked is still that of its name."""
-        import fcntl
-
-        self._held = os.open(self._file, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o600)
-        if not stat.S_ISREG(os.fstat(self._held).st_mode):
-            os.close(self._held)
-            raise OSError(0, f"{LOCK} is no ordinary file")
+        file = os.open(self._file, os.O_RDWR | os.O_CREAT | NOT_FOLLOWED, 0o600)
         try:
-            fcntl.flock(self._held, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            owner = printable(os.read(self._held, 300).decode("utf-8", "replace").strip()) or "another application"
-            os.close(self._held)
-            raise OutputError(
-                f"folder of a session must be open in one application only, but {self._file.parent} is open in "
-                f"{owner}. End that one, or choose another folder.",
-                subject="folder of a session",
-            ) from None
-        except OSError:  # a file system without locks: nothing can be told of others
-            return True
-        with suppress(OSError):
-            if os.path.samestat(os.fstat(self._held), os.lstat(self._file)):
-                os.ftruncate(self._held, 0)
-                os.pwrite(self._held, f"{owner_of_this()}\n".encode(), 0)
-                return True
-        return False  # whoever had it has removed it meanwhile
+            if not stat.S_ISREG(os.fstat(file).st_mode):
+                raise OSError(0, f"{LOCK} is no ordinary file")
+            held = lock(self._file)
+            if held == -1 and self._file.exists():
+                owner = printable(os.read(file, 300).decode("utf-8", "replace").strip()) or "another application"
+                raise OutputError(
+                    f"folder of a session must be open in one application only, but {self._file.parent} is open in "
+                    f"{owner}. End that one, or choose another folder.",
+                    subject="folder of a session",
+                )
+            if held < 0:  # gone meanwhile, or a file system without locks, where nothing can be told of others
+                return held == -2
+            with suppress(OSError):
+                if os.path.samestat(os.fstat(held), os.lstat(self._file)):
+                    os.ftruncate(file, 0)
+                    os.write(file, f"{owner_of_this()}\n".encode())
+                    self._held = held
+                    return True
+            os.close(held)
+            return False
+        finally:
+            os.close(file)
 
     def release(self) -> None:
         """Give the right back."""
