@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import math
 import webbrowser
 from pathlib import Path
 from typing import Annotated
@@ -12,12 +11,20 @@ import typer
 
 from ..core import require
 from ..core.errors import InputError
+from ..core.settings import COMMAND_LINE, validated
 from ..web.security import is_loopback
-from ..web.server import Options, serve
+from ..web.server import Caps, Options, serve
+from .declared import Given, Option, offers, options_of
 from .show import say
 
 
+def _caps() -> tuple[Option, ...]:
+    return options_of(Caps, ("caps",), "Limits")
+
+
+@offers(_caps)
 def app(
+    given: Given,
     file: Annotated[
         list[Path] | None,
         typer.Argument(help="Files with heights, or a problem document, to begin with.", metavar="FILE"),
@@ -35,22 +42,6 @@ def app(
         ),
     ] = "127.0.0.1",
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address and open no browser.")] = False,
-    most_upload: Annotated[
-        float, typer.Option("--most-upload", help="Largest file through the browser, in MiB.")
-    ] = 512.0,
-    all_uploads: Annotated[
-        float, typer.Option("--all-uploads", help="All files through the browser together, in MiB.")
-    ] = 4096.0,
-    time_limit: Annotated[float, typer.Option("--time-limit", help="Longest time of one run in seconds.")] = 43200.0,
-    total_time: Annotated[
-        float, typer.Option("--total-time", help="Time of all runs together in seconds; unlimited by default.")
-    ] = math.inf,
-    at_once: Annotated[int, typer.Option("--at-once", help="Runs that work at the same time; others wait.")] = 4,
-    memory: Annotated[
-        float | None,
-        typer.Option("--memory", help="Memory of all runs together in GiB; most of what is free by default."),
-    ] = None,
-    threads: Annotated[int | None, typer.Option("--threads", help="Threads of one run; all cores by default.")] = None,
 ) -> None:
     """Explore a contact in the browser, on this machine only: no account, nothing leaves it, works
     offline.
@@ -62,29 +53,11 @@ def app(
     require.integer(port, 0, "--port", "Give 0 for any free one.")
     if port > 65535:
         raise InputError(f"--port must be at most 65535, but is {port}.")
-    require.integer(at_once, 1, "--at-once", "Give 1 or more.")
-    given = {"--most-upload": most_upload, "--all-uploads": all_uploads, "--time-limit": time_limit}
-    for name, value in (given | {"--total-time": total_time, "--memory": memory}).items():
-        if value is not None and not value > 0.0:
-            raise InputError(f"{name} must be greater than zero, but is {value:g}.")
-    if threads is not None:
-        require.integer(threads, 1, "--threads", "Give 1 or more.")
+    caps = given.under("caps")
+    limits = validated(Caps, caps.table(), COMMAND_LINE, {option.path[-1]: option.name for option in caps.options})
     if importlib.util.find_spec("nicegui") is None:
         raise InputError('NiceGUI must be installed for the application, but is missing: pip install "asperity[web]".')
-    options = Options(
-        files=file or (),
-        demo=demo,
-        host=host,
-        port=port,
-        folder=folder,
-        most_upload=most_upload,
-        time_limit=time_limit,
-        memory=memory,
-        threads=threads,
-        at_once=at_once,
-        total_time=total_time,
-        all_uploads=all_uploads,
-    )
+    options = Options(file or (), demo, host, port, folder, limits)
     serve(
         options,
         lambda address, file: _opened(address, file, host, browser=not no_browser),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -128,38 +129,40 @@ def contact(
     """
     archive = from_ if from_ is not None or not file or len(file) > 1 else file[0]
     if archive is None or not is_archive(archive):
-        raise typer.Exit(_asked(given, file, from_, out, with_, force=force))
+        raise typer.Exit(_solved(Asked(tuple(file or ()), from_), given, out, with_ or [], force=force))
     with TemporaryDirectory(prefix="asperity-") as place:
-        raise typer.Exit(_asked(given, None, unpack(archive, Path(place)), out, with_, force=force, unpacked=True))
+        asked = Asked((), unpack(archive, Path(place)), unpacked=True)
+        raise typer.Exit(_solved(asked, given, out, with_ or [], force=force))
 
 
-def _asked(
-    given: Given,
-    file: list[Path] | None,
-    from_: Path | None,
-    out: Path | None,
-    with_: list[str] | None,
-    *,
-    force: bool,
-    unpacked: bool = False,
-) -> int:
-    """Solve what is asked for; the exit code. With ``unpacked`` the files of the document are those
-    of an archive, which lie in a folder that will be gone."""
+@dataclass(frozen=True)
+class Asked:
+    """What is solved: ``files`` with heights, or a ``document``, which with those that it names may
+    be ``unpacked`` from an archive into a folder that will be gone."""
+
+    files: tuple[Path, ...] = ()
+    document: Path | None = None
+    unpacked: bool = False
+
+
+def _solved(asked: Asked, given: Given, out: Path | None, parts_asked: list[str], *, force: bool) -> int:
+    """Solve what is asked for; the exit code."""
+    file, from_ = asked.files, asked.document
     table, names, base = asked_table(file[0] if file else None, from_, given)
     files = files_in(given, force=force)
-    if unpacked and "save_document" in files:
+    if asked.unpacked and "save_document" in files:
         raise InputError(
             "--save-document must be left out with an archive, but is given: --out DIR holds the document and its "
             "files."
         )
     volume = ["stress"] if {"stress_vtk", "stress_nc"} & files.keys() else []
-    table = with_parts(table, given, (*(with_ or ()), *given.under("asked").table(), *volume))
+    table = with_parts(table, given, (*parts_asked, *given.under("asked").table(), *volume))
     where = f"problem document {from_}" if from_ else COMMAND_LINE
     document = checked(table, where, names | part_names(given, everything=from_ is None))
     if files:
         inputs = [*files_of(document, base), *([from_] if from_ else [])]
         require_new_files([*files.values()], overwrite=force, inputs=inputs)
-    if file and len(file) > 1:
+    if len(file) > 1:
         if files:
             raise InputError(
                 f"{' and '.join(f'--{name.replace(chr(95), chr(45))}' for name in files)} must be left out "
@@ -169,7 +172,7 @@ def _asked(
 
         return solve_files(document, file, out, yes=bool(given.get("yes")))
     confirmed(large_grid(stated_points(document.surface)), yes=bool(given.get("yes")))
-    return _perform(document, base, out, files, force=force, unpacked=unpacked)
+    return _perform(document, base, out, files, force=force, unpacked=asked.unpacked)
 
 
 def _dynamics_options() -> list[Option]:

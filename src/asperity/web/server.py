@@ -11,17 +11,33 @@ import tempfile
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, TypeAlias
 
 from ..core.errors import InputError
+from ..core.settings import Settings, setting
 from ..core.spectral import thread_count
+from ..core.values import Number, Whole
 from ..core.words import speaking
 from .beginning import fill
 from .security import MIB, Guard, host_names, is_loopback, leading_to
 from .session import Place
 from .workers import Limits, Together
+
+Positive: TypeAlias = Annotated[float, Number(above=0.0)]
+
+
+class Caps(Settings):
+    """How much runs and uploads may take."""
+
+    most_upload: Positive = setting(512.0, help="largest file through the browser, in MiB")
+    all_uploads: Positive = setting(4096.0, help="all files through the browser together, in MiB")
+    time_limit: Positive | None = setting(None, help="longest time of one run in seconds; twelve hours by default")
+    total_time: Positive | None = setting(None, help="time of all runs together in seconds; no limit by default")
+    memory: Positive | None = setting(None, help="memory of all runs together in GiB; most of what is free by default")
+    at_once: Annotated[int, Whole(1)] = setting(4, help="runs that work at the same time; others wait")
+    threads: Annotated[int, Whole(1)] | None = setting(None, help="threads of one run; all cores by default")
 
 
 @dataclass(frozen=True)
@@ -33,13 +49,7 @@ class Options:
     host: str = "127.0.0.1"
     port: int = 0
     folder: Path | None = None
-    most_upload: float = 512.0
-    time_limit: float = 12 * 3600.0
-    memory: float | None = None
-    threads: int | None = None
-    at_once: int = 4
-    total_time: float = math.inf
-    all_uploads: float = 4096.0
+    caps: Caps = field(default_factory=Caps)
 
 
 def serve(options: Options, opened: Callable[[str, Path], None], renewed: Callable[[str], None]) -> None:
@@ -134,13 +144,14 @@ def _ended_by_signals(server: Any) -> Iterator[None]:
 
 def _place(options: Options) -> Place:
     """Where sessions live, with the first one if there is anything to begin with."""
-    usual = Limits.usual(options.time_limit)
-    memory = usual.memory if options.memory is None else options.memory * 2**30
-    limits = replace(usual, memory=memory, together=Together(options.at_once, options.total_time))
+    caps = options.caps
+    usual = Limits.usual() if caps.time_limit is None else Limits.usual(caps.time_limit)
+    memory = usual.memory if caps.memory is None else caps.memory * 2**30
+    limits = replace(usual, memory=memory, together=Together(caps.at_once, caps.total_time or math.inf))
     private = Path(tempfile.mkdtemp(prefix="asperity-app-"))
     roots = () if is_loopback(options.host) else (Path.cwd().resolve(),)
-    threads = thread_count(options.threads)
-    place = Place(private, limits, threads, int(options.most_upload * MIB), roots, options.all_uploads * MIB)
+    threads = thread_count(caps.threads)
+    place = Place(private, limits, threads, int(caps.most_upload * MIB), roots, caps.all_uploads * MIB)
     if options.files or options.demo or options.folder is not None:
         try:
             _, session = place.new(options.folder)
