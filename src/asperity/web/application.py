@@ -74,8 +74,9 @@ def application(place: Place) -> Any:
                 async for part in request.stream():
                     target.write(part)
                     unseen += len(part)
-                    if unseen > MIB:  # also what others send meanwhile
-                        unseen = target.flush() or 0
+                    if unseen > MIB:  # others may send something meanwhile
+                        target.flush()
+                        unseen = 0
                         if place.room() < 0:
                             break
             full = place.room() < 0

@@ -126,7 +126,7 @@ class Worker:
         return None if self._process is None else self._process.pid
 
     async def run(self, function: str, **task: Any) -> dict[str, Any]:
-        """Like :meth:`call`, but not before it is the turn of this run; until then it may be
+        """Like ``call``, but not before it is the turn of this run; until then it may be
         cancelled, too."""
         turn = asyncio.ensure_future(self.limits.together.turns.acquire())
         given_up = asyncio.ensure_future(self._given_up.wait())
