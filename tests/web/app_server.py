@@ -8,6 +8,7 @@ import os
 import re
 import subprocess
 import sys
+import time
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,38 +18,53 @@ from urllib.parse import quote, urlsplit
 @dataclass
 class AppServer:
     """``asperity app`` with these ``arguments``; ``packages`` is a folder of further ones,
-    ``address`` is what it printed."""
+    ``environment`` further variables, and ``said`` what it printed."""
 
     arguments: tuple[str, ...] = ()
     folder: Path | None = None
     packages: Path | None = None
-    address: str = ""
+    environment: dict[str, str] = field(default_factory=dict)
     said: list[str] = field(default_factory=list)
+    roots: dict[str, str] = field(default_factory=dict)
+    quiet: bool = True
 
     def __enter__(self) -> AppServer:
         environment = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST")}
+        environment |= self.environment
         if self.packages is not None:
             environment["PYTHONPATH"] = os.pathsep.join([str(self.packages), environment.get("PYTHONPATH", "")])
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "asperity", "app", "--no-browser", *self.arguments],
+            [sys.executable, "-m", "asperity", "app", *(["--no-browser"] if self.quiet else []), *self.arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
-            text=True,
             cwd=self.folder,
             env=environment,
         )
+        while not self.addresses():
+            if self.process.poll() is not None:
+                raise AssertionError("".join(self.said))
+            time.sleep(0.05)
+        return self
+
+    def addresses(self) -> list[str]:
+        """All addresses that were printed; the last one has not been used. An address is printed
+        before the one before it is answered."""
         assert self.process.stdout is not None
-        for line in self.process.stdout:
-            self.said.append(line)
-            if found := re.search(r"http://\S+", line):
-                self.address = found[0]
-                return self
-        raise AssertionError("".join(self.said))
+        os.set_blocking(self.process.stdout.fileno(), False)
+        self.said.append((self.process.stdout.read() or b"").decode())
+        return re.findall(r"http://\S+(?=\s)", "".join(self.said))
+
+    @property
+    def address(self) -> str:
+        """An address that opens one window."""
+        return self.addresses()[-1]
 
     def __exit__(self, *error: object) -> None:
         self.process.terminate()
-        output, _ = self.process.communicate(timeout=20)
-        self.said.append(output)
+        self.process.wait(timeout=20)
+        self.addresses()
+        assert self.process.stdout is not None
+        self.process.stdout.close()
         assert "Traceback" not in "".join(self.said), "".join(self.said)
 
     @property
@@ -63,11 +79,12 @@ class AppServer:
         self, method: str, path: str, *, body: Any = None, cookie: str = "", **headers: str
     ) -> tuple[int, dict[str, str], bytes]:
         """Status, headers and body of the answer to one request; ``headers`` with underscores for
-        dashes."""
+        dashes, ``path`` below that of the ``cookie``."""
         connection = http.client.HTTPConnection(self.host, timeout=30)
         named = {key.replace("_", "-"): value for key, value in headers.items()}
         if cookie:
             named["Cookie"] = cookie
+            path = f"{self.roots[cookie]}{path}"
         try:
             connection.request(method, path, body=body, headers=named)
             answer = connection.getresponse()
@@ -78,12 +95,14 @@ class AppServer:
     def cookie(self) -> str:
         """The cookie for which the token is exchanged."""
         _, headers, _ = self.ask("GET", f"/?token={self.token}")
-        return headers["set-cookie"].partition(";")[0]
+        cookie, path = re.match(r"(\S+); Path=(/[\w-]+)/;", headers["set-cookie"]).groups()  # type: ignore[union-attr]
+        self.roots[cookie] = path
+        return cookie
 
     def session(self, cookie: str) -> str:
         """Key of the first session."""
         _, headers, _ = self.ask("GET", "/", cookie=cookie)
-        return headers["location"].split("/")[2]
+        return headers["location"].split("/")[3]
 
     def upload(self, cookie: str, session: str, name: str, content: bytes) -> tuple[int, dict[str, Any]]:
         """Status and answer to an upload as a page makes it."""

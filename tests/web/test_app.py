@@ -35,6 +35,11 @@ def base_of(page: Any) -> str:
     return str(page.url).rsplit("/", 1)[0]
 
 
+def start_of(page: Any) -> str:
+    """Address of the page on which sessions begin, of the application that ``page`` shows."""
+    return f"{base_of(page).rpartition('/s/')[0]}/start"
+
+
 def go(page: Any, step: str) -> None:
     """Open another step of the same session and wait for it."""
     page.goto(f"{base_of(page)}/{step}")
@@ -90,7 +95,7 @@ def scan(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_whole_session(demo: AppServer, scan: Path, open_page: Callable[..., Any], tmp_path: Path) -> None:
     page = open_page(demo.address, viewport={"width": 1400, "height": 900}, accept_downloads=True).page
     base_of(page)
-    page.goto(f"http://{demo.host}/start")
+    page.goto(start_of(page))
     page.click("text=Begin")
     base_of(page)
     with page.expect_file_chooser() as chooser:
@@ -234,7 +239,7 @@ def test_files_are_dropped_as_scans_of_one_surface(scan: Path, open_page: Callab
     with AppServer(("--demo", "--most-upload", "1", "--threads", "1")) as server:  # sessions of others stay as they are
         page = open_page(server.address, viewport={"width": 1400, "height": 900}).page
         base_of(page)
-        page.goto(f"http://{server.host}/start")
+        page.goto(start_of(page))
         page.click("text=Begin")
         base_of(page)
         page.click("button:has-text('Many scans')")

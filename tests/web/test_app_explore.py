@@ -3,6 +3,7 @@ appears everywhere."""
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -207,13 +208,14 @@ def test_curves_of_a_sweep(app: AppServer, open_page: Callable[..., Any]) -> Non
 
 
 @pytest.mark.slow
-def test_a_kept_session_is_opened_again(app: AppServer, open_page: Callable[..., Any]) -> None:
+def test_a_kept_session_is_opened_again(app: AppServer, open_page: Callable[..., Any], tmp_path: Path) -> None:
     kept = Path(app.arguments[-1])
     page = opened(app, open_page, "run")
     if page.locator("[data-state=done]").count() == 0:  # no test before this one has run in this process
         page.click("[data-run]")
         page.wait_for_selector("[data-state=done]", timeout=LONG)
-    with AppServer(("--folder", str(kept))) as again:
+    shutil.copytree(kept, tmp_path / "kept")  # the folder itself is open in the first application
+    with AppServer(("--folder", str(tmp_path / "kept"))) as again:
         page = opened(again, open_page, "run")
         assert page.locator("[data-state=done]").count() == len(list((kept / "runs").glob("*/report.html")))
         assert page.locator("[data-state=done]").count() > 0

@@ -161,6 +161,7 @@ def test_a_session_moves_into_a_folder_and_comes_back_from_it(tmp_path: Path) ->
     assert str(tmp_path) not in json.dumps(
         json.loads((tmp_path / "kept" / "session.json").read_text(encoding="utf-8"))["files"]
     )
+    session.close()
     (tmp_path / "kept").rename(tmp_path / "elsewhere")
     again = Session(tmp_path / "elsewhere", Limits.usual(), 1, kept=True)
     again.reopen()

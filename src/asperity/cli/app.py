@@ -11,12 +11,20 @@ import typer
 
 from ..core import require
 from ..core.errors import InputError
+from ..core.settings import COMMAND_LINE, validated
 from ..web.security import is_loopback
-from ..web.server import Options, serve
+from ..web.server import Caps, Options, serve
+from .declared import Given, Option, offers, options_of
 from .show import say
 
 
+def _caps() -> tuple[Option, ...]:
+    return options_of(Caps, ("caps",), "Limits")
+
+
+@offers(_caps)
 def app(
+    given: Given,
     file: Annotated[
         list[Path] | None,
         typer.Argument(help="Files with heights, or a problem document, to begin with.", metavar="FILE"),
@@ -34,14 +42,6 @@ def app(
         ),
     ] = "127.0.0.1",
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address and open no browser.")] = False,
-    most_upload: Annotated[
-        float, typer.Option("--most-upload", help="Largest file through the browser, in MiB.")
-    ] = 512.0,
-    time_limit: Annotated[float, typer.Option("--time-limit", help="Longest time of one run in seconds.")] = 43200.0,
-    memory: Annotated[
-        float | None, typer.Option("--memory", help="Memory of one run in GiB; most of what is free by default.")
-    ] = None,
-    threads: Annotated[int | None, typer.Option("--threads", help="Threads of one run; all cores by default.")] = None,
 ) -> None:
     """Explore a contact in the browser, on this machine only: no account, nothing leaves it, works
     offline.
@@ -53,26 +53,28 @@ def app(
     require.integer(port, 0, "--port", "Give 0 for any free one.")
     if port > 65535:
         raise InputError(f"--port must be at most 65535, but is {port}.")
-    for name, value in (("--most-upload", most_upload), ("--time-limit", time_limit), ("--memory", memory)):
-        if value is not None and not value > 0.0:
-            raise InputError(f"{name} must be greater than zero, but is {value:g}.")
-    if threads is not None:
-        require.integer(threads, 1, "--threads", "Give 1 or more.")
+    caps = given.under("caps")
+    limits = validated(Caps, caps.table(), COMMAND_LINE, {option.path[-1]: option.name for option in caps.options})
     if importlib.util.find_spec("nicegui") is None:
         raise InputError('NiceGUI must be installed for the application, but is missing: pip install "asperity[web]".')
-    options = Options(file or (), demo, host, port, folder, most_upload, time_limit, memory, threads)
-    serve(options, lambda address: _opened(address, host, browser=not no_browser))
+    options = Options(file or (), demo, host, port, folder, limits)
+    serve(
+        options,
+        lambda address, file: _opened(address, file, host, browser=not no_browser),
+        lambda address: say(f"The next window opens by {address}", "dim"),
+    )
 
 
-def _opened(address: str, host: str, *, browser: bool) -> None:
-    """Print the address, and open it."""
+def _opened(address: str, file: Path, host: str, *, browser: bool) -> None:
+    """Print the address, and open it by the private ``file`` that leads there: the list of
+    processes shows what is opened."""
     say(f"asperity is at {address}")
     if not is_loopback(host):
         text = (
-            f"Others reach it at {host}, without encryption: whoever has this address with its token may "
+            f"Others reach it at {host}, without encryption: whoever opens an address with its token first may "
             "use it as you do."
         )
         say(text, "yellow", warning=True)
     say("It ends with Ctrl-C.", "dim")
     if browser:
-        webbrowser.open(address)
+        webbrowser.open(file.as_uri())

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import MappingProxyType
 from typing import Annotated, Any
 
@@ -15,6 +17,7 @@ from ..core.errors import InputError
 from ..core.settings import COMMAND_LINE
 from ..core.values import Flag
 from ..io.atomic import atomic_folder, require_new_files
+from ..run.archive import carried, is_archive, unpack
 from ..run.build import build, large_grid, stated_points
 from ..run.document import ProblemDocument, checked, files_of, loads, read_table, relocated, save_document
 from ..run.execute import Outcome, execute
@@ -95,7 +98,8 @@ def contact(
     file: Annotated[
         list[Path] | None,
         typer.Argument(
-            help="File with the heights of the rough surface; of many, one table and report with a row for each.",
+            help="File with the heights of the rough surface, or archive of a problem; of many, one table and report "
+            "with a row for each.",
             metavar="FILE",
         ),
     ] = None,
@@ -123,16 +127,42 @@ def contact(
     Exit code 0: converged; 1: not converged (results are written and say so); 2: input that cannot
     be used; 130: interrupted by Ctrl-C (nothing is left half-written).
     """
+    archive = from_ if from_ is not None or not file or len(file) > 1 else file[0]
+    if archive is None or not is_archive(archive):
+        raise typer.Exit(_solved(Asked(tuple(file or ()), from_), given, out, with_ or [], force=force))
+    with TemporaryDirectory(prefix="asperity-") as place:
+        asked = Asked((), unpack(archive, Path(place)), unpacked=True)
+        raise typer.Exit(_solved(asked, given, out, with_ or [], force=force))
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is solved: ``files`` with heights, or a ``document``, which with those that it names may
+    be ``unpacked`` from an archive into a folder that will be gone."""
+
+    files: tuple[Path, ...] = ()
+    document: Path | None = None
+    unpacked: bool = False
+
+
+def _solved(asked: Asked, given: Given, out: Path | None, parts_asked: list[str], *, force: bool) -> int:
+    """Solve what is asked for; the exit code."""
+    file, from_ = asked.files, asked.document
     table, names, base = asked_table(file[0] if file else None, from_, given)
     files = files_in(given, force=force)
+    if asked.unpacked and "save_document" in files:
+        raise InputError(
+            "--save-document must be left out with an archive, but is given: --out DIR holds the document and its "
+            "files."
+        )
     volume = ["stress"] if {"stress_vtk", "stress_nc"} & files.keys() else []
-    table = with_parts(table, given, (*(with_ or ()), *given.under("asked").table(), *volume))
+    table = with_parts(table, given, (*parts_asked, *given.under("asked").table(), *volume))
     where = f"problem document {from_}" if from_ else COMMAND_LINE
     document = checked(table, where, names | part_names(given, everything=from_ is None))
     if files:
         inputs = [*files_of(document, base), *([from_] if from_ else [])]
         require_new_files([*files.values()], overwrite=force, inputs=inputs)
-    if file and len(file) > 1:
+    if len(file) > 1:
         if files:
             raise InputError(
                 f"{' and '.join(f'--{name.replace(chr(95), chr(45))}' for name in files)} must be left out "
@@ -140,9 +170,9 @@ def contact(
             )
         from .campaigns import solve_files
 
-        raise typer.Exit(solve_files(document, file, out, yes=bool(given.get("yes"))))
+        return solve_files(document, file, out, yes=bool(given.get("yes")))
     confirmed(large_grid(stated_points(document.surface)), yes=bool(given.get("yes")))
-    raise typer.Exit(_perform(document, base, out, files, force=force))
+    return _perform(document, base, out, files, force=force, unpacked=asked.unpacked)
 
 
 def _dynamics_options() -> list[Option]:
@@ -216,16 +246,25 @@ def asked_table(file: Path | None, document: Path | None, given: Given) -> tuple
     return table, {}, document.parent
 
 
-def _perform(document: ProblemDocument, base: Path, out: Path | None, files: dict[str, Path], *, force: bool) -> int:
+def _perform(
+    document: ProblemDocument,
+    base: Path,
+    out: Path | None,
+    files: dict[str, Path],
+    *,
+    force: bool,
+    unpacked: bool = False,
+) -> int:
     """Run ``document``, whose relative paths start at ``base``; write what is asked for, print; the
-    exit code."""
+    exit code. Files that were ``unpacked`` from an archive are put into the folder ``out``."""
     case, in_folder = build(document, base), []
     with output_folder(out, force=force) as folder:
         outcome = execute(case, lines=folder is not None or bool(case.path), stage=stage)
         if folder is not None and out is not None:
-            from ..report.folder import names_in_folder, write_run
+            from ..report.folder import ALL_NAMES, names_in_folder, write_run
 
-            write_run(outcome, folder, relocated(document, base, out))
+            there = carried(document, base, folder, ALL_NAMES) if unpacked else relocated(document, base, out)
+            write_run(outcome, folder, there)
             in_folder = [out / name for name in names_in_folder(outcome)]
     if "save_document" in files:
         save_document(relocated(document, base, files["save_document"].parent), files["save_document"], overwrite=force)

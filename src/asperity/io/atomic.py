@@ -98,13 +98,13 @@ def _partial(target: Path, *, folder: bool = False) -> Iterator[Path]:
                 path = absolute.with_name(entry)
                 if entry.endswith(_AWAY) and name.fullmatch(entry.removesuffix(_AWAY)):
                     path.rename(absolute) if not absolute.exists() else _remove(path)
-                elif name.fullmatch(entry) and (left := _lock(path)) >= 0:
+                elif name.fullmatch(entry) and (left := lock(path)) >= 0:
                     _remove(path)
                     os.close(left)
         while held == -1:
             partial = absolute.with_name(f"{start}{secrets.token_hex(4)}{end}")
             partial.mkdir() if folder else partial.touch()
-            held = _lock(partial)
+            held = lock(partial)
         yield partial
     except OutputError as error:  # of a file inside the folder: it will be where the folder is to be
         hidden, shown = str(partial), str(target)
@@ -125,7 +125,7 @@ def _partial(target: Path, *, folder: bool = False) -> Iterator[Path]:
             os.close(held)
 
 
-def _lock(path: Path) -> int:
+def lock(path: Path) -> int:
     """Descriptor that locks ``path`` until it is closed; -1 if another process has it, -2 where
     there are no locks."""
     if importlib.util.find_spec("fcntl") is None:  # Windows

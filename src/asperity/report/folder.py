@@ -24,6 +24,9 @@ NAMES = ("report.html", "result.nc", "scalars.csv", "plots", "problem.toml")
 PATH, STRESSES = "path.csv", "stress.csv"
 """Scalars and energies of the steps of a load path, and the table of the largest stresses."""
 
+ALL_NAMES = (*NAMES, PATH, STRESSES)
+"""What a run may leave in its folder."""
+
 
 def names_in_folder(outcome: Outcome) -> tuple[str, ...]:
     """Names of what ``write_run`` writes for ``outcome``."""

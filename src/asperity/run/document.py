@@ -12,9 +12,11 @@ import json
 import os
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Optional, TypeVar
 
 from pydantic import Field, create_model
@@ -23,7 +25,9 @@ from ..core.errors import FileFormatError, InputError
 from ..core.settings import Settings, validated
 from ..core.text import read_text
 from ..io.atomic import atomic_file
+from ..io.schemas.bodies import base_from_text, body_from_text
 from ..io.schemas.problem import ProblemDocument
+from ..io.schemas.surfaces import ScanFile
 from ..parts.part import Part
 from ..parts.registry import parts
 
@@ -229,7 +233,7 @@ def relocated(document: D, source: Path, target: Path) -> D:
         except ValueError:  # on Windows: another drive
             return str(found)
 
-    elsewhere: D = _with_paths(document, moved)
+    elsewhere: D = with_paths(document, moved)
     return elsewhere
 
 
@@ -241,8 +245,55 @@ def files_of(document: ProblemDocument, folder: Path) -> list[Path]:
         found.append(folder / path)
         return path
 
-    _with_paths(document, seen)
+    with_paths(document, seen)
     return found
+
+
+_MODULI = re.compile(r"moduli\s*=\s*([^,:}]+)")
+"""File of moduli in the text of a body."""
+
+
+def files_named(table: Any) -> Iterator[str]:
+    """Names of files in the nested ``table``, which has not been checked; in doubt too many."""
+    found: list[str] = []
+
+    def seen(name: str) -> str:
+        found.append(name)
+        return name
+
+    level = [with_files(table, seen)]
+    yield from found
+    while level:
+        item = level.pop()
+        if isinstance(item, str):
+            yield from (name.strip() for name in _MODULI.findall(item))
+        level += item.values() if isinstance(item, Mapping) else item if isinstance(item, list) else ()
+
+
+def with_files(table: Any, moved: Callable[[str], str]) -> Any:
+    """Nested ``table``, which has not been checked, with the file names in it replaced. The text of
+    a body or a scan with a file becomes a table."""
+    if isinstance(table, list):
+        return [with_files(item, moved) for item in table]
+    if not isinstance(table, Mapping):
+        return table
+    made: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, str) and names_file(key):
+            made[key] = moved(value)
+        elif key == "scans" and isinstance(value, list):
+            made[key] = with_files([ScanFile.from_text(v) if isinstance(v, str) else v for v in value], moved)
+        elif key in _BODIES and isinstance(value, str) and _MODULI.search(value):
+            with suppress(InputError):
+                value = with_files(_BODIES[key](value), moved)
+            made[key] = value
+        else:
+            made[key] = with_files(value, moved)
+    return made
+
+
+_BODIES = MappingProxyType({"body": body_from_text, "counter_body": body_from_text, "base": base_from_text})
+"""What reads the text at a key."""
 
 
 def tidy(table: dict[str, Any]) -> dict[str, Any]:
@@ -252,18 +303,23 @@ def tidy(table: dict[str, Any]) -> dict[str, Any]:
     return dict(sorted(kept.items(), key=lambda item: (item[0] != "kind") + (item[0] == "prepare")))
 
 
-def _with_paths(table: Any, moved: Callable[[str], str]) -> Any:
+def names_file(key: str) -> bool:
+    """Whether the text at ``key`` names a file."""
+    return key == "path" or key.endswith("_file")
+
+
+def with_paths(table: Any, moved: Callable[[str], str]) -> Any:
     """``table`` with the file names in it and in the tables within it replaced."""
     if type(table) is tuple and any(isinstance(item, Settings) for item in table):
-        return tuple(_with_paths(item, moved) for item in table)
+        return tuple(with_paths(item, moved) for item in table)
     if not isinstance(table, Settings):
         return table
     changed: dict[str, Any] = {}
     for key in type(table).model_fields:
         value = getattr(table, key)
         if isinstance(value, Settings | tuple):
-            changed[key] = _with_paths(value, moved)
-        elif value is not None and (key == "path" or key.endswith("_file")):
+            changed[key] = with_paths(value, moved)
+        elif value is not None and names_file(key):
             changed[key] = moved(value)
     return table.model_copy(update=changed) if changed else table
 

@@ -10,8 +10,11 @@ from fastapi import FastAPI, Request
 from fastapi.responses import FileResponse, JSONResponse, Response
 from nicegui import ui
 
+from ..core.errors import AsperityError
 from ..report import page
+from .kept import is_within
 from .pages import add_pages
+from .security import MIB, quota_text
 from .session import Place
 from .views import SCENE
 
@@ -52,7 +55,7 @@ def application(place: Place) -> Any:
             return Response("no such run", 404, media_type="text/plain")
         views = session.views_of(known)
         file = views.with_name(views.name + SCENE)
-        if not file.is_file():
+        if not file.is_file() or not is_within(file, session.folder):
             return Response("no maps", 404, media_type="text/plain")
         return FileResponse(file, media_type="application/json", headers={"cache-control": "no-store"})
 
@@ -61,15 +64,28 @@ def application(place: Place) -> Any:
         session = place.sessions.get(key)
         if session is None:
             return JSONResponse({"error": "This session has ended; begin a new one."}, 404)
+        length = int(request.headers.get("content-length", "0"))
+        if length > place.room():
+            return JSONResponse({"error": quota_text(place.quota)}, 413)
         path = session.add_file(name)
         try:
             with path.open("xb") as target:
+                unseen = 0
                 async for part in request.stream():
                     target.write(part)
+                    unseen += len(part)
+                    if unseen > MIB:  # others may send something meanwhile
+                        target.flush()
+                        unseen = 0
+                        if place.room() < 0:
+                            break
+            full = place.room() < 0
         except BaseException:
-            path.unlink(missing_ok=True)
-            session.files = [item for item in session.files if item.path != str(path)]
+            session.forget_file(path)
             raise
+        if full:
+            session.forget_file(path)
+            return JSONResponse({"error": quota_text(place.quota)}, 413)
         session.touched()
         return JSONResponse({"path": str(path)})
 
@@ -82,6 +98,18 @@ def application(place: Place) -> Any:
         kind = TYPES.get(found.suffix, "application/octet-stream")
         policy = {"content-security-policy": SANDBOX} if kind == "text/html" else {}
         return FileResponse(found, media_type=kind, headers={"cache-control": "no-store", **policy})
+
+    @app.get("/share/{key}/{run}")
+    def share(key: str, run: str) -> Response:
+        session = place.sessions.get(key)
+        known = None if session is None else session.runs.get(run)
+        if session is None or known is None:
+            return Response("no such run", 404, media_type="text/plain")
+        try:
+            archive = session.shared(known)
+        except AsperityError as error:
+            return Response(session.said(str(error)), 404, media_type="text/plain")
+        return FileResponse(archive, media_type="application/zip", headers={"cache-control": "no-store"})
 
     add_pages(app, place)
     ui.run_with(

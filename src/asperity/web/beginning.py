@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 import tomllib
 from collections.abc import Sequence
 from importlib import resources
@@ -10,8 +11,10 @@ from types import MappingProxyType
 from typing import Any
 
 from ..core.errors import InputError
-from ..run.document import read_table
-from .session import Kept, Session
+from ..run.archive import is_archive, unpack
+from ..run.document import files_named, read_table
+from .draft import relabelled
+from .session import Session
 
 LEVELLED = MappingProxyType({"step": "level", "form": "plane"})
 FILLED = MappingProxyType({"step": "fill", "method": "harmonic"})
@@ -45,10 +48,36 @@ def fill(session: Session, *, files: Sequence[Path] = (), demo: bool = False) ->
             raise InputError(
                 f"FILE must be a file with heights or a problem document, but {file} is none; check the path."
             )
-        if file.suffix.lower() in (".toml", ".json"):
-            session.draft.replace(read_table(file))
+        if is_document(file):
+            open_document(session, file)
             continue
-        path = str(file.absolute())
-        session.files.append(Kept(path, str(file)))
+        path = session.take_file(file)
         if session.draft.get("surface") is None:
             session.draft.set(("surface",), measured(path))
+
+
+def is_document(file: Path) -> bool:
+    """Whether ``file`` is a problem document, or an archive with one."""
+    return file.suffix.lower() in (".toml", ".json") or is_archive(file)
+
+
+def open_document(session: Session, file: Path) -> None:
+    """Take the problem of the document or archive ``file``, with the files that it names, which
+    become files of the ``session``.
+
+    Raises
+    ------
+    InputError
+        If it is damaged or too large, or names a file that is not there.
+    """
+    if is_archive(file):
+        file = unpack(file, Path(tempfile.mkdtemp(prefix="archive-", dir=session.scratch)), session.room())
+    table, paths = read_table(file), {}
+    for name in files_named(table):
+        if not (file.parent / name).is_file():
+            raise InputError(
+                f"problem document must name files that exist, but {name} of {file} is none; correct its path, which "
+                "starts at the folder of the document."
+            )
+        paths[name] = session.take_file(file.parent / name)
+    session.draft.replace(relabelled(table, paths))

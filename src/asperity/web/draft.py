@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 from ..core.errors import AsperityError
-from ..run.document import ProblemDocument, checked, dumps, tidy
+from ..run.document import ProblemDocument, checked, dumps, tidy, with_files
 
 Keys: TypeAlias = tuple[str | int, ...]
 """Where a value stands: keys of tables and places in lists."""
@@ -100,6 +100,11 @@ class Draft:
             self.before.append(self.table)
             self.table = self.after.pop()
 
+    def rename(self, names: Mapping[str, str]) -> None:
+        """Call files by other ``names`` from now on; what was before and after is the same."""
+        self.table = relabelled(self.table, names)
+        self.before, self.after = relabelled(self.before, names), relabelled(self.after, names)
+
     def document(self) -> ProblemDocument:
         """The document, checked.
 
@@ -140,8 +145,7 @@ def forms_of(table: Mapping[str, Any], labels: Mapping[str, str]) -> Forms:
         import tomli_w
 
         text, plain = tomli_w.dumps(tidy(json.loads(json.dumps(named)))), dict(named)
-    title = re.sub(r"[^A-Za-z0-9]+", "-", str(named.get("title", ""))).lower()[:40].strip("-")
-    name = f"{title or 'problem'}.toml"
+    name = f"{plain_name(str(named.get('title', ''))) or 'problem'}.toml"
     python = (
         "import asperity as asp\n\n"
         f"document = {pprint.pformat(plain, width=100, sort_dicts=False)}\n\n"
@@ -153,16 +157,11 @@ def forms_of(table: Mapping[str, Any], labels: Mapping[str, str]) -> Forms:
     return Forms(python, command, text)
 
 
+def plain_name(title: str) -> str:
+    """Name of a file after a ``title``: letters, digits and dashes, perhaps none."""
+    return re.sub(r"[^A-Za-z0-9]+", "-", title).lower()[:40].strip("-")
+
+
 def relabelled(table: Any, labels: Mapping[str, str]) -> Any:
     """Nested ``table`` in which names of files are replaced by their ``labels``."""
-    if isinstance(table, Mapping):
-        return {
-            key: labels.get(value, value) if isinstance(value, str) and is_file(key) else relabelled(value, labels)
-            for key, value in table.items()
-        }
-    return [relabelled(item, labels) for item in table] if isinstance(table, list) else table
-
-
-def is_file(key: str) -> bool:
-    """Whether the value at ``key`` names a file."""
-    return key == "path" or key.endswith("_file")
+    return with_files(table, lambda name: labels.get(name, name))

@@ -11,6 +11,7 @@ from nicegui import ui
 
 from ..core.errors import AsperityError
 from .draft import forms_of
+from .security import FORWARDED
 from .session import Place, Session
 
 STEPS = MappingProxyType(
@@ -80,10 +81,11 @@ def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]
 def look() -> None:
     """Style and scripts of every page."""
     ui.colors(primary="#005a9c", positive="#1b6e3c", negative="#a31515", warning="#8a5300", info="#005a9c")
+    root = ui.context.client.request.headers.get(FORWARDED.decode(), "")
     for name in ("viewer.css", "app.css"):
-        ui.add_head_html(f'<link rel="stylesheet" href="/static/{name}">')
+        ui.add_head_html(f'<link rel="stylesheet" href="{root}/static/{name}">')
     for name in ("viewer.js", "app.js"):
-        ui.add_head_html(f'<script defer src="/static/{name}"></script>')
+        ui.add_head_html(f'<script defer src="{root}/static/{name}"></script>')
 
 
 def _back(session: Session, *, again: bool = False) -> None:
@@ -171,3 +173,18 @@ def rows(pairs: list[list[str]] | list[tuple[str, str]]) -> None:
                 ui.label(str(label))
             with ui.element("dd"):
                 ui.label(str(text))
+
+
+def text_table(headings: list[str], rows: list[list[str]]) -> None:
+    """A table of text that scrolls where it is wide."""
+    with ui.element("div").classes("spots texts"), ui.element("table"):
+        with ui.element("thead"), ui.element("tr"):
+            for text in headings:
+                with ui.element("th"):
+                    ui.label(text)
+        with ui.element("tbody"):
+            for row in rows:
+                with ui.element("tr"):
+                    for text in row:
+                        with ui.element("td"):
+                            ui.label(text)

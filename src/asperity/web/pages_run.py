@@ -13,8 +13,10 @@ from nicegui import ui
 from ..core.errors import AsperityError
 from ..run.build import large_grid, stated_points
 from ..run.document import save_document
+from .draft import plain_name
 from .layout import failure
 from .session import Run, Session
+from .widgets import Context
 from .workers import CANCELLED, Worker, reported
 
 STATES = {"running": "sync", "done": "check_circle", "cancelled": "block", "failed": "error"}
@@ -39,9 +41,10 @@ def start(session: Session, title: str) -> Run:
 
 
 def start_sweep(session: Session, title: str, table: dict[str, Any]) -> Run:
-    """Begin the sweep of a study ``table``."""
+    """Begin the sweep of a study ``table``, whose relative paths start at the folder of a sweep."""
     run = session.new_run("sweep", title, table)
-    _begin(session, run, "study", {"table": table, "folder": str(session.folder), "workers": None})
+    study = {**table, "problem": session.named_from_sweeps(table["problem"])}
+    _begin(session, run, "study", {"table": study, "folder": str(session.folder_of(run)), "workers": None})
     return run
 
 
@@ -51,7 +54,7 @@ def _begin(session: Session, run: Run, function: str, task: dict[str, Any]) -> N
     out, progress = str(session.folder_of(run)), str(session.progress_of(run))
 
     async def work() -> None:
-        answer = await worker.call(function, **task, out=out, progress=progress)
+        answer = await worker.run(function, **task, out=out, progress=progress)
         await worker.end()  # a worker serves one run
         session.workers.pop(run.key, None)
         if "error" in answer:
@@ -75,6 +78,7 @@ def cancel(session: Session, run: Run) -> None:
 def run_page(key: str, session: Session) -> None:
     """Problems of the document, the button that starts it, and all runs."""
     drawn: dict[str, str] = {}
+    context = Context(session, lambda keys: None)
 
     def begin() -> None:
         try:
@@ -88,7 +92,7 @@ def run_page(key: str, session: Session) -> None:
             ui.input(
                 "Title",
                 value=str(session.draft.get("title") or ""),
-                on_change=lambda e: session.draft.set(("title",), e.value or None),
+                on_change=lambda e: context.set(("title",), e.value or None),
             ).props("dense debounce=300 data-key=title").classes("wide")
             missing = session.draft.problems()
             if missing:
@@ -105,7 +109,7 @@ def run_page(key: str, session: Session) -> None:
             memory = (
                 f"{session.limits.memory / 2**30:.3g} GiB of memory" if session.limits.memory < 2**60 else "all memory"
             )
-            ui.label(f"A worker process of its own may take {memory} and {minutes:.4g} minutes.").classes("hint")
+            ui.label(f"All runs together may take {memory}, each of them {minutes:.4g} minutes.").classes("hint")
         with ui.element("section"):
 
             @ui.refreshable
@@ -169,6 +173,10 @@ def downloads(key: str, session: Session, run: Run) -> None:
             if name in files:
                 target = f"/files/{key}/{run.key}/{name}"
                 ui.link(text, target, new_tab=True).props("" if name == "report.html" else f'download="{name}"')
+        if run.kind == "run":
+            name = f"{plain_name(run.title) or 'contact'}.zip"
+            link = ui.link("Share", f"/share/{key}/{run.key}").props(f'download="{name}" data-share')
+            link.tooltip("document, scans and report in one archive, which asperity contact and this application open")
     pictures = [name for name in files if name.startswith("plots/")]
     with ui.expansion(f"Pictures ({len(pictures)})").classes("wide"), ui.element("div").classes("gallery"):
         for name in sorted(pictures):
@@ -184,7 +192,10 @@ def progress(session: Session, run: Run) -> None:
     def look() -> None:
         state = reported(file)
         bar.value = state.share
-        if state.stage:
+        worker = session.workers.get(run.key)
+        if worker is not None and worker.waiting:
+            text.text = "waiting until another run is done"
+        elif state.stage:
             text.text = ", ".join(filter(None, (state.stage, state.text)))
 
     ui.timer(0.2, look)

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from nicegui import events, ui
+from nicegui import events, run, ui
 
+from ..core.errors import AsperityError
 from ..core.units import show
 from ..io.schemas.surfaces import FileSurface
+from ..run.archive import is_archive
 from ..run.document import document_model
 from . import maps
-from .beginning import measured, scanned
+from .beginning import measured, open_document, scanned
 from .draft import Keys
 from .forms import asked_of
 from .layout import drop, failure, rows
+from .pages_files import FileList
 from .session import Session
 from .widgets import Context, entry, kinds, listed
 
@@ -103,7 +107,7 @@ AXES = ("xaxis.range[0]", "xaxis.range[1]", "yaxis.range[0]", "yaxis.range[1]")
 
 def surface_page(key: str, session: Session) -> None:
     """Choose a file or a generator; the preview follows."""
-    shown: dict[str, Preview] = {}
+    shown: dict[str, Any] = {}
 
     context = Context(session, lambda keys: shown["map"].later())
     item = next(item for item in asked_of(document_model()) if item.name == SURFACE)
@@ -135,17 +139,25 @@ def surface_page(key: str, session: Session) -> None:
             context.set((SURFACE,), {"kind": "rough", "points": "256x256", "size": "10 um x 10 um", "seed": 1})
         source.refresh()
 
-    def uploaded(event: events.GenericEventArguments) -> None:
-        path = str(event.args.get("path") if isinstance(event.args, dict) else "")
-        if path not in session.labels:
+    async def uploaded(event: events.GenericEventArguments) -> None:
+        given = event.args.get("paths") if isinstance(event.args, dict) else None
+        paths = [path for path in given or () if path in session.labels]
+        archives = [path for path in paths if is_archive(path)]
+        if archives:
+            await _opened(session, Path(archives[-1]))
             return
-        if chosen() == "scans":  # one more
+        if not paths:
+            return
+        if chosen() == "scans":  # more of them
             scans = session.draft.get(*SCANS)
-            context.set(SCANS, [*(scans if isinstance(scans, list) else []), {"path": path}])
+            new = [{"path": path} for path in paths]
+            context.set(SCANS, [*(scans if isinstance(scans, list) else []), *new])
             source.refresh()
-        else:
-            context.set((SURFACE,), measured(path))
+        elif len(paths) == 1 or session.draft.get(SURFACE) is None:
+            context.set((SURFACE,), measured(paths[0]))
             ui.navigate.reload()
+            return
+        shown["files"].draw()
 
     with ui.element("div").classes("two"):
         with ui.element("section"):
@@ -153,18 +165,34 @@ def surface_page(key: str, session: Session) -> None:
                 key,
                 "drop files with heights, or choose them",
                 "Drop files with heights here, or press to choose",
-                "any format of instruments, text, pictures, NumPy arrays; nothing leaves this machine",
+                "any format of instruments, text, pictures, NumPy arrays, archives of problems that were shared; "
+                "nothing leaves this machine",
             )
             ui.on("asperity-uploaded", uploaded)
             sources = {"file": "A file", "scans": "Many scans", "made": "A generator"}
             ui.toggle(sources, value=chosen(), on_change=lambda e: choose(e.value)).props("no-caps dense")
             ui.label("Many scans: all files are scans of one surface, and one like it is generated.").classes("hint")
+            shown["files"] = FileList(key, context, lambda: below)
             source()
             with ui.expansion("Counter surface (rough, too)").classes("wide"):
                 other = next(entry for entry in asked_of(document_model()) if entry.name == "counter_surface")
                 kinds(context, other, ("counter_surface",))
         shown["map"] = Preview(session, "Surface as prepared", lambda: None, "surface")
+    below = ui.element("section").classes("whole")
     ui.timer(0.01, shown["map"].now, once=True)
+
+
+async def _opened(session: Session, archive: Path) -> None:
+    """Take the problem of an ``archive`` that was dropped, which is not needed any more then."""
+    try:
+        await run.io_bound(open_document, session, archive)
+    except AsperityError as error:
+        ui.notify(session.said(str(error)), type="negative", multi_line=True)
+        return
+    finally:
+        session.forget_file(archive)
+    session.touched()
+    ui.navigate.reload()
 
 
 def _file_form(context: Context, leave: frozenset[str]) -> None:

@@ -15,12 +15,13 @@ from ..core.errors import AsperityError
 from ..io.schemas.study import DEFAULT_QUANTITIES
 from ..io.tables import table_text
 from ..plots.picture import scale
+from ..report.study import case_table
 from ..studies.campaign import STUDY, open_study
 from ..studies.documents import study_from_table
 from ..studies.places import scalars
 from ..studies.plan import make_plan, measures
 from . import maps
-from .layout import failure
+from .layout import failure, text_table
 from .pages_run import STATES, cancel, progress, start_sweep
 from .session import Run, Session
 
@@ -75,7 +76,8 @@ def _form(session: Session, document: Any) -> None:
     def begin() -> None:
         try:
             made = table()
-            make_plan(study_from_table(made, session.folder, "sweep"))
+            there = {**made, "problem": session.named_from_sweeps(made["problem"])}
+            make_plan(study_from_table(there, session.folder / "sweeps" / "new", "sweep"))
             start_sweep(session, made["title"], made)
         except (AsperityError, ValueError, TypeError, KeyError) as error:
             ui.notify(session.said(str(error)), type="negative", multi_line=True)
@@ -142,7 +144,18 @@ class _Sweep:
             return
         if not (self.folder / STUDY).is_file():
             return
-        found = await asyncio.get_running_loop().run_in_executor(None, _columns, self.folder)
+        loop = asyncio.get_running_loop()
+        if self.run.table["axes"][0].get("name") == "file":
+            cases = await loop.run_in_executor(None, _cases, self.folder)
+            if not self.client.is_deleted and cases is not None and str(cases) != self.seen:
+                self.seen = str(cases)
+                self.plots.clear()
+                with self.plots.classes(remove="gallery"):
+                    text_table(*cases[:2])
+                    for text in cases[2]:
+                        failure(self.session.said(text))
+            return
+        found = await loop.run_in_executor(None, _columns, self.folder)
         if self.client.is_deleted or found is None or str(found) == self.seen:
             return
         self.seen = str(found)
@@ -164,6 +177,10 @@ class _Sweep:
 
     def csv(self) -> None:
         """Give out the table of all cases."""
+        if self.run.table["axes"][0].get("name") == "file":
+            if (cases := _cases(self.folder)) is not None:
+                ui.download.content(table_text([cases[0], *cases[1]]), "batch.csv")
+            return
         found = _columns(self.folder)
         if found is None:
             return
@@ -185,6 +202,20 @@ class Column:
 def with_unit(label: str, unit: str) -> str:
     """Title of an axis."""
     return f"{label} / {unit}" if unit not in ("", "1") else label
+
+
+def _cases(folder: Path) -> tuple[list[str], list[list[str]], list[str]] | None:
+    """Headings and rows of the table of all cases, files by their names, and why some failed; None
+    if there is nothing yet."""
+    try:
+        campaign = open_study(folder)
+        found, causes = case_table(campaign, campaign.dataset()), campaign.causes()
+    except (AsperityError, OSError, ValueError):
+        return None
+    failed = [f"{Path(str(cause.first.at['file'])).name}: {cause.first.message}" for cause in causes]
+    also = [f" ({cause.count - 1} more files likewise)" if cause.count > 1 else "" for cause in causes]
+    texts = [text + more for text, more in zip(failed, also, strict=True)]
+    return [*found.headings], [[Path(row[0]).name, *row[1:]] for row in found.cells], texts
 
 
 def _columns(folder: Path) -> tuple[Column, list[Column]] | None:

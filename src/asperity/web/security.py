@@ -4,6 +4,7 @@ and what pages may do."""
 from __future__ import annotations
 
 import hmac
+import html
 import json
 import re
 import secrets
@@ -23,42 +24,60 @@ LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 MIB = 2**20
 
 NO_TOKEN = (
-    "This page belongs to whoever started it. Open it by the whole address that `asperity app` has printed, "
-    "with ?token=… at its end."
+    "This page belongs to whoever started it. Open it by the whole address that `asperity app` has printed last, "
+    "with ?token=… at its end: each of them opens one browser, once."
 )
+
+FORWARDED = b"x-forwarded-prefix"
+"""Header by which the pages are told the path below which they stand."""
 
 _SCRIPT = re.compile(rb"(?m)^([ ]{4})<script(?=[ >])")
 """Scripts of the page's own template, which begin a line; text from outside is escaped and never
 begins one."""
 
 
-@dataclass(frozen=True)
+def _random_path() -> str:
+    return f"/{secrets.token_urlsafe(18)}"
+
+
+def _random_name() -> str:
+    return f"asperity_{secrets.token_hex(8)}"
+
+
+@dataclass
 class Guard:
     """ASGI application around ``app`` that lets only its own pages and their owner through.
+
+    All pages stand below the random path ``root``. A browser sends a cookie to every port of a
+    host, so that other servers of this machine would get it; but only below its path, which they do
+    not know.
 
     Attributes
     ----------
     app
-        What is guarded.
+        What is guarded; it is asked for paths without ``root``, which it finds in the header
+        X-Forwarded-Prefix.
     hosts
         Values of the header Host that are served, each with its port; any other is a name that
         somebody else has given to this machine (DNS rebinding).
-    token
-        What the first address must hold; a cookie with another random value then stands for it.
     largest
         Bytes that the body of a request may have.
+    renewed
+        Called with the next ``token`` when one has been used.
+    token
+        What the first address must hold. It is taken once, for the ``cookie`` with the ``secret``
+        that then stands for it, so that the history of a browser or a list of processes is of no
+        use to others.
     """
 
     app: App
     hosts: frozenset[str]
-    token: str
     largest: int
+    renewed: Callable[[str], None] = lambda token: None
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     secret: str = field(default_factory=lambda: secrets.token_urlsafe(32))
-
-    @property
-    def cookie(self) -> str:
-        """Name of the cookie; cookies are shared by all ports of a host."""
-        return f"asperity_{min(host.rpartition(':')[2] for host in self.hosts)}"
+    root: str = field(default_factory=_random_path)
+    cookie: str = field(default_factory=_random_name)
 
     async def __call__(self, scope: MutableMapping[str, Any], receive: Receive, send: Send) -> None:
         """Serve, redirect or refuse one request or one websocket."""
@@ -69,29 +88,47 @@ class Guard:
         if (reason := self._stranger(scope, headers)) is not None:
             await _refuse(scope, send, 403, reason)
             return
-        query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
-        given = query.get("token", [""])[0]
-        if (
-            scope["type"] == "http"
-            and scope["method"] == "GET"
-            and given
-            and hmac.compare_digest(given.encode(), self.token.encode())
-        ):
+        early = "prefetch" in headers.get("sec-purpose", "")  # a browser that asks before its owner does
+        if scope["type"] == "http" and scope["method"] == "GET" and not early and self._admitted(scope):
             # the token in the address is exchanged for the cookie; the address no longer shows it
-            cookie = f"{self.cookie}={self.secret}; Path=/; HttpOnly; SameSite=Strict"
-            page = '<!doctype html><meta http-equiv="refresh" content="0; url=/"><title>asperity</title>'
-            more = [("set-cookie", cookie), ("content-type", "text/html; charset=utf-8"), *_strict("", "'none'")]
-            await _answer(send, 200, page.encode(), more)
+            cookie = f"{self.cookie}={self.secret}; Path={self.root}/; HttpOnly; SameSite=Strict"
+            page = leading_to(f"{self.root}/")
+            more = [("set-cookie", cookie), ("content-type", "text/html; charset=utf-8"), ("cache-control", "no-store")]
+            await _answer(send, 200, page.encode(), [*more, *_strict("", "'none'")])
             return
         pairs = (part.strip().partition("=") for part in headers.get("cookie", "").split(";"))
         cookies = {name: value for name, _, value in pairs}
-        if not hmac.compare_digest(cookies.get(self.cookie, "").encode(), self.secret.encode()):
+        known = hmac.compare_digest(cookies.get(self.cookie, "").encode(), self.secret.encode())
+        if not known or not scope["path"].startswith(f"{self.root}/"):
             await _refuse(scope, send, 403, NO_TOKEN)
             return
+        inner = self._below_root(scope)
         if scope["type"] == "websocket":
-            await self.app(scope, receive, send)
+            await self.app(inner, receive, send)
             return
-        await self._serve(scope, headers, receive, send)
+        await self._serve(inner, headers, receive, send)
+
+    def _admitted(self, scope: MutableMapping[str, Any]) -> bool:
+        """Whether the address holds the token, which is then another one."""
+        query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
+        given = query.get("token", [""])[0]
+        if scope["path"] != "/" or not hmac.compare_digest(given.encode(), self.token.encode()):
+            return False
+        self.token = secrets.token_urlsafe(24)
+        self.renewed(self.token)
+        return True
+
+    def _below_root(self, scope: MutableMapping[str, Any]) -> MutableMapping[str, Any]:
+        """``scope`` as the application sees it."""
+        kept = [item for item in scope["headers"] if item[0].lower() != FORWARDED]
+        root = self.root.encode("ascii")
+        raw = scope.get("raw_path") or scope["path"].encode()
+        return {
+            **scope,
+            "path": scope["path"][len(self.root) :],
+            "raw_path": raw[len(root) :] if raw.startswith(root) else scope["path"][len(self.root) :].encode(),
+            "headers": [*kept, (FORWARDED, root)],
+        }
 
     def _stranger(self, scope: MutableMapping[str, Any], headers: dict[str, str]) -> str | None:
         """Why the request is none of the application's own pages; None if it is one."""
@@ -114,7 +151,7 @@ class Guard:
             return
         counted = _Counted(receive, self.largest)
         nonce = secrets.token_urlsafe(18)
-        page = _Page(send, nonce, headers.get("host", ""))
+        page = _Page(send, nonce, headers.get("host", ""), self.root)
         page.counted = counted
         try:
             await self.app(scope, counted, page)
@@ -151,15 +188,20 @@ class _Counted:
 
 
 class _Page:
-    """``send`` that adds the policy to every answer, and its nonce to the scripts of a page's
-    template."""
+    """``send`` that adds the policy to every answer, its nonce to the scripts of a page's template,
+    and the path ``root`` to the places to which it redirects."""
 
-    def __init__(self, send: Send, nonce: str, host: str) -> None:
-        self._send, self._nonce, self._host = send, nonce, host
+    def __init__(self, send: Send, nonce: str, host: str, root: str) -> None:
+        self._send, self._nonce, self._host, self._root = send, nonce, host, root.encode()
         self._start: Message | None = None
         self._body = bytearray()
         self.started = False
         self.counted: _Counted | None = None
+
+    def _inside(self, location: bytes) -> bool:
+        """Whether ``location`` is a place of the application that does not yet begin with the
+        root."""
+        return location.startswith(b"/") and not location.startswith(self._root + b"/")
 
     async def __call__(self, message: Message) -> None:
         if self.counted is not None and self.counted.over and not self.started:
@@ -170,7 +212,11 @@ class _Page:
             page = given.get(b"content-type", b"").startswith(b"text/html") and b"content-encoding" not in given
             scripts = f"'self' 'nonce-{self._nonce}' 'unsafe-eval'"  # Vue compiles the templates of its components
             more = [(k.encode(), v.encode()) for k, v in _strict(self._host, scripts) if k.encode() not in given]
-            begun = {**message, "headers": [*message.get("headers", ()), *more]}
+            kept = [
+                (key, self._root + value if key.lower() == b"location" and self._inside(value) else value)
+                for key, value in message.get("headers", ())
+            ]
+            begun = {**message, "headers": [*kept, *more]}
             if page:
                 self._start = begun
             else:
@@ -205,6 +251,13 @@ def _strict(host: str, scripts: str) -> list[tuple[str, str]]:
     ]
 
 
+def leading_to(address: str) -> str:
+    """Page that leads to ``address`` at once, and asks for no picture of its own."""
+    icon = '<link rel="icon" href="data:,">'
+    refresh = f'<meta http-equiv="refresh" content="0; url={html.escape(address)}">'
+    return f'<!doctype html><meta charset="utf-8">{icon}{refresh}<title>asperity</title>\n'
+
+
 def host_names(host: str, port: int) -> frozenset[str]:
     """Values of the header Host for an application at ``host`` and ``port``."""
     own = f"[{host}]" if ":" in host else host.lower()
@@ -221,6 +274,15 @@ def cap_text(largest: int) -> str:
     return (
         f"The file has more than {largest / MIB:g} MiB, which is the most that is taken through the browser. Start the "
         "application with it instead, asperity app FILE, or raise the limit: --most-upload."
+    )
+
+
+def quota_text(quota: float) -> str:
+    """What is said of a file for which there is no room among ``quota`` bytes."""
+    return (
+        f"All files of the application together may have {quota / MIB:g} MiB, and this one would be more. Remove files "
+        "that are not needed, start the application with the file instead, asperity app FILE, or raise the limit: "
+        "--all-uploads."
     )
 
 

@@ -3,24 +3,41 @@ ends."""
 
 from __future__ import annotations
 
-import secrets
+import math
+import os
 import signal
 import socket
 import tempfile
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, TypeAlias
 
 from ..core.errors import InputError
+from ..core.settings import Settings, setting
 from ..core.spectral import thread_count
+from ..core.values import Number, Whole
 from ..core.words import speaking
 from .beginning import fill
-from .security import MIB, Guard, host_names, is_loopback
+from .security import MIB, Guard, host_names, is_loopback, leading_to
 from .session import Place
-from .workers import Limits
+from .workers import Limits, Together
+
+Positive: TypeAlias = Annotated[float, Number(above=0.0)]
+
+
+class Caps(Settings):
+    """How much runs and uploads may take."""
+
+    most_upload: Positive = setting(512.0, help="largest file through the browser, in MiB")
+    all_uploads: Positive = setting(4096.0, help="all files through the browser together, in MiB")
+    time_limit: Positive | None = setting(None, help="longest time of one run in seconds; twelve hours by default")
+    total_time: Positive | None = setting(None, help="time of all runs together in seconds; no limit by default")
+    memory: Positive | None = setting(None, help="memory of all runs together in GiB; most of what is free by default")
+    at_once: Annotated[int, Whole(1)] = setting(4, help="runs that work at the same time; others wait")
+    threads: Annotated[int, Whole(1)] | None = setting(None, help="threads of one run; all cores by default")
 
 
 @dataclass(frozen=True)
@@ -32,14 +49,12 @@ class Options:
     host: str = "127.0.0.1"
     port: int = 0
     folder: Path | None = None
-    most_upload: float = 512.0
-    time_limit: float = 12 * 3600.0
-    memory: float | None = None
-    threads: int | None = None
+    caps: Caps = field(default_factory=Caps)
 
 
-def serve(options: Options, opened: Callable[[str], None]) -> None:
-    """Serve until interrupted; ``opened`` is told the address with its token when it can be opened.
+def serve(options: Options, opened: Callable[[str, Path], None], renewed: Callable[[str], None]) -> None:
+    """Serve until interrupted; ``opened`` is told the address with its token when it can be opened,
+    and a private file that leads there, ``renewed`` the next address whenever one has been used.
 
     Raises
     ------
@@ -63,13 +78,20 @@ def serve(options: Options, opened: Callable[[str], None]) -> None:
             f"--host and --port must be free addresses of this machine, but {host}:{options.port} is not: "
             f"{error.strerror}; leave --port out for any free one."
         ) from None
-    with listener:
+    with listener, _private_files():
         port = listener.getsockname()[1]
         place = _place(options)
+        first = place.folder / "open.html"
+
+        def address(token: str) -> str:
+            return f"http://{f'[{host}]' if ':' in host else host}:{port}/?token={token}"
+
+        def used(token: str) -> None:
+            first.unlink(missing_ok=True)
+            renewed(address(token))
+
         try:
-            token = secrets.token_urlsafe(24)
-            app = application(place)
-            guard: Any = Guard(app, host_names(host, port), token, place.largest)
+            guard: Any = Guard(application(place), host_names(host, port), place.largest, used)
             config = uvicorn.Config(
                 guard,
                 log_level="error",
@@ -79,14 +101,24 @@ def serve(options: Options, opened: Callable[[str], None]) -> None:
                 timeout_graceful_shutdown=2,
             )
             server = uvicorn.Server(config)
-            shown = f"[{host}]" if ":" in host else host
-            opened(f"http://{shown}:{port}/?token={token}")
+            first.write_text(leading_to(address(guard.token)), encoding="utf-8")
+            opened(address(guard.token), first)
             with _ended_by_signals(server), speaking("form"):
                 server.run(sockets=[listener])
         except KeyboardInterrupt:
             pass
         finally:
             place.close()
+
+
+@contextmanager
+def _private_files() -> Iterator[None]:
+    """Make all files and folders, also those of workers, readable by their owner only."""
+    before = os.umask(0o077)
+    try:
+        yield
+    finally:
+        os.umask(before)
 
 
 @contextmanager
@@ -112,17 +144,19 @@ def _ended_by_signals(server: Any) -> Iterator[None]:
 
 def _place(options: Options) -> Place:
     """Where sessions live, with the first one if there is anything to begin with."""
-    usual = Limits.usual(options.time_limit)
-    limits = usual if options.memory is None else Limits(options.memory * 2**30, options.time_limit)
+    caps = options.caps
+    usual = Limits.usual() if caps.time_limit is None else Limits.usual(caps.time_limit)
+    memory = usual.memory if caps.memory is None else caps.memory * 2**30
+    limits = replace(usual, memory=memory, together=Together(caps.at_once, caps.total_time or math.inf))
     private = Path(tempfile.mkdtemp(prefix="asperity-app-"))
-    private.chmod(0o700)
     roots = () if is_loopback(options.host) else (Path.cwd().resolve(),)
-    threads = thread_count(options.threads)
-    place = Place(private, limits, threads, int(options.most_upload * MIB), roots)
+    threads = thread_count(caps.threads)
+    place = Place(private, limits, threads, int(caps.most_upload * MIB), roots, caps.all_uploads * MIB)
     if options.files or options.demo or options.folder is not None:
         try:
             _, session = place.new(options.folder)
             fill(session, files=options.files, demo=options.demo)
+            session.touched()
         except BaseException:
             place.close()
             raise

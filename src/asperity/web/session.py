@@ -4,23 +4,28 @@ can be opened again."""
 from __future__ import annotations
 
 import json
-import re
+import math
 import secrets
 import shutil
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
+from itertools import count
 from pathlib import Path
 from typing import Any, Literal
 
-from ..core.errors import FileFormatError, InputError, OutputError
-from ..core.words import printable
+from ..core.errors import InputError, OutputError
 from ..io.atomic import atomic_file
-from .draft import Draft
+from ..report.folder import ALL_NAMES
+from ..run.archive import PROBLEM, write_archive
+from ..run.document import files_of, load_document
+from .draft import Draft, relabelled
+from .kept import LOCK, STATE, Held, is_within, label_of, state_in
 from .workers import Limits, Worker
 
-STATE = "session.json"
-"""File of a session in its folder; the rest are the folders ``files``, ``runs`` and ``sweeps``."""
+SCRATCH = "scratch-"
+"""Beginning of the name of the folder of what only the open application needs."""
 
 Kind = Literal["run", "sweep"]
 
@@ -61,13 +66,20 @@ class Session:
         self.helper = Worker(limits, threads)
         self.workers: dict[str, Worker] = {}
         self.tasks: list[Any] = []
+        self.glances: dict[str, Any] = {}
+        self.room: Callable[[], float] = lambda: math.inf
         self.version, self.changed_by = 0, ""
-        self.scratch = Path(tempfile.mkdtemp(prefix="scratch-", dir=folder if kept else None))
+        self._held = Held(folder) if kept else None
+        self.scratch = Path(tempfile.mkdtemp(prefix=SCRATCH, dir=folder))
 
     @property
     def labels(self) -> dict[str, str]:
         """Label of every file by its path."""
         return {item.path: item.label for item in self.files}
+
+    def owns(self, path: str) -> bool:
+        """Whether the file at ``path`` lies in the folder of the session."""
+        return Path(path).is_relative_to(self.folder)
 
     def said(self, text: str) -> str:
         """``text`` of a message with the labels of files in place of their paths."""
@@ -96,18 +108,58 @@ class Session:
             self.save()
 
     def add_file(self, name: str) -> Path:
-        """Place for the content of an upload called ``name``, which is only a label: the file gets
-        a random name.
-
-        Readers recognise some formats by the ending, which is kept if it is plain letters and
-        digits.
-        """
+        """Place for the content of an upload called ``name``, of which the last part becomes the
+        name of the file, so that every report calls it as its owner does."""
         folder = self.folder / "files"
         folder.mkdir(parents=True, exist_ok=True)
-        ending = re.search(r"\.[A-Za-z0-9]{1,12}$", name)
-        path = folder / f"{secrets.token_hex(8)}{ending[0].lower() if ending else ''}"
-        self.files.append(Kept(str(path), label_of(name)))
-        return path
+        label = self._free(label_of(name))
+        self.files.append(Kept(str(folder / label), label))
+        return folder / label
+
+    def forget_file(self, path: Path) -> None:
+        """Remove an upload."""
+        self.files = [item for item in self.files if item.path != str(path)]
+        if path.parent == self.folder / "files":
+            path.unlink(missing_ok=True)
+
+    def _free(self, label: str) -> str:
+        """``label``, or one like it that no other file and nothing that a run leaves has."""
+        taken = {item.label.casefold() for item in self.files} | {name.casefold() for name in ALL_NAMES}
+        stem, dot, ending = label.rpartition(".") if "." in label[1:] else (label, "", "")
+        numbered = (f"{stem} ({number}){dot}{ending}" for number in count(2))
+        return label if label.casefold() not in taken else next(one for one in numbered if one.casefold() not in taken)
+
+    def take_file(self, file: Path) -> str:
+        """Path of the session's own ``file`` from outside, which is copied where the session is
+        kept.
+
+        Raises
+        ------
+        OutputError
+            If it cannot be copied.
+        """
+        path = str(file.absolute())
+        if path in self.labels:
+            return path
+        if not self.kept:
+            self.files.append(Kept(path, self._free(label_of(file.name))))
+            return path
+        own = self.add_file(file.name)
+        try:
+            shutil.copyfile(file, own)
+        except OSError as error:
+            raise OutputError(f"{own} cannot be written: {error.strerror}; choose another folder.") from None
+        return str(own)
+
+    def from_sweeps(self, path: str) -> str:
+        """``path`` of a file as studies name it, from the folder of any sweep, with which it moves;
+        files from elsewhere stay where they are."""
+        return f"../../{Path(path).relative_to(self.folder).as_posix()}" if self.owns(path) else path
+
+    def named_from_sweeps(self, table: Mapping[str, Any]) -> dict[str, Any]:
+        """``table`` with its files as studies name them."""
+        found: dict[str, Any] = relabelled(table, {path: self.from_sweeps(path) for path in self.labels})
+        return found
 
     def new_run(self, kind: Kind, title: str, table: Mapping[str, Any]) -> Run:
         """A run that begins now."""
@@ -123,28 +175,52 @@ class Session:
         is ever used as a path."""
         known = self.runs.get(run)
         folder = self.scratch / "roughness" if run == "roughness" else None if known is None else self.folder_of(known)
-        if folder is None or not folder.is_dir():
+        if folder is None or not folder.is_dir() or not is_within(folder, self.folder):
             return {}
-        files = [path for path in folder.rglob("*") if path.is_file() and not path.is_symlink()]
+        files = [path for path in folder.rglob("*") if path.is_file() and is_within(path, folder)]
         return {path.relative_to(folder).as_posix(): path for path in files}
+
+    def shared(self, run: Run) -> Path:
+        """Archive with document, files and report of ``run``, for others.
+
+        Raises
+        ------
+        InputError
+            If its document is damaged, or names a file that is not of this session.
+        OutputError
+            If the archive cannot be written.
+        """
+        given, archive = self.given_out(run.key), self.scratch / f"{run.key}.zip"
+        if not archive.is_file():
+            document = load_document(given.get(PROBLEM, self.folder_of(run) / PROBLEM))
+            for file in files_of(document, self.folder_of(run)):
+                if not is_within(file, self.folder) and str(file) not in self.labels:
+                    raise InputError(
+                        f"files of a run must be those of its session, but {file} is none of them. Open its document "
+                        "where that file may be read."
+                    )
+            report = {name: path for name, path in given.items() if name == "report.html"}
+            write_archive(archive, document, self.folder_of(run), report, overwrite=True)
+        return archive
 
     # Kept and opened again.
 
     def save(self) -> None:
         """Write the state of the session into its folder."""
+        names = {item.path: f"./files/{Path(item.path).name}" for item in self.files}
         state = {
             "asperity_session": 1,
-            "table": self.draft.table,
-            "before": self.draft.before[-20:],
-            "files": [asdict(item) for item in self.files],
-            "runs": [asdict(run) for run in self.runs.values()],
+            "table": relabelled(self.draft.table, names),
+            "before": relabelled(self.draft.before[-20:], names),
+            "files": [{"path": names[item.path], "label": item.label} for item in self.files],
+            "runs": [asdict(run) | {"table": relabelled(run.table, names)} for run in self.runs.values()],
         }
-        moved = _replaced(state, str(self.folder), ".")
         with atomic_file(self.folder / STATE, overwrite=True) as partial:
-            partial.write_text(json.dumps(moved, indent=1), encoding="utf-8")
+            partial.write_text(json.dumps(state, indent=1), encoding="utf-8")
 
     def save_as(self, folder: Path) -> None:
-        """Keep the session in ``folder`` from now on, with all its files and results.
+        """Keep the session in ``folder`` from now on, with all its files and results; those that
+        lie elsewhere are copied.
 
         Raises
         ------
@@ -158,21 +234,23 @@ class Session:
         target = folder.absolute()
         if target.exists() and (not target.is_dir() or any(target.iterdir())):
             raise OutputError(f"folder of a session must be new or empty, but {target} is not; choose another.")
+        new = {item.path: str(target / "files" / item.label) for item in self.files}
         try:
             target.mkdir(parents=True, exist_ok=True)
-            for name in ("files", "runs", "sweeps"):
+            for name in ("runs", "sweeps"):
                 if (self.folder / name).is_dir():
                     shutil.copytree(self.folder / name, target / name)
+            (target / "files").mkdir()
+            for item in self.files:
+                if Path(item.path).is_file():
+                    shutil.copyfile(item.path, new[item.path])
         except OSError as error:
             raise OutputError(f"folder {target} cannot be written: {error.strerror}; choose another.") from None
-        state = {
-            "table": self.draft.table,
-            "before": self.draft.before,
-            "files": [asdict(item) for item in self.files],
-            "runs": [asdict(run) for run in self.runs.values()],
-        }
-        old, self.folder, self.kept = self.folder, target, True
-        self._take(_replaced(state, str(old), str(target)))
+        self.files = [Kept(new[item.path], item.label) for item in self.files]
+        self.draft.rename(new)
+        for run in self.runs.values():
+            run.table = relabelled(run.table, new)
+        self.folder, self.kept, self._held = target, True, Held(target)
         self.touched()
 
     def reopen(self) -> None:
@@ -181,85 +259,88 @@ class Session:
         Raises
         ------
         FileFormatError
-            If there is none, or it is damaged.
+            If there is none, it is damaged, or anything of it leads out of the folder.
         """
-        file = self.folder / STATE
-        try:
-            state = json.loads(file.read_text(encoding="utf-8"))
-            if state["asperity_session"] != 1:
-                raise ValueError
-            self._take(_replaced(state, ".", str(self.folder)))
-        except (OSError, ValueError, KeyError, TypeError):
-            raise FileFormatError(
-                f"folder of a session must hold a whole {STATE}, but {self.folder} does not; choose the folder "
-                "that was named."
-            ) from None
+        state = state_in(self.folder)
+        for left in self.folder.glob(f"{SCRATCH}*"):  # of an application that was killed
+            if left != self.scratch:
+                shutil.rmtree(left, ignore_errors=True)
+        names = {item["path"]: str(self.folder / item["path"]) for item in state["files"]}
+        self.draft = Draft(relabelled(state["table"], names), relabelled(state["before"], names))
+        self.files = [Kept(names[item["path"]], item["label"]) for item in state["files"]]
+        self.runs = {item["key"]: Run(**item | {"table": relabelled(item["table"], names)}) for item in state["runs"]}
         for run in self.runs.values():
             if run.state == "running":
                 run.state, run.message = "cancelled", "The application ended before this run did."
 
-    def _take(self, state: Mapping[str, Any]) -> None:
-        self.draft = Draft(dict(state["table"]), list(state["before"]))
-        self.files = [Kept(**item) for item in state["files"]]
-        self.runs = {item["key"]: Run(**item) for item in state["runs"]}
-
     def close(self) -> None:
-        """Stop the workers and remove what is not to be kept."""
+        """Save what is kept, stop the workers and remove the rest."""
+        if self.kept:
+            with suppress(OutputError):  # its folder may have been taken away
+                self.save()
+        self.abandon()
+
+    def abandon(self) -> None:
+        """Stop the workers, remove what is not to be kept, and let others have the folder."""
         for worker in (self.helper, *self.workers.values()):
             worker.cancel()
         shutil.rmtree(self.scratch, ignore_errors=True)
-
-
-def label_of(name: str) -> str:
-    """Name of an upload as it is shown and proposed for a file: no folders, no control characters,
-    not long."""
-    plain = printable(name.replace("\\", "/").rpartition("/")[2]).strip() or "file"
-    return plain if len(plain) <= 80 else f"{plain[:60]}…{plain[-18:]}"
-
-
-def _replaced(value: Any, old: str, new: str) -> Any:
-    """Nested ``value`` in which paths of files below the folder ``old`` lead below ``new``."""
-    if isinstance(value, dict):
-        return {key: _replaced(item, old, new) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_replaced(item, old, new) for item in value]
-    if isinstance(value, str) and value.startswith(f"{old}/files/"):
-        return f"{new}{value[len(old) :]}"
-    return value
+        if self._held is not None:
+            self._held.release()
 
 
 @dataclass
 class Place:
-    """Where sessions live: a private temporary ``folder``, and those that are open, by their
-    keys."""
+    """Where sessions live: a private temporary ``folder``, and those that are open, by their keys.
+
+    ``largest`` is the most bytes of one upload, ``quota`` of all that the sessions have.
+    """
 
     folder: Path
     limits: Limits
     threads: int
     largest: int
     roots: tuple[Path, ...] = ()
+    quota: float = math.inf
     sessions: dict[str, Session] = field(default_factory=dict)
 
     def new(self, folder: Path | None = None) -> tuple[str, Session]:
         """A new session, in a private folder or in ``folder``, where one may be already; its key is
         random."""
         key = secrets.token_urlsafe(9)
-        private = self.folder / key
-        own = private if folder is None else folder.absolute()
+        own = self.folder / key if folder is None else folder.absolute()
         if folder is not None:
             for other, open_one in self.sessions.items():
-                if open_one.folder == own:
+                if open_one.folder.resolve() == own.resolve():
                     return other, open_one
-        own.mkdir(parents=True, exist_ok=True)
-        if folder is not None and any(own.iterdir()) and not (own / STATE).is_file():
-            raise OutputError(f"folder of a session must be new, empty, or hold one, but {own} holds something else.")
+        try:
+            own.mkdir(parents=True, exist_ok=True)
+            there = {entry.name for entry in own.iterdir()}
+        except OSError as error:
+            raise OutputError(f"folder {own} cannot be written: {error.strerror}; choose another.") from None
+        if folder is not None and there - {LOCK} and not (own / STATE).is_file():
+            raise OutputError(
+                f"folder of a session must be new, empty, or hold one, but {own} holds something else; choose another."
+            )
         session = Session(own, self.limits, self.threads, kept=folder is not None)
-        if (own / STATE).is_file():
-            session.reopen()
-        elif folder is not None:
-            session.save()  # from now on the folder holds a session, whatever comes of it
+        session.room = self.room
+        try:
+            if folder is not None and STATE in there:
+                session.reopen()
+            elif folder is not None:
+                own.chmod(0o700)
+                session.save()  # from now on the folder holds a session, whatever comes of it
+        except BaseException:
+            session.abandon()
+            raise
         self.sessions[key] = session
         return key, session
+
+    def room(self) -> float:
+        """Bytes that may still be uploaded."""
+        sessions = self.sessions.values()
+        files = [Path(item.path) for session in sessions for item in session.files if session.owns(item.path)]
+        return self.quota - sum(path.stat().st_size for path in files if path.is_file())
 
     def allowed(self, text: str) -> Path:
         """Folder that a person has typed; with ``roots`` it must lie in one of them.

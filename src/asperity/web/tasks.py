@@ -3,6 +3,7 @@ answer with the key ``error``."""
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import importlib.util
 import json
@@ -28,16 +29,17 @@ from ..io.results import document_in
 from ..io.schemas.surfaces import SurfaceTable
 from ..io.words import surface_rows
 from ..physics.stress.part import Stress, StressSettings, stress_request
-from ..plots.picture import Figure
+from ..plots.picture import Figure, colour_table, encoded
 from ..plots.profile import profile_figures
 from ..plots.surface import roughness_figures
 from ..plots.together import save_pictures
-from ..report.folder import write_run
+from ..report.folder import ALL_NAMES, write_run
 from ..report.profile import profile_headline, profile_rows, write_profile_report
 from ..report.roughness import headline_values, quantity_rows, write_roughness_report
 from ..report.scans import ScansInWords, write_page_of_scans
+from ..run.archive import carried
 from ..run.build import build, build_surface
-from ..run.document import load_document, loads, relocated
+from ..run.document import load_document, loads
 from ..run.execute import analysed, execute
 from ..run.stored import load_outcome
 from ..studies.campaign import prepare_study
@@ -143,6 +145,53 @@ def _table(task: Task) -> Any:
         table["prepare"] = list(table.get("prepare", ()))[: task["steps"]]
     alone: Any = create_model("Alone", __base__=Settings, surface=(SurfaceTable, ...))
     return validated(alone, {"surface": table}, "surface").surface
+
+
+@guarded
+def glance(task: Task) -> dict[str, Any]:
+    """A small picture of the surface of the first of ``tables`` that can be read, of so many
+    ``points`` along its longer side, with its size; colours go between ``ends`` in m, if given, or
+    to its own. With ``measured`` the numbers that people look for first."""
+    first, *others = task["tables"]
+    try:
+        found, needed = _built({**task, "table": first}), False
+    except AsperityError:
+        if not others:
+            raise
+        found, needed = _built({**task, "table": others[0]}), True
+    heights = np.asarray(found.heights, dtype=float) - float(np.nanmean(found.heights))
+    step = max(1, math.ceil(max(heights.shape) / task["points"]))
+    thin = heights[::step, ::step]
+    low, high = task.get("ends") or (float(np.nanmin(thin)), float(np.nanmax(thin)))
+    told: dict[str, Any] = {"ends": [float(np.nanmin(thin)), float(np.nanmax(thin))], "needed": needed}
+    picture = _drawn_line(thin[:, 0], low, high) if heights.shape[1] == 1 else _drawn_map(thin, low, high)
+    told |= {"picture": picture, "Sq": height_parameters(found).Sq}
+    points = " × ".join(str(n) for n in heights.shape if n > 1)
+    size = " × ".join(show(side, "m", 3) for side, n in zip(found.size, heights.shape, strict=True) if n > 1)
+    told["text"] = f"{points} points, {size}"
+    if task.get("measured"):
+        line = heights.shape[1] == 1
+        words = profile_headline(characterise_profile(found.row(0))) if line else headline_values(characterise(found))
+        told["headline"] = [[name, text] for name, text in words]
+    return told
+
+
+def _drawn_map(heights: Any, low: float, high: float) -> str:
+    """PNG of ``heights`` (nx, ny) as an address of data, y up."""
+    share = (np.nan_to_num(heights, nan=low) - low) / ((high - low) or 1.0)
+    colours = np.frombuffer(colour_table("cividis"), np.uint8).reshape(256, 3)
+    pixels = colours[np.clip(255.0 * share, 0, 255).astype(np.uint8).T[::-1]]
+    return f"data:image/png;base64,{base64.b64encode(encoded(pixels, 96.0)).decode('ascii')}"
+
+
+def _drawn_line(heights: Any, low: float, high: float) -> str:
+    """Curve of the ``heights`` of a line scan as an address of data."""
+    along = np.linspace(1.0, 99.0, heights.size)
+    up = 59.0 - 58.0 * (heights - low) / ((high - low) or 1.0)
+    points = " ".join(f"{x:.1f},{y:.1f}" for x, y in zip(along, up, strict=True) if math.isfinite(y))
+    line = f'<polyline points="{points}" fill="none" stroke="#00709a" stroke-width="1.2"/>'
+    svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 60" width="320" height="192">{line}</svg>'
+    return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode('ascii')}"
 
 
 @guarded
@@ -257,7 +306,8 @@ def contact(task: Task) -> dict[str, Any]:
     with atomic_folder(out) as folder:
         outcome = execute(case, stage=stage)
         with stage("writing report and pictures"):
-            write_run(outcome, folder, relocated(document, base, out))
+            found = carried(document, base, folder, ALL_NAMES, within=base)
+            write_run(outcome, folder, found)
     with stage("making it explorable"):
         write_views(outcome, Path(task["views"]))
     return {"converged": outcome.converged, "message": outcome.status.message, "remedy": outcome.status.remedy}

@@ -13,8 +13,9 @@ from nicegui import ui
 from ..core.errors import AsperityError
 from ..core.settings import Settings
 from ..core.words import first_paragraph
+from ..run.document import names_file
 from ..solids.library import liquids, materials
-from .draft import Keys, is_file
+from .draft import Keys
 from .forms import Asked, asked_of
 from .session import Session
 
@@ -55,7 +56,7 @@ def entry(context: Context, item: Asked, keys: Keys) -> None:
     """One number, text, choice or flag."""
     value = context.get(keys)
     made: Any
-    if (item.name in LIBRARIES and item.shape == "text") or is_file(item.name):
+    if (item.name in LIBRARIES and item.shape == "text") or names_file(item.name):
         made = _chosen(context, item, keys, value)
     elif item.shape == "flag":
         default = item.parameter.default is True
@@ -88,7 +89,7 @@ def entry(context: Context, item: Asked, keys: Keys) -> None:
 
 def _chosen(context: Context, item: Asked, keys: Keys, value: Any) -> Any:
     """Choice of a name of the library, or of a file of the session."""
-    named = not is_file(item.name)
+    named = not names_file(item.name)
     own = str(context.get((keys[0], "materials_file")) or "") or None
     options = {name: name for name in LIBRARIES[item.name](own)} if named else dict(context.session.labels)
     if value and value not in options:

@@ -330,11 +330,13 @@ class ScanFile(FileReading):
     @model_validator(mode="before")
     @classmethod
     def _from_line(cls, value: Any) -> Any:
-        """Path and keys of one line of text."""
-        if not isinstance(value, str):
-            return value
+        return cls.from_text(value) if isinstance(value, str) else value
+
+    @classmethod
+    def from_text(cls, line: str) -> dict[str, Any]:
+        """Path and keys of one ``line`` of text."""
         keys = "|".join(key for key in cls.model_fields if key not in ("path", "prepare"))
-        path, *given = re.split(rf",\s*(?=(?:{keys})\s*=)", value)
+        path, *given = re.split(rf",\s*(?=(?:{keys})\s*=)", line)
         pairs = (part.partition("=") for part in given)
         return {"path": path.strip(), **{key.strip(): text.strip() for key, _, text in pairs}}
 

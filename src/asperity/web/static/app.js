@@ -2,20 +2,28 @@
 (function () {
 "use strict";
 
+/* Addresses of the pages begin with a path of their own, below which this file lies, too. */
+const root = document.currentScript.src.replace(/\/static\/app\.js.*$/, "");
+
+/* All files are sent, one after the other, before the page is told of them: it may draw itself again then. */
 async function send(area, files) {
   const state = area.querySelector(".drop-state");
-  for (const file of files) {
-    state.textContent = `reading ${file.name} …`;
+  const paths = [], refused = [];
+  area.classList.remove("refused");
+  for (const [number, file] of files.entries()) {
+    state.textContent = `reading ${file.name} …` + (files.length > 1 ? ` (${number + 1} of ${files.length})` : "");
     try {
-      const answer = await fetch(`${area.dataset.upload}?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
+      const answer = await fetch(`${root}${area.dataset.upload}?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
       const found = await answer.json();
-      state.textContent = found.error || `${file.name} is here`;
-      area.classList.toggle("refused", Boolean(found.error));
-      if (!found.error) emitEvent("asperity-uploaded", { path: found.path });
+      if (found.error) refused.push(`${file.name}: ${found.error}`); else paths.push(found.path);
     } catch (error) {
-      state.textContent = `${file.name} could not be sent; is the application still running?`;
+      refused.push(`${file.name} could not be sent; is the application still running?`);
     }
   }
+  const here = files.length === 1 ? `${files[0].name} is here` : `${paths.length} of ${files.length} files are here`;
+  state.textContent = [...(paths.length ? [here] : []), ...refused].join("\n");
+  area.classList.toggle("refused", refused.length > 0);
+  if (paths.length) emitEvent("asperity-uploaded", { path: paths[paths.length - 1], paths });
 }
 
 function choose(area) {
@@ -52,7 +60,7 @@ async function mount(area) {
   area.dataset.mounted = "1";
   area.textContent = "loading the maps …";
   try {
-    const answer = await fetch(area.dataset.scene);
+    const answer = await fetch(root + area.dataset.scene);
     const scene = answer.ok ? await answer.json() : null;
     area.textContent = scene ? "" : "This contact has no maps: its grid is one line.";
     if (!scene) return;
