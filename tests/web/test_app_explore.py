@@ -142,6 +142,36 @@ def test_a_part_of_another_package_and_a_solved_contact(app: AppServer, open_pag
 
 
 @pytest.mark.slow
+def test_the_spots_are_those_of_the_step_that_the_maps_show(app: AppServer, open_page: Callable[..., Any]) -> None:
+    page = opened(app, open_page, "run")
+    if not page.locator("[data-state=done]").count():
+        page.click("[data-run]")
+        page.wait_for_selector("[data-state=done]", timeout=LONG)
+    page.goto(page.url.replace("/run", "/explore"))
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    page.click("[data-spots]")
+    row = page.locator("tr[data-spot]").first
+    row.wait_for(state="visible", timeout=LONG)
+    slider = page.locator("[data-slider=steps] input")
+    steps = int(slider.get_attribute("max"))
+    first = int(slider.input_value())
+    assert first < steps, "the path ends without load"
+    page.wait_for_selector(f"[data-spots] >> text=at step {first + 1} of {steps + 1}: mean pressure 50 MPa")
+    before = page.locator("tr[data-spot]").count()
+    slider.focus()
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_selector(f"[data-spots] >> text=at step {first} of {steps + 1}: mean pressure 12.5 MPa", timeout=LONG)
+    x, y = (float(part) for part in row.get_attribute("data-spot").split(","))
+    found = page.evaluate(f"document.querySelector('[data-scene]').viewer.highlight({{ x: {x!r}, y: {y!r} }})")
+    assert found is not None, "the spot is in the map of the step"
+    area, unit = row.locator("td").nth(3).inner_text().split(" ")
+    assert float(area) * {"nm²": 1e-18, "µm²": 1e-12}[unit] == pytest.approx(found["area"], rel=1e-3)
+    page.keyboard.press("End")
+    page.wait_for_selector(f"[data-spots] >> text=Contact spots: 0, at step {steps + 1} of {steps + 1}", timeout=LONG)
+    assert page.locator("tr[data-spot]").count() == 0 < before
+
+
+@pytest.mark.slow
 def test_spots_are_marked_and_the_surface_is_shown_in_space(app: AppServer, open_page: Callable[..., Any]) -> None:
     page = opened(app, open_page, "load")
     one_load(page)

@@ -17,6 +17,7 @@ from ..core.citations import REFERENCES
 from ..core.words import printable
 from ..io.atomic import atomic_file
 from ..io.words import Rows
+from ..parts.part import Solved
 from ..plots.picture import Figure
 from ..plots.together import draw_all
 from .scene import as_json, curves_of
@@ -35,6 +36,7 @@ def write_page(
     *,
     citation_keys: Iterable[str],
     figures: Iterable[Figure] = (),
+    solved: Solved | None = None,
     overwrite: bool = False,
     **values: Any,
 ) -> None:
@@ -42,7 +44,8 @@ def write_page(
     escaped, to the HTML file ``path``.
 
     Those of every page are ``title`` and ``summary``, those of most ``provenance`` (rows),
-    ``document`` (its text) and ``scene`` (what its viewer shows, see ``scene.scene``).
+    ``document`` (its text) and ``scene`` (what its viewer shows, see ``scene.scene``). The
+    ``figures`` are of a ``solved`` contact, if of any.
 
     Raises
     ------
@@ -54,7 +57,7 @@ def write_page(
         page = rendered(
             template,
             references=[(key, REFERENCES.get(key, "unknown reference")) for key in citation_keys],
-            figures=shown(figures),
+            figures=shown(figures, solved),
             script=Markup(code),
             policy=POLICY,
             **{"provenance": None, "document": None, "scene": None, **values},
@@ -95,13 +98,15 @@ def prose(text: object) -> Markup:
     return Markup(WHOLE.sub(kept, str(escape(printable(str(text), keep="\n\t")))).replace("_", "_<wbr>"))
 
 
-def shown(figures: Iterable[Figure]) -> list[dict[str, Any]]:
-    """``figures`` for a template: the pictures as base64, the points of their curves as JSON."""
+def shown(figures: Iterable[Figure], solved: Solved | None = None) -> list[dict[str, Any]]:
+    """``figures`` for a template: the pictures as base64, the points of their curves as JSON, and
+    the step of the load path of a ``solved`` contact that each is of, in words."""
     figures = tuple(figures)
     draw_all(figures)
     return [
         {
             **{key: getattr(figure, key) for key in ("name", "title", "caption")},
+            "at": step_text(solved, None if solved is None else solved.step_of(figure.of)),
             "wide": figure.wide or figure.drawing.enlarged,
             "explored": figure.kind == "map" and figure.shows is not None,
             "picture": base64.b64encode(figure.picture).decode("ascii"),
@@ -109,6 +114,11 @@ def shown(figures: Iterable[Figure]) -> list[dict[str, Any]]:
         }
         for figure in figures
     ]
+
+
+def step_text(solved: Solved | None, number: int | None) -> str:
+    """Step ``number`` of the load path of a ``solved`` contact in words; empty for none."""
+    return "" if solved is None or number is None else solved.at(number).where
 
 
 def script() -> str:

@@ -19,11 +19,12 @@ from ..io.words import (
     setting_rows,
     surface_rows,
 )
+from ..parts.part import Part
 from ..parts.registry import versions
 from ..plots.together import drawing
 from ..run.execute import Outcome, analysed
 from ..run.verdict import doubted, verdict
-from .page import shown, software_rows, write_page
+from .page import shown, software_rows, step_text, write_page
 from .scene import scene_of
 
 
@@ -94,8 +95,12 @@ def write_report(
         certificate=certificate_rows(result),
         results=result_rows(result, given.doubted),
         figures=outcome.pictures,
+        solved=outcome.solved,
         scene=maps,
-        sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in outcome.sections],
+        sections=[
+            (p.name, part_title(outcome, p), words, shown(outcome.figures[p.name], outcome.solved))
+            for p, words in outcome.sections
+        ],
         advice=given.others,
         provenance=[
             ("written (UTC)", stored["created"]),
@@ -106,3 +111,10 @@ def write_report(
         document_of="Problem",
         overwrite=overwrite,
     )
+
+
+def part_title(outcome: Outcome, part: Part) -> str:
+    """Title of what a ``part`` of an ``outcome`` says, with the step of the load path that it is
+    of."""
+    at = step_text(outcome.solved, part.at_work.step(outcome.found[part.name], outcome.solved))
+    return f"{part.title} at {at}" if at else part.title
