@@ -6,7 +6,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -270,6 +271,23 @@ def test_stresses_belong_to_one_step_and_leave_with_it(report: Report, open_page
     viewer(page, "0")
     assert viewer(page, "v.position.steps") == first
     assert panel(page, "planes").locator("canvas").first.is_visible()
+
+
+def test_in_a_small_page_the_decisive_step_has_all_its_points(
+    report: Report, open_page: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = sum(len(array["data"]) for item in report.scene["maps"] for array in item["arrays"])
+    monkeypatch.setattr("asperity.report.write.scene_of", partial(scene_of, budget=int(0.75 * whole)))
+    asp.write_report(report.outcome, tmp_path / "small.html")
+    page = opened(replace(report, file=tmp_path / "small.html"), open_page)
+    code = "v.visible.map((p) => [p.map.name, p.raster.cell[0] / v.cell[0]])"
+    assert dict(viewer(page, code)) == dict.fromkeys(("heights", "pressure", "contact", "gap"), 1.0)
+    viewer(page, "v.set('steps', 0)")
+    coarse = dict(viewer(page, code))
+    assert coarse["heights"] == 1.0
+    assert max(coarse.values()) > 1.0
+    step = report.scene["steps"]["numbers"][report.scene["steps"]["first"]]
+    assert f"in all steps but step {step}" in page.locator(".av-note").last.inner_text()
 
 
 def test_words_and_pictures_name_their_step(report: Report, open_page: Open) -> None:

@@ -28,9 +28,9 @@ notes      sentences that stand under the maps
 An array is ``shape`` [nx, ny], ``cell`` (sides of a point, m), ``bits`` 8 or 16, ``low``, ``step``
 and ``data``: base64 of the numbers n, compressed by zlib (or ``url``, an address of the compressed
 bytes). A value is low + step n; the largest n is no value. Numbers stand in rows of y, x fastest.
-Those of 16 bits are stored as differences along x, the first of a row as it is, modulo 2¹⁶, with
-the sign in the lowest bit (0, -1, 1, -2 … as 0, 1, 2, 3 …), all low bytes before all high bytes.
-``shares`` are the shares of the classes of the whole grid.
+Those of 16 bits are stored as differences along y of differences along x, the first of a row or
+column as it is, modulo 2¹⁶, with the sign in the lowest bit (0, -1, 1, -2 … as 0, 1, 2, 3 …), all
+low bytes before all high bytes. ``shares`` are the shares of the classes of the whole grid.
 """
 
 from __future__ import annotations
@@ -115,7 +115,8 @@ def coded(values: RealArray, cell: Sequence[float], *, block: int = 1, how: str 
     else:
         numbers[there] = 0
     rows = np.ascontiguousarray(numbers.T)
-    signed = np.diff(rows, axis=1, prepend=np.uint16(0)).view(np.int16)
+    along = np.diff(rows, axis=1, prepend=np.uint16(0))
+    signed = np.diff(along, axis=0, prepend=np.uint16(0)).view(np.int16)
     folded = ((signed << 1) ^ (signed >> 15)).view(np.uint16)
     data = (folded & 255).astype(np.uint8).tobytes() + (folded >> 8).astype(np.uint8).tobytes()
     return _array(values.shape, cell, block, 16, data) | {"low": low, "step": step}
@@ -142,7 +143,8 @@ def decoded(array: dict[str, Any]) -> RealArray:
     else:
         folded = (data[: nx * ny] | (data[nx * ny :].astype(np.uint16) << 8)).reshape(ny, nx)
         signed = (folded >> 1).view(np.int16) ^ -(folded & 1).astype(np.int16)
-        numbers = np.cumsum(signed, axis=1, dtype=np.int16).view(np.uint16)
+        along = np.cumsum(signed, axis=0, dtype=np.int16)
+        numbers = np.cumsum(along, axis=1, dtype=np.int16).view(np.uint16)
     values = array["low"] + array["step"] * numbers.astype(float)
     return np.where(numbers == MASKED[array["bits"]], np.nan, values).T
 
@@ -181,12 +183,6 @@ class _Map:
     def arrays(self, numbers: Iterable[int]) -> dict[int, dict[str, Any]]:
         """The arrays of these ``numbers``."""
         return {number: self.code(number) for number in numbers}
-
-    def size_of_rest(self) -> int:
-        """Characters of the other arrays, from some of them."""
-        rest = self.rest
-        some = {rest[0], rest[len(rest) // 2], rest[-1]} if rest else set()
-        return len(rest) * max((len(self.code(number)["data"]) for number in some), default=0)
 
     def code(self, number: int) -> dict[str, Any]:
         """Array of one step or depth."""
@@ -359,25 +355,28 @@ def _within(maps: Sequence[_Map], budget: int) -> dict[str, list[dict[str, Any]]
     what is of one step only where the others are ``COARSER`` times as coarse already.
     """
     fine = {item.name: item.arrays(item.fine) for item in maps}
-    rest = {item.name: item.size_of_rest() for item in maps}
+    rest = {item.name: len(item.rest) * _taken({"": fine[item.name]}) for item in maps}  # a guess
+    every: dict[str, dict[int, dict[str, Any]]] = {}
     while True:
-        while (over := _taken(fine) + sum(rest.values()) - budget) > 0:
-            free = [item for item in maps if rest[item.name] and item.block < min(COARSER * item.finest, COARSEST)]
-            if free:
-                largest = max(free, key=lambda item: rest[item.name])
-                largest.block *= 2
-                rest[largest.name] //= 3
-            elif finer := [item for item in maps if item.finest < COARSEST]:
-                largest = max(finer, key=lambda item: _taken({"": fine[item.name]}))
-                largest.finest *= 2
-                largest.block = max(largest.block, largest.finest)
-                fine[largest.name] = largest.arrays(largest.fine)
-            else:
-                break
-        arrays = {item.name: fine[item.name] | item.arrays(item.rest) for item in maps}
-        if over > 0 or _taken(arrays) <= budget:
-            return {name: [made[number] for number in sorted(made)] for name, made in arrays.items()}
-        rest = {name: _taken({"": made}) - _taken({"": fine[name]}) for name, made in arrays.items()}
+        over = _taken(fine) + sum(rest.values()) > budget
+        free = [item for item in maps if item.rest and item.block < min(COARSER * item.finest, COARSEST)]
+        finer = [item for item in maps if item.finest < COARSEST]
+        if not every and not (over and free):
+            every = {item.name: fine[item.name] | item.arrays(item.rest) for item in maps}
+            rest = {name: _taken({"": made}) - _taken({"": fine[name]}) for name, made in every.items()}
+        elif over and free:
+            largest = max(free, key=lambda item: rest[item.name])
+            largest.block *= 2
+            rest[largest.name] //= 3
+            every = {}
+        elif over and finer:
+            largest = max(finer, key=lambda item: _taken({"": fine[item.name]}))
+            largest.finest *= 2
+            largest.block = max(largest.block, largest.finest)
+            fine[largest.name] = largest.arrays(largest.fine)
+            every = {}
+        else:
+            return {name: [made[number] for number in sorted(made)] for name, made in every.items()}
 
 
 def _taken(arrays: Mapping[str, Mapping[int, dict[str, Any]]]) -> int:

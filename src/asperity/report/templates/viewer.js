@@ -27,16 +27,16 @@ async function inflated(array) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/* Rows of y, x fastest. Of 16 bits: first all low bytes, then all high bytes, of the differences along x with the sign in the lowest bit. */
+/* Rows of y, x fastest. Of 16 bits: first all low bytes, then all high bytes, of the differences along y of the differences along x, with the sign in the lowest bit. */
 function numbers(bytes, bits, nx, ny) {
   if (bits === 8) return bytes;
-  const n = nx * ny, out = new Uint16Array(n);
+  const n = nx * ny, out = new Uint16Array(n), along = new Uint16Array(nx);
   for (let y = 0, i = 0; y < ny; y++) {
     let last = 0;
     for (let x = 0; x < nx; x++, i++) {
       const folded = bytes[i] | (bytes[n + i] << 8);
-      last = (last + ((folded >>> 1) ^ -(folded & 1))) & 65535;
-      out[i] = last;
+      along[x] += (folded >>> 1) ^ -(folded & 1);
+      out[i] = last += along[x];
     }
   }
   return out;
