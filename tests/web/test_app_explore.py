@@ -196,6 +196,39 @@ def test_spots_are_marked_and_the_surface_is_shown_in_space(app: AppServer, open
 
 
 @pytest.mark.slow
+def test_theories_stand_grey_beside_the_exact_solution_but_for_the_nearest(
+    app: AppServer, open_page: Callable[..., Any]
+) -> None:
+    page = opened(app, open_page, "run")
+    if not page.locator("[data-state=done]").count():
+        page.click("[data-run]")
+        page.wait_for_selector("[data-state=done]", timeout=LONG)
+    page.goto(page.url.replace("/run", "/explore"))
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    page.click("[data-theories]")
+    page.wait_for_selector(".theories .main-svg", timeout=LONG)
+    code = (
+        "document.querySelector('.theories.js-plotly-plot, .theories .js-plotly-plot').data.map((t) => "
+        "[t.meta, t.line.color, t.line.width, Math.max(...t.y.filter((v) => v !== null)), t.showlegend !== false])"
+    )
+    *theories, exact = page.evaluate(code)
+    assert exact[:2] == ["boundary elements", "#000000"]
+    assert exact[2] > max(width for _, _, width, _, _ in theories)
+    assert max(largest for _, _, _, largest, _ in (*theories, exact)) <= 1.0
+    coloured = [item for item in theories if item[1] != "#b4b8be"]
+    assert 1 <= len(coloured) <= 3
+    assert len({colour for _, colour, _, _, _ in (*coloured, exact)}) == len(coloured) + 1
+    assert len({name for name, *_ in theories}) == len(theories) > len(coloured)
+    shown = page.locator(".theories .legendtext").all_text_contents()
+    assert shown[0] == "boundary elements"
+    assert {name for name, *_ in coloured} < set(shown)
+    assert len(shown) == len(coloured) + 2
+    assert "MPa" in page.locator(".theories .xtitle").text_content()
+    ticks = page.locator(".theories .xtick").all_text_contents()
+    assert not any(letter in text for text in ticks for letter in "kMGµ")
+
+
+@pytest.mark.slow
 def test_a_phone_shows_what_was_solved_without_scrolling_sideways(
     app: AppServer, open_page: Callable[..., Any]
 ) -> None:

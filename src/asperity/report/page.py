@@ -35,8 +35,6 @@ def write_page(
     template: str,
     *,
     citation_keys: Iterable[str],
-    figures: Iterable[Figure] = (),
-    solved: Solved | None = None,
     overwrite: bool = False,
     **values: Any,
 ) -> None:
@@ -44,8 +42,8 @@ def write_page(
     escaped, to the HTML file ``path``.
 
     Those of every page are ``title`` and ``summary``, those of most ``provenance`` (rows),
-    ``document`` (its text) and ``scene`` (what its viewer shows, see ``scene.scene``). The
-    ``figures`` are of a ``solved`` contact, if of any.
+    ``document`` (its text), ``figures`` (see ``shown``) and ``scene`` (what its viewer shows, see
+    ``scene.scene``).
 
     Raises
     ------
@@ -57,10 +55,9 @@ def write_page(
         page = rendered(
             template,
             references=[(key, REFERENCES.get(key, "unknown reference")) for key in citation_keys],
-            figures=shown(figures, solved),
             script=Markup(code),
             policy=POLICY,
-            **{"provenance": None, "document": None, "scene": None, **values},
+            **{"provenance": None, "document": None, "figures": [], "scene": None, **values},
         )
         # nothing is allowed but embedded pictures, the page's own style sheet and this script
         sheet = page[page.index("<style>") + 7 : page.index("</style>")]

@@ -94,8 +94,7 @@ def write_report(
         inputs=inputs,
         certificate=certificate_rows(result),
         results=result_rows(result, given.doubted),
-        figures=outcome.pictures,
-        solved=outcome.solved,
+        figures=shown(outcome.pictures, outcome.solved),
         scene=maps,
         sections=[
             (p.name, part_title(outcome, p), words, shown(outcome.figures[p.name], outcome.solved))

@@ -231,14 +231,7 @@ class _Explored:
             box.clear()
             with box:
                 ui.label(answer["sentence"])
-                lines = [
-                    (name, answer["pressures"], [np.nan if v is None else v for v in area])
-                    for name, area, _ in answer["lines"]
-                ]
-                figure = maps.curves(lines, "mean pressure / Pa", "real over nominal area", log=True)
-                figure["layout"]["yaxis"]["type"] = "log"
-                figure["layout"]["legend"] = {"font": {"size": 10}}
-                ui.plotly(figure).classes("space")
+                ui.plotly(maps.theories(**{key: answer[key] for key in maps.OF_THEORIES})).classes("space theories")
                 with ui.expansion(f"Left out: {len(answer['left_out'])}").classes("wide"):
                     rows(answer["left_out"])
                 for text in answer["remarks"]:

@@ -18,6 +18,7 @@ from ..contact.result import ContactResult
 from ..core.arrays import RealArray
 from ..io.words import certificate_rows, result_rows
 from ..physics.stress.figures import map_figure
+from ..plots.comparison import nearest, within_limits
 from ..plots.picture import Figure
 from ..report.comparison import comparison_sentence
 from ..report.scene import reduced, scene_of
@@ -148,13 +149,13 @@ def theory_curves(problem: ContactProblem, views: Path) -> dict[str, Any]:
     well."""
     found = compare(problem)
     exact = found.numerical
-    lines = [[curve.name, _finite(curve.prediction.area_fraction), _finite(curve.gap)] for curve in found.curves]
-    if exact is not None:
-        lines.insert(0, ["boundary elements", _finite(exact.area_fraction_corrected), _finite(exact.mean_gap)])
+    areas = {c.name: within_limits(c.prediction.area_fraction, c.valid, share=True) for c in found.curves}
     answer = {
         "sentence": comparison_sentence(found),
         "pressures": _finite(found.pressures),
-        "lines": lines,
+        "exact": None if exact is None else _finite(exact.area_fraction_corrected),
+        "theories": [[name, _finite(area)] for name, area in areas.items() if np.isfinite(area).any()],
+        "nearest": list(nearest(found.dataset)),
         "left_out": [[item.name, item.reason] for item in found.left_out],
         "remarks": list(found.remarks),
     }
