@@ -26,6 +26,12 @@ WHOLE = re.compile(r"(?<![\w-])--\w[\w-]*|\d[\d.]*e-\d+")
 """Names of options, and numbers with exponents: no line of a page is broken at their hyphens."""
 
 
+HEADING = re.compile(r'<h2 id="([^"]+)">(.*?)</h2>')
+"""Heading of a section, with what it is called elsewhere in the page."""
+
+CONTENTS = "<!-- contents -->"
+"""Stands in a template for the list of contents."""
+
 POLICY = "default-src 'none'"
 """Stands in a template for the policy of the page."""
 
@@ -59,6 +65,7 @@ def write_page(
             policy=POLICY,
             **{"provenance": None, "document": None, "figures": [], "scene": None, **values},
         )
+        page = page.replace(CONTENTS, _contents(page), 1)
         # nothing is allowed but embedded pictures, the page's own style sheet and this script
         sheet = page[page.index("<style>") + 7 : page.index("</style>")]
         digests = [base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in (code, sheet)]
@@ -104,8 +111,9 @@ def shown(figures: Iterable[Figure], solved: Solved | None = None) -> list[dict[
         {
             **{key: getattr(figure, key) for key in ("name", "title", "caption")},
             "at": step_text(solved, None if solved is None else solved.step_of(figure.of)),
+            "again": figure.kind == "cut" and figure.shows is None,  # a part of a section, enlarged
             "wide": figure.wide or figure.drawing.enlarged,
-            "explored": figure.kind == "map" and figure.shows is not None,
+            "explored": figure.kind == "cut" or (figure.kind == "map" and figure.shows is not None),
             "picture": base64.b64encode(figure.picture).decode("ascii"),
             "curves": curves_of(figure.drawing.curves),
         }
@@ -116,6 +124,13 @@ def shown(figures: Iterable[Figure], solved: Solved | None = None) -> list[dict[
 def step_text(solved: Solved | None, number: int | None) -> str:
     """Step ``number`` of the load path of a ``solved`` contact in words; empty for none."""
     return "" if solved is None or number is None else solved.at(number).where
+
+
+def _contents(page: str) -> str:
+    """List of the sections of ``page`` with links to them."""
+    found = ((name, re.sub(r' <span class="at">.*?</span>', "", text)) for name, text in HEADING.findall(page))
+    links = "\n".join(f'<li><a href="#{name}">{text}</a></li>' for name, text in found)
+    return f'<nav class="contents" aria-label="Contents">\n<ul>\n{links}\n</ul>\n</nav>'
 
 
 def script() -> str:

@@ -97,7 +97,7 @@ def write_report(
         figures=shown(outcome.pictures, outcome.solved),
         scene=maps,
         sections=[
-            (p.name, part_title(outcome, p), words, shown(outcome.figures[p.name], outcome.solved))
+            (p.name, p.title, where(outcome, p), words, shown(outcome.figures[p.name], outcome.solved))
             for p, words in outcome.sections
         ],
         advice=given.others,
@@ -112,8 +112,7 @@ def write_report(
     )
 
 
-def part_title(outcome: Outcome, part: Part) -> str:
-    """Title of what a ``part`` of an ``outcome`` says, with the step of the load path that it is
-    of."""
-    at = step_text(outcome.solved, part.at_work.step(outcome.found[part.name], outcome.solved))
-    return f"{part.title} at {at}" if at else part.title
+def where(outcome: Outcome, part: Part) -> str:
+    """Step of the load path of an ``outcome`` that what a ``part`` says is about, in words; empty
+    where it is about all of it."""
+    return step_text(outcome.solved, part.at_work.step(outcome.found[part.name], outcome.solved))

@@ -22,7 +22,7 @@ from ..plots.comparison import nearest, within_limits
 from ..plots.picture import Figure
 from ..report.comparison import comparison_sentence
 from ..report.scene import reduced, scene_of
-from ..report.write import part_title
+from ..report.write import where
 from ..run.execute import Outcome
 from ..run.verdict import verdict
 from ..studies.compare import compare
@@ -133,7 +133,7 @@ def _words(outcome: Outcome) -> dict[str, Any]:
         "certificate": [list(row) for row in certificate_rows(result)],
         "parts": [
             {
-                "title": part_title(outcome, part),
+                "title": f"{part.title} at {at}" if (at := where(outcome, part)) else part.title,
                 "sentence": words.sentence,
                 "rows": [list(row) for row in words.rows],
                 "tables": [[title, list(t.headings), [list(row) for row in t.cells]] for title, t in words.tables],

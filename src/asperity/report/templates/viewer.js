@@ -1076,7 +1076,7 @@ async function start(root) {
   for (const figure of root.querySelectorAll("figure[data-curves]")) new Curves(figure, read(figure));
   if (!("DecompressionStream" in window)) return;
   for (const element of root.querySelectorAll("[data-viewer]")) {
-    const scene = read(element), whole = element.closest("section, main") || element;
+    const scene = read(element), whole = element.closest("main") || element;
     try {
       whole.classList.add("av-live-page");
       const viewer = new Viewer(element, scene);
