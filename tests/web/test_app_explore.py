@@ -196,6 +196,30 @@ def test_spots_are_marked_and_the_surface_is_shown_in_space(app: AppServer, open
 
 
 @pytest.mark.slow
+def test_a_remedy_is_applied_and_run_again(tmp_path: Path, open_page: Callable[..., Any]) -> None:
+    light = PROBLEM.partition("[control.path]")[0] + '[control]\nmean_pressure = "1 MPa"\n'
+    (tmp_path / "light.toml").write_text(light, encoding="utf-8")
+    with AppServer((str(tmp_path / "light.toml"), "--threads", "1")) as app:
+        page = opened(app, open_page, "run")
+        page.click("[data-run]")
+        page.wait_for_selector("[data-state=done]", timeout=LONG)
+        page.click("[data-state=done] >> text=Explore")
+        page.wait_for_selector("[data-ready]", timeout=LONG)
+        found = page.locator("[data-verdict=Trust]", has_text="The contact has")
+        for finding in [found, *page.locator("[data-finding]").all()]:
+            assert finding.locator("[data-remedy], [data-choose]").count() > 0, finding.inner_text()
+        assert found.locator("[data-choose]").inner_text() == "Choose Control: Mean pressure"
+        finer = "Prepare: resample (96 x 96 points)"
+        found.locator("[data-remedy]", has_text=finer).click()
+        page.wait_for_url("**/run")
+        page.wait_for_selector(f"[data-state=done]:has-text('{finer}')", timeout=LONG)
+        page.click(f"[data-state=done]:has-text('{finer}') >> text=Explore")
+        page.wait_for_selector("[data-ready]", timeout=LONG)
+        assert page.evaluate("document.querySelector('[data-scene]').viewer.cell[0]") == pytest.approx(2e-6 / 96)
+        page.goto("about:blank")  # before the application ends
+
+
+@pytest.mark.slow
 def test_theories_stand_grey_beside_the_exact_solution_but_for_the_nearest(
     app: AppServer, open_page: Callable[..., Any]
 ) -> None:

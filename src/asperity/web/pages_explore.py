@@ -14,10 +14,13 @@ from typing import Any
 import numpy as np
 from nicegui import events, ui
 
+from ..core.errors import AsperityError
+from ..core.status import SENTENCES
 from ..core.units import show
 from . import maps
 from .layout import failure, rows
-from .pages_run import downloads
+from .pages_run import downloads, start
+from .remedies import Remedy, remedies
 from .session import Run, Session
 from .views import SHOWN, THEORIES
 
@@ -108,6 +111,7 @@ class _Explored:
         message, remedy, converged = shown["status"]
         if not converged:
             failure(f"Not converged: {message} {remedy}")
+            self.remedies(shown, "{iterations}")
         grade, fails = shown["grade"], shown["fails"]
         classes = (
             "",
@@ -118,15 +122,21 @@ class _Explored:
             with ui.element("div").classes(f"verdict {style}").props(f"data-verdict={name}"):
                 ui.label(name).classes("table-title")
                 ui.label(text)
+                for _, _, _, advised, beside in shown["findings"] if name == SENTENCES[-1] else ():
+                    if not beside:  # the sentence tells it
+                        self.remedies(shown, advised)
         with ui.element("div").classes("tiles"):
             for label, text in shown["headline"]:
                 with ui.element("div").classes("tile"):
                     ui.label(text).classes("value")
                     ui.label(label).classes("hint")
-        for level, criterion, text in shown["findings"]:
-            with ui.element("div").classes("finding" if level == "warning" else "finding note"):
+        for level, criterion, text, advised, beside in shown["findings"]:
+            if not beside:
+                continue
+            with ui.element("div").classes("finding" if level == "warning" else "finding note").props("data-finding"):
                 ui.label(criterion).classes("table-title")
                 ui.label(text)
+                self.remedies(shown, advised)
         downloads(self.key, self.session, self.run)
         ui.button("Fields as VTK", icon="download", on_click=self.vtk).props("no-caps flat dense")
         name = f"scene-{self.run.key}"
@@ -154,6 +164,30 @@ class _Explored:
             ui.button("Show the surface in space", on_click=in_space).props("no-caps outline data-space")
         self.theories()
         self.words(shown)
+
+    def remedies(self, shown: dict[str, Any], text: str) -> None:
+        """What the ``text`` of a remedy advises: applied to the document of this run, which is then
+        run again, or the page where a person chooses."""
+        for item in remedies(text, self.run.table, shown["points"], shown["cell"]):
+            if item.table is None:
+                ui.link(f"Choose {item.words}", f"/s/{self.key}/{item.page}").classes("remedy").props("data-choose")
+            else:
+                button = ui.button(f"{item.words}: apply and run again", icon="replay")
+                button.props("no-caps outline dense data-remedy").classes("remedy")
+                button.on_click(lambda item=item: self.again(item))
+
+    def again(self, item: Remedy) -> None:
+        """Run the document of this run once more, with the remedy ``item``; the change can be
+        undone."""
+        assert item.table is not None
+        self.session.draft.replace(item.table)
+        self.session.touched()
+        try:
+            start(self.session, f"{self.run.title}, {item.words}")
+        except AsperityError as error:
+            ui.notify(self.session.said(str(error)), type="negative", multi_line=True)
+            return
+        ui.navigate.to(f"/s/{self.key}/run")
 
     async def vtk(self) -> None:
         """Write the fields for ParaView and give them out."""

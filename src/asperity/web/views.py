@@ -127,7 +127,11 @@ def _words(outcome: Outcome) -> dict[str, Any]:
         "fails": given.fails,
         "at": reached.where,
         "status": [outcome.status.message, outcome.status.remedy, outcome.converged],
-        "findings": [[item.level, item.criterion, item.message] for item in given.others],
+        "findings": [
+            [item.level, item.criterion, item.message, item.remedy, item in given.others] for item in given.findings
+        ],
+        "points": list(result.problem.grid.shape),
+        "cell": list(result.problem.grid.spacing),
         "headline": [list(row) for row in given.headline],
         "results": [list(row) for row in result_rows(result, given.doubted)],
         "certificate": [list(row) for row in certificate_rows(result)],
