@@ -220,6 +220,38 @@ def test_a_remedy_is_applied_and_run_again(tmp_path: Path, open_page: Callable[.
 
 
 @pytest.mark.slow
+def test_what_a_part_refuses_stands_beside_its_table_before_the_run(
+    tmp_path: Path, open_page: Callable[..., Any]
+) -> None:
+    plain = (
+        PROBLEM.partition("[[body.layers]]")[0] + '[body]\nmaterial = "steel"\n\n[control]\nmean_pressure = "1 GPa"\n'
+    )
+    (tmp_path / "plain.toml").write_text(plain, encoding="utf-8")
+    with AppServer((str(tmp_path / "plain.toml"), "--threads", "1")) as app:
+        page = opened(app, open_page, "load")
+        page.wait_for_timeout(1500)
+        assert page.locator("[data-refused]:not(:empty)").count() == 0
+        page.click('[data-key="plastic_flow"]')
+        beside = page.locator("[data-refused=plastic_flow]")
+        beside.locator("text=yield stress of steel must be known").wait_for(timeout=LONG)
+        assert "Bodies: Yield stress" in beside.inner_text()
+        assert page.locator("[data-refused]:not(:empty)").count() == 1
+        card = page.locator(".table", has=page.locator('[data-key="plastic_flow"]')).bounding_box()
+        below = beside.bounding_box()
+        assert 0.0 <= below["y"] - card["y"] - card["height"] < 40.0
+        page.goto(page.url.replace("/load", "/run"))
+        page.wait_for_selector("[data-refused] >> text=yield stress of steel must be known", timeout=LONG)
+        page.goto(page.url.replace("/run", "/bodies"))
+        page.wait_for_selector("[data-refused=body] >> text=yield stress of steel must be known", timeout=LONG)
+        page.fill('input[data-key="body.yield_stress"]', "400 MPa")
+        page.wait_for_function("document.querySelectorAll('[data-refused]:not(:empty)').length === 0", timeout=LONG)
+        page.goto(page.url.replace("/bodies", "/load"))
+        page.wait_for_timeout(2500)
+        assert page.locator("[data-refused]:not(:empty)").count() == 0
+        page.goto("about:blank")  # before the application ends
+
+
+@pytest.mark.slow
 def test_theories_stand_grey_beside_the_exact_solution_but_for_the_nearest(
     app: AppServer, open_page: Callable[..., Any]
 ) -> None:

@@ -14,6 +14,7 @@ from ..core.errors import AsperityError
 from ..run.build import large_grid, stated_points
 from ..run.document import save_document
 from .layout import failure
+from .refused import Refused
 from .session import Run, Session
 from .workers import CANCELLED, Worker, reported
 
@@ -97,6 +98,7 @@ def run_page(key: str, session: Session) -> None:
                     failure(text)
             else:
                 ui.label("The document is complete.").classes("numbers")
+                Refused(session).slot("")
                 if large := large_grid(stated_points(session.draft.document().surface)):
                     failure(large)
             button = ui.button("Run", icon="play_arrow", on_click=begin).props("no-caps data-run")
