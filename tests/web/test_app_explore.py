@@ -241,6 +241,7 @@ def test_what_a_part_refuses_stands_beside_its_table_before_the_run(
         assert 0.0 <= below["y"] - card["y"] - card["height"] < 40.0
         page.goto(page.url.replace("/load", "/run"))
         page.wait_for_selector("[data-refused] >> text=yield stress of steel must be known", timeout=LONG)
+        assert not page.locator("text=The document is complete.").is_visible()
         page.goto(page.url.replace("/run", "/bodies"))
         page.wait_for_selector("[data-refused=body] >> text=yield stress of steel must be known", timeout=LONG)
         page.fill('input[data-key="body.yield_stress"]', "400 MPa")

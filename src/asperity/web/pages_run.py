@@ -97,7 +97,7 @@ def run_page(key: str, session: Session) -> None:
                 for text in missing:
                     failure(text)
             else:
-                ui.label("The document is complete.").classes("numbers")
+                ui.label("The document is complete.").classes("numbers complete")
                 Refused(session).slot("")
                 if large := large_grid(stated_points(session.draft.document().surface)):
                     failure(large)

@@ -125,7 +125,8 @@ def _changed(name: str, value: str, was: _Was) -> tuple[str, Mapping[str, Any]] 
     if value:
         made: tuple[str, Change] | None = ("", (tuple(name.split(".")), _read(value)))
     else:
-        made = CHANGES.get(name, lambda was: None)(was)
+        change = CHANGES.get(name)
+        made = None if change is None else change(was)
     if made is None:
         return None
     words, (keys, new) = made
