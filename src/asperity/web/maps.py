@@ -157,12 +157,14 @@ def theories(
     pointer."""
     symbol, factor = scaled(float(np.median(pressures)), "Pa", "pressure")
     x = [pressure / factor for pressure in pressures]
-    hover = f"<b>%{{fullData.meta}}</b><br>%{{x:.3g}} {symbol}: %{{y:.3g}}<extra></extra>"
+    hover = f"%{{x:.3g}} {symbol}: %{{y:.3g}}<extra></extra>"
     traces: list[dict[str, Any]] = []
 
     def add(name: str, y: list[float | None], line: dict[str, Any], **more: Any) -> None:
         common: dict[str, Any] = {"type": "scatter", "mode": "lines", "x": x, "y": y, "meta": name, "name": name}
-        traces.append(common | {"hovertemplate": hover, "line": line, "connectgaps": False} | more)
+        traces.append(
+            common | {"hovertemplate": f"<b>{name}</b><br>{hover}", "line": line, "connectgaps": False} | more
+        )
 
     others = [item for item in theories if nearest and item[0] not in nearest]
     for number, (name, area) in enumerate(others):
