@@ -143,6 +143,36 @@ def test_a_part_of_another_package_and_a_solved_contact(app: AppServer, open_pag
 
 
 @pytest.mark.slow
+def test_the_spots_are_those_of_the_step_that_the_maps_show(app: AppServer, open_page: Callable[..., Any]) -> None:
+    page = opened(app, open_page, "run")
+    if not page.locator("[data-state=done]").count():
+        page.click("[data-run]")
+        page.wait_for_selector("[data-state=done]", timeout=LONG)
+    page.goto(page.url.replace("/run", "/explore"))
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    page.click("[data-spots]")
+    row = page.locator("tr[data-spot]").first
+    row.wait_for(state="visible", timeout=LONG)
+    slider = page.locator("[data-slider=steps] input")
+    steps = int(slider.get_attribute("max"))
+    first = int(slider.input_value())
+    assert first < steps, "the path ends without load"
+    page.wait_for_selector(f"[data-spots] >> text=at step {first + 1} of {steps + 1}: mean pressure 50 MPa")
+    before = page.locator("tr[data-spot]").count()
+    slider.focus()
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_selector(f"[data-spots] >> text=at step {first} of {steps + 1}: mean pressure 12.5 MPa", timeout=LONG)
+    x, y = (float(part) for part in row.get_attribute("data-spot").split(","))
+    found = page.evaluate(f"document.querySelector('[data-scene]').viewer.highlight({{ x: {x!r}, y: {y!r} }})")
+    assert found is not None, "the spot is in the map of the step"
+    area, unit = row.locator("td").nth(3).inner_text().split(" ")
+    assert float(area) * {"nm²": 1e-18, "µm²": 1e-12}[unit] == pytest.approx(found["area"], rel=1e-3)
+    page.keyboard.press("End")
+    page.wait_for_selector(f"[data-spots] >> text=Contact spots: 0, at step {steps + 1} of {steps + 1}", timeout=LONG)
+    assert page.locator("tr[data-spot]").count() == 0 < before
+
+
+@pytest.mark.slow
 def test_spots_are_marked_and_the_surface_is_shown_in_space(app: AppServer, open_page: Callable[..., Any]) -> None:
     page = opened(app, open_page, "load")
     one_load(page)
@@ -164,6 +194,96 @@ def test_spots_are_marked_and_the_surface_is_shown_in_space(app: AppServer, open
     with page.expect_download(timeout=LONG) as download:
         page.click("text=Fields as VTK")
     assert Path(download.value.path()).read_bytes().startswith(b'<?xml version="1.0"?>')
+
+
+@pytest.mark.slow
+def test_a_remedy_is_applied_and_run_again(tmp_path: Path, open_page: Callable[..., Any]) -> None:
+    light = PROBLEM.partition("[control.path]")[0] + '[control]\nmean_pressure = "1 MPa"\n'
+    (tmp_path / "light.toml").write_text(light, encoding="utf-8")
+    with AppServer((str(tmp_path / "light.toml"), "--threads", "1")) as app:
+        page = opened(app, open_page, "run")
+        page.click("[data-run]")
+        page.wait_for_selector("[data-state=done]", timeout=LONG)
+        page.click("[data-state=done] >> text=Explore")
+        page.wait_for_selector("[data-ready]", timeout=LONG)
+        found = page.locator("[data-verdict=Trust]", has_text="The contact has")
+        for finding in [found, *page.locator("[data-finding]").all()]:
+            assert finding.locator("[data-remedy], [data-choose]").count() > 0, finding.inner_text()
+        assert found.locator("[data-choose]").inner_text() == "Choose Control: Mean pressure"
+        finer = "Prepare: resample (96 x 96 points)"
+        found.locator("[data-remedy]", has_text=finer).click()
+        page.wait_for_url("**/run")
+        page.wait_for_selector(f"[data-state=done]:has-text('{finer}')", timeout=LONG)
+        page.click(f"[data-state=done]:has-text('{finer}') >> text=Explore")
+        page.wait_for_selector("[data-ready]", timeout=LONG)
+        assert page.evaluate("document.querySelector('[data-scene]').viewer.cell[0]") == pytest.approx(2e-6 / 96)
+        page.goto("about:blank")  # before the application ends
+
+
+@pytest.mark.slow
+def test_what_a_part_refuses_stands_beside_its_table_before_the_run(
+    tmp_path: Path, open_page: Callable[..., Any]
+) -> None:
+    plain = (
+        PROBLEM.partition("[[body.layers]]")[0] + '[body]\nmaterial = "steel"\n\n[control]\nmean_pressure = "1 GPa"\n'
+    )
+    (tmp_path / "plain.toml").write_text(plain, encoding="utf-8")
+    with AppServer((str(tmp_path / "plain.toml"), "--threads", "1")) as app:
+        page = opened(app, open_page, "load")
+        page.wait_for_timeout(1500)
+        assert page.locator("[data-refused]:not(:empty)").count() == 0
+        page.click('[data-key="plastic_flow"]')
+        beside = page.locator("[data-refused=plastic_flow]")
+        beside.locator("text=yield stress of steel must be known").wait_for(timeout=LONG)
+        assert "Bodies: Yield stress" in beside.inner_text()
+        assert page.locator("[data-refused]:not(:empty)").count() == 1
+        card = page.locator(".table", has=page.locator('[data-key="plastic_flow"]')).bounding_box()
+        below = beside.bounding_box()
+        assert 0.0 <= below["y"] - card["y"] - card["height"] < 40.0
+        page.goto(page.url.replace("/load", "/run"))
+        page.wait_for_selector("[data-refused] >> text=yield stress of steel must be known", timeout=LONG)
+        assert not page.locator("text=The document is complete.").is_visible()
+        page.goto(page.url.replace("/run", "/bodies"))
+        page.wait_for_selector("[data-refused=body] >> text=yield stress of steel must be known", timeout=LONG)
+        page.fill('input[data-key="body.yield_stress"]', "400 MPa")
+        page.wait_for_function("document.querySelectorAll('[data-refused]:not(:empty)').length === 0", timeout=LONG)
+        page.goto(page.url.replace("/bodies", "/load"))
+        page.wait_for_timeout(2500)
+        assert page.locator("[data-refused]:not(:empty)").count() == 0
+        page.goto("about:blank")  # before the application ends
+
+
+@pytest.mark.slow
+def test_theories_stand_grey_beside_the_exact_solution_but_for_the_nearest(
+    app: AppServer, open_page: Callable[..., Any]
+) -> None:
+    page = opened(app, open_page, "run")
+    if not page.locator("[data-state=done]").count():
+        page.click("[data-run]")
+        page.wait_for_selector("[data-state=done]", timeout=LONG)
+    page.goto(page.url.replace("/run", "/explore"))
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    page.click("[data-theories]")
+    page.wait_for_selector(".theories .main-svg", timeout=LONG)
+    code = (
+        "document.querySelector('.theories.js-plotly-plot, .theories .js-plotly-plot').data.map((t) => "
+        "[t.meta, t.line.color, t.line.width, Math.max(...t.y.filter((v) => v !== null)), t.showlegend !== false])"
+    )
+    *theories, exact = page.evaluate(code)
+    assert exact[:2] == ["boundary elements", "#000000"]
+    assert exact[2] > max(width for _, _, width, _, _ in theories)
+    assert max(largest for _, _, _, largest, _ in (*theories, exact)) <= 1.0
+    coloured = [item for item in theories if item[1] != "#b4b8be"]
+    assert 1 <= len(coloured) <= 3
+    assert len({colour for _, colour, _, _, _ in (*coloured, exact)}) == len(coloured) + 1
+    assert len({name for name, *_ in theories}) == len(theories) > len(coloured)
+    shown = page.locator(".theories .legendtext").all_text_contents()
+    assert shown[0] == "boundary elements"
+    assert {name for name, *_ in coloured} < set(shown)
+    assert len(shown) == len(coloured) + 2
+    assert "MPa" in page.locator(".theories .xtitle").text_content()
+    ticks = page.locator(".theories .xtick").all_text_contents()
+    assert not any(letter in text for text in ticks for letter in "kMGµ")
 
 
 @pytest.mark.slow

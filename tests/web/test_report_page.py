@@ -6,7 +6,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -55,8 +56,13 @@ class Report:
         found: dict[str, Any] = next(item for item in self.scene["maps"] if item["name"] == name)
         return found
 
-    def values(self, name: str, number: int = -1) -> RealArray:
+    def values(self, name: str, number: int = 0) -> RealArray:
         return decoded(self.map(name)["arrays"][number])
+
+    @property
+    def decisive(self) -> asp.ContactResult:
+        """The contact that the page shows at first."""
+        return self.outcome.solved.at().result
 
 
 @pytest.fixture(scope="module")
@@ -110,10 +116,11 @@ def shown(text: str) -> tuple[float, float]:
 
 @pytest.mark.parametrize("name", ["heights", "pressure", "gap", "planes"])
 def test_the_value_under_the_pointer_is_that_of_the_result(name: str, report: Report, open_page: Open) -> None:
-    page, result = opened(report, open_page), report.outcome.result
+    page, result = opened(report, open_page), report.decisive
     dx, dy = result.problem.grid.spacing
     viewer(page, f"v.show(['{name}'])")
-    values = report.values(name, 0 if name == "planes" else -1)
+    viewer(page, "v.showLine(false)")  # its ends lie over points
+    values = report.values(name)
     if name == "pressure":
         values = np.where(result.contact, result.pressure, np.nan)
     elif name == "gap":
@@ -123,7 +130,6 @@ def test_the_value_under_the_pointer_is_that_of_the_result(name: str, report: Re
     for i, j in ((3, 30), (24, 16), *np.argwhere(np.isfinite(values))[[0, -1]]):
         x, y = place(page, name, (i + 0.5) * dx, (j + 0.5) * dy)
         page.mouse.move(x, y)
-        page.wait_for_function(f"document.querySelector(\".av-panel[data-map='{name}'] .av-value\").textContent !== ''")
         viewer(page, "0")
         text = panel(page, name).locator(".av-value").inner_text()
         if math.isnan(values[i, j]):
@@ -137,7 +143,7 @@ def test_the_value_under_the_pointer_is_that_of_the_result(name: str, report: Re
 
 
 def test_classes_are_named(report: Report, open_page: Open) -> None:
-    page, result = opened(report, open_page), report.outcome.result
+    page, result = opened(report, open_page), report.decisive
     dx, dy = result.problem.grid.spacing
     i, j = np.argwhere(result.contact)[0]
     assert viewer(page, f"v.read({(i + 0.5) * dx}, {(j + 0.5) * dy})")["contact"] == "elastic"
@@ -178,15 +184,16 @@ def limits(page: Any) -> dict[str, list[float]]:
 
 
 def test_curves_along_the_section_line_are_interpolated_values(report: Report, open_page: Open) -> None:
-    page, result = opened(report, open_page), report.outcome.result
+    page, result = opened(report, open_page), report.decisive
     (dx, dy), ends = result.problem.grid.spacing, (0.11e-6, 0.07e-6, 0.93e-6, 0.51e-6)
     viewer(page, f"v.setLine({', '.join(map(str, ends))})")
+    first = report.scene["steps"]["first"]
     for name, values in (("pressure", result.pressure), ("gap", result.gap)):
         found = np.array(viewer(page, f"Array.from(v.curves.find((c) => c.panel.map.name === '{name}').values)"))
         t = np.linspace(0.0, 1.0, found.size)
         u = (ends[0] + t * (ends[2] - ends[0])) / dx - 0.5
         w = (ends[1] + t * (ends[3] - ends[1])) / dy - 0.5
-        np.testing.assert_allclose(found, bilinear(values, u, w), atol=0.51 * report.map(name)["arrays"][-1]["step"])
+        np.testing.assert_allclose(found, bilinear(values, u, w), atol=0.51 * report.map(name)["arrays"][first]["step"])
 
 
 def bilinear(values: RealArray, u: RealArray, w: RealArray) -> RealArray:
@@ -223,7 +230,7 @@ def test_the_sliders_change_step_and_depth(report: Report, open_page: Open) -> N
     page, path = opened(report, open_page), report.outcome.path
     assert path is not None
     slider = page.locator("[data-slider='steps'] input")
-    assert slider.get_attribute("aria-valuetext").startswith(f"{len(path.steps)} of {len(path.steps)}")
+    assert slider.get_attribute("aria-valuetext").startswith(f"{path.peak + 1} of {len(path.steps)}")
     dx, dy = path.last.problem.grid.spacing
     for number in (0, 1):
         slider.fill(str(number))
@@ -235,11 +242,66 @@ def test_the_sliders_change_step_and_depth(report: Report, open_page: Open) -> N
     slider.focus()
     page.keyboard.press("ArrowRight")
     assert viewer(page, "v.position.steps") == 2
+    viewer(page, f"v.set('steps', {path.peak})")
     viewer(page, "v.show(['planes'])")
     for number in (0, 3):
         viewer(page, f"v.set('depths', {number})")
         value, digit = shown(viewer(page, f"v.read({5.5 * dx}, {7.5 * dy})")["planes"])
         assert abs(value - report.values("planes", number)[5, 7]) <= 0.61 * digit
+
+
+def test_stresses_belong_to_one_step_and_leave_with_it(report: Report, open_page: Open) -> None:
+    page, path = opened(report, open_page), report.outcome.path
+    assert path is not None
+    first = report.scene["steps"]["first"]
+    assert (first, report.scene["steps"]["numbers"][first]) == (path.peak, path.peak + 1)
+    viewer(page, "v.show(['heights', 'pressure', 'planes'])")
+    of_one = page.locator(".av-panel:has(.av-step)")
+    assert of_one.count() == len(report.scene["sections"]) + 2, "sections, planes, and what is below the line"
+    for number in range(of_one.count()):
+        assert of_one.nth(number).locator("canvas").first.is_visible()
+        assert f"step {path.peak + 1} of {len(path.steps)}:" in of_one.nth(number).locator(".av-step").inner_text()
+    assert panel(page, "pressure").locator(".av-step").count() == 0
+    viewer(page, f"v.set('steps', {len(path.steps) - 1})")
+    assert page.locator(".av-panel:has(.av-step) canvas:visible").count() == 0
+    assert panel(page, "heights").locator("canvas").first.is_visible()
+    assert panel(page, "pressure").locator("canvas").first.is_visible()
+    assert "planes" not in viewer(page, "v.read(0.5e-6, 0.3e-6)")
+    panel(page, "planes").get_by_role("button", name=f"show step {path.peak + 1}").click()
+    viewer(page, "0")
+    assert viewer(page, "v.position.steps") == first
+    assert panel(page, "planes").locator("canvas").first.is_visible()
+
+
+def test_in_a_small_page_the_decisive_step_has_all_its_points(
+    report: Report, open_page: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = sum(len(array["data"]) for item in report.scene["maps"] for array in item["arrays"])
+    monkeypatch.setattr("asperity.report.write.scene_of", partial(scene_of, budget=int(0.75 * whole)))
+    asp.write_report(report.outcome, tmp_path / "small.html")
+    page = opened(replace(report, file=tmp_path / "small.html"), open_page)
+    code = "v.visible.map((p) => [p.map.name, p.raster.cell[0] / v.cell[0]])"
+    assert dict(viewer(page, code)) == dict.fromkeys(("heights", "pressure", "contact", "gap"), 1.0)
+    viewer(page, "v.set('steps', 0)")
+    coarse = dict(viewer(page, code))
+    assert coarse["heights"] == 1.0
+    assert max(coarse.values()) > 1.0
+    step = report.scene["steps"]["numbers"][report.scene["steps"]["first"]]
+    assert f"in all steps but step {step}" in page.locator(".av-note").last.inner_text()
+
+
+def test_words_and_pictures_name_their_step(report: Report, open_page: Open) -> None:
+    page, solved = opened(report, open_page), report.outcome.solved
+    where = solved.at().where
+    page.emulate_media(media="print")
+    for name in ("stress", "yielding"):
+        assert where in page.locator(f"h2#{name}").inner_text()
+    for title in ("Pressure", "Gap", "Section"):
+        figure = page.locator("figure", has=page.locator("h3", has_text=re.compile(f"^{title}$")))
+        assert where in figure.locator("figcaption").inner_text()
+    captions = page.locator("section[aria-labelledby=stress] figcaption").all_inner_texts()
+    assert len(captions) > 3
+    assert all(where in text for text in captions)
 
 
 def test_a_map_is_read_and_zoomed_with_the_keyboard(report: Report, open_page: Open) -> None:
@@ -260,7 +322,7 @@ def test_a_map_is_read_and_zoomed_with_the_keyboard(report: Report, open_page: O
 
 
 def test_a_contact_spot_is_marked_as_measured(report: Report, open_page: Open) -> None:
-    page, result = opened(report, open_page), report.outcome.result
+    page, result = opened(report, open_page), report.decisive
     dx, dy = result.problem.grid.spacing
     i, j = np.unravel_index(np.argmax(result.pressure), result.pressure.shape)
     code = (

@@ -11,8 +11,11 @@ class AsperityError(Exception):
     before "must".
 
     What can be done, as ``{fill}`` in the message, is said in the words of the door that speaks:
-    see ``words.ACTIONS``.
+    see ``words.ACTIONS``. ``place`` is the key of the table of a document that is refused, where
+    that is known.
     """
+
+    place: str = ""
 
     def __init__(self, message: str, *, subject: str = "") -> None:
         super().__init__(in_words(message))

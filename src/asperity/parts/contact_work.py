@@ -156,6 +156,10 @@ class PlasticityWork(Work):
         """Areas, volumes and work."""
         return Words(rows=plastic_rows(solved.result)) if solved.result.indented.any() else Words()
 
+    def step(self, found: Found, solved: Solved) -> int | None:
+        """The end of the load path."""
+        return solved.step_of(solved.result)
+
 
 def plastic_rows(result: ContactResult) -> Rows:
     """What has yielded in ``result``, and the energies."""

@@ -168,6 +168,19 @@ def require_step(step: float | str, controls: Sequence[Any], what: str, last: st
             f"{what} must be from 1 to {most}, those of the load, but is {step:g}; take the last ({last})."
         )
 
+    def step_of(self, shown: Any) -> int | None:
+        """Number, from 1, of the step of the load path that is ``shown``: a contact of the path, or
+        that number itself.
+
+        None for anything else, and where there is but one load.
+        """
+        if self.path is None or len(self.path.steps) < 2:
+            return None
+        if isinstance(shown, int):
+            return shown if 1 <= shown <= len(self.path.steps) else None
+        found = (number for number, step in enumerate(self.path.steps, 1) if step is shown)
+        return next(found, len(self.path.steps) if shown is self.result else None)
+
 
 class Reached(NamedTuple):
     """The contact at one step: its ``number`` from 1, and how ``many`` steps there are."""
@@ -256,6 +269,11 @@ class Work:
 
     def restored(self, stored: Stored, solved: Solved) -> Any:
         """Detail of what was found, for the figures, from what a file has ``stored``."""
+        return None
+
+    def step(self, found: Found, solved: Solved) -> int | None:
+        """Number, from 1, of the step of the load path that its words are about; None where they
+        are about all of it, or say themselves."""
         return None
 
     def made_from(self, result: ContactResult) -> Found | None:

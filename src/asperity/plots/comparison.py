@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..core.arrays import RealArray
+from ..core.arrays import BoolArray, RealArray
 from ..core.errors import InputError
 from ..io.atomic import atomic_file
 from ..theories.ask import Evaluation
@@ -41,8 +41,11 @@ COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
 LINES = ("-", "--", ":", "-.")
 """Lines of theories, each for one turn of the colours."""
 
-MUTED = "0.82"
-"""Grey of a curve where its theory is beyond its limits."""
+MUTED, OTHERS = "0.82", "0.7"
+"""Grey of an answer beyond the limits of its theory, and of the theories beside the nearest."""
+
+NEAREST = 3
+"""Theories that are named beside the numerical solution."""
 
 LABEL_ROOM = 0.042
 """Least distance of the names of curves over the height of the axes."""
@@ -63,6 +66,29 @@ VALID_BY = {"gap": "gap_valid"}
 area."""
 
 
+def nearest(data: xarray.Dataset) -> tuple[str, ...]:
+    """Names of the theories of ``data`` whose area is nearest to the numerical one, at most
+    ``NEAREST``.
+
+    They are ranked by the root mean square of their deviations within their limits, which they keep
+    at half of the loads or more. Empty without the numerical solution.
+    """
+    if "area_fraction_deviation" not in data:
+        return ()
+    off = np.where(data["area_fraction_valid"].values, _values(data["area_fraction_deviation"]), np.nan)
+    known = np.isfinite(off).sum(axis=1)
+    rms = np.sqrt(np.nansum(off**2, axis=1) / np.maximum(known, 1))
+    ranked = np.argsort(np.where(2 * known >= off.shape[1], rms, np.inf), kind="stable")
+    return tuple(str(data["theory"].values[n]) for n in ranked[:NEAREST] if 2 * known[n] >= off.shape[1])
+
+
+def within_limits(values: RealArray, valid: BoolArray, *, share: bool) -> RealArray:
+    """``values`` where a theory is within its limits, NaN elsewhere; of a ``share`` none is above
+    one."""
+    shown: RealArray = np.where(valid & ~(share & (values > 1.0)), values, np.nan)
+    return shown
+
+
 def plot_comparison_area(data: xarray.Dataset, ax: Axes) -> Axes:
     """Draw the area fraction of every curve of ``data`` against p/E* on ``ax``, both
     logarithmic."""
@@ -72,7 +98,7 @@ def plot_comparison_area(data: xarray.Dataset, ax: Axes) -> Axes:
         ax.plot(_values(data["relative_pressure"]), pixels, color=BLACK, linestyle="", marker=".", markersize=2.0)
         curves += _points(data, "numerical_area_fraction_corrected", ax)
     ax.set(xscale="log", yscale="log", xlabel="p/E*", ylabel="real area / nominal area")
-    ax.set_ylim(top=1.3)
+    ax.set_ylim(top=1.0)
     return _named(ax, curves)
 
 
@@ -118,7 +144,8 @@ COMPARISON_PLOTS = (
         "area",
         "Area against pressure",
         "Real area per nominal area against nominal pressure over E*. Points: boundary elements, corrected "
-        "for the pixels (small points: pixels counted). Curves are grey where a theory is beyond its limits.",
+        "for the pixels (small points: pixels counted). The theories nearest to them are named, the others grey; "
+        "curves end where a theory is beyond its limits.",
         plot_comparison_area,
         "comparison",
     ),
@@ -170,36 +197,34 @@ def comparison_figures(data: xarray.Dataset) -> tuple[Figure, ...]:
 
 
 class _Curve(NamedTuple):
-    """A curve with its name and look."""
+    """A curve with its name and colour."""
 
     name: str
     x: RealArray
     y: RealArray
     color: str
-    linestyle: str
 
 
 def _draw(
     data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0, against: RealArray | None = None
 ) -> list[_Curve]:
-    """Curves of ``data[name]`` in ``unit``, grey where the theory is beyond its limits."""
+    """Curves of ``data[name]`` in ``unit`` within the limits of each theory: those of the nearest
+    in colours, which are returned, the others grey; all in colours without a numerical solution."""
     curves = []
-    x = _values(data["relative_pressure"]) if against is None else against
-    for number, theory in enumerate(data["theory"].values):
+    x, named = _values(data["relative_pressure"]) if against is None else against, nearest(data)
+    for number, theory in enumerate(map(str, data["theory"].values)):
         row = data.sel(theory=theory)
-        values = _values(row[name]) / unit
         valid = np.asarray(row[VALID_BY.get(name, "area_fraction_valid")].values, dtype=bool)
+        values = within_limits(_values(row[name]) / unit, valid, share=name == "area_fraction")
         if not np.isfinite(values).any():
             continue
-        look: dict[str, Any] = {
-            "color": COLOURS[number % len(COLOURS)],
-            "linestyle": LINES[number // len(COLOURS) % len(LINES)],
-        }
-        ax.plot(x, values, color=MUTED, linewidth=0.7, zorder=1.0, label=f"{literal(str(theory))}, beyond its limits")
-        there = bool((valid & np.isfinite(values)).any())
-        words = literal(str(theory)) if there else f"{literal(str(theory))}: nowhere valid"
-        ax.plot(x, np.where(valid, values, np.nan), label=words, **look)
-        curves.append(_Curve(words, x, values, look["color"] if there else "0.6", look["linestyle"]))
+        place = named.index(theory) if theory in named else number
+        if named and theory not in named:
+            ax.plot(x, values, color=OTHERS, linewidth=0.7, zorder=1.0, label=literal(theory))
+            continue
+        colour, line = COLOURS[place % len(COLOURS)], LINES[place // len(COLOURS) % len(LINES)]
+        ax.plot(x, values, color=colour, linestyle=line, label=literal(theory))
+        curves.append(_Curve(literal(theory), x, values, colour))
     return curves
 
 
@@ -207,13 +232,13 @@ def _points(data: xarray.Dataset, name: str, ax: Axes, *, unit: float = 1.0) -> 
     if name not in data:
         return []
     x, values = _values(data["relative_pressure"]), _values(data[name]) / unit
-    ax.plot(x, values, color=BLACK, marker="o", markersize=3.0, linewidth=0.8, label="numerical")
-    return [_Curve("numerical", x, values, BLACK, "-")]
+    ax.plot(x, values, color=BLACK, marker="o", markersize=4.0, linewidth=2.0, zorder=3.0, label="numerical")
+    return [_Curve("numerical", x, values, BLACK)]
 
 
 def _named(ax: Axes, curves: list[_Curve]) -> Axes:
-    """Name every curve where it ends or leaves the axes, in its colour and line; names are moved
-    apart, in the order of the ends."""
+    """Name every curve where it ends or leaves the axes, in its colour; names are moved apart, in
+    the order of the ends."""
     curves = [curve for curve in curves if np.isfinite(curve.y).any()]
     if curves:
         ax.set_xlim(right=max(float(curve.x.max()) for curve in curves))  # curves end where their names begin
@@ -227,7 +252,7 @@ def _named(ax: Axes, curves: list[_Curve]) -> Axes:
     # lowest
     ends.sort(key=lambda end: (end[0], end[1] if end[0] < 0.5 else -end[1]))
     for (y, x, curve), place in zip(ends, apart([end[0] for end in ends], LABEL_ROOM), strict=True):
-        line = {"arrowstyle": "-", "color": curve.color, "linewidth": 0.5, "linestyle": curve.linestyle}
+        line = {"arrowstyle": "-", "color": "0.6", "linewidth": 0.5, "linestyle": ":"}  # no part of the curve
         ax.annotate(
             curve.name,
             (x, y),

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..contact.result import ContactResult
 from ..core import units
 from ..core.arrays import RealArray
 from ..core.grid import Grid
@@ -271,6 +272,9 @@ class Figure:
     """The same map of another step of a load path."""
     wide: bool = False
     """Whether it needs the whole width of a page, as one with a part enlarged does anyway."""
+    of: Any = None
+    """What it shows, such as the contact at one step of a load path; or the number of that step,
+    from 1."""
 
     @cached_property
     def drawing(self) -> Drawing:
@@ -367,9 +371,9 @@ def figures_by(plots: Iterable[Plot], thing: Any) -> tuple[Figure, ...]:
     made = []
     for plot in plots:
         shows = None if plot.shows is None else partial(plot.shows, thing)
-        of_step = plot.shows if plot.by_step else None
+        of_step = plot.shows if plot.by_step and isinstance(thing, ContactResult) else None
         draw = partial(_drawing, plot, thing)
-        made.append(Figure(plot.name, plot.title, plot.caption, draw, plot.kind, shows, of_step))
+        made.append(Figure(plot.name, plot.title, plot.caption, draw, plot.kind, shows, of_step, of=thing))
     return tuple(made)
 
 

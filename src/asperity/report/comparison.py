@@ -16,7 +16,7 @@ from ..parts.part import Table
 from ..plots.comparison import comparison_figures
 from ..plots.picture import Figure
 from ..studies.comparison import Comparison, TheoryCurve
-from .page import software_rows, write_page
+from .page import shown, software_rows, write_page
 
 # A comparison of theories in words for tables.
 
@@ -195,7 +195,7 @@ def write_comparison_report(
         surface=surface_rows(comparison.surface),
         limits=limit_rows(comparison),
         left_out=left_out_rows(comparison),
-        figures=comparison_figures(comparison.dataset) if figures is None else figures,
+        figures=shown(comparison_figures(comparison.dataset) if figures is None else figures),
         provenance=software_rows(software(), heights=surface_provenance(comparison.surface)["digest"]),
         citation_keys=comparison.citation_keys,
         overwrite=overwrite,

@@ -17,6 +17,7 @@ from ..core.citations import REFERENCES
 from ..core.words import printable
 from ..io.atomic import atomic_file
 from ..io.words import Rows
+from ..parts.part import Solved
 from ..plots.picture import Figure
 from ..plots.together import draw_all
 from .scene import as_json, curves_of
@@ -24,6 +25,12 @@ from .scene import as_json, curves_of
 WHOLE = re.compile(r"(?<![\w-])--\w[\w-]*|\d[\d.]*e-\d+")
 """Names of options, and numbers with exponents: no line of a page is broken at their hyphens."""
 
+
+HEADING = re.compile(r'<h2 id="([^"]+)">(.*?)</h2>')
+"""Heading of a section, with what it is called elsewhere in the page."""
+
+CONTENTS = "<!-- contents -->"
+"""Stands in a template for the list of contents."""
 
 POLICY = "default-src 'none'"
 """Stands in a template for the policy of the page."""
@@ -34,7 +41,6 @@ def write_page(
     template: str,
     *,
     citation_keys: Iterable[str],
-    figures: Iterable[Figure] = (),
     overwrite: bool = False,
     **values: Any,
 ) -> None:
@@ -42,7 +48,8 @@ def write_page(
     escaped, to the HTML file ``path``.
 
     Those of every page are ``title`` and ``summary``, those of most ``provenance`` (rows),
-    ``document`` (its text) and ``scene`` (what its viewer shows, see ``scene.scene``).
+    ``document`` (its text), ``figures`` (see ``shown``) and ``scene`` (what its viewer shows, see
+    ``scene.scene``).
 
     Raises
     ------
@@ -54,11 +61,11 @@ def write_page(
         page = rendered(
             template,
             references=[(key, REFERENCES.get(key, "unknown reference")) for key in citation_keys],
-            figures=shown(figures),
             script=Markup(code),
             policy=POLICY,
-            **{"provenance": None, "document": None, "scene": None, **values},
+            **{"provenance": None, "document": None, "figures": [], "scene": None, **values},
         )
+        page = page.replace(CONTENTS, _contents(page), 1)
         # nothing is allowed but embedded pictures, the page's own style sheet and this script
         sheet = page[page.index("<style>") + 7 : page.index("</style>")]
         digests = [base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in (code, sheet)]
@@ -95,20 +102,35 @@ def prose(text: object) -> Markup:
     return Markup(WHOLE.sub(kept, str(escape(printable(str(text), keep="\n\t")))).replace("_", "_<wbr>"))
 
 
-def shown(figures: Iterable[Figure]) -> list[dict[str, Any]]:
-    """``figures`` for a template: the pictures as base64, the points of their curves as JSON."""
+def shown(figures: Iterable[Figure], solved: Solved | None = None) -> list[dict[str, Any]]:
+    """``figures`` for a template: the pictures as base64, the points of their curves as JSON, and
+    the step of the load path of a ``solved`` contact that each is of, in words."""
     figures = tuple(figures)
     draw_all(figures)
     return [
         {
             **{key: getattr(figure, key) for key in ("name", "title", "caption")},
+            "at": step_text(solved, None if solved is None else solved.step_of(figure.of)),
+            "again": figure.kind == "cut" and figure.shows is None,  # a part of a section, enlarged
             "wide": figure.wide or figure.drawing.enlarged,
-            "explored": figure.kind == "map" and figure.shows is not None,
+            "explored": figure.kind == "cut" or (figure.kind == "map" and figure.shows is not None),
             "picture": base64.b64encode(figure.picture).decode("ascii"),
             "curves": curves_of(figure.drawing.curves),
         }
         for figure in figures
     ]
+
+
+def step_text(solved: Solved | None, number: int | None) -> str:
+    """Step ``number`` of the load path of a ``solved`` contact in words; empty for none."""
+    return "" if solved is None or number is None else solved.at(number).where
+
+
+def _contents(page: str) -> str:
+    """List of the sections of ``page`` with links to them."""
+    found = ((name, re.sub(r' <span class="at">.*?</span>', "", text)) for name, text in HEADING.findall(page))
+    links = "\n".join(f'<li><a href="#{name}">{text}</a></li>' for name, text in found)
+    return f'<nav class="contents" aria-label="Contents">\n<ul>\n{links}\n</ul>\n</nav>'
 
 
 def script() -> str:

@@ -14,7 +14,7 @@ from ..plots.picture import Figure
 from ..plots.profile import profile_figures
 from ..surfaces.profile_parameters import NAMES
 from ..surfaces.profile_summary import ProfileCharacterisation
-from .page import software_rows, write_page
+from .page import shown, software_rows, write_page
 
 HEADLINE = ("q", "a", "z", "t", "sk", "ku", "dq", "Sm")
 """Parameters that people look for first, without their letter."""
@@ -119,7 +119,7 @@ def write_profile_report(
         summary=profile_summary(found),
         headline=profile_headline(found),
         remarks=found.remarks,
-        figures=profile_figures(found) if figures is None else figures,
+        figures=shown(profile_figures(found) if figures is None else figures),
         groups=profile_rows(found),
         summits=[],
         peaks=[],

@@ -19,7 +19,7 @@ from ..surfaces.characterise.quantities import GROUPS, QUANTITIES
 from ..surfaces.characterise.summary import Characterisation
 from ..theories.rough.profile_peaks import SampledPeaks
 from ..theories.statistics.nayak import NayakSummits
-from .page import software_rows, write_page
+from .page import shown, software_rows, write_page
 from .scene import scene
 
 # The numbers of a characterisation in words for a table.
@@ -226,7 +226,7 @@ def write_roughness_report(
     row = [("missing points", f"{missing} ({percent(missing / surface.grid.n_points)})")] if missing else []
     source, figures = surface.origin.source, roughness_figures(found) if figures is None else figures
     with drawing(figures):
-        shown = scene(figures, surface.grid)
+        maps = scene(figures, surface.grid)
     write_page(
         path,
         "roughness.html",
@@ -234,8 +234,8 @@ def write_roughness_report(
         summary=summary(found),
         headline=headline_values(found),
         remarks=found.remarks,
-        figures=figures,
-        scene=shown,
+        figures=shown(figures),
+        scene=maps,
         groups=quantity_rows(found),
         summits=summit_comparison(found),
         peaks=peak_comparison(found),

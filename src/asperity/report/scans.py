@@ -20,7 +20,7 @@ from ..surfaces.characterise.scans_scales import ScaleCurve
 from ..surfaces.characterise.scans_spectrum import ScansSpectrum
 from ..surfaces.scans import Scans
 from ..theories.rough.deciding_waves import POINTS_PER_WAVE, DecidingWaves
-from .page import software_rows, write_page
+from .page import shown, software_rows, write_page
 
 _COLUMNS = (("height", "m"), ("slope", "1"), ("curvature", "1/m"))
 _ROWS_PER_DECADE = 3.0  # of the scale-dependent parameters
@@ -159,7 +159,7 @@ def write_page_of_scans(
         summary=scans_summary(told),
         advice=told.findings,
         headline=told.main_rows(),
-        figures=told.figures() if figures is None else figures,
+        figures=shown(told.figures() if figures is None else figures),
         tables=told.tables(),
         facts_rows=[(scan.name, _scan_text(scan.in_words()[1])) for scan in scans],
         provenance=software_rows(software(), **{scan.name: array_digest(scan.heights) for scan in scans}),

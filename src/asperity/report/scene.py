@@ -12,13 +12,15 @@ palettes   256 colours (base64 of red, green, blue bytes) by the name of a colou
 maps       ``name``, ``title``, ``alt``, ``kind`` values or classes, ``shown`` at first, ``blank`` =
            {``text``, ``value``}: what points without a number are, and count as along a line;
            ``reduce`` max, min or mean: what stands for several points; ``along`` null, steps or
-           depths, and an array for each; of values ``unit``, ``colours``, ``range``, ``log``,
-           ``decades`` (0: never logarithmic); of classes ``classes`` = [{``text``, ``colour``}]
-steps      ``label`` and ``texts`` of the slider through the steps of a load path, or null;
-           ``depths`` likewise, of planes in the body
+           depths, and an array for each; ``step`` its place among ``steps`` where it is of that
+           step only, or null; of values ``unit``, ``colours``, ``range``, ``log``, ``decades`` (0:
+           never logarithmic); of classes ``classes`` = [{``text``, ``colour``}]
+steps      ``label`` and ``texts`` of the slider through the steps of a load path, ``numbers`` of
+           these from 1, and ``first``, the place of the decisive one, which is shown at first; or
+           null. ``depths``: ``label`` and ``texts``, of planes in the body
 below      of those planes: ``depths`` (m), unit of ``length``, ``layers``, ``interfaces``
 sections   vertical sections with stored stresses: the entries of a map and of ``below``, ``axis`` x
-           or y, ``start`` on it, one ``array``
+           or y, ``start`` on it, one ``array``, ``step`` as of a map
 spots      name of the map whose islands can be marked, or null
 notes      sentences that stand under the maps
 ========== =======================================================================================
@@ -26,9 +28,9 @@ notes      sentences that stand under the maps
 An array is ``shape`` [nx, ny], ``cell`` (sides of a point, m), ``bits`` 8 or 16, ``low``, ``step``
 and ``data``: base64 of the numbers n, compressed by zlib (or ``url``, an address of the compressed
 bytes). A value is low + step n; the largest n is no value. Numbers stand in rows of y, x fastest.
-Those of 16 bits are stored as differences along x, the first of a row as it is, modulo 2¹⁶, with
-the sign in the lowest bit (0, -1, 1, -2 … as 0, 1, 2, 3 …), all low bytes before all high bytes.
-``shares`` are the shares of the classes of the whole grid.
+Those of 16 bits are stored as differences along y of differences along x, the first of a row or
+column as it is, modulo 2¹⁶, with the sign in the lowest bit (0, -1, 1, -2 … as 0, 1, 2, 3 …), all
+low bytes before all high bytes. ``shares`` are the shares of the classes of the whole grid.
 """
 
 from __future__ import annotations
@@ -37,18 +39,19 @@ import base64
 import json
 import math
 import zlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from ..contact.history import HistoryResult
+from ..contact.result import ContactResult
 from ..core.arrays import RealArray
 from ..core.grid import Grid
 from ..core.registry import STEP_TEXTS, home
 from ..core.units import show
+from ..parts.part import Solved
 from ..plots.contact import row_of_section
 from ..plots.maps import DECADES, Cut, Field, Kinds, Look, limits
 from ..plots.picture import AxesCurves, Figure, colour_table, scale
@@ -61,15 +64,15 @@ BUDGET = 5_000_000
 """Characters that all arrays of a page take at most: with 3 to 4.5 MB of pictures and script a page
 stays below 10 MB."""
 
-LAST_STEP = 16
-"""Points along a side for which one value of a map of earlier steps stands, up to which the last
-step is shown finely."""
-
 MOST_STEPS = 60
 """Steps of a load path that are shown; of longer ones some are left out."""
 
 FIRST = ("heights", "pressure", "contact", "gap")
 """Maps that are shown at first."""
+
+COARSER, COARSEST = 16, 1024
+"""How many times as coarse along a side as the decisive step other steps are shown, before that is
+shown coarser than computed; and points along a side for which one value stands at most."""
 
 MASKED = {8: 255, 16: 65535}
 """Number of a point without a value."""
@@ -112,7 +115,8 @@ def coded(values: RealArray, cell: Sequence[float], *, block: int = 1, how: str 
     else:
         numbers[there] = 0
     rows = np.ascontiguousarray(numbers.T)
-    signed = np.diff(rows, axis=1, prepend=np.uint16(0)).view(np.int16)
+    along = np.diff(rows, axis=1, prepend=np.uint16(0))
+    signed = np.diff(along, axis=0, prepend=np.uint16(0)).view(np.int16)
     folded = ((signed << 1) ^ (signed >> 15)).view(np.uint16)
     data = (folded & 255).astype(np.uint8).tobytes() + (folded >> 8).astype(np.uint8).tobytes()
     return _array(values.shape, cell, block, 16, data) | {"low": low, "step": step}
@@ -139,7 +143,8 @@ def decoded(array: dict[str, Any]) -> RealArray:
     else:
         folded = (data[: nx * ny] | (data[nx * ny :].astype(np.uint16) << 8)).reshape(ny, nx)
         signed = (folded >> 1).view(np.int16) ^ -(folded & 1).astype(np.int16)
-        numbers = np.cumsum(signed, axis=1, dtype=np.int16).view(np.uint16)
+        along = np.cumsum(signed, axis=0, dtype=np.int16)
+        numbers = np.cumsum(along, axis=1, dtype=np.int16).view(np.uint16)
     values = array["low"] + array["step"] * numbers.astype(float)
     return np.where(numbers == MASKED[array["bits"]], np.nan, values).T
 
@@ -150,38 +155,42 @@ def decoded(array: dict[str, Any]) -> RealArray:
 @dataclass
 class _Map:
     """A map of the scene: how it looks, what makes it for each step or depth, and how many points
-    one value stands for."""
+    one value stands for: ``block`` along a side, at the ``decisive`` of several steps ``finest``.
+
+    ``step`` is the place of the only step that it is of.
+    """
 
     name: str
     title: str
     alt: str
     makers: list[Callable[[], Field | Kinds]]
     along: str | None = None
+    step: int | None = None
+    decisive: int | None = None
     block: int = 1
     finest: int = 1
 
     @property
-    def blocks(self) -> list[int]:
-        """How many points along a side one value stands for, in each array."""
-        found = [self.block] * len(self.makers)
-        if self.along == "steps" and self.block <= LAST_STEP:
-            found[-1] = self.finest
-        return found
+    def fine(self) -> list[int]:
+        """Numbers of the arrays that stay as fine as can be: all but those of other steps."""
+        return list(range(len(self.makers))) if self.decisive is None else [self.decisive]
+
+    @property
+    def rest(self) -> list[int]:
+        """Numbers of the other arrays."""
+        return [number for number in range(len(self.makers)) if number not in self.fine]
+
+    def arrays(self, numbers: Iterable[int]) -> dict[int, dict[str, Any]]:
+        """The arrays of these ``numbers``."""
+        return {number: self.code(number) for number in numbers}
 
     def code(self, number: int) -> dict[str, Any]:
-        """Array of one step or depth; the last step is that of the page and as fine as its other
-        maps."""
-        shown, block = self.makers[number](), self.blocks[number]
+        """Array of one step or depth."""
+        shown, block = self.makers[number](), self.finest if number in self.fine else self.block
         if isinstance(shown, Kinds):
             shares = [float(np.mean(shown.kinds == kind)) for kind in range(len(shown.classes))]
             return coded_kinds(shown.kinds, shown.grid.spacing, block=block) | {"shares": shares}
         return coded(shown.values, shown.grid.spacing, block=block, how=shown.look.reduced)
-
-    def size(self) -> int:
-        """Characters of all arrays, from some of them."""
-        count = len(self.makers)
-        some = sorted({0, count // 2, count - 1})
-        return count * max(len(self.code(number)["data"]) for number in some) if count > 3 else 0
 
 
 def scene_of(
@@ -194,7 +203,7 @@ def scene_of(
     """
     result = outcome.solved.at().result
     figures = [*outcome.all_figures, *more]
-    made = scene(figures, result.problem.grid, path=outcome.path, budget=budget, most_points=most_points)
+    made = scene(figures, result.problem.grid, solved=outcome.solved, budget=budget, most_points=most_points)
     if made is None:
         return None
     grid = result.problem.grid
@@ -209,28 +218,21 @@ def scene(
     figures: Iterable[Figure],
     grid: Grid,
     *,
-    path: HistoryResult | None = None,
+    solved: Solved | None = None,
     budget: int = BUDGET,
     most_points: int = MOST_POINTS,
 ) -> dict[str, Any] | None:
-    """Scene of the maps that ``figures`` show on ``grid``, and of other steps of a ``path``; None
-    without any.
+    """Scene of the maps that ``figures`` show on ``grid``, and of other steps of the load path of a
+    ``solved`` contact; None without any.
 
     Of many steps some are shown, evenly chosen, with number and load, and what the physics say of
-    each.
+    each; the decisive one and those of which there are figures are among them.
     """
     if 1 in grid.shape:
         return None
-    steps: list[int] = []
-    texts: list[str] = []
-    if path is not None and (count := len(path.steps)) > 1:
-        shown = min(count, MOST_STEPS)
-        steps = sorted({round(number * (count - 1) / (shown - 1)) for number in range(shown)})
-        more = [home(place)(path.steps) for name, place in STEP_TEXTS.items() if name in path.last.couplings]
-        for number in steps:
-            text = f"{number + 1} of {count}: mean pressure {show(path.steps[number].mean_pressure, 'Pa', 4)}"
-            texts.append(", ".join([text, *(said[number] for said in more)]))
-    maps, depths, cuts = _gathered(figures, grid, path, steps)
+    figures = [figure for figure in figures if figure.shows is not None]
+    steps = _Steps.of(figures, solved)
+    maps, depths, cuts = _gathered(figures, grid, steps)
     if not maps:
         return None
     block = math.ceil(math.sqrt(grid.shape[0] * grid.shape[1] / most_points))
@@ -238,7 +240,7 @@ def scene(
         item.block = item.finest = max(block, 1)
     arrays = _within(maps, budget)
     described = [_described(item, arrays[item.name]) for item in maps]
-    sections = [_section(figure, cut) for figure, cut in cuts]
+    sections = [_section(figure, cut) | {"step": steps.place(figure)} for figure, cut in cuts]
     colours = {item["colours"] for item in (*described, *sections) if "colours" in item}
     length = scale(max(grid.size), "m")
     places = [item.depth for item in depths if item.depth is not None]
@@ -252,21 +254,71 @@ def scene(
         "line": [0.5 * grid.spacing[0], 0.5 * grid.size[1], grid.size[0] - 0.5 * grid.spacing[0], 0.5 * grid.size[1]],
         "palettes": {name: base64.b64encode(colour_table(name)).decode("ascii") for name in sorted(colours)},
         "maps": [item | {"shown": item["name"] in first} for item in described],
-        "steps": {"label": "Load step", "texts": texts} if steps else None,
+        "steps": steps.described(),
         "depths": {"label": "Depth", "texts": [place.words for place in places]} if places else None,
         "below": _layers(layers, [place.value for place in places]) if places else None,
         "sections": sections,
         "spots": None,
-        "notes": _notes(maps, described, path, steps),
+        "notes": _notes(maps, described, steps),
     }
 
 
+@dataclass(frozen=True, eq=False)
+class _Steps:
+    """The steps of the load path of a ``solved`` contact that are shown, by their ``numbers`` from
+    1; none where there is but one load."""
+
+    solved: Solved | None
+    numbers: tuple[int, ...] = ()
+
+    @classmethod
+    def of(cls, figures: Iterable[Figure], solved: Solved | None) -> _Steps:
+        """Evenly chosen steps, the decisive one, and those of the ``figures``."""
+        if solved is None or solved.path is None or (count := len(solved.path.steps)) < 2:
+            return cls(None)
+        needed = {solved.at().number, *(step for figure in figures if (step := solved.step_of(figure.of)))}
+        even = min(count, MOST_STEPS)
+        chosen = [1 + round(number * (count - 1) / (even - 1)) for number in range(even)]
+        missing = needed - set(chosen)
+        for number in sorted(missing):  # in place of the nearest that is not needed and no end
+            free = [place for place in range(1, even - 1) if chosen[place] not in needed]
+            chosen[min(free, key=lambda place: abs(chosen[place] - number))] = number
+        return cls(solved, tuple(sorted(set(chosen))))
+
+    @property
+    def contacts(self) -> list[ContactResult]:
+        """The contacts at these steps."""
+        return [self.solved.at(number).result for number in self.numbers] if self.solved else []
+
+    @property
+    def decisive(self) -> int | None:
+        """Place of the decisive step among them."""
+        return self.numbers.index(self.solved.at().number) if self.solved else None
+
+    def place(self, figure: Figure) -> int | None:
+        """Place of the only step that a ``figure`` is of; None where it is of all."""
+        number = self.solved.step_of(figure.of) if self.solved else None
+        return None if number is None else self.numbers.index(number)
+
+    def described(self) -> dict[str, Any] | None:
+        """Entry of the slider through the steps."""
+        if self.solved is None or self.solved.path is None:
+            return None
+        every = self.solved.path.steps
+        said = [home(place)(every) for name, place in STEP_TEXTS.items() if name in every[-1].couplings]
+        texts = []
+        for number in self.numbers:
+            text = f"{number} of {len(every)}: mean pressure {show(every[number - 1].mean_pressure, 'Pa', 4)}"
+            texts.append(", ".join([text, *(one[number - 1] for one in said)]))
+        return {"label": "Load step", "texts": texts, "numbers": list(self.numbers), "first": self.decisive}
+
+
 def _gathered(
-    figures: Iterable[Figure], grid: Grid, path: HistoryResult | None, steps: Sequence[int]
+    figures: Iterable[Figure], grid: Grid, steps: _Steps
 ) -> tuple[list[_Map], list[Field], list[tuple[Figure, Cut]]]:
     """Maps, planes in the body and vertical sections of ``figures``."""
     maps: dict[str, _Map] = {}
-    depths: list[Field] = []
+    depths: list[tuple[Field, int | None]] = []
     cuts: list[tuple[Figure, Cut]] = []
     known: list[Any] = []
     for figure in figures:
@@ -277,42 +329,67 @@ def _gathered(
         if isinstance(shown, Cut):
             cuts.append((figure, shown))
         elif isinstance(shown, Field) and shown.depth is not None:
-            depths.append(shown)
+            depths.append((shown, steps.place(figure)))
         elif shown.grid.shape == grid.shape and figure.name not in maps:
             alt = f"{figure.title}. {figure.text}"
             made = _Map(figure.name, figure.title, alt, [lambda shown=shown: shown])  # type: ignore[misc]
-            if path is not None and steps and figure.of_step is not None:
+            if steps.numbers and figure.of_step is not None:
                 by_step = figure.of_step
-                made.makers = [lambda by=by_step, n=n: by(path.steps[n]) for n in steps]  # type: ignore[misc]
-                made.along = "steps"
+                made.makers = [lambda by=by_step, one=one: by(one) for one in steps.contacts]  # type: ignore[misc]
+                made.along, made.decisive = "steps", steps.decisive
+            elif figure.of_step is not None or not isinstance(figure.of, ContactResult):
+                made.step = steps.place(figure)
             maps[figure.name] = made
-    depths.sort(key=lambda item: item.depth.value if item.depth else 0.0)
-    if depths:
-        label = depths[0].look.label[:1].upper() + depths[0].look.label[1:]
-        planes = [lambda item=item: item for item in depths]
-        maps["planes"] = _Map("planes", label, f"{label} on planes in the body.", planes, "depths")  # type: ignore[arg-type]
-    return list(maps.values()), depths, cuts
+    planes = [field for field, _ in sorted(depths, key=lambda item: item[0].depth.value if item[0].depth else 0.0)]
+    if planes:
+        label = planes[0].look.label[:1].upper() + planes[0].look.label[1:]
+        makers = [lambda item=item: item for item in planes]
+        maps["planes"] = _Map("planes", label, f"{label} on planes in the body.", makers, "depths", depths[0][1])  # type: ignore[arg-type]
+    return list(maps.values()), planes, cuts
 
 
 def _within(maps: Sequence[_Map], budget: int) -> dict[str, list[dict[str, Any]]]:
-    """Arrays of all maps by name, coarser where they would take more than ``budget`` characters:
-    first those that take most."""
-    sizes = {item.name: item.size() for item in maps}
+    """Arrays of all maps by name, coarser where they would take more than ``budget`` characters.
+
+    First all steps but the decisive one, of the map of which they take most; the decisive step and
+    what is of one step only where the others are ``COARSER`` times as coarse already.
+    """
+    fine = {item.name: item.arrays(item.fine) for item in maps}
+    rest = {item.name: len(item.rest) * _taken({"": fine[item.name]}) for item in maps}  # a guess
+    every: dict[str, dict[int, dict[str, Any]]] = {}
     while True:
-        while sum(sizes.values()) > budget and (largest := max(maps, key=lambda item: sizes[item.name])).block < 1024:
+        over = _taken(fine) + sum(rest.values()) > budget
+        free = [item for item in maps if item.rest and item.block < min(COARSER * item.finest, COARSEST)]
+        finer = [item for item in maps if item.finest < COARSEST]
+        if not every and not (over and free):
+            every = {item.name: fine[item.name] | item.arrays(item.rest) for item in maps}
+            rest = {name: _taken({"": made}) - _taken({"": fine[name]}) for name, made in every.items()}
+        elif over and free:
+            largest = max(free, key=lambda item: rest[item.name])
             largest.block *= 2
-            sizes[largest.name] //= 3
-        arrays = {item.name: [item.code(number) for number in range(len(item.makers))] for item in maps}
-        sizes = {name: sum(len(array["data"]) for array in made) for name, made in arrays.items()}
-        if sum(sizes.values()) <= budget or all(item.block >= 1024 for item in maps):
-            return arrays
+            rest[largest.name] //= 3
+            every = {}
+        elif over and finer:
+            largest = max(finer, key=lambda item: _taken({"": fine[item.name]}))
+            largest.finest *= 2
+            largest.block = max(largest.block, largest.finest)
+            fine[largest.name] = largest.arrays(largest.fine)
+            every = {}
+        else:
+            return {name: [made[number] for number in sorted(made)] for name, made in every.items()}
+
+
+def _taken(arrays: Mapping[str, Mapping[int, dict[str, Any]]]) -> int:
+    """Characters of all ``arrays``."""
+    return sum(len(array["data"]) for made in arrays.values() for array in made.values())
 
 
 def _described(item: _Map, arrays: list[dict[str, Any]]) -> dict[str, Any]:
     """Entry of a map."""
     shown = [make() for make in ((item.makers[0], item.makers[-1]) if item.along != "steps" else item.makers)]
     last = shown[-1]
-    made: dict[str, Any] = {"name": item.name, "title": item.title, "alt": item.alt, "along": item.along}
+    made: dict[str, Any] = {"name": item.name, "title": item.title, "alt": item.alt}
+    made |= {"along": item.along, "step": item.step}
     if isinstance(last, Kinds):
         classes = max((one.classes for one in shown if isinstance(one, Kinds)), key=len)
         described = [{"text": name, "colour": colour} for name, colour in classes]
@@ -363,9 +440,7 @@ def _section(figure: Figure, cut: Cut) -> dict[str, Any]:
 # Steps of a load path, and what the reader must know.
 
 
-def _notes(
-    maps: Sequence[_Map], described: Sequence[dict[str, Any]], path: HistoryResult | None, steps: Sequence[int]
-) -> list[str]:
+def _notes(maps: Sequence[_Map], described: Sequence[dict[str, Any]], steps: _Steps) -> list[str]:
     """How exact the shown values are, what is shown coarser than it was computed, and which steps
     are left out."""
     notes = [
@@ -380,16 +455,16 @@ def _notes(
             if item.block != block:
                 continue
             how = REDUCED[entry["reduce"]] if entry["kind"] == "values" else "the kind that is last in its key"
-            last = item.blocks[-1]
-            if last < block:
-                how += ", in all steps but the last" + (f", which has one for each {last} × {last}" if last > 1 else "")
+            if item.decisive is not None and item.finest < block:
+                how += f", in all steps but step {steps.numbers[item.decisive]}"
+                how += f", which has one for each {item.finest} × {item.finest}" if item.finest > 1 else ""
             names.append(f"{item.title} ({how})")
         notes.append(
             f"Shown coarser than computed, to keep this page small: one value for each {block} × {block} "
             f"points in {', '.join(names)}. Numbers and tables of this page are those of all points."
         )
-    if path is not None and 0 < len(steps) < len(path.steps):
-        notes.append(f"The slider shows {len(steps)} of the {len(path.steps)} steps, evenly chosen.")
+    if steps.solved is not None and len(steps.numbers) < (count := steps.solved.at().many):
+        notes.append(f"The slider shows {len(steps.numbers)} of the {count} steps, evenly chosen.")
     return notes
 
 

@@ -33,7 +33,7 @@ from ..plots.together import save_pictures
 from ..studies.campaign import Campaign
 from ..studies.collect import CampaignState, Cause
 from ..studies.monte_carlo import CONFIDENCE, estimate
-from .page import software_rows, write_page
+from .page import shown, software_rows, write_page
 
 if TYPE_CHECKING:
     import xarray
@@ -370,7 +370,7 @@ def write_study_report(
         tables=[(name, heading, table) for name, heading, table in found if table is not None and table.cells],
         cases=case_table(campaign, data),
         n_cases=int(data["outcome"].size),
-        figures=study_figures(campaign, data, derived) if figures is None else figures,
+        figures=shown(study_figures(campaign, data, derived) if figures is None else figures),
         provenance=[
             ("collected (UTC)", data.attrs["created"]),
             *software_rows(json.loads(data.attrs["software"])),

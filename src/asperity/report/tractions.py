@@ -29,7 +29,7 @@ def write_tractions_report(
         summary=" ".join(words.sentence for _, words in sections),
         inputs=traction_rows(loaded, document),
         scene=scene((figure for group in outcome.figures.values() for figure in group), loaded.problem.grid),
-        sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in sections],
+        sections=[(p.name, p.title, "", words, shown(outcome.figures[p.name])) for p, words in sections],
         provenance=software_rows(software()),
         citation_keys=outcome.citation_keys,
         document=text,

@@ -19,11 +19,12 @@ from ..io.words import (
     setting_rows,
     surface_rows,
 )
+from ..parts.part import Part
 from ..parts.registry import versions
 from ..plots.together import drawing
 from ..run.execute import Outcome, analysed
 from ..run.verdict import doubted, verdict
-from .page import shown, software_rows, write_page
+from .page import shown, software_rows, step_text, write_page
 from .scene import scene_of
 
 
@@ -93,9 +94,12 @@ def write_report(
         inputs=inputs,
         certificate=certificate_rows(result),
         results=result_rows(result, given.doubted),
-        figures=outcome.pictures,
+        figures=shown(outcome.pictures, outcome.solved),
         scene=maps,
-        sections=[(p.name, p.title, words, shown(outcome.figures[p.name])) for p, words in outcome.sections],
+        sections=[
+            (p.name, p.title, where(outcome, p), words, shown(outcome.figures[p.name], outcome.solved))
+            for p, words in outcome.sections
+        ],
         advice=given.others,
         provenance=[
             ("written (UTC)", stored["created"]),
@@ -106,3 +110,9 @@ def write_report(
         document_of="Problem",
         overwrite=overwrite,
     )
+
+
+def where(outcome: Outcome, part: Part) -> str:
+    """Step of the load path of an ``outcome`` that what a ``part`` says is about, in words; empty
+    where it is about all of it."""
+    return step_text(outcome.solved, part.at_work.step(outcome.found[part.name], outcome.solved))

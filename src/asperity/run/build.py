@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -23,7 +24,7 @@ from ..core import units
 from ..core.citations import citation_keys
 from ..core.engine import CpuEngine, Engine
 from ..core.engine.gpu import GpuEngine
-from ..core.errors import InputError
+from ..core.errors import AsperityError, InputError
 from ..core.grid import Grid
 from ..core.registry import role
 from ..core.settings import Settings, json_schema, problems
@@ -153,9 +154,26 @@ class Case:
         return replace(self, document=document, control=control, path=path)
 
 
-def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple[Part, ...] = ()) -> Case:
+@contextmanager
+def _about(key: str) -> Iterator[None]:
+    """Context whose errors are about the table ``key`` of the document."""
+    try:
+        yield
+    except AsperityError as error:
+        error.place = error.place or key
+        raise
+
+
+def build(
+    document: ProblemDocument,
+    base_folder: str | Path = ".",
+    known: tuple[Part, ...] = (),
+    *,
+    surfaces: Callable[[SurfaceTable, SurfaceTable | None, Path], tuple[Surface, Surface | None]] | None = None,
+) -> Case:
     """Objects described by ``document``; its relative file paths start at ``base_folder``;
-    ``known`` parts, by default the installed ones.
+    ``known`` parts, by default the installed ones; ``surfaces`` makes other surfaces than those of
+    the document.
 
     Raises
     ------
@@ -163,24 +181,31 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
         If a file cannot be read, a material is unknown, or the parts do not fit together.
     """
     folder = Path(base_folder)
-    body = build_body(document.body, folder)
-    counter_body = build_body(document.counter_body, folder)
-    surface, counter_surface = build_surfaces(document.surface, document.counter_surface, folder)
+    with _about("body"):
+        body = build_body(document.body, folder)
+    with _about("counter_body"):
+        counter_body = build_body(document.counter_body, folder)
+    with _about("surface"):
+        surface, counter_surface = (surfaces or build_surfaces)(document.surface, document.counter_surface, folder)
     boundary: Boundary = Free() if document.boundary.kind == "free" else Periodic()
     if document.boundary.kind == "line":
         datum = document.boundary.datum
         boundary = FreeLine(None if datum is None else units.parse(datum, "length", "boundary.datum"))
+    with _about("law"):
+        law = build_law(document.law, (body, counter_body))
     problem = ContactProblem(
         surface,
         body,
         Flat() if counter_surface is None else counter_surface,
         counter_body,
         boundary,
-        build_law(document.law, (body, counter_body)),
+        law,
     )
-    known = known or parts()
-    concerned = (part for part in known if part.settings_in(document) is not None)
-    asks = {part.name: ask for part in concerned if (ask := part.asked(document, folder)) is not None}
+    known, asks = known or parts(), dict[str, Any]()
+    for part in known:
+        with _about(part.table):
+            if part.settings_in(document) is not None and (ask := part.asked(document, folder)) is not None:
+                asks[part.name] = ask
     asked = [part for part in known if part.name in asks]
     joined: dict[str, Any] = {}
     own: list[Physics] = []
@@ -190,7 +215,8 @@ def build(document: ProblemDocument, base_folder: str | Path = ".", known: tuple
         joined |= given
     problem = replace(problem, physics=tuple(own), **joined)
     for part in asked:
-        part.at_work.check(asks[part.name], problem)
+        with _about(part.table):
+            part.at_work.check(asks[part.name], problem)
     for part in asked:
         problem = part.at_work.altered(asks[part.name], problem)
     control, path = build_course(document, asks, known, surface.size[1])
@@ -261,7 +287,8 @@ def build_course(
     alone = found if table is None else ()
     for part in known:
         if part.name in asks:
-            found = part.at_work.course(asks[part.name], found)
+            with _about(part.table):
+                found = part.at_work.course(asks[part.name], found)
     return as_step(found[-1]).normal, () if found == alone else found
 
 

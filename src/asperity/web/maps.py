@@ -142,6 +142,62 @@ def in_space(heights: Any, colours: Any, spacing: tuple[float, float], title: st
     }
 
 
+OF_THEORIES = ("pressures", "exact", "theories", "nearest")
+"""What the picture of theories shows, as arguments of ``theories``."""
+
+
+def theories(
+    pressures: list[float],
+    exact: list[float | None] | None,
+    theories: list[tuple[str, list[float | None]]],
+    nearest: list[str],
+) -> dict[str, Any]:
+    """Area fractions over mean pressures (Pa): those of the ``exact`` solution bold and black, on
+    top; of the theories the ``nearest`` in colours, by name, the others grey, named at the
+    pointer."""
+    symbol, factor = scaled(float(np.median(pressures)), "Pa", "pressure")
+    x = [pressure / factor for pressure in pressures]
+    hover = f"%{{x:.3g}} {symbol}: %{{y:.3g}}<extra></extra>"
+    traces: list[dict[str, Any]] = []
+
+    def add(name: str, y: list[float | None], line: dict[str, Any], **more: Any) -> None:
+        common: dict[str, Any] = {"type": "scatter", "mode": "lines", "x": x, "y": y, "meta": name, "name": name}
+        traces.append(
+            common | {"hovertemplate": f"<b>{name}</b><br>{hover}", "line": line, "connectgaps": False} | more
+        )
+
+    others = [item for item in theories if nearest and item[0] not in nearest]
+    for number, (name, area) in enumerate(others):
+        add(name, area, {"color": "#b4b8be", "width": 1}, legendrank=1003, legendgroup="others")
+        traces[-1] |= {"name": "other theories", "showlegend": number == 0}
+    named = [item for item in theories if item not in others]
+    named.sort(key=lambda item: nearest.index(item[0]) if nearest else 0)
+    for number, (name, area) in enumerate(named):
+        colour, dash = COLOURS[number % (len(COLOURS) - 1)], ("solid", "dash", "dot")[number // (len(COLOURS) - 1) % 3]
+        add(name, area, {"color": colour, "width": 1.8, "dash": dash}, legendrank=1002)
+    if exact is not None:
+        line = {"color": "#000000", "width": 3.5}
+        add("boundary elements", exact, line, mode="lines+markers", marker={"color": "#000000"}, legendrank=1001)
+    plain = {"type": "log", "tickformat": "~g", "dtick": 1}
+    return {
+        "data": traces,
+        "layout": layout(
+            xaxis=axis(f"mean pressure / {symbol}", **plain),
+            yaxis=axis("real over nominal area", **plain, range=[_least(exact, theories), 0.0]),
+            legend={"orientation": "h", "y": 1.14},
+            showlegend=True,
+        ),
+        "config": CONFIG,
+    }
+
+
+def _least(exact: list[float | None] | None, theories: list[tuple[str, list[float | None]]]) -> float:
+    """Logarithm of the lower end of the axis: half the least area of the exact solution, or of the
+    theories."""
+    known = [value for area in ([exact] if exact else [area for _, area in theories]) for value in area if value]
+    return float(np.log10(0.5 * min(known, default=0.02)))
+
+
 def curves(
     lines: list[tuple[str, Any, Any]], x: str, y: str, *, log: bool = False, points: bool = True
 ) -> dict[str, Any]:

@@ -5,17 +5,22 @@ from __future__ import annotations
 
 import base64
 import json
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from nicegui import ui
+from nicegui import events, ui
 
+from ..core.errors import AsperityError
+from ..core.status import SENTENCES
 from ..core.units import show
 from . import maps
 from .layout import failure, rows
-from .pages_run import downloads
+from .pages_run import downloads, start
+from .remedies import Remedy, remedies
 from .session import Run, Session
 from .views import SHOWN, THEORIES
 
@@ -70,6 +75,8 @@ class _Explored:
             ui.html(f"<h2>Run {run.key.split('-')[0]}</h2>", sanitize=False)
         self.box = ui.element("div").classes("whole")
         self.client = ui.context.client
+        self.fill_spots: Callable[[int], None] = lambda step: None
+        ui.on("asperity-step", self.stepped)
         ui.timer(0.01, self.load, once=True)
 
     def file(self, ending: str) -> Path:
@@ -104,6 +111,7 @@ class _Explored:
         message, remedy, converged = shown["status"]
         if not converged:
             failure(f"Not converged: {message} {remedy}")
+            self.remedies(shown, "{iterations}")
         grade, fails = shown["grade"], shown["fails"]
         classes = (
             "",
@@ -114,20 +122,25 @@ class _Explored:
             with ui.element("div").classes(f"verdict {style}").props(f"data-verdict={name}"):
                 ui.label(name).classes("table-title")
                 ui.label(text)
+                for _, _, _, advised, beside in shown["findings"] if name == SENTENCES[-1] else ():
+                    if not beside:  # the sentence tells it
+                        self.remedies(shown, advised)
         with ui.element("div").classes("tiles"):
             for label, text in shown["headline"]:
                 with ui.element("div").classes("tile"):
                     ui.label(text).classes("value")
                     ui.label(label).classes("hint")
-        for level, criterion, text in shown["findings"]:
-            with ui.element("div").classes("finding" if level == "warning" else "finding note"):
+        for level, criterion, text, advised, beside in shown["findings"]:
+            if not beside:
+                continue
+            with ui.element("div").classes("finding" if level == "warning" else "finding note").props("data-finding"):
                 ui.label(criterion).classes("table-title")
                 ui.label(text)
+                self.remedies(shown, advised)
         downloads(self.key, self.session, self.run)
         ui.button("Fields as VTK", icon="download", on_click=self.vtk).props("no-caps flat dense")
         name = f"scene-{self.run.key}"
-        at = f" at {shown['at']}" if shown["at"] else ""
-        ui.html(f"<h2>Maps and section{at}</h2>", sanitize=False)
+        ui.html("<h2>Maps and section</h2>", sanitize=False)
         if not shown["stressed"]:
             with ui.row().classes("item-head"):
                 ui.label("No stresses were asked for.").classes("hint")
@@ -138,7 +151,8 @@ class _Explored:
             f'id="{name}" data-scene="/views/{self.key}/{self.run.key}" role="region" aria-label="maps of the contact"'
         )
         self.spots(shown, name)
-        ui.html("<h2>Surface in space</h2>", sanitize=False)
+        at = f" at {shown['at']}" if shown["at"] else ""
+        ui.html(f"<h2>Surface in space{at}</h2>", sanitize=False)
         space = ui.element("div").classes("whole")
 
         def in_space() -> None:
@@ -151,6 +165,30 @@ class _Explored:
         self.theories()
         self.words(shown)
 
+    def remedies(self, shown: dict[str, Any], text: str) -> None:
+        """What the ``text`` of a remedy advises: applied to the document of this run, which is then
+        run again, or the page where a person chooses."""
+        for item in remedies(text, self.run.table, shown["points"], shown["cell"]):
+            if item.table is None:
+                ui.link(f"Choose {item.words}", f"/s/{self.key}/{item.page}").classes("remedy").props("data-choose")
+            else:
+                button = ui.button(f"{item.words}: apply and run again", icon="replay")
+                button.props("no-caps outline dense data-remedy").classes("remedy")
+                button.on_click(lambda item=item: self.again(item))
+
+    def again(self, item: Remedy) -> None:
+        """Run the document of this run once more, with the remedy ``item``; the change can be
+        undone."""
+        assert item.table is not None
+        self.session.draft.replace(item.table)
+        self.session.touched()
+        try:
+            start(self.session, f"{self.run.title}, {item.words}")
+        except AsperityError as error:
+            ui.notify(self.session.said(str(error)), type="negative", multi_line=True)
+            return
+        ui.navigate.to(f"/s/{self.key}/run")
+
     async def vtk(self) -> None:
         """Write the fields for ParaView and give them out."""
         out = self.session.scratch / f"{self.run.key}.vti"
@@ -162,25 +200,31 @@ class _Explored:
             ui.download.file(out, "fields.vti")
 
     def spots(self, shown: dict[str, Any], name: str) -> None:
-        """Table of contact spots; a row is marked in the maps."""
-        found = shown["spots"]
-        with ui.expansion(f"Contact spots: {shown['spot_count']}").classes("wide").props("data-spots"):
-            if len(found) < shown["spot_count"]:
-                ui.label(f"The {len(found)} largest.").classes("hint")
+        """Table of the contact spots of the load step that the maps show; a row is marked in
+        them."""
+        texts = shown["step_texts"]
+        box = ui.expansion().classes("wide").props("data-spots")
+        with box:
+            note = ui.label().classes("hint")
             ui.label("Choose a row: the spot is marked in the maps.").classes("hint")
-            with ui.element("div").classes("spots"), ui.element("table"):
-                with ui.element("thead"), ui.element("tr"):
-                    for text in ("spot", "x", "y", "area", "load", "mean pressure", "largest pressure"):
-                        with ui.element("th").props('scope="col"'):
-                            ui.label(text)
-                with ui.element("tbody"):
-                    for number, (x, y, *values) in enumerate(found, start=1):
-                        with ui.element("tr").props(f'tabindex=0 data-spot="{x!r},{y!r}" data-of="{name}"'):
-                            texts = [show(x, "m", 4), show(y, "m", 4)]
-                            texts += [show(v, u, 4) for v, u in zip(values, ("m**2", "N", "Pa", "Pa"), strict=True)]
-                            for text in (str(number), *texts):
-                                with ui.element("td"):
-                                    ui.label(text)
+            table = ui.html("", sanitize=False).classes("spots")
+
+        def fill(step: int) -> None:
+            found = shown["spots"][step]
+            box.text = f"Contact spots: {found['count']}" + (f", at step {texts[step]}" if texts[step] else "")
+            note.text = f"The {len(found['rows'])} largest."
+            note.set_visibility(len(found["rows"]) < found["count"])
+            table.content = _spot_table(found["rows"], name)
+
+        fill(shown["step"])
+        self.fill_spots = fill
+
+    def stepped(self, event: events.GenericEventArguments) -> None:
+        """The maps of a run show another load step: so does its table of spots."""
+        of, step = event.args.get("of"), event.args.get("step")
+        if of == f"scene-{self.run.key}" and isinstance(step, int) and step >= 0:
+            with suppress(IndexError):
+                self.fill_spots(step)
 
     def in_space(self, space: dict[str, Any]) -> None:
         """The surface in space, coloured by one of several fields."""
@@ -221,14 +265,7 @@ class _Explored:
             box.clear()
             with box:
                 ui.label(answer["sentence"])
-                lines = [
-                    (name, answer["pressures"], [np.nan if v is None else v for v in area])
-                    for name, area, _ in answer["lines"]
-                ]
-                figure = maps.curves(lines, "mean pressure / Pa", "real over nominal area", log=True)
-                figure["layout"]["yaxis"]["type"] = "log"
-                figure["layout"]["legend"] = {"font": {"size": 10}}
-                ui.plotly(figure).classes("space")
+                ui.plotly(maps.theories(**{key: answer[key] for key in maps.OF_THEORIES})).classes("space theories")
                 with ui.expansion(f"Left out: {len(answer['left_out'])}").classes("wide"):
                     rows(answer["left_out"])
                 for text in answer["remarks"]:
@@ -272,6 +309,20 @@ class _Explored:
                     ui.label(text).classes("hint")
         with ui.expansion("Certificate: what proves the solution").classes("wide").props("data-certificate"):
             _table(["", "value", "meaning"], shown["certificate"])
+
+
+def _spot_table(rows: list[list[float]], name: str) -> str:
+    """Spots as HTML: place, area, load, mean and largest pressure; of the maps of the element
+    ``name``."""
+    headings = ("spot", "x", "y", "area", "load", "mean pressure", "largest pressure")
+    made = "".join(f'<th scope="col">{text}</th>' for text in headings)
+    lines = [f"<table><thead><tr>{made}</tr></thead><tbody>"]
+    for number, (x, y, *values) in enumerate(rows, start=1):
+        texts = [str(number), show(x, "m", 4), show(y, "m", 4)]
+        texts += [show(v, u, 4) for v, u in zip(values, ("m**2", "N", "Pa", "Pa"), strict=True)]
+        cells = "".join(f"<td>{text}</td>" for text in texts)
+        lines.append(f'<tr tabindex="0" data-spot="{x!r},{y!r}" data-of="{name}">{cells}</tr>')
+    return "".join([*lines, "</tbody></table>"])
 
 
 def _table(headings: list[str], cells: list[list[str]]) -> None:

@@ -20,6 +20,7 @@ from ..solids.moduli_file import fitted_file
 from .draft import Keys, moduli_files
 from .forms import Asked, asked_of
 from .layout import drop
+from .refused import Refused
 from .session import Session
 from .widgets import Context, form, listed, nested
 
@@ -33,10 +34,12 @@ FILLS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00")
 def bodies_page(key: str, session: Session) -> None:
     """Body and counter body: one material, layers on a base, or rigid, with a drawing to scale."""
     drawings: dict[str, Any] = {}
+    refused = Refused(session, of_bodies=True)
 
     def changed(keys: Keys) -> None:
         for draw in drawings.values():
             draw.refresh()
+        refused.later()
 
     context = Context(session, changed)
     model = document_model()
@@ -46,6 +49,7 @@ def bodies_page(key: str, session: Session) -> None:
             with ui.element("section"):
                 ui.html(f"<h2>{title}</h2>", sanitize=False)
                 _body(context, item, name)
+                refused.slot(name)
 
             @ui.refreshable
             def drawing(name: str = name) -> None:
@@ -238,16 +242,20 @@ def _name(part: Any) -> str:
 
 def load_page(key: str, session: Session) -> None:
     """Load and history, boundary and law, and every part that declares settings."""
-    context = Context(session, lambda keys: None)
+    refused = Refused(session)
+    context = Context(session, refused.later)
     model = document_model()
     core = ("control", "boundary", "law", "solver")
     entries = {item.name: item for item in asked_of(model, OF_PAGES)}
     with ui.element("div").classes("two"):
         with ui.element("section"):
+            refused.slot("")
             for name in core:
                 nested(context, entries[name], (name,))
+                refused.slot(name)
         with ui.element("section"):
             ui.label("Physics of the interface and analyses").classes("table-title")
             for name, item in entries.items():
                 if name not in core:
                     nested(context, item, (name,))
+                    refused.slot(name)

@@ -15,6 +15,7 @@ from ..run.build import large_grid, stated_points
 from ..run.document import save_document
 from .draft import plain_name
 from .layout import failure
+from .refused import Refused
 from .session import Run, Session
 from .widgets import Context
 from .workers import CANCELLED, Worker, reported
@@ -100,7 +101,8 @@ def run_page(key: str, session: Session) -> None:
                 for text in missing:
                     failure(text)
             else:
-                ui.label("The document is complete.").classes("numbers")
+                ui.label("The document is complete.").classes("numbers complete")
+                Refused(session).slot("")
                 if large := large_grid(stated_points(session.draft.document().surface)):
                     failure(large)
             button = ui.button("Run", icon="play_arrow", on_click=begin).props("no-caps data-run")

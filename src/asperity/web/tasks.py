@@ -41,6 +41,7 @@ from ..run.archive import carried
 from ..run.build import build, build_surface
 from ..run.document import load_document, loads
 from ..run.execute import analysed, execute
+from ..run.refusals import refusals
 from ..run.stored import load_outcome
 from ..studies.campaign import prepare_study
 from ..surfaces.characterise.heights import height_parameters
@@ -293,6 +294,13 @@ def _stage(file: Path) -> Callable[[str], Any]:
         yield _Reporter(file, name)
 
     return stage
+
+
+@guarded
+def refused(task: Task) -> dict[str, Any]:
+    """What the complete document ``table``, whose paths start at ``folder``, would be refused for
+    before it is solved: place and text of each."""
+    return {"refused": [list(item) for item in refusals(task["table"], Path(task["folder"]))]}
 
 
 @guarded

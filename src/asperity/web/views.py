@@ -8,23 +8,26 @@ import json
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from ..contact.measure import labelled
 from ..contact.problem import ContactProblem
+from ..contact.result import ContactResult
 from ..core.arrays import RealArray
 from ..io.words import certificate_rows, result_rows
 from ..physics.stress.figures import map_figure
+from ..plots.comparison import nearest, within_limits
 from ..plots.picture import Figure
 from ..report.comparison import comparison_sentence
 from ..report.scene import reduced, scene_of
+from ..report.write import where
 from ..run.execute import Outcome
 from ..run.verdict import verdict
 from ..studies.compare import compare
 
-SCENE, SHOWN, THEORIES = ".scene.json", ".shown.json", ".theories.json"
+SCENE, SHOWN, THEORIES = ".maps.json", ".page.json", ".curves.json"
 """Endings of the files; each is named after the folder of its run."""
 
 BUDGET = 40_000_000
@@ -56,31 +59,43 @@ def write_views(outcome: Outcome, views: Path) -> None:
         rows = np.ascontiguousarray(reduced(np.asarray(values, float), block, how).T, dtype="<f4")
         space[name] = base64.b64encode(rows.tobytes()).decode("ascii")
         space["shape"] = list(rows.shape)
-    # place of the largest pressure, area, load, mean and largest pressure of the largest contact
-    # spots, SI
-    grid, pressure = result.problem.grid, np.asarray(result.pressure, dtype=float)
-    labels, count = labelled(result.contact, wraps=result.problem.boundary.wraps)
-    pixel = math.prod(grid.spacing)
-    sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
-    loads = np.bincount(labels.ravel(), pressure.ravel(), minlength=count + 1)[1:] * pixel
-    order = np.argsort(pressure, axis=None)  # the last of a label is its largest
-    tops = np.zeros(count + 1, dtype=np.intp)
-    tops[labels.ravel()[order]] = order
-    spots = []
-    for number in np.argsort(-sizes)[:MOST_SPOTS]:
-        i, j = np.unravel_index(tops[number + 1], pressure.shape)
-        place = [float((index + 0.5) * side) for index, side in zip((i, j), grid.spacing, strict=True)]
-        area, load = float(sizes[number] * pixel), float(loads[number])
-        spots.append([*place, area, load, load / area, float(pressure[i, j])])
+    steps = scene["steps"] if scene else None
+    numbers: list[int | Literal["peak"]] = steps["numbers"] if steps else ["peak"]
     shown = {
         "space": space,
-        "spots": spots,
-        "spot_count": int(count),
+        "spots": [_spots(outcome.solved.at(number).result) for number in numbers],
+        "step": steps["first"] if steps else 0,
+        "step_texts": steps["texts"] if steps else [""],
         "stressed": "stress" in outcome.found,
         "steps": 0 if outcome.path is None else len(outcome.path.steps),
         **_words(outcome),
     }
     _write(views.with_name(views.name + SHOWN), shown)
+
+
+def _spots(result: ContactResult) -> dict[str, Any]:
+    """Their ``count``, and place of the largest pressure, area, load, mean and largest pressure of
+    the largest contact spots of ``result``, SI."""
+    grid, there = result.problem.grid, np.flatnonzero(result.contact)
+    labels, count = labelled(result.contact, wraps=result.problem.boundary.wraps)
+    pressure, spot, pixel = (
+        np.asarray(result.pressure, float).ravel()[there],
+        labels.ravel()[there],
+        math.prod(grid.spacing),
+    )
+    sizes = np.bincount(spot, minlength=count + 1)[1:]
+    loads = np.bincount(spot, pressure, minlength=count + 1)[1:] * pixel
+    order = np.argsort(pressure)  # the last of a label is its largest
+    tops = np.zeros(count + 1, dtype=np.intp)
+    tops[spot[order]] = order
+    rows = []
+    for number in np.argsort(-sizes, kind="stable")[:MOST_SPOTS]:
+        top = tops[number + 1]
+        places = np.unravel_index(there[top], grid.shape)
+        place = [float((index + 0.5) * side) for index, side in zip(places, grid.spacing, strict=True)]
+        area, load = float(sizes[number] * pixel), float(loads[number])
+        rows.append([*place, area, load, load / area, float(pressure[top])])
+    return {"count": int(count), "rows": rows}
 
 
 def _write(file: Path, content: Any) -> None:
@@ -99,7 +114,7 @@ def _planes(outcome: Outcome) -> Iterator[Figure]:
     free = np.array([depth for depth in depths if not np.isclose(depth, asked, rtol=1e-6, atol=0.0).any()])
     chosen = free[np.unique(np.linspace(0, free.size - 1, PLANES).round().astype(int))] if free.size else free
     for number, plane in enumerate(survey.planes(chosen), start=1):
-        yield map_figure(plane, number, outcome.result.problem.boundary)
+        yield map_figure(plane, number, outcome.result.problem.boundary, step=survey.step)
 
 
 def _words(outcome: Outcome) -> dict[str, Any]:
@@ -112,13 +127,17 @@ def _words(outcome: Outcome) -> dict[str, Any]:
         "fails": given.fails,
         "at": reached.where,
         "status": [outcome.status.message, outcome.status.remedy, outcome.converged],
-        "findings": [[item.level, item.criterion, item.message] for item in given.others],
+        "findings": [
+            [item.level, item.criterion, item.message, item.remedy, item in given.others] for item in given.findings
+        ],
+        "points": list(result.problem.grid.shape),
+        "cell": list(result.problem.grid.spacing),
         "headline": [list(row) for row in given.headline],
         "results": [list(row) for row in result_rows(result, given.doubted)],
         "certificate": [list(row) for row in certificate_rows(result)],
         "parts": [
             {
-                "title": part.title,
+                "title": f"{part.title} at {at}" if (at := where(outcome, part)) else part.title,
                 "sentence": words.sentence,
                 "rows": [list(row) for row in words.rows],
                 "tables": [[title, list(t.headings), [list(row) for row in t.cells]] for title, t in words.tables],
@@ -134,13 +153,13 @@ def theory_curves(problem: ContactProblem, views: Path) -> dict[str, Any]:
     well."""
     found = compare(problem)
     exact = found.numerical
-    lines = [[curve.name, _finite(curve.prediction.area_fraction), _finite(curve.gap)] for curve in found.curves]
-    if exact is not None:
-        lines.insert(0, ["boundary elements", _finite(exact.area_fraction_corrected), _finite(exact.mean_gap)])
+    areas = {c.name: within_limits(c.prediction.area_fraction, c.valid, share=True) for c in found.curves}
     answer = {
         "sentence": comparison_sentence(found),
         "pressures": _finite(found.pressures),
-        "lines": lines,
+        "exact": None if exact is None else _finite(exact.area_fraction_corrected),
+        "theories": [[name, _finite(area)] for name, area in areas.items() if np.isfinite(area).any()],
+        "nearest": list(nearest(found.dataset)),
         "left_out": [[item.name, item.reason] for item in found.left_out],
         "remarks": list(found.remarks),
     }

@@ -132,6 +132,9 @@ def test_long_paths_are_thinned_with_a_note(path: asp.HistoryResult) -> None:
     made = scene_of(analysed(long.last, {"plasticity": True}, long))
     assert made is not None
     assert len(made["steps"]["texts"]) == MOST_STEPS
+    assert made["steps"]["numbers"][made["steps"]["first"]] == long.peak + 1
+    assert made["steps"]["numbers"][0] == 1
+    assert made["steps"]["numbers"][-1] == len(long.steps)
     assert any(f"{MOST_STEPS} of the {len(long.steps)} steps" in note for note in made["notes"])
 
 
@@ -156,11 +159,31 @@ def test_arrays_take_no_more_than_the_budget(path: asp.HistoryResult) -> None:
     assert any("Shown coarser" in note for note in made["notes"])
     made = scene_of(outcome, budget=8000)
     assert made is not None
+    first, number = made["steps"]["first"], path.peak + 1
     for item in made["maps"]:
-        for array in item["arrays"][:-1] if item["along"] == "steps" else ():
-            coarser = array["cell"] > item["arrays"][-1]["cell"]
-            said = any(f"{item['title']} (" in note and "in all steps but the last" in note for note in made["notes"])
+        for array in item["arrays"] if item["along"] == "steps" else ():
+            assert array["cell"] >= item["arrays"][first]["cell"]
+            coarser = array["cell"] > item["arrays"][first]["cell"]
+            said = any(
+                f"{item['title']} (" in note and f"in all steps but step {number}" in note for note in made["notes"]
+            )
             assert coarser <= said
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.9])
+def test_the_decisive_step_keeps_its_points_while_others_are_coarsened(path: asp.HistoryResult, share: float) -> None:
+    outcome = analysed(path.last, {"path": True, "plasticity": True}, path)
+    whole = scene_of(outcome)
+    assert whole is not None
+    first = whole["steps"]["first"]
+    decisive = sum(len(item["arrays"][first if item["along"] else 0]["data"]) for item in whole["maps"])
+    every = sum(len(array["data"]) for item in whole["maps"] for array in item["arrays"])
+    made = scene_of(outcome, budget=int(decisive + share * (every - decisive)))
+    assert made is not None
+    for item, fine in zip(made["maps"], whole["maps"], strict=True):
+        place = first if item["along"] else 0
+        assert item["arrays"][place] == fine["arrays"][place], "its points are those that were computed"
+    assert any(array["cell"][0] > made["cell"][0] for item in made["maps"] for array in item["arrays"])
 
 
 def test_a_scene_is_the_same_from_a_file(path: asp.HistoryResult, tmp_path: Path) -> None:

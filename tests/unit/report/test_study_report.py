@@ -42,7 +42,7 @@ class Reader(HTMLParser):
         values = dict(attrs)
         self.pictures += tag == "img" and values["src"].startswith("data:image/png;base64,") and bool(values["alt"])
         self._inside = tag == "h2"
-        self.links += [value for key, value in attrs if key in ("href", "src") and not value.startswith("data:")]
+        self.links += [value for key, value in attrs if key in ("href", "src") and not value.startswith(("data:", "#"))]
 
     def handle_data(self, data):
         if self._inside and data.strip():

@@ -38,6 +38,10 @@ class MenisciWork(Work):
         """Map of the menisci."""
         return figures_by(PLOTS, solved.result)
 
+    def step(self, found: Found, solved: Solved) -> int | None:
+        """The end of the load path."""
+        return solved.step_of(solved.result)
+
     def words(self, found: Found, solved: Solved) -> Words:
         """Liquid, menisci and friction."""
         result: SolvedMenisci = found.detail

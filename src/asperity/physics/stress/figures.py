@@ -311,22 +311,25 @@ def line_figures(survey: StressSurvey, boundary: Boundary) -> Iterator[Figure]:
     """Figures of the sections and depth profiles of ``survey``, of a contact with this
     ``boundary``."""
     for number, section in enumerate(survey.sections, start=1):
-        yield from _section(section, number, wraps=boundary.wraps["xy".index(section.field.dims[1])])
+        for figure in _section(section, number, wraps=boundary.wraps["xy".index(section.field.dims[1])]):
+            yield replace(figure, of=survey.step)
     for number, field in enumerate(survey.profiles, start=1):
         sizes = {name: float(np.abs(getattr(field, name)).max()) for name in PROFILE}
         quantities = tuple(name for name, size in sizes.items() if size > 1e-3 * max(sizes.values()))
         draw = partial(plot_stress_profile, field, quantities=quantities)
         caption = "Stresses against depth; a break where a stress jumps at an interface."
-        yield curve_figure(f"stress_profile_{number}", f"Depth profile {number}", caption, draw)
+        yield replace(
+            curve_figure(f"stress_profile_{number}", f"Depth profile {number}", caption, draw), of=survey.step
+        )
 
 
 PEAK = 0.5
 """Share of the largest stress above which points about the maximum are enlarged."""
 
 
-def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
+def map_figure(plane: StressField, number: int, boundary: Boundary, *, step: int = 0) -> Figure:
     """Figure of the von Mises stress on a whole ``plane``, the ``number``-th, and of its maximum
-    enlarged beside."""
+    enlarged beside; at a ``step`` of the load path, from 1."""
     section = plane.planes[0]
     depth = "the surface" if section.side == "surface" else f"a depth of {show(section.depth, 'm')}"
     side = f", just {section.side} the interface" if section.side in ("above", "below") else ""
@@ -350,7 +353,8 @@ def map_figure(plane: StressField, number: int, boundary: Boundary) -> Figure:
         return Drawing(png(map_of, map_size(grid)), enlarged=any(enlarged))
 
     text = f"Map of the von Mises stress at {depth}{side}, in {section.region.name}."
-    return Figure(f"stress_plane_{number}", f"Von Mises stress at {depth}{side}", text, draw, "map", lambda: shown)
+    title = f"Von Mises stress at {depth}{side}"
+    return Figure(f"stress_plane_{number}", title, text, draw, "map", lambda: shown, of=step)
 
 
 def _section(section: SurveyedSection, number: int, *, wraps: bool) -> Iterator[Figure]:

@@ -123,11 +123,12 @@ class StressSettings(Settings):
 
 @dataclass(frozen=True, eq=False)
 class StoredSurvey:
-    """Stress fields of a file: what figures show of a ``StressSurvey``."""
+    """Stress fields of a file: what figures show of a ``StressSurvey``; ``step`` as there."""
 
     sections: tuple[SurveyedSection, ...]
     profiles: tuple[StressField, ...]
     planes: StressField | None
+    step: int = 0
 
     def wanted_planes(self) -> Iterator[StressField]:
         """The whole planes one by one."""

@@ -308,7 +308,7 @@ class StressSurvey:
     and profiles end where the contact is no longer felt, or as asked; the interfaces below that are
     planes, too. ``whole`` holds the largest principal stress in planes parallel to the surface and
     the largest |σxz| and |σyz| of the whole body, by the name of the stress. ``where`` names the
-    step of a load path in words.
+    step of a load path in words, ``step`` is its number from 1.
     """
 
     request: StressRequest
@@ -323,6 +323,7 @@ class StressSurvey:
     citation_keys: tuple[str, ...]
     threads: int | None = None
     where: str = ""
+    step: int = 0
 
     def planes(self, depths: Iterable[float]) -> Iterator[StressField]:
         """Whole planes at ``depths`` in m, one by one, computed anew."""

@@ -76,7 +76,7 @@ class StressWork(Work):
             values["interface_depth"] = np.array([item.shear.depth for item in interfaces])
             values["interface_max_shear"] = np.array([item.shear.value for item in interfaces])
             values["interface_max_peel"] = np.array([item.peel.value for item in interfaces])
-        return Found(values, replace(found, where=reached.where), (), found.citation_keys)
+        return Found(values, replace(found, where=reached.where, step=reached.number), (), found.citation_keys)
 
     def figures(self, found: Found, solved: Solved) -> tuple[Figure, ...]:
         """Sections, profiles and whole planes."""
@@ -84,7 +84,7 @@ class StressWork(Work):
         planes = enumerate(survey.wanted_planes(), start=1)
         return (
             *line_figures(survey, solved.problem.boundary),
-            *(map_figure(plane, number, solved.problem.boundary) for number, plane in planes),
+            *(map_figure(plane, number, solved.problem.boundary, step=survey.step) for number, plane in planes),
         )
 
     def stored(self, found: Found) -> Stored:
@@ -95,14 +95,20 @@ class StressWork(Work):
         planes = survey.wanted_planes()
         if (first := next(planes, None)) is not None:
             fields["planes"] = chain([first], planes)
-        return Stored(fields, {"drawn": [list(item.quantities) for item in survey.sections]})
+        return Stored(fields, {"drawn": [list(item.quantities) for item in survey.sections], "step": survey.step})
 
     def restored(self, stored: Stored, solved: Solved) -> StoredSurvey:
         """The same fields."""
         drawn = enumerate(stored.facts["drawn"], start=1)
         sections = (SurveyedSection(stored.fields[f"section_{number}"], tuple(names)) for number, names in drawn)
         profiles = (field for name, field in stored.fields.items() if name.startswith("profile_"))
-        return StoredSurvey(tuple(sections), tuple(profiles), stored.fields.get("planes"))
+        return StoredSurvey(
+            tuple(sections), tuple(profiles), stored.fields.get("planes"), int(stored.facts.get("step", 0))
+        )
+
+    def step(self, found: Found, solved: Solved) -> int | None:
+        """The step whose stresses are computed."""
+        return solved.step_of(found.detail.step)
 
     def words(self, found: Found, solved: Solved) -> Words:
         """Largest stresses of layers and interfaces."""
@@ -146,6 +152,10 @@ class YieldingWork(Work):
         """Which part of the body yields first, and when; of a body whose plastic flow is solved,
         what has flowed."""
         return yield_words(found.detail)
+
+    def step(self, found: Found, solved: Solved) -> int | None:
+        """The step whose stresses are computed."""
+        return solved.step_of(solved.found["stress"].detail.step)
 
 
 def yield_words(survey: StressSurvey) -> Words:

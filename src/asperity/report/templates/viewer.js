@@ -27,16 +27,16 @@ async function inflated(array) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/* Rows of y, x fastest. Of 16 bits: first all low bytes, then all high bytes, of the differences along x with the sign in the lowest bit. */
+/* Rows of y, x fastest. Of 16 bits: first all low bytes, then all high bytes, of the differences along y of the differences along x, with the sign in the lowest bit. */
 function numbers(bytes, bits, nx, ny) {
   if (bits === 8) return bytes;
-  const n = nx * ny, out = new Uint16Array(n);
+  const n = nx * ny, out = new Uint16Array(n), along = new Uint16Array(nx);
   for (let y = 0, i = 0; y < ny; y++) {
     let last = 0;
     for (let x = 0; x < nx; x++, i++) {
       const folded = bytes[i] | (bytes[n + i] << 8);
-      last = (last + ((folded >>> 1) ^ -(folded & 1))) & 65535;
-      out[i] = last;
+      along[x] += (folded >>> 1) ^ -(folded & 1);
+      out[i] = last += along[x];
     }
   }
   return out;
@@ -237,6 +237,20 @@ const MAP_MARGIN = { left: 56, right: 8, top: 6, bottom: 38 };
 
 /* ---- one map ---- */
 
+/* Of a map or section of one step of a load path: the line that names it, and leads there from other steps; null for all others. */
+function elsewhere(viewer, box, item) {
+  const steps = viewer.scene.steps;
+  if (!steps || item.step === null || item.step === undefined) return null;
+  const line = make("p", box, { class: "av-step" }), text = make("span", line);
+  const button = make("button", line, { type: "button" }, `show step ${steps.numbers[item.step]}`);
+  button.addEventListener("click", () => viewer.set("steps", item.step));
+  return { box, there: () => viewer.position.steps === item.step, tell: (there) => {
+    box.classList.toggle("av-elsewhere", !there);
+    button.hidden = there;
+    text.textContent = `${there ? "At" : "Known only at"} step ${steps.texts[item.step]}${there ? "; known at no other step" : ""}.`;
+  } };
+}
+
 class Panel {
   constructor(viewer, map) {
     this.viewer = viewer; this.map = map; this.colours = new Colours(map, viewer.scene.palettes); this.raster = null;
@@ -244,6 +258,7 @@ class Panel {
     const head = make("div", box, { class: "av-head" });
     make("h4", head, {}, map.title);
     this.said = make("output", head, { class: "av-value" }, ""); this.where = make("span", head, { class: "av-at" }, "");
+    this.other = elsewhere(viewer, box, map);
     const stage = this.stage = make("div", box, { class: "av-stage" });
     this.canvas = make("canvas", stage, { role: "application", "aria-roledescription": "map", tabindex: "0", "aria-label": `${map.alt} ${HELP}` });
     this.over = make("canvas", stage, { class: "av-over", "aria-hidden": "true" });
@@ -408,6 +423,7 @@ class Panel {
   }
 
   draw() {
+    if (this.other) this.other.tell(this.other.there());
     const v = this.viewer, look = v.look, width = this.stage.clientWidth;
     if (!width) return;
     const plot = width - MAP_MARGIN.left - MAP_MARGIN.right;
@@ -563,6 +579,7 @@ class Below {
     const box = this.box = make("div", null, { class: "av-panel av-below" }), head = make("div", box, { class: "av-head" });
     make("h4", head, {}, section.title);
     this.said = make("output", head, { class: "av-value" }, "");
+    this.other = elsewhere(viewer, box, section);
     this.canvas = make("canvas", box, { role: "application", "aria-roledescription": "section", tabindex: "0", "aria-label": `${section.alt} Arrow keys move the cross and read the value.` });
     this.barCanvas = make("canvas", box, { "aria-hidden": "true" });
     this.canvas.addEventListener("pointermove", (event) => { const r = this.canvas.getBoundingClientRect(); this.point(this.axes.x(event.clientX - r.left), this.axes.y(event.clientY - r.top)); });
@@ -638,8 +655,9 @@ class Below {
   }
 
   draw() {
+    if (this.other) this.other.tell(this.other.there());
     const width = this.box.clientWidth, v = this.viewer;
-    if (!width || !this.ready()) return;
+    if (!width || !this.ready() || (this.other && !this.other.there())) return;
     const margin = { ...MAP_MARGIN, right: 12 }, s = this.section, [from, to] = this.span(), deep = s.depths[s.depths.length - 1] / (s.axis ? v.zoom : 1);
     const height = Math.min(230, Math.max(130, width * 0.3)) + margin.top + margin.bottom, context = sized(this.canvas, width, height);
     const a = this.axes = new Axes(width, height, margin).limits(from, to, deep, 0);
@@ -726,7 +744,7 @@ class Viewer {
     this.element = element; this.scene = scene; this.size = scene.size; this.cell = scene.cell;
     this.zoom = 1; this.centre = [this.size[0] / 2, this.size[1] / 2];
     this.line = [...scene.line]; this.lineShown = true; this.cursor = null; this.along = null; this.marked = null;
-    this.position = { steps: scene.steps ? scene.steps.texts.length - 1 : 0, depths: 0 };
+    this.position = { steps: scene.steps ? scene.steps.first : 0, depths: 0 };
     this.kept = new Map();
     element.classList.add("av"); element.replaceChildren();
     this.panels = scene.maps.map((map) => new Panel(this, map));
@@ -836,6 +854,7 @@ class Viewer {
   }
   index(map) { return map.along ? this.position[map.along] : 0; }
   get visible() { return this.panels.filter((panel) => !panel.box.hidden); }
+  here(panel) { return !panel.other || panel.other.there(); }
   length() { return Math.hypot(this.line[2] - this.line[0], this.line[3] - this.line[1]); }
 
   /* Show the maps of these names, and no others; resolves when they are drawn. */
@@ -854,6 +873,7 @@ class Viewer {
     await Promise.all(this.visible.map((panel) => panel.load()));
     this.draw();
     this.prefetch(kind);
+    this.element.dispatchEvent(new CustomEvent("viewer-set", { bubbles: true, detail: { kind, number: this.position[kind] } }));
   }
 
   /* Limits of the axes of a map for the present view: to scale, unless the grid is very slender. */
@@ -899,7 +919,7 @@ class Viewer {
     return at ? `x = ${withUnit(short(at[0] / factor), symbol)}, y = ${withUnit(short(at[1] / factor), symbol)}` : "";
   }
   /* Values of all visible maps at x, y (m), as shown. */
-  read(x, y) { return Object.fromEntries(this.visible.map((panel) => [panel.map.name, panel.text(x, y)])); }
+  read(x, y) { return Object.fromEntries(this.visible.filter(this.here).map((panel) => [panel.map.name, panel.text(x, y)])); }
 
   setLine(x0, y0, x1, y1) {
     const keep = (value, k) => Math.min(Math.max(value, 0), this.size[k % 2]);
@@ -972,8 +992,9 @@ class Viewer {
     this.drawCurves();
   }
   drawCurves() {
+    for (const curve of this.curves) curve.box.hidden = curve.panel.box.hidden || !this.here(curve.panel);
     if (this.lineShown) for (const curve of this.curves) if (!curve.box.hidden) curve.draw();
-    if (this.planesBelow) this.planesBelow.box.hidden = !this.lineShown;
+    if (this.planesBelow) this.planesBelow.box.hidden = !this.lineShown || !this.panels.some((panel) => panel.map.along === "depths" && !panel.box.hidden);
     for (const below of this.belows) if (!below.box.hidden) below.draw();
   }
   drawOver() {
@@ -1055,7 +1076,7 @@ async function start(root) {
   for (const figure of root.querySelectorAll("figure[data-curves]")) new Curves(figure, read(figure));
   if (!("DecompressionStream" in window)) return;
   for (const element of root.querySelectorAll("[data-viewer]")) {
-    const scene = read(element), whole = element.closest("section, main") || element;
+    const scene = read(element), whole = element.closest("main") || element;
     try {
       whole.classList.add("av-live-page");
       const viewer = new Viewer(element, scene);

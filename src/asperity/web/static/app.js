@@ -74,6 +74,12 @@ async function mount(area) {
   }
 }
 
+/* The table of spots is that of the step that the maps show. */
+document.addEventListener("viewer-set", (event) => {
+  const area = event.target.closest("[data-scene]");
+  if (area && event.detail.kind === "steps") emitEvent("asperity-step", { of: area.id, step: event.detail.number });
+});
+
 function together(viewer) {
   const own = viewer.setView.bind(viewer);
   viewer.setView = (x, y, zoom) => {
