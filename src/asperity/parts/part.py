@@ -152,6 +152,19 @@ class Solved:
             raise InputError(f"step must be from 1 to {len(steps)}, those of the load path, but is {number}.")
         return Reached(steps[number - 1], number, len(steps))
 
+    def step_of(self, shown: Any) -> int | None:
+        """Number, from 1, of the step of the load path that is ``shown``: a contact of the path, or
+        that number itself.
+
+        None for anything else, and where there is but one load.
+        """
+        if self.path is None or len(self.path.steps) < 2:
+            return None
+        if isinstance(shown, int):
+            return shown if 1 <= shown <= len(self.path.steps) else None
+        found = (number for number, step in enumerate(self.path.steps, 1) if step is shown)
+        return next(found, len(self.path.steps) if shown is self.result else None)
+
 
 def require_step(step: float | str, controls: Sequence[Any], what: str, last: str) -> None:
     """Refuse a ``step`` of the load path, as of ``Solved.at``, beyond the ``controls`` that are
@@ -167,19 +180,6 @@ def require_step(step: float | str, controls: Sequence[Any], what: str, last: st
         raise InputError(
             f"{what} must be from 1 to {most}, those of the load, but is {step:g}; take the last ({last})."
         )
-
-    def step_of(self, shown: Any) -> int | None:
-        """Number, from 1, of the step of the load path that is ``shown``: a contact of the path, or
-        that number itself.
-
-        None for anything else, and where there is but one load.
-        """
-        if self.path is None or len(self.path.steps) < 2:
-            return None
-        if isinstance(shown, int):
-            return shown if 1 <= shown <= len(self.path.steps) else None
-        found = (number for number, step in enumerate(self.path.steps, 1) if step is shown)
-        return next(found, len(self.path.steps) if shown is self.result else None)
 
 
 class Reached(NamedTuple):
