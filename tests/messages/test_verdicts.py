@@ -28,7 +28,7 @@ from asperity.core.status import GRADES, Verdict
 from asperity.io.words import PLASTIC, result_rows
 from asperity.run.stored import load_outcome, save_outcome
 from asperity.run.verdict import verdict
-from asperity.web.views import SHOWN, write_views
+from asperity.web.views import SHOWN, Views
 
 WRITTEN = Path(__file__).with_name("verdicts.txt")
 PREFIX = re.compile(r"# [yzafpnµmkMGTP]?(J|Pa|N|m²|m|s)\b")
@@ -74,7 +74,9 @@ def test_it_is_the_same_at_every_door(table: dict[str, Any], tmp_path: Path, mon
         assert f"{name}: {line}" in told, text
     asp.write_report(outcome, tmp_path / "report.html")
     page = unescape(re.sub(r"<[^>]+>", "", (tmp_path / "report.html").read_text(encoding="utf-8")))
-    write_views(outcome, tmp_path / "run")
+    views = Views(tmp_path / "run")
+    views.page(outcome)
+    views.end()
     shown = json.loads((tmp_path / f"run{SHOWN}").read_text(encoding="utf-8"))
     assert [tuple(row) for row in shown["verdict"]] == given.rows
     assert [tuple(row) for row in shown["headline"]] == given.headline

@@ -26,11 +26,12 @@ notes      sentences that stand under the maps
 ========== =======================================================================================
 
 An array is ``shape`` [nx, ny], ``cell`` (sides of a point, m), ``bits`` 8 or 16, ``low``, ``step``
-and ``data``: base64 of the numbers n, compressed by zlib (or ``url``, an address of the compressed
-bytes). A value is low + step n; the largest n is no value. Numbers stand in rows of y, x fastest.
-Those of 16 bits are stored as differences along y of differences along x, the first of a row or
-column as it is, modulo 2¹⁶, with the sign in the lowest bit (0, -1, 1, -2 … as 0, 1, 2, 3 …), all
-low bytes before all high bytes. ``shares`` are the shares of the classes of the whole grid.
+and ``data``: base64 of the numbers n, compressed by zlib. A value is low + step n; the largest n is
+no value. Numbers stand in rows of y, x fastest. Those of 16 bits are stored as differences along y
+of differences along x, the first of a row or column as it is, modulo 2¹⁶, with the sign in the
+lowest bit (0, -1, 1, -2 … as 0, 1, 2, 3 …), all low bytes before all high bytes. ``shares`` are the
+shares of the classes of the whole grid. An array that is only ``url`` is fetched when it is shown:
+a line of JSON with its other entries, and the numbers n as they are.
 """
 
 from __future__ import annotations
@@ -41,10 +42,12 @@ import math
 import zlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
-from typing import Any
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
@@ -98,40 +101,75 @@ def reduced(values: RealArray, block: int, how: str) -> RealArray:
     return np.where(np.isfinite(found), found, np.nan)
 
 
+class Store(Protocol):
+    """Keeps arrays of a scene elsewhere, from where they are fetched one by one."""
+
+    def array(self, name: str, make: Callable[[], Stored]) -> dict[str, Any]:
+        """Entry of the array ``name`` that ``make`` gives when it is needed; one name is one
+        array."""
+
+
+Stored: TypeAlias = tuple[dict[str, Any], NDArray[Any]]
+"""Entries of an array without its numbers, and these, in rows of y."""
+
+
 def coded(values: RealArray, cell: Sequence[float], *, block: int = 1, how: str = "mean") -> dict[str, Any]:
     """Array of a scene with ``values`` (nx, ny), NaN for none, of points with the sides ``cell``;
     65 535 steps from low to high.
 
     Of every ``block`` × ``block`` points one value is kept (see ``reduced``).
     """
-    values = reduced(values, block, how)
-    there = np.isfinite(values)
-    low = float(values.min(initial=math.inf, where=there)) if there.any() else 0.0
-    high = float(values.max(initial=-math.inf, where=there)) if there.any() else 0.0
-    step = (high - low) / (MASKED[16] - 1)
-    numbers = np.full(values.shape, MASKED[16], dtype=np.uint16)
-    if step > 0.0:
-        numbers[there] = np.rint((values[there] - low) / step)
-    else:
-        numbers[there] = 0
-    rows = np.ascontiguousarray(numbers.T)
+    described, rows = numbered(values, cell, block=block, how=how)
     along = np.diff(rows, axis=1, prepend=np.uint16(0))
     signed = np.diff(along, axis=0, prepend=np.uint16(0)).view(np.int16)
     folded = ((signed << 1) ^ (signed >> 15)).view(np.uint16)
     data = (folded & 255).astype(np.uint8).tobytes() + (folded >> 8).astype(np.uint8).tobytes()
-    return _array(values.shape, cell, block, 16, data) | {"low": low, "step": step}
+    return described | _packed(data)
 
 
-def coded_kinds(kinds: RealArray, cell: Sequence[float], *, block: int = 1) -> dict[str, Any]:
-    """Array of a scene with the numbers of classes, 0 to 254; the largest of a block stands for
-    it."""
-    numbers = reduced(kinds, block, "max").astype(np.uint8)
-    return _array(numbers.shape, cell, block, 8, np.ascontiguousarray(numbers.T).tobytes()) | {"low": 0.0, "step": 1.0}
+def numbered(values: RealArray, cell: Sequence[float], *, block: int = 1, how: str = "mean") -> Stored:
+    """Entries and numbers of the array of ``coded``."""
+    values = reduced(values, block, how)
+    there, (low, high) = np.isfinite(values), _ends(values)
+    step = (high - low) / (MASKED[16] - 1)
+    scaled = np.subtract(values, low, dtype=np.float64)
+    np.rint(np.divide(scaled, step or 1.0, out=scaled), out=scaled)
+    if not there.all():
+        scaled[~there] = MASKED[16]
+    numbers = np.ascontiguousarray(scaled.astype(np.uint16).T)
+    return _about(values.shape, cell, block, 16) | {"low": low, "step": step}, numbers
 
 
-def _array(shape: tuple[int, ...], cell: Sequence[float], block: int, bits: int, data: bytes) -> dict[str, Any]:
-    text = base64.b64encode(zlib.compress(data, 1)).decode("ascii")
-    return {"shape": list(shape), "cell": [block * side for side in cell], "bits": bits, "data": text}
+def _ends(values: RealArray) -> tuple[float, float]:
+    """Smallest and largest of the finite ``values``; zero without any."""
+    low, high = float(np.min(values, initial=math.inf)), float(np.max(values, initial=-math.inf))
+    if not (math.isfinite(low) and math.isfinite(high)):
+        there = values[np.isfinite(values)]
+        low, high = (float(there.min()), float(there.max())) if there.size else (0.0, 0.0)
+    return low, high
+
+
+def coded_kinds(shown: Kinds, *, block: int = 1) -> dict[str, Any]:
+    """Array of a scene with the classes that ``shown`` has."""
+    about, rows = numbered_kinds(shown, block=block)
+    return about | _packed(rows.tobytes())
+
+
+def numbered_kinds(shown: Kinds, *, block: int = 1) -> Stored:
+    """Entries and numbers of the array with the classes that ``shown`` has, 0 to 254; the largest
+    of a block stands for it."""
+    numbers = reduced(shown.kinds, block, "max").astype(np.uint8)
+    shares = [float(np.mean(shown.kinds == kind)) for kind in range(len(shown.classes))]
+    about = _about(numbers.shape, shown.grid.spacing, block, 8)
+    return about | {"low": 0.0, "step": 1.0, "shares": shares}, np.ascontiguousarray(numbers.T)
+
+
+def _about(shape: tuple[int, ...], cell: Sequence[float], block: int, bits: int) -> dict[str, Any]:
+    return {"shape": list(shape), "cell": [block * side for side in cell], "bits": bits}
+
+
+def _packed(data: bytes) -> dict[str, Any]:
+    return {"data": base64.b64encode(zlib.compress(data, 1)).decode("ascii")}
 
 
 def decoded(array: dict[str, Any]) -> RealArray:
@@ -157,13 +195,14 @@ class _Map:
     """A map of the scene: how it looks, what makes it for each step or depth, and how many points
     one value stands for: ``block`` along a side, at the ``decisive`` of several steps ``finest``.
 
-    ``step`` is the place of the only step that it is of.
+    ``keys`` tell the arrays of one map apart, ``step`` is the place of the only step that it is of.
     """
 
     name: str
     title: str
     alt: str
     makers: list[Callable[[], Field | Kinds]]
+    keys: Sequence[str]
     along: str | None = None
     step: int | None = None
     decisive: int | None = None
@@ -188,22 +227,45 @@ class _Map:
         """Array of one step or depth."""
         shown, block = self.makers[number](), self.finest if number in self.fine else self.block
         if isinstance(shown, Kinds):
-            shares = [float(np.mean(shown.kinds == kind)) for kind in range(len(shown.classes))]
-            return coded_kinds(shown.kinds, shown.grid.spacing, block=block) | {"shares": shares}
+            return coded_kinds(shown, block=block)
         return coded(shown.values, shown.grid.spacing, block=block, how=shown.look.reduced)
 
+    def stored(self, number: int) -> Stored:
+        """Entries and numbers of the array of one step or depth."""
+        shown = self.makers[number]()
+        if isinstance(shown, Kinds):
+            return numbered_kinds(shown, block=self.block)
+        return numbered(shown.values, shown.grid.spacing, block=self.block, how=shown.look.reduced)
 
-def scene_of(
-    outcome: Outcome, *, more: Iterable[Figure] = (), budget: int = BUDGET, most_points: int = MOST_POINTS
+    def samples(self, *, few: bool) -> list[Field | Kinds]:
+        """What is shown at all steps, or at the decisive one, the first and the last: a ``few``."""
+        ends = {0, len(self.makers) - 1}
+        chosen = ends if self.along != "steps" else ends | set(self.fine) if few else range(len(self.makers))
+        return [self.makers[number]() for number in sorted(chosen)]
+
+
+def scene_of(outcome: Outcome, *, more: Iterable[Figure] = (), **options: Any) -> dict[str, Any] | None:
+    """Scene of an ``outcome``, from its figures and ``more``; ``options`` as for
+    ``contact_scene``."""
+    return contact_scene(outcome.solved, [*outcome.all_figures, *more], **options)
+
+
+def contact_scene(
+    solved: Solved,
+    figures: Iterable[Figure],
+    *,
+    store: Store | None = None,
+    budget: int = BUDGET,
+    most_points: int = MOST_POINTS,
 ) -> dict[str, Any] | None:
-    """Scene of an ``outcome``, from its figures and ``more``, and from the steps of its load path;
-    None on a grid of one row.
+    """Scene of a ``solved`` contact, from its ``figures`` and from the steps of its load path; None
+    on a grid of one row.
 
-    Arrays hold at most ``most_points`` points, and take at most ``budget`` characters together.
+    Arrays hold at most ``most_points`` points; they take at most ``budget`` characters together, or
+    are kept by a ``store``.
     """
-    result = outcome.solved.at().result
-    figures = [*outcome.all_figures, *more]
-    made = scene(figures, result.problem.grid, solved=outcome.solved, budget=budget, most_points=most_points)
+    result = solved.at().result
+    made = scene(figures, result.problem.grid, solved=solved, store=store, budget=budget, most_points=most_points)
     if made is None:
         return None
     grid = result.problem.grid
@@ -219,6 +281,7 @@ def scene(
     grid: Grid,
     *,
     solved: Solved | None = None,
+    store: Store | None = None,
     budget: int = BUDGET,
     most_points: int = MOST_POINTS,
 ) -> dict[str, Any] | None:
@@ -238,8 +301,8 @@ def scene(
     block = math.ceil(math.sqrt(grid.shape[0] * grid.shape[1] / most_points))
     for item in maps:
         item.block = item.finest = max(block, 1)
-    arrays = _within(maps, budget)
-    described = [_described(item, arrays[item.name]) for item in maps]
+    arrays = _within(maps, budget) if store is None else _kept(maps, store)
+    described = [_described(item, arrays[item.name], few=store is not None) for item in maps]
     sections = [_section(figure, cut) | {"step": steps.place(figure)} for figure, cut in cuts]
     colours = {item["colours"] for item in (*described, *sections) if "colours" in item}
     length = scale(max(grid.size), "m")
@@ -291,6 +354,11 @@ class _Steps:
         return [self.solved.at(number).result for number in self.numbers] if self.solved else []
 
     @property
+    def many(self) -> int:
+        """How many steps have been solved."""
+        return len(self.solved.path.steps) if self.solved and self.solved.path else 1
+
+    @property
     def decisive(self) -> int | None:
         """Place of the decisive step among them."""
         return self.numbers.index(self.solved.at().number) if self.solved else None
@@ -332,10 +400,11 @@ def _gathered(
             depths.append((shown, steps.place(figure)))
         elif shown.grid.shape == grid.shape and figure.name not in maps:
             alt = f"{figure.title}. {figure.text}"
-            made = _Map(figure.name, figure.title, alt, [lambda shown=shown: shown])  # type: ignore[misc]
+            made = _Map(figure.name, figure.title, alt, [lambda shown=shown: shown], [f"-of-{steps.many}"])  # type: ignore[misc]
             if steps.numbers and figure.of_step is not None:
                 by_step = figure.of_step
                 made.makers = [lambda by=by_step, one=one: by(one) for one in steps.contacts]  # type: ignore[misc]
+                made.keys = [f"-{number}" for number in steps.numbers]
                 made.along, made.decisive = "steps", steps.decisive
             elif figure.of_step is not None or not isinstance(figure.of, ContactResult):
                 made.step = steps.place(figure)
@@ -344,8 +413,22 @@ def _gathered(
     if planes:
         label = planes[0].look.label[:1].upper() + planes[0].look.label[1:]
         makers = [lambda item=item: item for item in planes]
-        maps["planes"] = _Map("planes", label, f"{label} on planes in the body.", makers, "depths", depths[0][1])  # type: ignore[arg-type]
+        keys = [f"-{item.depth.value:.12g}" for item in planes if item.depth is not None]
+        alt = f"{label} on planes in the body."
+        maps["planes"] = _Map("planes", label, alt, makers, keys, "depths", depths[0][1])  # type: ignore[arg-type]
     return list(maps.values()), planes, cuts
+
+
+def _kept(maps: Sequence[_Map], store: Store) -> dict[str, list[dict[str, Any]]]:
+    """Arrays of all maps by name, kept by ``store``, which is asked first for what is shown
+    first."""
+    made: dict[str, dict[int, dict[str, Any]]] = {item.name: {} for item in maps}
+    wanted = [(item, number) for item in maps for number in item.fine]
+    wanted += [(item, number) for item in maps for number in item.rest]
+    for item, number in wanted:
+        key = f"{item.name}{item.keys[number]}"
+        made[item.name][number] = store.array(key, partial(item.stored, number))
+    return {name: [arrays[number] for number in sorted(arrays)] for name, arrays in made.items()}
 
 
 def _within(maps: Sequence[_Map], budget: int) -> dict[str, list[dict[str, Any]]]:
@@ -384,9 +467,9 @@ def _taken(arrays: Mapping[str, Mapping[int, dict[str, Any]]]) -> int:
     return sum(len(array["data"]) for made in arrays.values() for array in made.values())
 
 
-def _described(item: _Map, arrays: list[dict[str, Any]]) -> dict[str, Any]:
-    """Entry of a map."""
-    shown = [make() for make in ((item.makers[0], item.makers[-1]) if item.along != "steps" else item.makers)]
+def _described(item: _Map, arrays: list[dict[str, Any]], *, few: bool) -> dict[str, Any]:
+    """Entry of a map; of a ``few`` steps only the range of the colours, which the viewer widens."""
+    shown = item.samples(few=few)
     last = shown[-1]
     made: dict[str, Any] = {"name": item.name, "title": item.title, "alt": item.alt}
     made |= {"along": item.along, "step": item.step}
@@ -395,7 +478,10 @@ def _described(item: _Map, arrays: list[dict[str, Any]]) -> dict[str, Any]:
         described = [{"text": name, "colour": colour} for name, colour in classes]
         blank = {"text": "no value", "value": None}
         return made | {"kind": "classes", "classes": described, "blank": blank, "reduce": "max", "arrays": arrays}
-    ends = [end for array in arrays for end in (array["low"], array["low"] + (MASKED[16] - 1) * array["step"])]
+    if few:
+        ends = [end for one in shown if isinstance(one, Field) for end in _ends(one.values)]
+    else:
+        ends = [end for array in arrays for end in (array["low"], array["low"] + (MASKED[16] - 1) * array["step"])]
     return made | _look(last.look, limits(np.array(ends), last.look)) | {"kind": "values", "arrays": arrays}
 
 

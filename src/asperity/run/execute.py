@@ -4,7 +4,7 @@ Python all end here."""
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
@@ -172,6 +172,7 @@ def execute(
     lines: bool = True,
     threads: int | None = None,
     stage: Stage = no_stage,
+    reached: Callable[[Solved], None] | None = None,
     on_failure: Literal["raise", "return"] = "return",
 ) -> Outcome:
     """Solve ``case`` and compute its parts.
@@ -189,6 +190,9 @@ def execute(
         Whether parts keep the fields that only pictures show.
     threads
         Number of threads instead of that of the document.
+    reached
+        Is given the contact, with the load path so far, after every step that is solved, before
+        anything else is computed of it.
     stage, on_failure
         As for ``run``.
     """
@@ -207,17 +211,22 @@ def execute(
         if case.path:
             whole = lines or any(part.whole_path for part in asked)
             stream = steps(problem, case.path, progress=progress, **options)
-            results = list(deque(stream, maxlen=None if whole else 1))
-            result = results[-1]
+            results: deque[ContactResult] = deque(maxlen=None if whole else 1)
+            for result in stream:
+                results.append(result)
+                if reached is not None and whole:
+                    reached(Solved(problem, result.control, result, HistoryResult(tuple(results))))
         else:
             keep, state = Keep(stiffness=stiffness), warm.state()
             result = solve(problem, case.control, keep=keep, state=state, progress=progress, **options)
             warm.last = result
+            if reached is not None:
+                reached(Solved(problem, case.control, result))
     if case.path:
         if stiffness and follows_from_pressure(result):
             result = replace(result, normal_stiffness=stiffness_of(result, operator=warm.operator))
         if len(results) == len(case.path):
-            path = HistoryResult((*results[:-1], result))
+            path = HistoryResult((*list(results)[:-1], result))
     solved = Solved(
         problem,
         case.control,

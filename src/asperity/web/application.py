@@ -3,6 +3,8 @@ gives out."""
 
 from __future__ import annotations
 
+import asyncio
+import time
 from importlib import resources
 from typing import Any
 
@@ -58,6 +60,20 @@ def application(place: Place) -> Any:
         if not file.is_file() or not is_within(file, session.folder):
             return Response("no maps", 404, media_type="text/plain")
         return FileResponse(file, media_type="application/json", headers={"cache-control": "no-store"})
+
+    @app.get("/views/{key}/{run}/{name}")
+    async def array(key: str, run: str, name: str) -> Response:
+        """One array of the maps; one that is still being made is waited for."""
+        session = place.sessions.get(key)
+        known = None if session is None else session.runs.get(run)
+        if session is None or known is None:
+            return Response("no such run", 404, media_type="text/plain")
+        end = time.monotonic() + PATIENCE
+        while (file := session.shown(known, name)) is None and time.monotonic() < end:
+            await asyncio.sleep(0.02)
+        if file is None:
+            return Response("no such map", 404, media_type="text/plain")
+        return FileResponse(file, media_type="application/octet-stream", headers={"cache-control": "max-age=3600"})
 
     @app.post("/upload/{key}")
     async def upload(key: str, name: str, request: Request) -> Response:
@@ -124,6 +140,9 @@ def application(place: Place) -> Any:
     )
     return app
 
+
+PATIENCE = 20.0
+"""Seconds for which an array is waited for that is not made yet."""
 
 FAVICON = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 32 32"><rect width="32" height="32" rx="6" fill="#005a9c"/>'

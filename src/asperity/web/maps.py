@@ -198,6 +198,14 @@ def _least(exact: list[float | None] | None, theories: list[tuple[str, list[floa
     return float(np.log10(0.5 * min(known, default=0.02)))
 
 
+def area_by_load(points: list[list[float]]) -> dict[str, Any]:
+    """Curve of the share of the points that touch over the mean pressure (Pa), from ``points`` of
+    both."""
+    symbol, factor = scaled(max(pressure for pressure, _ in points), "Pa", "pressure")
+    line = ("", [pressure / factor for pressure, _ in points], [100.0 * share for _, share in points])
+    return curves([line], f"mean pressure / {symbol}", "points in contact / %")
+
+
 def curves(
     lines: list[tuple[str, Any, Any]], x: str, y: str, *, log: bool = False, points: bool = True
 ) -> dict[str, Any]:

@@ -3,9 +3,10 @@ spots, theories, certificate."""
 
 from __future__ import annotations
 
+import asyncio
 import base64
 import json
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from pathlib import Path
 from types import MappingProxyType
@@ -19,10 +20,10 @@ from ..core.status import SENTENCES
 from ..core.units import show
 from . import maps
 from .layout import failure, rows
-from .pages_run import downloads, start
+from .pages_run import cancel, downloads, progress, start
 from .remedies import Remedy, remedies
 from .session import Run, Session
-from .views import SHOWN, THEORIES
+from .views import SCENE, SHOWN, SPACE, THEORIES, spots_file
 
 COLOURED = MappingProxyType(
     {
@@ -35,8 +36,9 @@ COLOURED = MappingProxyType(
 
 
 def explore_page(key: str, session: Session, chosen: str = "", beside: str = "") -> None:
-    """The run ``chosen``, by default the last one that is done, and another one ``beside`` it."""
-    done = {run.key: run for run in session.runs.values() if run.kind == "run" and run.state == "done"}
+    """The run ``chosen``, by default the last one of which there is something to show, and another
+    one ``beside`` it."""
+    done = {run.key: run for run in session.runs.values() if run.key == chosen or session.explorable(run)}
     if not done:
         ui.label("Nothing has been solved yet.").classes("hint")
         ui.link("Run", f"/s/{key}/run")
@@ -66,6 +68,10 @@ def explore_page(key: str, session: Session, chosen: str = "", beside: str = "")
                 _Explored(key, session, item, numbered=other is not None)
 
 
+async def _nothing(step: int) -> None:
+    """Fill no table."""
+
+
 class _Explored:
     """One run."""
 
@@ -75,7 +81,8 @@ class _Explored:
             ui.html(f"<h2>Run {run.key.split('-')[0]}</h2>", sanitize=False)
         self.box = ui.element("div").classes("whole")
         self.client = ui.context.client
-        self.fill_spots: Callable[[int], None] = lambda step: None
+        self.fill_spots: Callable[[int], Awaitable[None]] = _nothing
+        self.step_wanted = 0
         ui.on("asperity-step", self.stepped)
         ui.timer(0.01, self.load, once=True)
 
@@ -86,6 +93,9 @@ class _Explored:
 
     async def load(self, *, stresses: bool = False) -> None:
         """Show the run; what is not there yet is made from its result first."""
+        if not stresses and self.run.state != "done" and not self.file(SHOWN).is_file():
+            self.live()
+            return
         if stresses or not self.file(SHOWN).is_file():
             self.box.clear()
             with self.box, ui.row():
@@ -105,6 +115,73 @@ class _Explored:
         self.box.clear()
         with self.box:
             self.draw(shown)
+
+    def live(self) -> None:
+        """What is known while the run goes on: how far it is, and the maps of the steps so far."""
+        with self.box:
+            ui.label("This run goes on; what is known so far is shown.").classes("hint")
+            progress(self.session, self.run)
+            ui.button("Cancel", icon="stop", on_click=lambda: cancel(self.session, self.run)).props(
+                "no-caps outline dense"
+            )
+            area = ui.element("div").classes("whole")
+
+        async def look() -> None:
+            if self.file(SHOWN).is_file():
+                timer.deactivate()
+                await self.load()
+            elif self.run.state in ("failed", "cancelled"):
+                timer.deactivate()
+                self.box.clear()
+                with self.box:
+                    failure(self.run.message)
+            elif not area.default_slot.children and self.file(SCENE).is_file():
+                with area:
+                    self.scene()
+
+        timer = ui.timer(0.3, look)
+
+    def scene(self) -> None:
+        """Place of the maps, which are drawn again when there are more of them."""
+        name = f"scene-{self.run.key}"
+        ui.element("div").classes("scene").props(
+            f'id="{name}" data-scene="/views/{self.key}/{self.run.key}" role="region" aria-label="maps of the contact"'
+        )
+        stand = self.file(SCENE).stat().st_mtime_ns
+
+        def look() -> None:
+            nonlocal stand
+            if (new := self.file(SCENE).stat().st_mtime_ns) != stand:
+                stand = new
+                ui.run_javascript(f"asperityMaps({json.dumps(name)})")
+
+        ui.timer(0.5, look)
+
+    def files(self) -> None:
+        """Links to the files of the run, which may still be written."""
+
+        @ui.refreshable
+        def links() -> None:
+            if self.run.state == "running":
+                ui.label("Report, pictures and files are being written; everything can be explored meanwhile.").classes(
+                    "hint"
+                ).props("data-behind")
+                progress(self.session, self.run, curve=False)
+            elif self.run.state == "done":
+                downloads(self.key, self.session, self.run)
+                ui.button("Fields as VTK", icon="download", on_click=self.vtk).props("no-caps flat dense")
+            else:
+                failure(self.run.message)
+
+        links()
+        if self.run.state == "running":
+
+            def look() -> None:
+                if self.run.state != "running":
+                    timer.deactivate()
+                    links.refresh()
+
+            timer = ui.timer(0.3, look)
 
     def draw(self, shown: dict[str, Any]) -> None:
         """Draw everything, what matters most first."""
@@ -137,33 +214,41 @@ class _Explored:
                 ui.label(criterion).classes("table-title")
                 ui.label(text)
                 self.remedies(shown, advised)
-        downloads(self.key, self.session, self.run)
-        ui.button("Fields as VTK", icon="download", on_click=self.vtk).props("no-caps flat dense")
-        name = f"scene-{self.run.key}"
+        self.files()
         ui.html("<h2>Maps and section</h2>", sanitize=False)
-        if not shown["stressed"]:
+        if not shown["stressed"] and self.run.state == "done":
             with ui.row().classes("item-head"):
                 ui.label("No stresses were asked for.").classes("hint")
                 ui.button("Compute the stresses in the body", on_click=lambda: self.load(stresses=True)).props(
                     "no-caps outline dense data-stresses"
                 )
-        ui.element("div").classes("scene").props(
-            f'id="{name}" data-scene="/views/{self.key}/{self.run.key}" role="region" aria-label="maps of the contact"'
-        )
-        self.spots(shown, name)
+        self.scene()
+        self.spots(shown, f"scene-{self.run.key}")
         at = f" at {shown['at']}" if shown["at"] else ""
         ui.html(f"<h2>Surface in space{at}</h2>", sanitize=False)
         space = ui.element("div").classes("whole")
 
-        def in_space() -> None:
-            space.clear()
-            with space:
-                self.in_space(shown["space"])
+        async def in_space() -> None:
+            file = await self.fetched(SPACE)
+            if file is not None:
+                space.clear()
+                with space:
+                    self.in_space(file)
 
         with space:
             ui.button("Show the surface in space", on_click=in_space).props("no-caps outline data-space")
         self.theories()
         self.words(shown)
+
+    async def fetched(self, name: str) -> dict[str, Any] | None:
+        """Content of the file ``name`` of the run, as soon as it is there; None if the page is left
+        before."""
+        while (file := self.session.shown(self.run, name)) is None:
+            await asyncio.sleep(0.05)
+            if self.client.is_deleted:
+                return None
+        found: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+        return found
 
     def remedies(self, shown: dict[str, Any], text: str) -> None:
         """What the ``text`` of a remedy advises: applied to the document of this run, which is then
@@ -209,22 +294,25 @@ class _Explored:
             ui.label("Choose a row: the spot is marked in the maps.").classes("hint")
             table = ui.html("", sanitize=False).classes("spots")
 
-        def fill(step: int) -> None:
-            found = shown["spots"][step]
+        async def fill(step: int) -> None:
+            self.step_wanted = step
+            found = await self.fetched(spots_file(shown["places"][step]))
+            if found is None or self.step_wanted != step:
+                return
             box.text = f"Contact spots: {found['count']}" + (f", at step {texts[step]}" if texts[step] else "")
             note.text = f"The {len(found['rows'])} largest."
             note.set_visibility(len(found["rows"]) < found["count"])
             table.content = _spot_table(found["rows"], name)
 
-        fill(shown["step"])
         self.fill_spots = fill
+        ui.timer(0.01, lambda: fill(shown["step"]), once=True)
 
-    def stepped(self, event: events.GenericEventArguments) -> None:
+    async def stepped(self, event: events.GenericEventArguments) -> None:
         """The maps of a run show another load step: so does its table of spots."""
         of, step = event.args.get("of"), event.args.get("step")
         if of == f"scene-{self.run.key}" and isinstance(step, int) and step >= 0:
             with suppress(IndexError):
-                self.fill_spots(step)
+                await self.fill_spots(step)
 
     def in_space(self, space: dict[str, Any]) -> None:
         """The surface in space, coloured by one of several fields."""
@@ -272,6 +360,9 @@ class _Explored:
                     ui.label(text).classes("hint")
 
         async def compute() -> None:
+            if self.run.state == "running":
+                ui.notify("The result is still being written; ask for the theories when it is.")
+                return
             box.clear()
             with box, ui.row():
                 ui.spinner()

@@ -13,12 +13,14 @@ from nicegui import ui
 from ..core.errors import AsperityError
 from ..run.build import large_grid, stated_points
 from ..run.document import save_document
+from . import maps
 from .draft import plain_name
 from .layout import failure
+from .progress import reported
 from .refused import Refused
 from .session import Run, Session
 from .widgets import Context
-from .workers import CANCELLED, Worker, reported
+from .workers import CANCELLED, Worker
 
 STATES = {"running": "sync", "done": "check_circle", "cancelled": "block", "failed": "error"}
 """Icon of each state of a run."""
@@ -81,12 +83,16 @@ def run_page(key: str, session: Session) -> None:
     drawn: dict[str, str] = {}
     context = Context(session, lambda keys: None)
 
-    def begin() -> None:
+    def begin(*, explore: bool = False) -> None:
         try:
-            start(session, str(session.draft.get("title") or "Contact"))
+            run = start(session, str(session.draft.get("title") or "Contact"))
         except AsperityError as error:
             ui.notify(str(error), type="negative", multi_line=True)
-        runs.refresh()
+            return
+        if explore:
+            ui.navigate.to(f"/s/{key}/explore?run={run.key}")
+        else:
+            runs.refresh()
 
     with ui.element("div").classes("two"):
         with ui.element("section"):
@@ -105,8 +111,13 @@ def run_page(key: str, session: Session) -> None:
                 Refused(session).slot("")
                 if large := large_grid(stated_points(session.draft.document().surface)):
                     failure(large)
-            button = ui.button("Run", icon="play_arrow", on_click=begin).props("no-caps data-run")
-            button.set_enabled(not missing)
+            with ui.row():
+                first = ui.button("Run", icon="play_arrow", on_click=lambda: begin()).props("no-caps data-run")
+                watched = ui.button("Run and explore", icon="travel_explore", on_click=lambda: begin(explore=True))
+                watched.props("no-caps outline data-run-explore")
+                watched.tooltip("the maps are shown as soon as the first step is solved; the files follow")
+            for button in (first, watched):
+                button.set_enabled(not missing)
             minutes = session.limits.seconds / 60.0
             memory = (
                 f"{session.limits.memory / 2**30:.3g} GiB of memory" if session.limits.memory < 2**60 else "all memory"
@@ -117,7 +128,7 @@ def run_page(key: str, session: Session) -> None:
             @ui.refreshable
             def runs() -> None:
                 found = [run for run in session.runs.values() if run.kind == "run"]
-                drawn.update({run.key: run.state for run in found})
+                drawn.update({run.key: _stand(session, run) for run in found})
                 if not found:
                     ui.label("Runs appear here; several may go on side by side.").classes("hint")
                 for run in reversed(found):
@@ -126,10 +137,17 @@ def run_page(key: str, session: Session) -> None:
             runs()
 
             def look() -> None:
-                if any(drawn.get(run.key) != run.state for run in session.runs.values() if run.kind == "run"):
+                if any(
+                    drawn.get(run.key) != _stand(session, run) for run in session.runs.values() if run.kind == "run"
+                ):
                     runs.refresh()
 
             ui.timer(0.3, look)
+
+
+def _stand(session: Session, run: Run) -> str:
+    """What the card of ``run`` depends on."""
+    return f"{run.state} {session.explorable(run)}"
 
 
 def run_card(key: str, session: Session, run: Run) -> None:
@@ -141,7 +159,7 @@ def run_card(key: str, session: Session, run: Run) -> None:
             ui.space()
             if run.state == "running":
                 ui.button("Cancel", icon="stop", on_click=lambda: cancel(session, run)).props("no-caps flat dense")
-            if run.state == "done":
+            if session.explorable(run):
                 target = f"/s/{key}/explore?run={run.key}"
                 ui.button("Explore", on_click=lambda: ui.navigate.to(target)).props("no-caps dense")
             if run.state in ("cancelled", "failed"):
@@ -185,10 +203,12 @@ def downloads(key: str, session: Session, run: Run) -> None:
             ui.image(f"/files/{key}/{run.key}/{name}").props(f'loading=lazy alt="{name[6:-4].replace("_", " ")}"')
 
 
-def progress(session: Session, run: Run) -> None:
-    """Bar and words on how far ``run`` is."""
+def progress(session: Session, run: Run, *, curve: bool = True) -> None:
+    """Bar and words on how far ``run`` is, and the area by the load as far as it is known."""
     bar = ui.linear_progress(0.0, show_value=False).props('size=8px aria-label="progress"')
     text = ui.label("starting a worker").classes("hint state").props('role="status"')
+    box = ui.element("div").classes("wide").props("data-curve-so-far")
+    drawn: list[Any] = []
     file: Path = session.progress_of(run)
 
     def look() -> None:
@@ -198,9 +218,27 @@ def progress(session: Session, run: Run) -> None:
         if worker is not None and worker.waiting:
             text.text = "waiting until another run is done"
         elif state.stage:
-            text.text = ", ".join(filter(None, (state.stage, state.text)))
+            text.text = state.in_words
+        if not curve or len(state.curve) < 2:
+            return
+        figure = maps.area_by_load(state.curve)
+        if drawn:
+            drawn[0].update_figure(figure)
+        else:
+            with box:
+                plot = ui.plotly(figure).classes("small").props('role="img" aria-label="contact area by pressure"')
+                drawn.append(plot)
 
-    ui.timer(0.2, look)
+    known = 0
+
+    def often() -> None:
+        nonlocal known
+        changed = file.stat().st_mtime_ns if file.is_file() else 0
+        if changed != known or not known:
+            known = changed
+            look()
+
+    ui.timer(0.4, often)
 
 
 def _again(session: Session, run: Run) -> None:

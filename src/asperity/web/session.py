@@ -22,6 +22,7 @@ from ..run.archive import PROBLEM, write_archive
 from ..run.document import files_of, load_document
 from .draft import Draft, relabelled
 from .kept import LOCK, STATE, Held, is_within, label_of, state_in
+from .views import ARRAYS, SCENE
 from .workers import Limits, Worker
 
 SCRATCH = "scratch-"
@@ -92,8 +93,20 @@ class Session:
         return self.folder / f"{run.kind}s" / run.key
 
     def views_of(self, run: Run) -> Path:
-        """Beginning of the names of the files that the page of ``run`` shows."""
-        return self.folder / f"{run.kind}s" / run.key
+        """Beginning of the names of the files that the page of ``run`` shows; they are made again
+        where a session is opened again."""
+        return self.scratch / run.key
+
+    def explorable(self, run: Run) -> bool:
+        """Whether there is something to show of ``run``."""
+        views = self.views_of(run)
+        going = run.state == "running" and views.with_name(views.name + SCENE).is_file()
+        return run.kind == "run" and (run.state == "done" or going)
+
+    def shown(self, run: Run, name: str) -> Path | None:
+        """The file of that ``name`` that the page of ``run`` fetches, once it is there."""
+        folder = self.scratch / f"{run.key}{ARRAYS}"
+        return next((path for path in folder.glob("*") if path.name == name), None) if folder.is_dir() else None
 
     def progress_of(self, run: Run) -> Path:
         """File in which the worker of ``run`` reports."""

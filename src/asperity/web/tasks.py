@@ -4,13 +4,10 @@ answer with the key ``error``."""
 from __future__ import annotations
 
 import base64
-import contextlib
 import importlib.util
-import json
 import math
-import time
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -20,7 +17,6 @@ from pydantic import create_model
 
 from ..core.errors import AsperityError
 from ..core.settings import Settings, validated
-from ..core.status import Progress, share_done
 from ..core.units import prefixed, show
 from ..core.words import speaking
 from ..io.atomic import atomic_folder
@@ -51,7 +47,8 @@ from ..surfaces.profile_summary import characterise_profile
 from ..surfaces.read import channels
 from ..surfaces.scans import Scans
 from ..surfaces.surface import Surface
-from .views import theory_curves, write_views
+from .progress import Reported, Watch
+from .views import Views, theory_curves
 
 Task: TypeAlias = Mapping[str, Any]
 
@@ -264,38 +261,6 @@ def _page(out: Path, figures: Sequence[Figure], headline: Iterable[Any], groups:
 # The contact itself: the one executor, and the folder that it leaves.
 
 
-class _Reporter:
-    """Progress of a stage, written to a file ten times a second at most."""
-
-    def __init__(self, file: Path, stage: str) -> None:
-        self._file, self._stage, self._largest, self._last = file, stage, 0.0, 0.0
-        self._write(0.0, "")
-
-    def update(self, iteration: int, error: float, tolerance: float) -> None:
-        """Write how far the stage is."""
-        if time.monotonic() - self._last < 0.1:
-            return
-        if tolerance == 0.0:
-            self._write(1.0 - error, f"step {iteration}")
-            return
-        self._largest = max(self._largest, error)
-        self._write(share_done(error, self._largest, tolerance), f"iteration {iteration}, error {error:.1e}")
-
-    def _write(self, share: float, text: str) -> None:
-        self._last = time.monotonic()
-        partial = self._file.with_suffix(".part")
-        partial.write_text(json.dumps({"stage": self._stage, "share": float(share), "text": text}), encoding="utf-8")
-        partial.replace(self._file)
-
-
-def _stage(file: Path) -> Callable[[str], Any]:
-    @contextlib.contextmanager
-    def stage(name: str) -> Iterator[Progress]:
-        yield _Reporter(file, name)
-
-    return stage
-
-
 @guarded
 def refused(task: Task) -> dict[str, Any]:
     """What the complete document ``table``, whose paths start at ``folder``, would be refused for
@@ -306,18 +271,23 @@ def refused(task: Task) -> dict[str, Any]:
 @guarded
 def contact(task: Task) -> dict[str, Any]:
     """Run the document at ``document``, whose paths start at ``folder``, as ``asperity contact``
-    does, into the folder ``out``."""
-    base, out, stage = Path(task["folder"]), Path(task["out"]), _stage(Path(task["progress"]))
+    does, into the folder ``out``; what the page of the run shows comes before the files."""
+    base, out, views = Path(task["folder"]), Path(task["out"]), Views(Path(task["views"]))
     document = load_document(task["document"])
-    with stage("reading and preparing"):
+    watch = Watch(Path(task["progress"]), 0, views.maps)
+    with watch.stage("reading and preparing"):
         case = build(document, base)
+    watch = Watch(Path(task["progress"]), len(case.path), views.maps)
     with atomic_folder(out) as folder:
-        outcome = execute(case, stage=stage)
-        with stage("writing report and pictures"):
+        outcome = execute(case, stage=watch.stage, reached=watch.reached)
+        with watch.stage("making it explorable"):
+            views.page(outcome)
+        with watch.stage("writing report and pictures"):
             found = carried(document, base, folder, ALL_NAMES, within=base)
             write_run(outcome, folder, found)
-    with stage("making it explorable"):
-        write_views(outcome, Path(task["views"]))
+    with watch.stage("planes in the body"):
+        views.planes(outcome)
+        views.end()
     return {"converged": outcome.converged, "message": outcome.status.message, "remedy": outcome.status.remedy}
 
 
@@ -333,7 +303,7 @@ def views(task: Task) -> dict[str, Any]:
         Stress().at_work.check(request, outcome.result.problem)
         more = analysed(outcome.result, {"stress": request, "yielding": True}, outcome.path)
         outcome = replace(more, found={**outcome.found, **more.found}, findings=outcome.findings)
-    write_views(outcome, Path(task["views"]))
+    Views(Path(task["views"])).page_first(outcome)
     return {}
 
 
@@ -356,15 +326,12 @@ def study(task: Task) -> dict[str, Any]:
     grows."""
     file = Path(task["progress"])
 
-    class Watch:
+    class Counted:
         def update(self, done: int, failed: int, found: int, total: int) -> None:
             text = f"{found + done} of {total} cases" + (f", {failed} failed" if failed else "")
-            partial = file.with_suffix(".part")
-            state = {"stage": "cases", "share": (found + done) / max(total, 1), "text": text}
-            partial.write_text(json.dumps(state), encoding="utf-8")
-            partial.replace(file)
+            Reported("cases", (found + done) / max(total, 1), text).write(file)
 
     campaign = prepare_study(task["table"], task["out"], start=Path(task["folder"]))
-    campaign.run(workers=task.get("workers"), watch=Watch())
+    campaign.run(workers=task.get("workers"), watch=Counted())
     state = campaign.state()
     return {"done": state.done, "failed": state.failed, "missing": state.missing}

@@ -1,14 +1,20 @@
-"""What the page of a run shows, as files beside its folder: the scene of its maps, the surface in
-space, spots, words, theories."""
+"""What the page of a run shows, as files: the scene of its maps with an array for each, the surface
+in space, spots, words, theories.
+
+The page can be opened while the run goes on: a scene is written as soon as there is a step to show,
+arrays follow on a thread of their own, those first that are shown first.
+"""
 
 from __future__ import annotations
 
 import base64
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -17,21 +23,26 @@ from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
 from ..io.words import certificate_rows, result_rows
+from ..parts.part import Solved
 from ..physics.stress.figures import map_figure
 from ..plots.comparison import nearest, within_limits
+from ..plots.contact import contact_figures
 from ..plots.picture import Figure
 from ..report.comparison import comparison_sentence
-from ..report.scene import reduced, scene_of
+from ..report.scene import Stored, contact_scene, reduced
 from ..report.write import where
 from ..run.execute import Outcome
 from ..run.verdict import verdict
 from ..studies.compare import compare
 
 SCENE, SHOWN, THEORIES = ".maps.json", ".page.json", ".curves.json"
-"""Endings of the files; each is named after the folder of its run."""
+"""Endings of the files; each is named after the run."""
 
-BUDGET = 40_000_000
-"""Characters of all arrays of a scene, which travel within this machine only."""
+ARRAYS = ".arrays"
+"""Ending of the folder of what is fetched when it is shown."""
+
+SPACE = "space.json"
+"""The surface in space, in that folder."""
 
 PLANES = 12
 """Planes in the body that are computed for the slider through the depth."""
@@ -43,13 +54,102 @@ MOST_SPOTS = 300
 """Rows of the table of contact spots, the largest first."""
 
 
-def write_views(outcome: Outcome, views: Path) -> None:
-    """Write scene, surface in space, spots and words of ``outcome`` to files whose names begin with
-    ``views``."""
-    scene = scene_of(outcome, more=_planes(outcome), budget=BUDGET)
-    _write(views.with_name(views.name + SCENE), scene)
-    result = outcome.solved.at().result
-    # in space: heights, pressure and plastic state of blocks of points, single precision, rows of y
+def spots_file(step: int) -> str:
+    """Name of the file with the spots of a ``step``; 0 where there is but one load."""
+    return f"spots-{step}.json"
+
+
+class Views:
+    """Writes what the page of a run shows to files whose names begin with ``views``; a store of a
+    scene."""
+
+    def __init__(self, views: Path) -> None:
+        self._views, self._pool = views, ThreadPoolExecutor(1)
+        self._folder = views.with_name(views.name + ARRAYS)
+        self._folder.mkdir(parents=True, exist_ok=True)
+        self._asked: dict[str, Future[None]] = {}
+
+    def array(self, name: str, make: Callable[[], Stored]) -> dict[str, Any]:
+        """Entry of the array ``name``, which ``make`` gives in its turn."""
+        self._later(name, partial(_write_array, make, self._folder / name))
+        return {"url": name}
+
+    def maps(self, solved: Solved, figures: Iterable[Figure] | None = None) -> dict[str, Any]:
+        """Write the scene of a ``solved`` contact from its ``figures``, by default those of the
+        contact itself; the steps of its slider."""
+        shown = contact_figures(solved.at().result) if figures is None else figures
+        made = contact_scene(solved, shown, store=self)
+        steps = (made or {}).get("steps") or {"numbers": [0], "first": 0, "texts": [""]}
+        _write(self._views.with_name(self._views.name + SCENE), made)
+        return steps
+
+    def page(self, outcome: Outcome) -> None:
+        """Write scene and words of an ``outcome``; the surface in space follows."""
+        steps = self.maps(outcome.solved, outcome.all_figures)
+        first, decisive = steps["numbers"][steps["first"]], outcome.solved.at().result
+        self._later(SPACE, lambda: _write(self._folder / SPACE, _in_space(decisive)))
+        for number in sorted(steps["numbers"], key=lambda number: abs(number - first)):
+            result = outcome.solved.at(number or "peak").result
+            self._later(spots_file(number), partial(_write_spots, result, self._folder / spots_file(number)))
+        shown = {
+            "places": steps["numbers"],
+            "step": steps["first"],
+            "step_texts": steps["texts"],
+            "stressed": "stress" in outcome.found,
+            **_words(outcome),
+        }
+        _write(self._views.with_name(self._views.name + SHOWN), shown)
+
+    def planes(self, outcome: Outcome) -> None:
+        """Write the scene of an ``outcome`` again, with planes at depths of its survey of
+        stresses."""
+        if more := list(_planes(outcome)):
+            self.maps(outcome.solved, [*outcome.all_figures, *more])
+
+    def page_first(self, outcome: Outcome) -> None:
+        """The ``page`` of an ``outcome``; its ``planes`` follow in their turn, after which nothing
+        more may be asked for."""
+        self.page(outcome)
+        self._pool.submit(self._rest, outcome)
+
+    def _rest(self, outcome: Outcome) -> None:
+        self.planes(outcome)
+        self._pool.shutdown(wait=False)
+
+    def _later(self, name: str, work: Callable[[], None]) -> None:
+        """Do ``work`` once, after what was asked for before."""
+        if name not in self._asked:
+            self._asked[name] = self._pool.submit(work)
+
+    def end(self) -> None:
+        """Wait until everything is written.
+
+        Raises
+        ------
+        Exception
+            Whatever has kept one of them from being written.
+        """
+        self._pool.shutdown()
+        for asked in self._asked.values():
+            asked.result()
+
+
+def _write_array(make: Callable[[], Stored], file: Path) -> None:
+    """A line of JSON with what the array is, and its numbers, to ``file``."""
+    about, numbers = make()
+    unfinished = file.with_name(file.name + ".part")
+    with unfinished.open("wb") as target:
+        target.write(json.dumps(about, allow_nan=False).encode("ascii") + b"\n")
+        target.write(numbers.astype(numbers.dtype.newbyteorder("<"), copy=False).tobytes())
+    unfinished.replace(file)
+
+
+def _write_spots(result: ContactResult, file: Path) -> None:
+    _write(file, _spots(result))
+
+
+def _in_space(result: ContactResult) -> dict[str, Any]:
+    """Heights, pressure and plastic state of blocks of points, single precision, rows of y."""
     heights = np.asarray(result.problem.surface.heights, dtype=float)
     block = max(1, math.ceil(max(heights.shape) / IN_SPACE))
     state = result.contact.astype(float) + result.plastic
@@ -59,18 +159,7 @@ def write_views(outcome: Outcome, views: Path) -> None:
         rows = np.ascontiguousarray(reduced(np.asarray(values, float), block, how).T, dtype="<f4")
         space[name] = base64.b64encode(rows.tobytes()).decode("ascii")
         space["shape"] = list(rows.shape)
-    steps = scene["steps"] if scene else None
-    numbers: list[int | Literal["peak"]] = steps["numbers"] if steps else ["peak"]
-    shown = {
-        "space": space,
-        "spots": [_spots(outcome.solved.at(number).result) for number in numbers],
-        "step": steps["first"] if steps else 0,
-        "step_texts": steps["texts"] if steps else [""],
-        "stressed": "stress" in outcome.found,
-        "steps": 0 if outcome.path is None else len(outcome.path.steps),
-        **_words(outcome),
-    }
-    _write(views.with_name(views.name + SHOWN), shown)
+    return space
 
 
 def _spots(result: ContactResult) -> dict[str, Any]:
@@ -99,9 +188,9 @@ def _spots(result: ContactResult) -> dict[str, Any]:
 
 
 def _write(file: Path, content: Any) -> None:
-    partial = file.with_suffix(".part")
-    partial.write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
-    partial.replace(file)
+    unfinished = file.with_name(file.name + ".part")
+    unfinished.write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
+    unfinished.replace(file)
 
 
 def _planes(outcome: Outcome) -> Iterator[Figure]:

@@ -221,20 +221,3 @@ class Worker:
             "error": f"The worker ended with {ended}, perhaps for lack of memory. What was finished before is "
             "kept; crop the surface or resample it to fewer points."
         }
-
-
-@dataclass(frozen=True)
-class Reported:
-    """How far a task is: the ``stage``, the ``share`` of it that is done, and words on it."""
-
-    stage: str = ""
-    share: float = 0.0
-    text: str = ""
-
-
-def reported(file: Path) -> Reported:
-    """What a worker has last written to ``file``."""
-    try:
-        return Reported(**json.loads(file.read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError):
-        return Reported()

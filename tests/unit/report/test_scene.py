@@ -12,6 +12,8 @@ import pytest
 
 import asperity as asp
 from asperity.core.arrays import RealArray
+from asperity.core.grid import Grid
+from asperity.plots.maps import Kinds
 from asperity.plots.picture import colour_table
 from asperity.report.scene import (
     BUDGET,
@@ -64,7 +66,10 @@ def test_every_difference_of_two_numbers_is_coded() -> None:
 
 def test_classes_return_exactly() -> None:
     kinds = RANDOM.integers(0, 4, (9, 14)).astype(float)
-    np.testing.assert_array_equal(decoded(coded_kinds(kinds, (1.0, 1.0))), kinds)
+    shown = Kinds(kinds, Grid(kinds.shape, (1e-8, 2e-8)), tuple((str(number), "#000000") for number in range(4)))
+    made = coded_kinds(shown)
+    np.testing.assert_array_equal(decoded(made), kinds)
+    np.testing.assert_allclose(made["shares"], [np.mean(kinds == number) for number in range(4)], rtol=1e-15)
 
 
 @pytest.mark.parametrize(("how", "of"), [("max", np.nanmax), ("min", np.nanmin), ("mean", np.nanmean)])

@@ -22,9 +22,18 @@ function bytesOf(text) {
 }
 
 async function inflated(array) {
-  const packed = array.url ? await (await fetch(array.url)).arrayBuffer() : bytesOf(array.data);
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const stream = new Blob([bytesOf(array.data)]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/* The numbers of an array; of one that is fetched, a line of JSON with its other entries comes first. */
+async function numbersOf(array) {
+  if (!array.url) return numbers(await inflated(array), array.bits, ...array.shape);
+  const answer = await fetch(array.url);
+  if (!answer.ok) throw new Error(`${array.url}: ${answer.status}`);
+  const bytes = new Uint8Array(await answer.arrayBuffer()), end = bytes.indexOf(10) + 1;
+  Object.assign(array, JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))));
+  return array.bits === 8 ? bytes.subarray(end) : new Uint16Array(bytes.slice(end).buffer);
 }
 
 /* Rows of y, x fastest. Of 16 bits: first all low bytes, then all high bytes, of the differences along y of the differences along x, with the sign in the lowest bit. */
@@ -164,6 +173,15 @@ class Colours {
   }
   reset() { [this.low, this.high] = this.map.range || [0, 1]; this.log = Boolean(this.map.log); this.only = -1; this.version = {}; }
   changed() { this.version = {}; }
+  /* Of arrays that are fetched one by one the whole range is known only when all have been shown. */
+  widen(raster) {
+    const range = this.map.range, high = raster.low + raster.step * (raster.masked - 1);
+    if (!range || !(raster.step > 0)) return;
+    const room = 1e-6 * (range[1] - range[0]), whole = this.low === range[0] && this.high === range[1];
+    if (raster.low >= range[0] - room && high <= range[1] + room) return;
+    this.map.range = [Math.min(range[0], raster.low), Math.max(range[1], high)];
+    if (whole) { [this.low, this.high] = this.map.range; this.changed(); }
+  }
   get bottom() { return this.log ? Math.max(this.low, this.high / 10 ** this.map.decades) : this.low; }
   share(value) {
     const low = this.bottom;
@@ -402,9 +420,12 @@ class Panel {
     const array = this.map.arrays[this.viewer.index(this.map)];
     if (this.wanted === array) return;
     this.wanted = array;
-    const raster = await this.viewer.raster(array, this.map);
+    this.box.classList.add("av-waiting");
+    const raster = await this.viewer.raster(array, this.map).catch((error) => { console.warn(error); return null; });
     if (this.wanted !== array) return;
+    this.box.classList.remove("av-waiting");
     this.raster = raster;
+    if (raster) this.colours.widen(raster); else this.viewer.tell(`${this.map.title} could not be loaded.`);
     this.viewer.drawSoon();
   }
 
@@ -413,7 +434,7 @@ class Panel {
     if (!r || x < 0 || y < 0 || x >= this.viewer.size[0] || y >= this.viewer.size[1]) return "";
     const value = r.value(Math.floor(x / r.cell[0]), Math.floor(y / r.cell[1]));
     if (Number.isNaN(value)) return this.map.blank.text;
-    if (this.map.kind === "classes") return this.map.classes[value].text;
+    if (this.map.kind === "classes") return (this.map.classes[value] || this.map.classes[this.map.classes.length - 1]).text;
     return this.number(value);
   }
   number(value) {
@@ -835,11 +856,12 @@ class Viewer {
 
   raster(array, map) {
     if (this.kept.has(array)) { const found = this.kept.get(array); this.kept.delete(array); this.kept.set(array, found); return found; }
-    const made = inflated(array).then((bytes) => new Raster(array, numbers(bytes, array.bits, ...array.shape), map.reduce));
+    const made = numbersOf(array).then((q) => new Raster(array, q, map.reduce)), points = (one) => one.shape ? one.shape[0] * one.shape[1] : 0;
     this.kept.set(array, made);
-    let points = 0;
-    for (const one of this.kept.keys()) points += one.shape[0] * one.shape[1];
-    for (const one of this.kept.keys()) if (points > KEPT && one !== array) { points -= one.shape[0] * one.shape[1]; this.kept.delete(one); }
+    made.catch(() => this.kept.delete(array));
+    let all = 0;
+    for (const one of this.kept.keys()) all += points(one);
+    for (const one of this.kept.keys()) if (all > KEPT && one !== array) { all -= points(one); this.kept.delete(one); }
     return made;
   }
   /* The neighbours of a step or depth, decoded while nothing else happens, so that the slider finds them. */

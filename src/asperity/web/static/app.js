@@ -56,22 +56,44 @@ for (const name of ["dragover", "drop", "dragleave"]) {
 }
 
 /* Maps of runs: each area with a scene is shown once by the viewer of reports; areas side by side share their view. */
+const last = new Map(); // the viewer of each area, which a later one of the same area goes on from
+
 async function mount(area) {
   area.dataset.mounted = "1";
-  area.textContent = "loading the maps …";
+  const before = last.get(area.id), address = root + area.dataset.scene;
+  if (area.viewer) area.style.minHeight = `${area.offsetHeight}px`; else area.textContent = "loading the maps …";
   try {
-    const answer = await fetch(root + area.dataset.scene);
+    const answer = await fetch(address);
     const scene = answer.ok ? await answer.json() : null;
-    area.textContent = scene ? "" : "This contact has no maps: its grid is one line.";
-    if (!scene) return;
-    area.viewer = AsperityViewer.create(area, scene);
-    await area.viewer.ready;
-    area.dataset.ready = "1";
-    together(area.viewer);
+    if (!scene) { area.textContent = "This contact has no maps: its grid is one line."; return; }
+    for (const map of scene.maps) for (const array of map.arrays) if (array.url) array.url = `${address}/${encodeURIComponent(array.url)}`;
+    if (area.viewer) area.viewer.stop();
+    area.textContent = "";
+    const viewer = area.viewer = AsperityViewer.create(area, scene);
+    last.set(area.id, viewer);
+    if (before) goOn(viewer, before);
+    await viewer.ready;
+    area.style.minHeight = "";
+    area.dataset.ready = String(1 + Number(area.dataset.ready || 0));
+    together(viewer);
   } catch (error) {
     area.textContent = "The maps could not be shown.";
     console.error(error);
   }
+}
+window.asperityMaps = (id) => { const area = document.getElementById(id); if (area) mount(area); };
+
+/* Maps of the same run that have become more: what is shown stays, and a person who is at the decisive step stays there. */
+function goOn(viewer, before) {
+  const steps = viewer.scene.steps, old = before.scene.steps, names = before.visible.map((panel) => panel.map.name);
+  if (steps && old) {
+    const there = steps.numbers.indexOf(old.numbers[before.position.steps]);
+    if (before.position.steps !== old.first && there >= 0) viewer.position.steps = there;
+    viewer.setTexts();
+  }
+  viewer.line = [...before.line]; viewer.lineShown = before.lineShown;
+  viewer.setView(...before.centre, before.zoom);
+  viewer.ready = viewer.ready.then(() => viewer.show(viewer.panels.map((panel) => panel.map.name).filter((name) => names.includes(name))));
 }
 
 /* The table of spots is that of the step that the maps show. */
