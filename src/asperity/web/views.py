@@ -117,8 +117,9 @@ class Views:
         self._pool.shutdown(wait=False)
 
     def _later(self, name: str, work: Callable[[], None]) -> None:
-        """Do ``work`` once, after what was asked for before."""
-        if name not in self._asked:
+        """Do ``work``, which writes the file ``name``, unless it is there, after what was asked for
+        before."""
+        if name not in self._asked and not (self._folder / name).is_file():
             self._asked[name] = self._pool.submit(work)
 
     def end(self) -> None:

@@ -1,0 +1,160 @@
+"""A run is explored while it goes on: progress, maps of the first steps, files behind."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+pytest.importorskip("nicegui", reason="the extra web is not installed")
+
+from .app_server import AppServer
+
+LONG = 90_000
+
+PROBLEM = """
+version = 2
+title = "A long path"
+
+[surface]
+kind = "rough"
+points = [256, 256]
+size = "2 um x 2 um"
+seed = 5
+
+[surface.spectrum]
+kind = "gaussian"
+rms_height = "4 nm"
+correlation_length = "0.1 um"
+
+[[body.layers]]
+material = "DLC"
+thickness = "50 nm"
+
+[body.base]
+material = "steel"
+
+[control.path]
+mean_pressure = ["200 MPa"]
+steps = 40
+
+[stress]
+
+[slow]
+seconds = 4
+"""
+
+PART = '''
+import time
+from asperity.core.quantity import Quantity
+from asperity.core.settings import Settings, setting
+from asperity.core.values import Positive
+from asperity.parts.part import Found, Part
+
+
+class SlowSettings(Settings):
+    """How long it takes."""
+
+    seconds: Positive = setting(1.0, help="Seconds")
+
+
+class Slow(Part):
+    """An analysis that takes its time."""
+
+    name = table = "slow"
+    title = "Slow analysis"
+    settings = SlowSettings
+    quantities = (Quantity("slow_time", "1", "seconds that were taken"),)
+
+    def compute(self, ask, solved):
+        with solved.stage("slow analysis"):
+            time.sleep(ask.seconds)
+        return Found({"slow_time": ask.seconds})
+'''
+
+VIEWER = "document.querySelector('[data-scene]').viewer"
+
+
+@pytest.fixture(scope="module")
+def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[AppServer]:
+    """The application on a path of 40 loads with an analysis that takes seconds."""
+    folder = tmp_path_factory.mktemp("packages")
+    (folder / "slow_part.py").write_text(PART, encoding="utf-8")
+    information = folder / "slow_part-1.0.dist-info"
+    information.mkdir()
+    (information / "METADATA").write_text("Metadata-Version: 2.1\nName: slow-part\nVersion: 1.0\n", encoding="utf-8")
+    (information / "entry_points.txt").write_text("[asperity.parts]\nslow = slow_part:Slow\n", encoding="utf-8")
+    (folder / "problem.toml").write_text(PROBLEM, encoding="utf-8")
+    with AppServer((str(folder / "problem.toml"), "--threads", "1"), packages=folder) as running:
+        yield running
+
+
+def begun(app: AppServer, open_page: Callable[..., Any]) -> Any:
+    """Explore of a run that was just begun."""
+    page = open_page(app.address, viewport={"width": 1400, "height": 950}).page
+    page.wait_for_url("**/s/**")
+    page.goto(f"{page.url.rsplit('/', 1)[0]}/run")
+    page.click("[data-run-explore]")
+    page.wait_for_url("**/explore?run=*")
+    return page
+
+
+@pytest.mark.slow
+def test_maps_of_the_first_steps_are_explored_while_others_are_solved(
+    app: AppServer, open_page: Callable[..., Any]
+) -> None:
+    page = begun(app, open_page)
+    page.wait_for_selector("[data-ready]", timeout=LONG)
+    assert page.locator("[data-verdict]").count() == 0, "the run goes on"
+    page.wait_for_selector("[data-curve-so-far] .main-svg", timeout=LONG)
+    page.evaluate(f"{VIEWER}.setView(0.5e-6, 1.5e-6, 4)")
+    page.evaluate(f"{VIEWER}.setLine(0.2e-6, 0.3e-6, 1.2e-6, 1.4e-6)")
+    page.evaluate(f"{VIEWER}.show(['gap'])")
+
+    page.wait_for_selector("[data-verdict]", timeout=LONG)
+    page.wait_for_function(f"{VIEWER}.scene.steps && {VIEWER}.scene.steps.numbers.length === 40", timeout=LONG)
+    page.wait_for_function(f"{VIEWER}.visible.every((panel) => panel.raster)", timeout=LONG)
+    assert page.evaluate(f"[...{VIEWER}.centre, {VIEWER}.zoom]") == pytest.approx([0.5e-6, 1.5e-6, 4.0])
+    assert page.evaluate(f"{VIEWER}.line") == pytest.approx([0.2e-6, 0.3e-6, 1.2e-6, 1.4e-6])
+    assert page.evaluate(f"{VIEWER}.visible.map((panel) => panel.map.name)") == ["gap"]
+    assert page.evaluate(f"{VIEWER}.scene.steps.numbers[{VIEWER}.position.steps]") == 40, "the decisive step"
+
+    page.wait_for_selector(".downloads >> text=report", timeout=LONG)  # without drawing the page again
+    assert page.evaluate(f"{VIEWER}.zoom") == pytest.approx(4.0)
+    assert page.locator("[data-behind]").count() == 0
+    page.wait_for_function(f"{VIEWER}.panels.some((panel) => panel.map.name === 'planes')", timeout=LONG)
+    assert page.evaluate(f"{VIEWER}.zoom") == pytest.approx(4.0)
+
+    shares = page.evaluate(
+        f"(async () => {{ const v = {VIEWER}; await v.show(['contact']); const all = [];"
+        " for (const step of [0, 20, 39]) { await v.set('steps', step); all.push(v.visible[0].raster.shares[0]); }"
+        " return all; })()"
+    )
+    assert 1.0 > shares[0] > shares[1] > shares[2] > 0.0, "more touches at a larger load"
+
+
+@pytest.mark.slow
+def test_progress_tells_step_and_time_and_a_run_is_cancelled_where_it_is_watched(
+    app: AppServer, open_page: Callable[..., Any]
+) -> None:
+    page = begun(app, open_page)
+    said: list[str] = page.evaluate(
+        "new Promise((done) => { const all = []; const timer = setInterval(() => {"
+        " const text = document.querySelector('.state'); if (text) all.push(text.textContent);"
+        " if (document.querySelector('[data-ready]')) { clearInterval(timer); done(all); } }, 20); })"
+    )
+    page.wait_for_selector("text=slow analysis", timeout=LONG)
+    assert any(re.search(r"step \d+ of 40", text) for text in said), said[-1]
+    page.click("text=Cancel")
+    page.wait_for_selector("text=/^Cancelled/", timeout=LONG)
+    page.wait_for_selector("[data-scene]", state="detached")
+
+
+def test_a_map_that_nobody_made_is_not_found(app: AppServer) -> None:
+    cookie = app.cookie()
+    key = app.session(cookie)
+    for name in ("pressure", "..%2f..%2fproblem.toml", "%2fetc%2fpasswd"):
+        status, _, _ = app.ask("GET", f"/views/{key}/001-aaaaaa/{name}", cookie=cookie)
+        assert status == 404
