@@ -203,7 +203,9 @@ def area_by_load(points: list[list[float]]) -> dict[str, Any]:
     both."""
     symbol, factor = scaled(max(pressure for pressure, _ in points), "Pa", "pressure")
     line = ("", [pressure / factor for pressure, _ in points], [100.0 * share for _, share in points])
-    return curves([line], f"mean pressure / {symbol}", "points in contact / %")
+    made = curves([line], f"mean pressure / {symbol}", "points in contact / %")
+    made["layout"]["margin"]["t"] = 8
+    return made
 
 
 def curves(

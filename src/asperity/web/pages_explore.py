@@ -119,11 +119,12 @@ class _Explored:
     def live(self) -> None:
         """What is known while the run goes on: how far it is, and the maps of the steps so far."""
         with self.box:
-            ui.label("This run goes on; what is known so far is shown.").classes("hint")
+            with ui.row().classes("item-head"):
+                ui.label("This run goes on; what is known so far is shown.").classes("hint")
+                ui.button("Cancel", icon="stop", on_click=lambda: cancel(self.session, self.run)).props(
+                    "no-caps flat dense"
+                )
             progress(self.session, self.run)
-            ui.button("Cancel", icon="stop", on_click=lambda: cancel(self.session, self.run)).props(
-                "no-caps outline dense"
-            )
             area = ui.element("div").classes("whole")
 
         async def look() -> None:

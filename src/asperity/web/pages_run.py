@@ -226,7 +226,7 @@ def progress(session: Session, run: Run, *, curve: bool = True) -> None:
             drawn[0].update_figure(figure)
         else:
             with box:
-                plot = ui.plotly(figure).classes("small").props('role="img" aria-label="contact area by pressure"')
+                plot = ui.plotly(figure).classes("so-far").props('role="img" aria-label="contact area by pressure"')
                 drawn.append(plot)
 
     known = 0
