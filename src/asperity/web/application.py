@@ -116,6 +116,7 @@ def application(place: Place) -> Any:
         app,
         title="asperity",
         dark=None,
+        language="en-US",
         tailwind=False,
         gzip_middleware_factory=None,
         show_welcome_message=False,

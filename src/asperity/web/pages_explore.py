@@ -18,6 +18,7 @@ from ..core.errors import AsperityError
 from ..core.status import SENTENCES
 from ..core.units import show
 from . import maps
+from .differences import Told, difference, run_name
 from .layout import failure, rows
 from .pages_run import downloads, start
 from .remedies import Remedy, remedies
@@ -49,7 +50,7 @@ def explore_page(key: str, session: Session, chosen: str = "", beside: str = "")
         query = {"run": run.key, "beside": other.key if other else "", name: value or ""}
         ui.navigate.to(f"/s/{key}/explore?run={query['run']}&beside={query['beside']}")
 
-    with ui.row().classes("item-head"):
+    with ui.row().classes("item-head runs-shown"):
         ui.select(titles, label="Run", value=run.key, on_change=lambda e: to("run", e.value)).props("dense").classes(
             "pick"
         )
@@ -60,10 +61,15 @@ def explore_page(key: str, session: Session, chosen: str = "", beside: str = "")
             clearable=True,
             on_change=lambda e: to("beside", e.value),
         ).props("dense data-key=beside").classes("pick")
-    with ui.element("div").classes("beside" if other else "whole"):
+    if other:
+        ui.element("div").classes("together").props('data-together role="group" aria-label="what both runs share"')
+    with ui.element("div").classes("beside explored" if other else "whole"):
+        explored = []
         for item in filter(None, (run, other)):
-            with ui.element("section").classes("whole"):
-                _Explored(key, session, item, numbered=other is not None)
+            with ui.element("section").classes("whole").props(f'aria-label="{run_name(item)}"'):
+                explored.append(_Explored(key, session, item, numbered=other is not None))
+        if other:
+            difference(explored[0].told, explored[1].told, (run_name(run), run_name(other)))
 
 
 class _Explored:
@@ -72,10 +78,12 @@ class _Explored:
     def __init__(self, key: str, session: Session, run: Run, *, numbered: bool) -> None:
         self.key, self.session, self.run = key, session, run
         if numbered:
-            ui.html(f"<h2>Run {run.key.split('-')[0]}</h2>", sanitize=False)
+            with ui.element("h2"):
+                ui.label(f"{run_name(run).capitalize()}  {run.title}")
         self.box = ui.element("div").classes("whole")
         self.client = ui.context.client
         self.fill_spots: Callable[[int], None] = lambda step: None
+        self.told = Told()
         ui.on("asperity-step", self.stepped)
         ui.timer(0.01, self.load, once=True)
 
@@ -107,63 +115,78 @@ class _Explored:
             self.draw(shown)
 
     def draw(self, shown: dict[str, Any]) -> None:
-        """Draw everything, what matters most first."""
-        message, remedy, converged = shown["status"]
-        if not converged:
-            failure(f"Not converged: {message} {remedy}")
-            self.remedies(shown, "{iterations}")
-        grade, fails = shown["grade"], shown["fails"]
-        classes = (
-            "",
-            "failure" if fails else "",
-            "failure" if grade == "not" else "finding" if grade == "doubtful" else "",
-        )
-        for (name, text), style in zip(shown["verdict"], classes, strict=True):
-            with ui.element("div").classes(f"verdict {style}").props(f"data-verdict={name}"):
-                ui.label(name).classes("table-title")
-                ui.label(text)
-                for _, _, _, advised, beside in shown["findings"] if name == SENTENCES[-1] else ():
-                    if not beside:  # the sentence tells it
-                        self.remedies(shown, advised)
-        with ui.element("div").classes("tiles"):
-            for label, text in shown["headline"]:
-                with ui.element("div").classes("tile"):
-                    ui.label(text).classes("value")
-                    ui.label(label).classes("hint")
-        for level, criterion, text, advised, beside in shown["findings"]:
-            if not beside:
-                continue
-            with ui.element("div").classes("finding" if level == "warning" else "finding note").props("data-finding"):
-                ui.label(criterion).classes("table-title")
-                ui.label(text)
-                self.remedies(shown, advised)
-        downloads(self.key, self.session, self.run)
-        ui.button("Fields as VTK", icon="download", on_click=self.vtk).props("no-caps flat dense")
+        """Draw everything, what matters most first: verdict, headline and maps on one screen, the
+        rest folded below."""
+        self.head(shown)
         name = f"scene-{self.run.key}"
-        ui.html("<h2>Maps and section</h2>", sanitize=False)
+        scene = ui.element("div").classes("scene").props(f'id="{name}" data-scene="/views/{self.key}/{self.run.key}"')
+        scene.props(f'data-label="{run_name(self.run)}" role="region" aria-label="maps of {run_name(self.run)}"')
         if not shown["stressed"]:
             with ui.row().classes("item-head"):
                 ui.label("No stresses were asked for.").classes("hint")
                 ui.button("Compute the stresses in the body", on_click=lambda: self.load(stresses=True)).props(
                     "no-caps outline dense data-stresses"
                 )
-        ui.element("div").classes("scene").props(
-            f'id="{name}" data-scene="/views/{self.key}/{self.run.key}" role="region" aria-label="maps of the contact"'
-        )
         self.spots(shown, name)
-        at = f" at {shown['at']}" if shown["at"] else ""
-        ui.html(f"<h2>Surface in space{at}</h2>", sanitize=False)
-        space = ui.element("div").classes("whole")
-
-        def in_space() -> None:
-            space.clear()
-            with space:
-                self.in_space(shown["space"])
-
-        with space:
-            ui.button("Show the surface in space", on_click=in_space).props("no-caps outline data-space")
+        self.in_space_on_demand(shown)
         self.theories()
         self.words(shown)
+        with ui.expansion("Files").classes("wide").props("data-files"):
+            downloads(self.key, self.session, self.run)
+            ui.button("Fields as VTK", icon="download", on_click=self.vtk).props("no-caps flat dense")
+        self.told.tell(shown["numbers"] if "numbers" in shown else [])
+
+    def head(self, shown: dict[str, Any]) -> None:
+        """Verdict in a line each, whole with remedies where it is opened, and the headline."""
+        message, remedy, converged = shown["status"]
+        if not converged:
+            failure(f"Not converged: {message} {remedy}")
+            self.remedies(shown, "{iterations}")
+        grade, fails = shown["grade"], shown["fails"]
+        classes = ("", "failing" if fails else "", {"not": "failing", "doubtful": "doubtful"}.get(grade, ""))
+        beside = [item for item in shown["findings"] if item[4]]
+        with ui.element("details").classes("verdicts").props("data-verdicts"):
+            with ui.element("summary"):
+                for (name, text), style in zip(shown["verdict"], classes, strict=True):
+                    with ui.element("span").classes(f"verdict {style}").props(f"data-verdict={name}"):
+                        with ui.element("b"):
+                            ui.label(f"{name}: ")
+                        ui.label(text)
+                more = f", and {len(beside)} more" if beside else ""
+                ui.label(f"Whole sentences and remedies{more}").classes("hint opener")
+            for _, _, _, advised, elsewhere in shown["findings"]:
+                if not elsewhere:  # the sentence on trust tells it
+                    with ui.element("div").props(f"data-advice={SENTENCES[-1]}"):
+                        self.remedies(shown, advised)
+            for level, criterion, text, advised, _ in beside:
+                style = "finding" if level == "warning" else "finding note"
+                with ui.element("div").classes(style).props("data-finding"):
+                    ui.label(criterion).classes("table-title")
+                    ui.label(text)
+                    self.remedies(shown, advised)
+        with ui.element("div").classes("tiles headline"):
+            for label, text in shown["headline"]:
+                value, doubted, _ = text.partition(" (doubtful)")
+                with ui.element("div").classes("tile"):
+                    with ui.element("div").classes("of-value"):
+                        ui.label(value).classes("value")
+                        if doubted:
+                            ui.label("doubtful").classes("mark")
+                    ui.label(label).classes("hint")
+
+    def in_space_on_demand(self, shown: dict[str, Any]) -> None:
+        """The surface in space, drawn when it is opened for the first time."""
+        at = f" at {shown['at']}" if shown["at"] else ""
+        drawn = False
+
+        def opened(event: events.ValueChangeEventArguments) -> None:
+            nonlocal drawn
+            if event.value and not drawn:
+                drawn = True
+                with box:
+                    self.in_space(shown["space"])
+
+        box = ui.expansion(f"Surface in space{at}", on_value_change=opened).classes("wide").props("data-space")
 
     def remedies(self, shown: dict[str, Any], text: str) -> None:
         """What the ``text`` of a remedy advises: applied to the document of this run, which is then
@@ -258,8 +281,8 @@ class _Explored:
 
     def theories(self) -> None:
         """Curves of the theories, computed when they are asked for."""
-        ui.html("<h2>Comparison with theories</h2>", sanitize=False)
-        box = ui.element("div").classes("whole")
+        with ui.expansion("Comparison with theories").classes("wide").props("data-compared"):
+            box = ui.element("div").classes("whole")
 
         def draw(answer: dict[str, Any]) -> None:
             box.clear()

@@ -54,61 +54,6 @@ for (const name of ["dragover", "drop", "dragleave"]) {
     if (name === "drop") send(area, [...event.dataTransfer.files]);
   });
 }
-
-/* Maps of runs: each area with a scene is shown once by the viewer of reports; areas side by side share their view. */
-async function mount(area) {
-  area.dataset.mounted = "1";
-  area.textContent = "loading the maps …";
-  try {
-    const answer = await fetch(root + area.dataset.scene);
-    const scene = answer.ok ? await answer.json() : null;
-    area.textContent = scene ? "" : "This contact has no maps: its grid is one line.";
-    if (!scene) return;
-    area.viewer = AsperityViewer.create(area, scene);
-    await area.viewer.ready;
-    area.dataset.ready = "1";
-    together(area.viewer);
-  } catch (error) {
-    area.textContent = "The maps could not be shown.";
-    console.error(error);
-  }
-}
-
-/* The table of spots is that of the step that the maps show. */
-document.addEventListener("viewer-set", (event) => {
-  const area = event.target.closest("[data-scene]");
-  if (area && event.detail.kind === "steps") emitEvent("asperity-step", { of: area.id, step: event.detail.number });
-});
-
-function together(viewer) {
-  const own = viewer.setView.bind(viewer);
-  viewer.setView = (x, y, zoom) => {
-    own(x, y, zoom);
-    for (const area of document.querySelectorAll("[data-scene][data-ready]")) {
-      const other = area.viewer;
-      if (!other || other === viewer || other.following) continue;
-      other.following = viewer.following = true;
-      other.setView((x / viewer.size[0]) * other.size[0], (y / viewer.size[1]) * other.size[1], zoom);
-      other.following = viewer.following = false;
-    }
-  };
-}
-
-function mark(row) {
-  const area = document.getElementById(row.dataset.of);
-  if (!area || !area.viewer) return;
-  const [x, y] = row.dataset.spot.split(",").map(Number);
-  row.parentElement.querySelectorAll(".chosen").forEach((other) => other.classList.remove("chosen"));
-  row.classList.add("chosen");
-  area.viewer.highlight({ x, y, zoom: true });
-  area.scrollIntoView({ block: "nearest", behavior: "smooth" });
-}
-
-document.addEventListener("click", (event) => { const row = event.target.closest && event.target.closest("[data-spot]"); if (row) mark(row); });
-document.addEventListener("keydown", (event) => { if (event.key === "Enter" && event.target.matches && event.target.matches("[data-spot]")) mark(event.target); });
-
-const look = () => document.querySelectorAll("[data-scene]:not([data-mounted])").forEach(mount);
-new MutationObserver(look).observe(document.documentElement, { childList: true, subtree: true });
 })();
 
 // A picture that is taken away while the window changes has no size to be drawn in again; that is no error.
