@@ -120,7 +120,6 @@ def _colours_of_the_page() -> None:
 
     items = {}
     with ui.button(icon="contrast").props('flat round dense aria-label="dark or light" aria-haspopup="menu"'):
-        ui.tooltip("dark or light")
         with ui.menu():
             for name, (text, _) in LOOKS.items():
                 item = ui.menu_item(text.capitalize(), on_click=lambda name=name: choose(name))
@@ -217,7 +216,9 @@ def rows(pairs: list[list[str]] | list[tuple[str, str]]) -> None:
 
 def text_table(headings: list[str], rows: list[list[str]]) -> None:
     """A table of text that scrolls where it is wide."""
-    with ui.element("div").classes("spots texts"), ui.element("table"):
+    box = ui.element("div").classes("spots texts").props('tabindex=0 role="region"')
+    box.props["aria-label"] = ", ".join(filter(None, headings))
+    with box, ui.element("table"):
         with ui.element("thead"), ui.element("tr"):
             for text in headings:
                 with ui.element("th"):

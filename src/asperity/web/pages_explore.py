@@ -269,7 +269,7 @@ class _Explored:
         block = space["block"]
         toggle = ui.toggle({name: texts[0] for name, texts in COLOURED.items()}, value="height")
         toggle.props("no-caps dense data-key=space")
-        plot = ui.plotly(figure("height")).classes("space").props('role="img" aria-label="surface in space"')
+        plot = ui.plotly(figure("height")).classes("space").props('role="figure" aria-label="surface in space"')
         toggle.on_value_change(lambda e: plot.update_figure(figure(e.value)))
         if block > 1:
             text = (
@@ -331,7 +331,7 @@ class _Explored:
                 for text in part["remarks"]:
                     ui.label(text).classes("hint")
         with ui.expansion("Certificate: what proves the solution").classes("wide").props("data-certificate"):
-            _table(["", "value", "meaning"], shown["certificate"])
+            _table(["check", "value", "meaning"], shown["certificate"])
 
 
 def _spot_table(rows: list[list[float]], name: str) -> str:
@@ -349,7 +349,9 @@ def _spot_table(rows: list[list[float]], name: str) -> str:
 
 
 def _table(headings: list[str], cells: list[list[str]]) -> None:
-    with ui.element("div").classes("spots"), ui.element("table"):
+    box = ui.element("div").classes("spots").props('tabindex=0 role="region"')
+    box.props["aria-label"] = ", ".join(filter(None, headings))
+    with box, ui.element("table"):
         with ui.element("thead"), ui.element("tr"):
             for text in headings:
                 with ui.element("th").props('scope="col"'):
