@@ -124,16 +124,18 @@ def test_a_part_of_another_package_and_a_solved_contact(app: AppServer, open_pag
 
     sliders = page.locator("[data-scene] input[type=range]")
     assert sliders.count() == 2, "load steps, and depths"
+    page.click("[data-thumb=planes]")
     before = page.locator("[data-scene] output").all_inner_texts()
     for number in range(2):
         sliders.nth(number).focus()
         page.keyboard.press("ArrowRight" if number else "ArrowLeft")
     page.wait_for_timeout(300)
     assert page.locator("[data-scene] output").all_inner_texts() != before
-    assert page.locator("[data-scene] >> text=Von Mises stress below the section line").count() == 1
+    assert page.locator("[data-scene] option", has_text="Von Mises stress below the section line").count() == 1
 
     viewer = "document.querySelector('[data-scene]').viewer"
     line = page.evaluate(f"{viewer}.line")
+    page.click(".av-ends summary")
     field = page.locator("[data-scene] fieldset input").nth(1)
     field.fill("0.5")
     field.press("Enter")
@@ -191,6 +193,7 @@ def test_spots_are_marked_and_the_surface_is_shown_in_space(app: AppServer, open
     page.click("[data-space]")
     page.wait_for_selector(".space .main-svg", timeout=LONG)
     page.click("text=Contact and plastic zone")
+    page.click("[data-files]")
     with page.expect_download(timeout=LONG) as download:
         page.click("text=Fields as VTK")
     assert Path(download.value.path()).read_bytes().startswith(b'<?xml version="1.0"?>')
@@ -206,7 +209,9 @@ def test_a_remedy_is_applied_and_run_again(tmp_path: Path, open_page: Callable[.
         page.wait_for_selector("[data-state=done]", timeout=LONG)
         page.click("[data-state=done] >> text=Explore")
         page.wait_for_selector("[data-ready]", timeout=LONG)
-        found = page.locator("[data-verdict=Trust]", has_text="The contact has")
+        page.click("[data-verdicts] summary")
+        assert "The contact has" in page.locator("[data-verdict=Trust]").inner_text()
+        found = page.locator("[data-advice=Trust]")
         for finding in [found, *page.locator("[data-finding]").all()]:
             assert finding.locator("[data-remedy], [data-choose]").count() > 0, finding.inner_text()
         assert found.locator("[data-choose]").inner_text() == "Choose Control: Mean pressure"
@@ -263,6 +268,7 @@ def test_theories_stand_grey_beside_the_exact_solution_but_for_the_nearest(
         page.wait_for_selector("[data-state=done]", timeout=LONG)
     page.goto(page.url.replace("/run", "/explore"))
     page.wait_for_selector("[data-ready]", timeout=LONG)
+    page.click("[data-compared]")
     page.click("[data-theories]")
     page.wait_for_selector(".theories .main-svg", timeout=LONG)
     code = (

@@ -111,7 +111,7 @@ def test_maps_of_the_first_steps_are_explored_while_others_are_solved(
     page.wait_for_selector("[data-curve-so-far] .main-svg", timeout=LONG)
     page.evaluate(f"{VIEWER}.setView(0.5e-6, 1.5e-6, 4)")
     page.evaluate(f"{VIEWER}.setLine(0.2e-6, 0.3e-6, 1.2e-6, 1.4e-6)")
-    page.evaluate(f"{VIEWER}.show(['gap'])")
+    page.evaluate(f"{VIEWER}.choose('gap')")
 
     page.wait_for_selector("[data-verdict]", timeout=LONG)
     page.wait_for_function(f"{VIEWER}.scene.steps && {VIEWER}.scene.steps.numbers.length === 40", timeout=LONG)
@@ -121,6 +121,7 @@ def test_maps_of_the_first_steps_are_explored_while_others_are_solved(
     assert page.evaluate(f"{VIEWER}.visible.map((panel) => panel.map.name)") == ["gap"]
     assert page.evaluate(f"{VIEWER}.scene.steps.numbers[{VIEWER}.position.steps]") == 40, "the decisive step"
 
+    page.click("[data-files]")
     page.wait_for_selector(".downloads >> text=report", timeout=LONG)  # without drawing the page again
     assert page.evaluate(f"{VIEWER}.zoom") == pytest.approx(4.0)
     assert page.locator("[data-behind]").count() == 0
@@ -128,7 +129,7 @@ def test_maps_of_the_first_steps_are_explored_while_others_are_solved(
     assert page.evaluate(f"{VIEWER}.zoom") == pytest.approx(4.0)
 
     shares = page.evaluate(
-        f"(async () => {{ const v = {VIEWER}; await v.show(['contact']); const all = [];"
+        f"(async () => {{ const v = {VIEWER}; await v.choose('contact'); const all = [];"
         " for (const step of [0, 20, 39]) { await v.set('steps', step); all.push(v.visible[0].raster.shares[0]); }"
         " return all; })()"
     )

@@ -73,7 +73,7 @@ def application(place: Place) -> Any:
             await asyncio.sleep(0.02)
         if file is None:
             return Response("no such map", 404, media_type="text/plain")
-        return FileResponse(file, media_type="application/octet-stream", headers={"cache-control": "max-age=3600"})
+        return FileResponse(file, media_type="application/octet-stream", headers={"cache-control": "no-store"})
 
     @app.post("/upload/{key}")
     async def upload(key: str, name: str, request: Request) -> Response:
@@ -132,6 +132,7 @@ def application(place: Place) -> Any:
         app,
         title="asperity",
         dark=None,
+        language="en-US",
         tailwind=False,
         gzip_middleware_factory=None,
         show_welcome_message=False,

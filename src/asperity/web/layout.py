@@ -35,7 +35,6 @@ def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]
     title, _ = STEPS[step]
     ui.page_title(f"{title} – asperity")
     look()
-    dark = ui.dark_mode(value=None)
     drawer = ui.left_drawer(value=False, bordered=True).classes("steps").props("width=210 breakpoint=900 show-if-above")
     with drawer, ui.element("nav").props('aria-label="steps"'):
         for number, (name, (text, icon)) in enumerate(STEPS.items(), start=1):
@@ -59,10 +58,9 @@ def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]
         ).tooltip("redo")
         _copies(session)
         _keeping(place, session)
-        ui.button(icon="contrast", on_click=lambda: dark.set_value(not dark.value)).props(
-            'flat round dense aria-label="dark or light"'
-        ).tooltip("dark or light")
-    with ui.element("main").classes("content"):
+        _colours_of_the_page()
+    main_named(title)
+    with ui.element("div").classes(f"content page-{step}"):
         ui.html(f"<h1>{title}</h1>", sanitize=False)
         yield
     own, seen = ui.context.client.id, session.version
@@ -79,13 +77,54 @@ def frame(place: Place, key: str, session: Session, step: str) -> Iterator[None]
 
 
 def look() -> None:
-    """Style and scripts of every page."""
+    """Style and scripts of every page, dark or light as it was chosen."""
+    ui.dark_mode(value=LOOKS[_chosen_look()][1])
     ui.colors(primary="#005a9c", positive="#1b6e3c", negative="#a31515", warning="#8a5300", info="#005a9c")
     root = ui.context.client.request.headers.get(FORWARDED.decode(), "")
     for name in ("viewer.css", "app.css"):
         ui.add_head_html(f'<link rel="stylesheet" href="{root}/static/{name}">')
-    for name in ("viewer.js", "app.js"):
+    for name in ("viewer.js", "app.js", "explore.js"):
         ui.add_head_html(f'<script defer src="{root}/static/{name}"></script>')
+
+
+LOOKS = MappingProxyType({"system": ("as the system", None), "light": ("light", False), "dark": ("dark", True)})
+"""What a person chooses between: how it is called, and what it means to the page."""
+
+LOOK_COOKIE = "asperity-look"
+"""Keeps the choice in the browser, for the pages of this application only."""
+
+
+def main_named(title: str) -> None:
+    """Name the landmark of the content, which is that of the frame around every page."""
+    slot = ui.context.client.content.parent_slot
+    if slot is not None:
+        slot.parent.props(f'aria-label="{title}"')
+
+
+def _chosen_look() -> str:
+    """The choice of this browser."""
+    found = ui.context.client.request.cookies.get(LOOK_COOKIE, "")
+    return found if found in LOOKS else "system"
+
+
+def _colours_of_the_page() -> None:
+    """The menu that chooses dark or light."""
+    root = ui.context.client.request.headers.get(FORWARDED.decode(), "")
+
+    def choose(name: str) -> None:
+        kept = f"{LOOK_COOKIE}={name}; path={root}/; max-age=31536000; samesite=strict"
+        ui.run_javascript(f"document.cookie = {kept!r}")
+        ui.dark_mode(value=LOOKS[name][1])
+        for key, item in items.items():
+            item.props(f'aria-checked="{str(key == name).lower()}"')
+
+    items = {}
+    button = ui.button(icon="contrast").props('flat round dense aria-label="dark or light" aria-haspopup="menu"')
+    with button, ui.menu():
+        for name, (text, _) in LOOKS.items():
+            item = ui.menu_item(text.capitalize(), on_click=lambda name=name: choose(name))
+            items[name] = item.props(f'role="menuitemradio" data-look="{name}"')
+            item.props(f'aria-checked="{str(name == _chosen_look()).lower()}"')
 
 
 def _back(session: Session, *, again: bool = False) -> None:
@@ -177,7 +216,9 @@ def rows(pairs: list[list[str]] | list[tuple[str, str]]) -> None:
 
 def text_table(headings: list[str], rows: list[list[str]]) -> None:
     """A table of text that scrolls where it is wide."""
-    with ui.element("div").classes("spots texts"), ui.element("table"):
+    box = ui.element("div").classes("spots texts").props('tabindex=0 role="region"')
+    box.props["aria-label"] = ", ".join(filter(None, headings))
+    with box, ui.element("table"):
         with ui.element("thead"), ui.element("tr"):
             for text in headings:
                 with ui.element("th"):

@@ -13,7 +13,7 @@ from nicegui import ui
 from ..core.errors import AsperityError
 from ..run.document import PRESETS, read_table
 from .beginning import fill
-from .layout import frame, look
+from .layout import frame, look, main_named
 from .pages_explore import explore_page
 from .pages_problem import bodies_page, load_page
 from .pages_run import run_page
@@ -67,7 +67,6 @@ def add_pages(app: Any, place: Place) -> None:
 def _start(place: Place) -> None:
     """Begin a session, or open one again."""
     ui.page_title("asperity")
-    ui.dark_mode(value=None)
 
     def begin(first: Callable[[Session], None], folder: Path | None = None, to: str = "surface") -> None:
         try:
@@ -87,7 +86,8 @@ def _start(place: Place) -> None:
             return
         begin(lambda session: None, path)
 
-    with ui.element("main").classes("start"):
+    main_named("Start")
+    with ui.element("div").classes("start"):
         ui.html("<h1>asperity – contact of layered rough surfaces</h1>", sanitize=False)
         ui.label("Everything is computed on this machine; nothing is sent anywhere.").classes("hint")
         with ui.element("div").classes("beside"):

@@ -19,6 +19,7 @@ from ..core.errors import AsperityError
 from ..core.status import SENTENCES
 from ..core.units import show
 from . import maps
+from .differences import Told, difference, run_name
 from .layout import failure, rows
 from .pages_run import cancel, downloads, progress, start
 from .remedies import Remedy, remedies
@@ -51,7 +52,7 @@ def explore_page(key: str, session: Session, chosen: str = "", beside: str = "")
         query = {"run": run.key, "beside": other.key if other else "", name: value or ""}
         ui.navigate.to(f"/s/{key}/explore?run={query['run']}&beside={query['beside']}")
 
-    with ui.row().classes("item-head"):
+    with ui.row().classes("item-head runs-shown"):
         ui.select(titles, label="Run", value=run.key, on_change=lambda e: to("run", e.value)).props("dense").classes(
             "pick"
         )
@@ -62,10 +63,15 @@ def explore_page(key: str, session: Session, chosen: str = "", beside: str = "")
             clearable=True,
             on_change=lambda e: to("beside", e.value),
         ).props("dense data-key=beside").classes("pick")
-    with ui.element("div").classes("beside" if other else "whole"):
+    if other:
+        ui.element("div").classes("together").props('data-together role="group" aria-label="what both runs share"')
+    with ui.element("div").classes("beside explored" if other else "whole"):
+        explored = []
         for item in filter(None, (run, other)):
-            with ui.element("section").classes("whole"):
-                _Explored(key, session, item, numbered=other is not None)
+            with ui.element("section").classes("whole").props(f'aria-label="{run_name(item)}"'):
+                explored.append(_Explored(key, session, item, numbered=other is not None))
+        if other:
+            difference(explored[0].told, explored[1].told, (run_name(run), run_name(other)))
 
 
 async def _nothing(step: int) -> None:
@@ -78,11 +84,13 @@ class _Explored:
     def __init__(self, key: str, session: Session, run: Run, *, numbered: bool) -> None:
         self.key, self.session, self.run = key, session, run
         if numbered:
-            ui.html(f"<h2>Run {run.key.split('-')[0]}</h2>", sanitize=False)
+            with ui.element("h2"):
+                ui.label(f"{run_name(run).capitalize()}  {run.title}")
         self.box = ui.element("div").classes("whole")
         self.client = ui.context.client
         self.fill_spots: Callable[[int], Awaitable[None]] = _nothing
         self.step_wanted = 0
+        self.told = Told()
         ui.on("asperity-step", self.stepped)
         ui.timer(0.01, self.load, once=True)
 
@@ -145,9 +153,8 @@ class _Explored:
     def scene(self) -> None:
         """Place of the maps, which are drawn again when there are more of them."""
         name = f"scene-{self.run.key}"
-        ui.element("div").classes("scene").props(
-            f'id="{name}" data-scene="/views/{self.key}/{self.run.key}" role="region" aria-label="maps of the contact"'
-        )
+        scene = ui.element("div").classes("scene").props(f'id="{name}" data-scene="/views/{self.key}/{self.run.key}"')
+        scene.props(f'data-label="{run_name(self.run)}" role="region" aria-label="maps of {run_name(self.run)}"')
         stand = self.file(SCENE).stat().st_mtime_ns
 
         def look() -> None:
@@ -164,9 +171,8 @@ class _Explored:
         @ui.refreshable
         def links() -> None:
             if self.run.state == "running":
-                ui.label("Report, pictures and files are being written; everything can be explored meanwhile.").classes(
-                    "hint"
-                ).props("data-behind")
+                text = "Report, pictures and files are being written; everything can be explored meanwhile."
+                ui.label(text).classes("hint").props("data-behind")
                 progress(self.session, self.run, curve=False)
             elif self.run.state == "done":
                 downloads(self.key, self.session, self.run)
@@ -174,72 +180,93 @@ class _Explored:
             else:
                 failure(self.run.message)
 
-        links()
+        with ui.expansion().classes("wide").props("data-files") as box:
+            links()
+
+        def told() -> None:
+            box.text = "Files" if self.run.state != "running" else "Files: report and pictures are being written"
+
+        told()
         if self.run.state == "running":
 
             def look() -> None:
                 if self.run.state != "running":
                     timer.deactivate()
+                    told()
                     links.refresh()
 
             timer = ui.timer(0.3, look)
 
     def draw(self, shown: dict[str, Any]) -> None:
-        """Draw everything, what matters most first."""
-        message, remedy, converged = shown["status"]
-        if not converged:
-            failure(f"Not converged: {message} {remedy}")
-            self.remedies(shown, "{iterations}")
-        grade, fails = shown["grade"], shown["fails"]
-        classes = (
-            "",
-            "failure" if fails else "",
-            "failure" if grade == "not" else "finding" if grade == "doubtful" else "",
-        )
-        for (name, text), style in zip(shown["verdict"], classes, strict=True):
-            with ui.element("div").classes(f"verdict {style}").props(f"data-verdict={name}"):
-                ui.label(name).classes("table-title")
-                ui.label(text)
-                for _, _, _, advised, beside in shown["findings"] if name == SENTENCES[-1] else ():
-                    if not beside:  # the sentence tells it
-                        self.remedies(shown, advised)
-        with ui.element("div").classes("tiles"):
-            for label, text in shown["headline"]:
-                with ui.element("div").classes("tile"):
-                    ui.label(text).classes("value")
-                    ui.label(label).classes("hint")
-        for level, criterion, text, advised, beside in shown["findings"]:
-            if not beside:
-                continue
-            with ui.element("div").classes("finding" if level == "warning" else "finding note").props("data-finding"):
-                ui.label(criterion).classes("table-title")
-                ui.label(text)
-                self.remedies(shown, advised)
-        self.files()
-        ui.html("<h2>Maps and section</h2>", sanitize=False)
+        """Draw everything, what matters most first: verdict, headline and maps on one screen, the
+        rest folded below."""
+        self.head(shown)
+        self.scene()
         if not shown["stressed"] and self.run.state == "done":
             with ui.row().classes("item-head"):
                 ui.label("No stresses were asked for.").classes("hint")
                 ui.button("Compute the stresses in the body", on_click=lambda: self.load(stresses=True)).props(
                     "no-caps outline dense data-stresses"
                 )
-        self.scene()
         self.spots(shown, f"scene-{self.run.key}")
-        at = f" at {shown['at']}" if shown["at"] else ""
-        ui.html(f"<h2>Surface in space{at}</h2>", sanitize=False)
-        space = ui.element("div").classes("whole")
-
-        async def in_space() -> None:
-            file = await self.fetched(SPACE)
-            if file is not None:
-                space.clear()
-                with space:
-                    self.in_space(file)
-
-        with space:
-            ui.button("Show the surface in space", on_click=in_space).props("no-caps outline data-space")
+        self.in_space_on_demand(shown)
         self.theories()
         self.words(shown)
+        self.files()
+        self.told.tell(shown["numbers"])
+
+    def head(self, shown: dict[str, Any]) -> None:
+        """Verdict in a line each, whole with remedies where it is opened, and the headline."""
+        message, remedy, converged = shown["status"]
+        if not converged:
+            failure(f"Not converged: {message} {remedy}")
+            self.remedies(shown, "{iterations}")
+        grade, fails = shown["grade"], shown["fails"]
+        classes = ("", "failing" if fails else "", {"not": "failing", "doubtful": "doubtful"}.get(grade, ""))
+        beside = [item for item in shown["findings"] if item[4]]
+        with ui.element("details").classes("verdicts").props("data-verdicts"):
+            with ui.element("summary"):
+                for (name, text), style in zip(shown["verdict"], classes, strict=True):
+                    with ui.element("span").classes(f"verdict {style}").props(f"data-verdict={name}"):
+                        with ui.element("b"):
+                            ui.label(f"{name}: ")
+                        ui.label(text)
+                more = f", and {len(beside)} more" if beside else ""
+                ui.label(f"Whole sentences and remedies{more}").classes("hint opener")
+            for _, _, _, advised, elsewhere in shown["findings"]:
+                if not elsewhere:  # the sentence on trust tells it
+                    with ui.element("div").props(f"data-advice={SENTENCES[-1]}"):
+                        self.remedies(shown, advised)
+            for level, criterion, text, advised, _ in beside:
+                style = "finding" if level == "warning" else "finding note"
+                with ui.element("div").classes(style).props("data-finding"):
+                    ui.label(criterion).classes("table-title")
+                    ui.label(text)
+                    self.remedies(shown, advised)
+        with ui.element("div").classes("tiles headline"):
+            for label, text in shown["headline"]:
+                value, doubted, _ = text.partition(" (doubtful)")
+                with ui.element("div").classes("tile"):
+                    with ui.element("div").classes("of-value"):
+                        ui.label(value).classes("value")
+                        if doubted:
+                            ui.label("doubtful").classes("mark")
+                    ui.label(label).classes("hint")
+
+    def in_space_on_demand(self, shown: dict[str, Any]) -> None:
+        """The surface in space, drawn when it is opened for the first time."""
+        at = f" at {shown['at']}" if shown["at"] else ""
+        drawn = False
+
+        async def opened(event: events.ValueChangeEventArguments[Any]) -> None:
+            nonlocal drawn
+            if event.value and not drawn:
+                drawn = True
+                if (space := await self.fetched(SPACE)) is not None:
+                    with box:
+                        self.in_space(space)
+
+        box = ui.expansion(f"Surface in space{at}", on_value_change=opened).classes("wide").props("data-space")
 
     async def fetched(self, name: str) -> dict[str, Any] | None:
         """Content of the file ``name`` of the run, as soon as it is there; None if the page is left
@@ -335,7 +362,7 @@ class _Explored:
         block = space["block"]
         toggle = ui.toggle({name: texts[0] for name, texts in COLOURED.items()}, value="height")
         toggle.props("no-caps dense data-key=space")
-        plot = ui.plotly(figure("height")).classes("space").props('role="img" aria-label="surface in space"')
+        plot = ui.plotly(figure("height")).classes("space").props('role="figure" aria-label="surface in space"')
         toggle.on_value_change(lambda e: plot.update_figure(figure(e.value)))
         if block > 1:
             text = (
@@ -347,8 +374,8 @@ class _Explored:
 
     def theories(self) -> None:
         """Curves of the theories, computed when they are asked for."""
-        ui.html("<h2>Comparison with theories</h2>", sanitize=False)
-        box = ui.element("div").classes("whole")
+        with ui.expansion("Comparison with theories").classes("wide").props("data-compared"):
+            box = ui.element("div").classes("whole")
 
         def draw(answer: dict[str, Any]) -> None:
             box.clear()
@@ -400,7 +427,7 @@ class _Explored:
                 for text in part["remarks"]:
                     ui.label(text).classes("hint")
         with ui.expansion("Certificate: what proves the solution").classes("wide").props("data-certificate"):
-            _table(["", "value", "meaning"], shown["certificate"])
+            _table(["check", "value", "meaning"], shown["certificate"])
 
 
 def _spot_table(rows: list[list[float]], name: str) -> str:
@@ -418,7 +445,9 @@ def _spot_table(rows: list[list[float]], name: str) -> str:
 
 
 def _table(headings: list[str], cells: list[list[str]]) -> None:
-    with ui.element("div").classes("spots"), ui.element("table"):
+    box = ui.element("div").classes("spots").props('tabindex=0 role="region"')
+    box.props["aria-label"] = ", ".join(filter(None, headings))
+    with box, ui.element("table"):
         with ui.element("thead"), ui.element("tr"):
             for text in headings:
                 with ui.element("th").props('scope="col"'):

@@ -76,7 +76,7 @@ class Preview:
             values = np.frombuffer(self._file.read_bytes(), "<f4").reshape(ny, nx)
             drawn = maps.height_map if ny > 1 else maps.height_line
             figure = drawn(values, tuple(self.answer["spacing"]), self.title)
-            ui.plotly(figure).classes("map").props('role="img" aria-label="map of heights"').on(
+            ui.plotly(figure).classes("map").props('role="figure" aria-label="map of heights"').on(
                 "plotly_relayout", self._moved, list(AXES)
             )
             full = self.answer["full"]

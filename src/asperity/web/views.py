@@ -22,7 +22,7 @@ from ..contact.measure import labelled
 from ..contact.problem import ContactProblem
 from ..contact.result import ContactResult
 from ..core.arrays import RealArray
-from ..io.words import certificate_rows, result_rows
+from ..io.words import HEADLINE, certificate_rows, result_rows
 from ..parts.part import Solved
 from ..physics.stress.figures import map_figure
 from ..plots.comparison import nearest, within_limits
@@ -223,6 +223,7 @@ def _words(outcome: Outcome) -> dict[str, Any]:
         "points": list(result.problem.grid.shape),
         "cell": list(result.problem.grid.spacing),
         "headline": [list(row) for row in given.headline],
+        "numbers": [[name, *_finite(np.array([float(getattr(result, name))]))] for name in HEADLINE],
         "results": [list(row) for row in result_rows(result, given.doubted)],
         "certificate": [list(row) for row in certificate_rows(result)],
         "parts": [

@@ -3,13 +3,19 @@
    No other file is needed, nothing is fetched unless an array names an address, and nothing is evaluated, so that the page may
    forbid everything but this script. The scene it shows is described in asperity/report/scene.py.
 
-   AsperityViewer.create(element, scene)  -> Viewer, shown in the element
+   AsperityViewer.create(element, scene, options)  -> Viewer, shown in the element
+     layout: "grid" (by default), the chosen maps side by side; "one", one map large, all others as small pictures beside it
+     centred: whether a spot that is pressed is brought into view, enlarged
    AsperityViewer.start(document)         -> mounts what a page declares: [data-viewer] and figures with [data-curves] */
 (function () {
 "use strict";
 
 const MASKED = { 8: 255, 16: 65535 };
+let counted = 0; // numbers of rasters and of states of colours
 const KEPT = 2.5e7; // points of decoded arrays that are kept
+const COARSE = 256; // points along a side of what is kept of every step: shown at once, until all of its points are there
+const SMALL = 160; // the same of a small picture
+const CALM = 40; // ms without another step, after which all of its points are asked for
 const STEP_KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /* ---- arrays ---- */
@@ -54,7 +60,7 @@ function numbers(bytes, bits, nx, ny) {
 /* A decoded array and its coarser levels, each of which has half the points along both sides. */
 class Raster {
   constructor(array, q, reduce) {
-    this.low = array.low; this.step = array.step; this.cell = array.cell; this.reduce = reduce;
+    this.id = counted++; this.low = array.low; this.step = array.step; this.cell = array.cell; this.reduce = reduce; this.known = array.known || array.step;
     this.masked = MASKED[array.bits]; this.shares = array.shares;
     this.levels = [{ nx: array.shape[0], ny: array.shape[1], q }];
     this.pictures = new Map();
@@ -65,6 +71,14 @@ class Raster {
     if (i < 0 || j < 0 || i >= this.nx || j >= this.ny) return NaN;
     const q = this.levels[0].q[j * this.nx + i];
     return q === this.masked ? NaN : this.low + this.step * q;
+  }
+  /* This one with few points only. */
+  coarse() {
+    let k = 0;
+    while (Math.max(this.nx, this.ny) >> k > COARSE) k++;
+    if (k === 0) return this;
+    const found = this.level(k), level = this.levels[found], cell = [this.cell[0] * 2 ** found, this.cell[1] * 2 ** found];
+    return new Raster({ low: this.low, step: this.step, cell, bits: this.masked === MASKED[8] ? 8 : 16, shares: this.shares, shape: [level.nx, level.ny] }, level.q, this.reduce);
   }
   level(k) {
     while (this.levels.length <= k) {
@@ -89,17 +103,24 @@ class Raster {
   }
 }
 
+/* One value for 2 × 2 points: their largest, smallest or mean; at an odd end for those that are there. */
 function halved(from, reduce, masked) {
-  const nx = Math.ceil(from.nx / 2), ny = Math.ceil(from.ny / 2), q = new from.q.constructor(nx * ny);
-  for (let y = 0, at = 0; y < ny; y++) for (let x = 0; x < nx; x++, at++) {
-    let found = reduce === "min" ? masked : -1, sum = 0, count = 0;
-    for (let b = 2 * y; b < Math.min(2 * y + 2, from.ny); b++) for (let a = 2 * x; a < Math.min(2 * x + 2, from.nx); a++) {
-      const value = from.q[b * from.nx + a];
-      if (value === masked) continue;
-      count++; sum += value;
-      if (reduce === "min" ? value < found : value > found) found = value;
+  const nx = Math.ceil(from.nx / 2), ny = Math.ceil(from.ny / 2), old = from.q, q = new old.constructor(nx * ny), wide = from.nx;
+  for (let y = 0, at = 0; y < ny; y++) {
+    const above = 2 * y * wide, below = 2 * y + 1 < from.ny ? above + wide : above;
+    for (let x = 0; x < nx; x++, at++) {
+      const i = 2 * x, j = i + 1 < wide ? i + 1 : i;
+      const a = old[above + i], b = old[above + j], c = old[below + i], d = old[below + j];
+      if (reduce === "min") { const e = a < b ? a : b, f = c < d ? c : d; q[at] = e < f ? e : f; continue; } // what is masked is the largest number
+      if (a !== masked && b !== masked && c !== masked && d !== masked) {
+        if (reduce === "mean") q[at] = (a + b + c + d + 2) >> 2;
+        else { const e = a > b ? a : b, f = c > d ? c : d; q[at] = e > f ? e : f; }
+        continue;
+      }
+      let most = -1, sum = 0, count = 0;
+      for (const value of [a, b, c, d]) if (value !== masked) { count++; sum += value; if (value > most) most = value; }
+      q[at] = count === 0 ? masked : reduce === "mean" ? Math.round(sum / count) : most;
     }
-    q[at] = count === 0 ? masked : reduce === "mean" ? Math.round(sum / count) : found;
   }
   return { nx, ny, q };
 }
@@ -145,6 +166,9 @@ function make(tag, parent, attributes, text) {
   return element;
 }
 
+/* Text of an element, written only where it is another one, so that nothing is laid out again in vain. */
+function write(element, text) { if (element.textContent !== text) element.textContent = text; }
+
 /* ---- drawing ---- */
 
 function colourOf(element, name) { return getComputedStyle(element).getPropertyValue(name).trim(); }
@@ -167,12 +191,13 @@ const FONT = '12px system-ui, "Segoe UI", Roboto, Arial, sans-serif';
 /* Range and scale of the colours of one map, and the colour of every stored number. */
 class Colours {
   constructor(map, palettes) {
-    this.map = map;
+    this.map = map; this.shared = null;
     this.palette = map.kind === "values" ? bytesOf(palettes[map.colours]) : null;
     this.reset();
   }
-  reset() { [this.low, this.high] = this.map.range || [0, 1]; this.log = Boolean(this.map.log); this.only = -1; this.version = {}; }
-  changed() { this.version = {}; }
+  /* The whole range: that of the map, or one that it shares with others. */
+  reset() { [this.low, this.high] = this.shared || this.map.range || [0, 1]; this.log = Boolean(this.map.log); this.only = -1; this.changed(); }
+  changed() { this.version = { id: counted++ }; }
   /* Of arrays that are fetched one by one the whole range is known only when all have been shown. */
   widen(raster) {
     const range = this.map.range, high = raster.low + raster.step * (raster.masked - 1);
@@ -194,7 +219,11 @@ class Colours {
     if (this.map.kind === "classes") this.map.classes.forEach((item, k) => {
       table[k] = packed(...(this.only < 0 || this.only === k ? (k === 0 ? blank : rgb(item.colour)) : blank));
     });
-    else for (let q = 0; q < raster.masked; q++) table[q] = this.colour(this.share(raster.low + raster.step * q));
+    else {
+      const colours = Uint32Array.from({ length: 256 }, (_, i) => this.colour((i + 0.5) / 256)), low = this.bottom, span = this.high - low;
+      if (this.log) for (let q = 0; q < raster.masked; q++) table[q] = colours[Math.min(255, Math.floor(256 * this.share(raster.low + raster.step * q)))];
+      else for (let q = 0, t = 256 * (raster.low - low) / span, by = 256 * raster.step / span; q < raster.masked; q++) { const at = t + by * q; table[q] = colours[at <= 0 ? 0 : at >= 255 ? 255 : at | 0]; }
+    }
     table[raster.masked] = packed(...blank);
     return table;
   }
@@ -274,7 +303,7 @@ class Panel {
     this.viewer = viewer; this.map = map; this.colours = new Colours(map, viewer.scene.palettes); this.raster = null;
     const box = this.box = make("div", null, { class: "av-panel", "data-map": map.name });
     const head = make("div", box, { class: "av-head" });
-    make("h4", head, {}, map.title);
+    make(viewer.heading, head, {}, map.title);
     this.said = make("output", head, { class: "av-value" }, ""); this.where = make("span", head, { class: "av-at" }, "");
     this.other = elsewhere(viewer, box, map);
     const stage = this.stage = make("div", box, { class: "av-stage" });
@@ -315,23 +344,30 @@ class Panel {
       const wrap = make("label", controls, {}, `${name} `);
       const field = make("input", wrap, { type: "text", inputmode: "decimal", size: "7", "aria-label": `${name} of the colours of ${this.map.title}${label}` });
       field.addEventListener("change", () => {
-        const value = Number(field.value.replace("−", "-")) * unit.factor, other = key === "low" ? this.colours.high : this.colours.low;
+        const value = Number(field.value.replace("−", "-")) * this.map.unit.factor, other = key === "low" ? this.colours.high : this.colours.low;
         if (Number.isFinite(value) && field.value.trim() && (key === "low" ? value < other : value > other) && (!this.colours.log || key === "low" || value > 0)) {
-          this.colours[key] = value; this.colours.changed();
+          this.colours[key] = value; this.recoloured();
         }
         this.draw();
       });
       return field;
     };
     this.lowest = input("from", "low"); this.highest = input("to", "high");
-    make("span", controls, {}, unit.symbol);
+    this.symbol = make("span", controls, {}, unit.symbol);
     if (this.map.decades) {
       const wrap = make("label", controls), box = this.logBox = make("input", wrap, { type: "checkbox" });
       wrap.append(" logarithmic");
-      box.addEventListener("change", () => { this.colours.log = box.checked; this.colours.changed(); this.draw(); });
+      box.addEventListener("change", () => { this.colours.log = box.checked; this.recoloured(); this.draw(); });
     }
     const reset = make("button", controls, { type: "button" }, "whole range");
-    reset.addEventListener("click", () => { const log = this.colours.log; this.colours.reset(); this.colours.log = log; this.draw(); });
+    reset.addEventListener("click", () => { const log = this.colours.log; this.colours.reset(); this.colours.log = log; this.recoloured(); this.draw(); });
+  }
+  /* Other colours: those who look at the same map elsewhere are told. */
+  recoloured() {
+    const { low, high, log } = this.colours;
+    this.colours.changed();
+    this.viewer.thumbsSoon();
+    this.viewer.emit("colours", { name: this.map.name, low, high, log });
   }
 
   legend(box) {
@@ -340,7 +376,7 @@ class Panel {
       const button = make("button", row, { type: "button", "aria-pressed": "false" });
       make("canvas", button, { class: "av-swatch", width: "28", height: "20", "aria-hidden": "true" });
       make("span", button, {}, item.text);
-      button.addEventListener("click", () => { this.colours.only = this.colours.only === k ? -1 : k; this.colours.changed(); this.draw(); });
+      button.addEventListener("click", () => { this.colours.only = this.colours.only === k ? -1 : k; this.colours.changed(); this.draw(); this.viewer.thumbsSoon(); });
       return button;
     });
   }
@@ -415,32 +451,49 @@ class Panel {
 
   spoken() { return `${this.map.title}: ${this.said.textContent}, ${this.viewer.placeText()}`; }
 
-  /* The array of the step or depth that is shown, decoded; drawn as soon as it is there. */
-  async load() {
-    const array = this.map.arrays[this.viewer.index(this.map)];
-    if (this.wanted === array) return;
+  /* The array of the step or depth that is shown, decoded. Until all its points are there, few of them are drawn, if these are at hand. */
+  load() {
+    const v = this.viewer, array = this.map.arrays[v.index(this.map)];
+    if (this.wanted === array) return this.loading;
     this.wanted = array;
-    this.box.classList.add("av-waiting");
+    const [found, whole] = v.atHand(array);
+    this.box.classList.toggle("av-waiting", !found);
+    if (found) { this.raster = found; v.drawSoon(); v.thumbsSoon(); }
+    this.loading = whole ? Promise.resolve() : this.fill(array, found ? CALM : 0);
+    return this.loading;
+  }
+  async fill(array, wait) {
+    if (wait) await new Promise((done) => setTimeout(done, wait));
+    if (this.wanted !== array) return;
     const raster = await this.viewer.raster(array, this.map).catch((error) => { console.warn(error); return null; });
     if (this.wanted !== array) return;
     this.box.classList.remove("av-waiting");
     this.raster = raster;
     if (raster) this.colours.widen(raster); else this.viewer.tell(`${this.map.title} could not be loaded.`);
-    this.viewer.drawSoon();
+    this.viewer.drawSoon(); this.viewer.thumbsSoon();
   }
 
-  text(x, y) {
+  /* Value at x, y (m), SI; NaN where there is none. */
+  at(x, y) {
     const r = this.raster;
-    if (!r || x < 0 || y < 0 || x >= this.viewer.size[0] || y >= this.viewer.size[1]) return "";
-    const value = r.value(Math.floor(x / r.cell[0]), Math.floor(y / r.cell[1]));
+    if (!r || x < 0 || y < 0 || x >= this.viewer.size[0] || y >= this.viewer.size[1]) return NaN;
+    return r.value(Math.floor(x / r.cell[0]), Math.floor(y / r.cell[1]));
+  }
+  text(x, y) {
+    if (!this.raster || x < 0 || y < 0 || x >= this.viewer.size[0] || y >= this.viewer.size[1]) return "";
+    const value = this.at(x, y);
     if (Number.isNaN(value)) return this.map.blank.text;
     if (this.map.kind === "classes") return (this.map.classes[value] || this.map.classes[this.map.classes.length - 1]).text;
     return this.number(value);
   }
   number(value) {
-    const { factor, symbol } = this.map.unit, step = this.raster.step / factor;
-    const largest = Math.max(Math.abs(this.raster.low), Math.abs(this.raster.low + this.raster.step * (this.raster.masked - 1))) / factor;
-    return withUnit(rounded(value / factor, decimalsFor(step, largest)), symbol);
+    const r = this.raster;
+    return this.quantity(value, r.known, Math.max(Math.abs(r.low), Math.abs(r.low + r.step * (r.masked - 1))));
+  }
+  /* A value in the unit of the map that is known in these steps, with as many digits as suit the largest. */
+  quantity(value, step, largest) {
+    const { factor, symbol } = this.map.unit;
+    return withUnit(rounded(value / factor, decimalsFor(step / factor, largest / factor)), symbol);
   }
 
   draw() {
@@ -448,7 +501,7 @@ class Panel {
     const v = this.viewer, look = v.look, width = this.stage.clientWidth;
     if (!width) return;
     const plot = width - MAP_MARGIN.left - MAP_MARGIN.right;
-    const height = Math.min(Math.max(plot * v.size[1] / v.size[0], 110), 460) + MAP_MARGIN.top + MAP_MARGIN.bottom;
+    const height = Math.min(Math.max(plot * v.size[1] / v.size[0], 110), v.tallest) + MAP_MARGIN.top + MAP_MARGIN.bottom;
     this.axes = v.fitted(new Axes(width, height, MAP_MARGIN));
     const context = sized(this.canvas, width, height), a = this.axes;
     this.canvas.style.touchAction = v.zoom > 1 ? "none" : "pan-y";
@@ -510,7 +563,7 @@ class Panel {
     for (let i = 0; i < wide; i++) { const p = c.colour(i / wide); context.fillStyle = `rgb(${p & 255},${(p >> 8) & 255},${(p >> 16) & 255})`; context.fillRect(left + i, 0, 1.5, 12); }
     context.fillStyle = this.viewer.look.soft; context.font = FONT; context.textAlign = "center"; context.textBaseline = "top";
     const low = c.bottom / factor, high = c.high / factor;
-    const found = c.log ? decades(low, high) : ticks(low, high, Math.max(2, Math.round(wide / 75)));
+    const found = c.log ? decades(low, high) : ticks(low, high, Math.max(2, Math.round(wide / 60)));
     for (const t of found) { const at = left + wide * c.share(t * factor); context.fillRect(at, 12, 1, 4); context.fillText(short(t), at, 18); }
     context.textAlign = "right"; context.fillText(this.map.unit.symbol, left - 8, 0);
     if (document.activeElement !== this.lowest) this.lowest.value = short(low);
@@ -546,8 +599,8 @@ class Panel {
       stroke(() => { context.moveTo(x - 9, y); context.lineTo(x - 2, y); context.moveTo(x + 2, y); context.lineTo(x + 9, y); context.moveTo(x, y - 9); context.lineTo(x, y - 2); context.moveTo(x, y + 2); context.lineTo(x, y + 9); });
     }
     context.restore();
-    this.said.textContent = v.cursor ? this.text(...v.cursor) : "";
-    this.where.textContent = this.said.textContent ? `at ${v.placeText()}` : "";
+    const value = v.cursor ? this.text(...v.cursor) : "";
+    write(this.said, value); write(this.where, value ? `at ${v.placeText()}` : "");
     [[x0, y0], [x1, y1]].forEach(([x, y], end) => {
       const handle = this.handles[end], inside = x >= a.left - 2 && x <= a.left + a.width + 2 && y >= a.top - 2 && y <= a.top + a.height + 2;
       handle.hidden = !v.lineShown || !inside;
@@ -598,7 +651,7 @@ class Below {
     this.viewer = viewer; this.section = section;
     this.colours = new Colours({ ...section, kind: "values" }, viewer.scene.palettes);
     const box = this.box = make("div", null, { class: "av-panel av-below" }), head = make("div", box, { class: "av-head" });
-    make("h4", head, {}, section.title);
+    make(viewer.heading, head, {}, section.title);
     this.said = make("output", head, { class: "av-value" }, "");
     this.other = elsewhere(viewer, box, section);
     this.canvas = make("canvas", box, { role: "application", "aria-roledescription": "section", tabindex: "0", "aria-label": `${section.alt} Arrow keys move the cross and read the value.` });
@@ -680,7 +733,7 @@ class Below {
     const width = this.box.clientWidth, v = this.viewer;
     if (!width || !this.ready() || (this.other && !this.other.there())) return;
     const margin = { ...MAP_MARGIN, right: 12 }, s = this.section, [from, to] = this.span(), deep = s.depths[s.depths.length - 1] / (s.axis ? v.zoom : 1);
-    const height = Math.min(230, Math.max(130, width * 0.3)) + margin.top + margin.bottom, context = sized(this.canvas, width, height);
+    const height = (v.one ? 120 : Math.min(230, Math.max(130, width * 0.3))) + margin.top + margin.bottom, context = sized(this.canvas, width, height);
     const a = this.axes = new Axes(width, height, margin).limits(from, to, deep, 0);
     const picture = this.picture(Math.max(2, Math.round(a.width)), Math.round(a.height), from, to, deep);
     context.drawImage(picture, a.left, a.top, a.width, a.height);
@@ -709,7 +762,7 @@ class Curve {
     this.viewer = viewer; this.panel = panel;
     this.box = make("div", null, { class: "av-curve", "data-curve": panel.map.name });
     const head = make("div", this.box, { class: "av-head" });
-    make("h4", head, {}, panel.map.title);
+    make(viewer.heading, head, {}, panel.map.title);
     this.said = make("output", head, { class: "av-value" }, "");
     this.canvas = make("canvas", this.box, { role: "application", "aria-roledescription": "curve", tabindex: "0", "aria-label": `${panel.map.title} along the section line. Left and right arrow move along the line and read the value.` });
     this.canvas.addEventListener("pointermove", (event) => { const r = this.canvas.getBoundingClientRect(); viewer.go(this.axes.x(event.clientX - r.left)); });
@@ -726,10 +779,12 @@ class Curve {
     const { line } = this.viewer, r = this.panel.raster, blank = this.panel.map.blank.value;
     return r.between(line[0] + t * (line[2] - line[0]), line[1] + t * (line[3] - line[1]), blank === null ? NaN : blank);
   }
-  draw() {
-    const width = this.box.clientWidth, v = this.viewer, p = this.panel;
-    if (!width || !p.raster) return;
-    const margin = { ...MAP_MARGIN, right: 12 }, height = 128, context = sized(this.canvas, width, height), { factor, symbol } = p.map.unit;
+  /* Axes and curve, drawn once for a place of the line; the cross that moves over them is drawn by draw(). */
+  under() {
+    const width = this.box.clientWidth, v = this.viewer, p = this.panel, key = [width, v.line, window.devicePixelRatio, v.look.soft, v.look.accent].join(" ");
+    if (this.kept && this.kept.key === key && this.kept.raster === p.raster) return true;
+    if (!width || !p.raster) return false;
+    const margin = { ...MAP_MARGIN, right: 12 }, height = 128, { factor, symbol } = p.map.unit, made = document.createElement("canvas"), context = sized(made, width, height);
     const n = Math.min(1500, Math.max(2, 2 * Math.ceil(Math.max(Math.abs(v.line[2] - v.line[0]) / p.raster.cell[0], Math.abs(v.line[3] - v.line[1]) / p.raster.cell[1])) + 1));
     this.values = Float64Array.from({ length: n }, (_, k) => this.sample(k / (n - 1)));
     let low = Infinity, high = -Infinity;
@@ -742,64 +797,151 @@ class Curve {
     let pen = false;
     this.values.forEach((value, k) => {
       if (Number.isNaN(value)) { pen = false; return; }
-      const at = [a.px(k / (n - 1) * a.x1), a.py(value)];
-      if (pen) context.lineTo(...at); else context.moveTo(...at);
+      const x = a.px(k / (n - 1) * a.x1), y = a.py(value);
+      if (pen) context.lineTo(x, y); else context.moveTo(x, y);
       pen = true;
     });
     context.stroke();
-    this.said.textContent = "";
-    if (v.along === null) return;
+    this.kept = { key, raster: p.raster, canvas: made, width, height };
+    return true;
+  }
+  draw() {
+    if (!this.under()) return;
+    const v = this.viewer, p = this.panel, a = this.axes, l = v.scene.length, { canvas: made, width, height } = this.kept, context = sized(this.canvas, width, height);
+    context.drawImage(made, 0, 0, width, height);
+    if (v.along === null) { write(this.said, ""); return; }
     const value = this.sample(v.along / (v.length() || 1));
     context.strokeStyle = v.look.ink; context.lineWidth = 1; context.setLineDash([3, 3]);
     context.beginPath(); context.moveTo(a.px(v.along), a.top); context.lineTo(a.px(v.along), a.top + a.height); context.stroke(); context.setLineDash([]);
-    if (Number.isNaN(value)) { this.said.textContent = p.map.blank.text; return; }
+    if (Number.isNaN(value)) { write(this.said, p.map.blank.text); return; }
     context.fillStyle = v.look.ink; context.beginPath(); context.arc(a.px(v.along), a.py(value), 3.5, 0, 7); context.fill();
-    this.said.textContent = `${p.number(value)} at ${withUnit(short(v.along / l.factor), l.symbol)}`;
+    write(this.said, `${p.number(value)} at ${withUnit(short(v.along / l.factor), l.symbol)}`);
+  }
+}
+
+/* ---- the other maps, small ---- */
+
+/* A small picture of a map, of the step that is shown, with the place of the cross and the value there; pressed, it becomes the large one. */
+class Thumb {
+  constructor(viewer, panel, row) {
+    this.viewer = viewer; this.panel = panel; this.drawn = "";
+    const button = this.button = make("button", row, { class: "av-thumb", type: "button", "aria-pressed": "false", "data-thumb": panel.map.name });
+    make("span", button, { class: "av-thumb-name" }, panel.map.title);
+    const stage = make("span", button, { class: "av-thumb-stage" });
+    this.canvas = make("canvas", stage, { "aria-hidden": "true" });
+    this.frame = make("span", stage, { class: "av-thumb-frame", hidden: "" }); this.cross = make("span", stage, { class: "av-thumb-cross", hidden: "" });
+    this.said = make("span", button, { class: "av-thumb-value" }, "");
+    const [sx, sy] = viewer.size;
+    stage.style.aspectRatio = String(Math.min(Math.max(sx / sy, 0.5), 3));
+    button.addEventListener("click", () => viewer.choose(panel.map.name));
+  }
+  get stale() { return this.panel.raster && this.drawn !== this.key(); }
+  key() { const p = this.panel, v = this.viewer; return [p.raster.id, p.colours.version.id, p.colours.only, v.look.blank, v.here(p)].join(" "); }
+  draw() {
+    const { panel, viewer, canvas } = this, r = panel.raster;
+    this.drawn = this.key();
+    let k = 0;
+    while (Math.max(r.nx, r.ny) >> k > SMALL) k++;
+    k = r.level(k);
+    const { nx, ny } = r.levels[k], picture = panel.colours.picture(r, k, rgb(viewer.look.blank));
+    canvas.width = Math.max(nx, 2); canvas.height = Math.max(ny, 2);
+    const context = canvas.getContext("2d"), [w, h] = [viewer.size[0] / (r.cell[0] * 2 ** k), viewer.size[1] / (r.cell[1] * 2 ** k)];
+    context.imageSmoothingEnabled = false;
+    context.drawImage(picture, 0, ny - h, w, h, 0, 0, canvas.width, canvas.height); // an incomplete last point is cut
+    const there = viewer.here(panel);
+    this.button.classList.toggle("av-thumb-elsewhere", !there);
+    if (!there) write(this.said, `step ${viewer.scene.steps.numbers[panel.map.step]} only`);
+  }
+  over() {
+    const v = this.viewer, [sx, sy] = v.size, there = v.here(this.panel);
+    this.cross.hidden = !v.cursor; this.frame.hidden = v.zoom <= 1;
+    if (v.cursor) { this.cross.style.left = `${100 * v.cursor[0] / sx}%`; this.cross.style.top = `${100 - 100 * v.cursor[1] / sy}%`; }
+    if (v.zoom > 1) {
+      const w = 100 / v.zoom;
+      Object.assign(this.frame.style, { width: `${w}%`, height: `${w}%`, left: `${100 * v.centre[0] / sx - w / 2}%`, top: `${100 - 100 * v.centre[1] / sy - w / 2}%` });
+    }
+    if (there) write(this.said, v.cursor ? this.panel.text(...v.cursor) : "");
   }
 }
 
 /* ---- the viewer ---- */
 
 class Viewer {
-  constructor(element, scene) {
-    this.element = element; this.scene = scene; this.size = scene.size; this.cell = scene.cell;
+  constructor(element, scene, options = {}) {
+    this.element = element; this.scene = scene; this.size = scene.size; this.cell = scene.cell; this.options = options;
     this.zoom = 1; this.centre = [this.size[0] / 2, this.size[1] / 2];
     this.line = [...scene.line]; this.lineShown = true; this.cursor = null; this.along = null; this.marked = null;
     this.position = { steps: scene.steps ? scene.steps.first : 0, depths: 0 };
-    this.kept = new Map();
+    this.kept = new Map(); this.few = new Map(); this.thumbs = []; this.one = options.layout === "one"; this.heading = this.one ? "h2" : "h4";
     element.classList.add("av"); element.replaceChildren();
+    element.classList.toggle("av-one", this.one);
     this.panels = scene.maps.map((map) => new Panel(this, map));
-    this.toolbar(); this.sliders();
-    this.maps = make("div", element, { class: "av-maps" });
+    if (this.one) this.screen();
+    else {
+      this.toolbar(element);
+      this.sliders(element);
+      this.maps = make("div", element, { class: "av-maps" });
+      this.sections(element);
+    }
     this.maps.append(...this.panels.map((panel) => panel.box));
-    this.sections();
     this.live = make("p", element, { class: "av-live", role: "status", "aria-live": "polite" });
-    for (const note of scene.notes) make("p", element, { class: "av-note" }, note);
+    this.notes(element);
     this.restyle();
     this.watch();
-    this.ready = this.show(scene.maps.filter((map) => map.shown).map((map) => map.name));
+    const shown = scene.maps.filter((map) => map.shown).map((map) => map.name);
+    this.ready = this.show(this.one ? [shown.includes("pressure") ? "pressure" : shown[0] || scene.maps[0].name] : shown);
   }
+
+  /* One map large; beside it the sliders, the other maps in a row, and below these the section. */
+  screen() {
+    const screen = make("div", this.element, { class: "av-screen" }), left = make("div", screen);
+    this.toolbar(left);
+    this.maps = make("div", left, { class: "av-maps" });
+    const side = make("div", screen, { class: "av-side" });
+    this.sliders(side);
+    if (this.panels.length > 1) {
+      const row = make("div", side, { class: "av-row", role: "group", "aria-label": "All maps; press one to see it large" });
+      this.thumbs = this.panels.map((panel) => new Thumb(this, panel, row));
+    }
+    this.sections(side);
+  }
+  /* Notes: below the maps, folded where one map is large. */
+  notes(element) {
+    const notes = this.scene.notes;
+    if (!notes.length) return;
+    const box = this.one ? make("details", element, { class: "av-notes" }) : element;
+    if (this.one) make("summary", box, {}, "How exact these maps are");
+    for (const note of notes) make("p", box, { class: "av-note" }, note);
+  }
+  /* Points of the screen that a map is tall at most. */
+  get tallest() { return this.one ? Math.min(Math.max(window.innerHeight - 490, 260), 700) : 460; }
+  emit(kind, detail) { this.element.dispatchEvent(new CustomEvent(`viewer-${kind}`, { bubbles: true, detail: { viewer: this, ...detail } })); }
 
   watch() {
     const dark = matchMedia("(prefers-color-scheme: dark)");
-    this.restyled = () => { this.restyle(); this.draw(); };
+    this.restyled = () => { this.restyle(); this.draw(); this.thumbsSoon(); };
     dark.addEventListener("change", this.restyled);
     this.observer = new ResizeObserver(() => this.drawSoon());
     this.observer.observe(this.element);
-    this.stop = () => { dark.removeEventListener("change", this.restyled); this.observer.disconnect(); this.element.replaceChildren(); };
+    this.stop = () => { this.turn = null; dark.removeEventListener("change", this.restyled); this.observer.disconnect(); this.element.replaceChildren(); };
   }
   restyle() {
     const take = (name, otherwise) => colourOf(this.element, name) || otherwise;
     this.look = { ink: take("--av-ink", "#1b1f24"), soft: take("--av-soft", "#55606c"), accent: take("--av-accent", "#005a8f"), blank: take("--av-blank", "#ececec") };
   }
 
-  toolbar() {
-    const bar = make("div", this.element, { class: "av-tools", role: "toolbar", "aria-label": "Maps" });
+  /* Maps may have got other units. */
+  renamed() { for (const panel of this.panels) if (panel.symbol) write(panel.symbol, panel.map.unit.symbol); }
+
+  toolbar(parent) {
+    const bar = make("div", parent, { class: "av-tools", role: "toolbar", "aria-label": "Maps" });
     const button = (text, label, action) => { const b = make("button", bar, { type: "button", "aria-label": label, title: label }, text); b.addEventListener("click", action); return b; };
     button("−", "Zoom out", () => this.zoomBy(1 / 1.5, ...this.centre));
     button("+", "Zoom in", () => this.zoomBy(1.5, ...this.centre));
     button("Whole map", "Show the whole map", () => this.reset());
     this.lineButton = button("Section line", "Show the section line and the curves along it", () => this.showLine(!this.lineShown));
+    this.chips = [];
+    if (this.one) return;
     const group = make("span", bar, { class: "av-chips", role: "group", "aria-label": "Maps shown" });
     this.chips = this.panels.map((panel) => {
       const chip = make("button", group, { type: "button", "aria-pressed": "false" }, panel.map.title);
@@ -808,12 +950,12 @@ class Viewer {
     });
   }
 
-  sliders() {
+  sliders(parent) {
     this.ranges = {};
     for (const kind of ["steps", "depths"]) {
       const along = this.scene[kind];
       if (!along || along.texts.length < 2) continue;
-      const row = make("label", this.element, { class: "av-slider", "data-slider": kind });
+      const row = make("label", parent, { class: "av-slider", "data-slider": kind });
       make("span", row, {}, along.label);
       const input = make("input", row, { type: "range", min: "0", max: String(along.texts.length - 1), value: String(this.position[kind]), step: "1" });
       const text = make("output", row);
@@ -830,11 +972,32 @@ class Viewer {
     }
   }
 
-  sections() {
-    this.under = make("div", this.element, { class: "av-under" });
+  sections(parent) {
+    this.under = make("div", parent, { class: "av-under" });
     this.curves = this.panels.filter((panel) => panel.map.kind === "values").map((panel) => new Curve(this, panel));
     this.under.append(...this.curves.map((curve) => curve.box));
-    const place = make("fieldset", this.under, { class: "av-place" });
+    this.belows = this.scene.sections.map((section) => new Below(this, section));
+    const planes = this.scene.maps.find((map) => map.along === "depths" && map.arrays.length > 1);
+    if (planes) this.belows.push(this.planesBelow = new Below(this, { ...planes, ...this.scene.below, axis: null, title: `${planes.title} below the section line`, alt: `${planes.title} below the section line, depth downwards.` }));
+    this.deep = make("div", parent, { class: "av-deep" });
+    if (this.one && this.belows.length > 1) this.chooseBelow();
+    this.deep.append(...this.belows.map((below) => below.box));
+    this.ends(this.one ? make("details", parent, { class: "av-ends" }) : this.under);
+    for (const below of this.belows) below.load();
+    if (planes) Promise.all(planes.arrays.map((array) => this.raster(array, planes))).then((all) => { this.planesBelow.planes = all; this.drawSoon(); }, console.warn);
+  }
+  /* Which section in the body is shown, where only one is. */
+  chooseBelow() {
+    const label = make("label", this.deep, { class: "av-choose" }, "In the body "), select = make("select", label);
+    this.belows.forEach((below, k) => make("option", select, { value: String(k) }, below.section.title));
+    this.shownBelow = this.planesBelow ? this.belows.length - 1 : 0; // below the line that a person can move, where there is one
+    select.value = String(this.shownBelow);
+    select.addEventListener("change", () => { this.shownBelow = Number(select.value); this.drawSoon(); });
+  }
+  /* Ends of the section line as numbers. */
+  ends(parent) {
+    if (this.one) make("summary", parent, {}, "Ends of the section line");
+    const place = make("fieldset", parent, { class: "av-place" });
     make("legend", place, {}, `Section line, in ${this.scene.length.symbol}`);
     this.fields = ["from x", "y", "to x", "y"].map((name, k) => {
       const label = make("label", place, {}, `${name} `), field = make("input", label, { type: "text", inputmode: "decimal", size: "7", "aria-label": `${k < 2 ? "Start" : "End"} of the section line, ${"xy"[k % 2]}` });
@@ -845,34 +1008,46 @@ class Viewer {
       });
       return field;
     });
-    this.belows = this.scene.sections.map((section) => new Below(this, section));
-    const planes = this.scene.maps.find((map) => map.along === "depths" && map.arrays.length > 1);
-    if (planes) this.belows.push(this.planesBelow = new Below(this, { ...planes, ...this.scene.below, axis: null, title: `${planes.title} below the section line`, alt: `${planes.title} below the section line, depth downwards.` }));
-    this.deep = make("div", this.element, { class: "av-deep" });
-    this.deep.append(...this.belows.map((below) => below.box));
-    for (const below of this.belows) below.load();
-    if (planes) Promise.all(planes.arrays.map((array) => this.raster(array, planes))).then((all) => { this.planesBelow.planes = all; this.drawSoon(); });
   }
 
-  raster(array, map) {
-    if (this.kept.has(array)) { const found = this.kept.get(array); this.kept.delete(array); this.kept.set(array, found); return found; }
-    const made = numbersOf(array).then((q) => new Raster(array, q, map.reduce)), points = (one) => one.shape ? one.shape[0] * one.shape[1] : 0;
-    this.kept.set(array, made);
-    made.catch(() => this.kept.delete(array));
-    let all = 0;
-    for (const one of this.kept.keys()) all += points(one);
-    for (const one of this.kept.keys()) if (all > KEPT && one !== array) { all -= points(one); this.kept.delete(one); }
-    return made;
+  /* What is known of an array without waiting: its raster, or one with few points, and whether these are all. */
+  atHand(array) {
+    const whole = this.kept.get(array);
+    if (whole && whole.raster) return [whole.raster, true];
+    return [this.few.get(array), false];
   }
-  /* The neighbours of a step or depth, decoded while nothing else happens, so that the slider finds them. */
+  /* The raster of an array, decoded once; the least used ones are forgotten but for few of their points. */
+  raster(array, map) {
+    if (this.kept.has(array)) { const found = this.kept.get(array); this.kept.delete(array); this.kept.set(array, found); return found.promise; }
+    const one = { raster: null }, decode = async () => new Raster(array, array.q || await numbersOf(array), map.reduce), points = (other) => other.shape ? other.shape[0] * other.shape[1] : 0;
+    one.promise = decode().then((raster) => { if (map.along && !this.few.has(array)) this.few.set(array, raster.coarse()); return one.raster = raster; });
+    one.promise.catch(() => this.kept.delete(array));
+    this.kept.set(array, one);
+    let all = 0;
+    for (const other of this.kept.keys()) all += points(other);
+    for (const other of this.kept.keys()) if (all > KEPT && other !== array) { all -= points(other); this.kept.delete(other); }
+    return one.promise;
+  }
+  /* While nothing else happens: the neighbours of a step or depth whole, nearest first, with their colours, and few points of all others, so that the slider finds them. */
   prefetch(kind) {
-    const later = window.requestIdleCallback || ((action) => setTimeout(action, 50));
-    for (const by of [1, -1, 2, -2]) later(() => {
-      for (const panel of this.visible) {
-        const array = panel.map.along === kind ? panel.map.arrays[this.position[kind] + by] : null;
-        if (array) this.raster(array, panel.map).then((raster) => later(() => panel.colours.picture(raster, panel.fine(raster), rgb(this.look.blank))));
+    const turn = this.turn = {}, count = this.scene[kind].texts.length, at = this.position[kind];
+    const order = Array.from({ length: count }, (_, k) => k).sort((a, b) => Math.abs(a - at) - Math.abs(b - at)).slice(1);
+    const idle = window.requestIdleCallback ? (limit) => new Promise((done) => requestIdleCallback(done, { timeout: limit })) : () => new Promise((done) => setTimeout(done, 30));
+    const wanted = this.one ? this.panels : this.visible;
+    (async () => {
+      for (const k of order) for (const panel of wanted) {
+        const array = panel.map.along === kind ? panel.map.arrays[k] : null, near = Math.abs(k - at) <= 3;
+        if (!array || (!near && this.few.has(array))) continue;
+        await idle(1500);
+        if (this.turn !== turn) return;
+        const raster = await this.raster(array, panel.map).catch(() => null);
+        if (!raster) return;
+        if (!near || panel.box.hidden || !panel.axes) continue;
+        await idle(1500);
+        if (this.turn !== turn) return;
+        panel.colours.picture(raster, panel.fine(raster), rgb(this.look.blank));
       }
-    });
+    })();
   }
   index(map) { return map.along ? this.position[map.along] : 0; }
   get visible() { return this.panels.filter((panel) => !panel.box.hidden); }
@@ -881,21 +1056,36 @@ class Viewer {
 
   /* Show the maps of these names, and no others; resolves when they are drawn. */
   async show(names) {
-    this.panels.forEach((panel, k) => { panel.box.hidden = !names.includes(panel.map.name); this.chips[k].setAttribute("aria-pressed", String(!panel.box.hidden)); });
+    this.panels.forEach((panel, k) => {
+      panel.box.hidden = !names.includes(panel.map.name);
+      const button = this.one ? this.thumbs[k] && this.thumbs[k].button : this.chips[k];
+      if (button) button.setAttribute("aria-pressed", String(!panel.box.hidden));
+    });
     for (const curve of this.curves) curve.box.hidden = curve.panel.box.hidden;
+    this.arrange();
     await Promise.all(this.visible.map((panel) => panel.load()));
     this.draw();
+    if (this.one) await Promise.all(this.panels.map((panel) => panel.load()));
     for (const kind of Object.keys(this.ranges)) this.prefetch(kind);
+  }
+  /* Make the map of this name the large one. */
+  choose(name) { const done = this.show([name]); this.emit("show", { name }); return done; }
+  /* The slider through depths is there for maps that have some. */
+  arrange() {
+    if (!this.one || !this.ranges.depths) return;
+    this.ranges.depths.input.parentElement.hidden = !this.visible.some((panel) => panel.map.along === "depths");
   }
   /* Position of the slider "steps" or "depths". */
   async set(kind, number) {
     this.position[kind] = Math.min(Math.max(number, 0), this.scene[kind].texts.length - 1);
     this.setTexts();
     if (this.marked && this.marked.cells) this.marked = null;
-    await Promise.all(this.visible.map((panel) => panel.load()));
-    this.draw();
+    this.emit("set", { kind, number: this.position[kind] });
+    const loaded = [...this.visible, ...(this.one ? this.panels : [])].map((panel) => panel.load());
+    this.drawSoon(); this.thumbsSoon();
+    await Promise.all(loaded);
+    this.drawSoon();
     this.prefetch(kind);
-    this.element.dispatchEvent(new CustomEvent("viewer-set", { bubbles: true, detail: { kind, number: this.position[kind] } }));
   }
 
   /* Limits of the axes of a map for the present view: to scale, unless the grid is very slender. */
@@ -916,17 +1106,17 @@ class Viewer {
   setView(x, y, zoom) {
     const keep = (value, size) => { const half = size / zoom / 2; return Math.min(Math.max(value, half), size - half); };
     this.zoom = Math.max(zoom, 1); this.centre = [keep(x, this.size[0]), keep(y, this.size[1])];
-    this.drawSoon();
+    this.drawSoon(); this.emit("view", { centre: this.centre, zoom: this.zoom });
   }
 
   /* The cross at x, y (m) in all maps, with the values there. */
-  point(x, y) { this.cursor = [x, y]; this.along = this.nearest(x, y); this.overSoon(); }
+  point(x, y) { this.cursor = [x, y]; this.along = this.nearest(x, y); this.overSoon(); this.emit("cross", { at: this.cursor }); }
   go(along) {
     const t = Math.min(Math.max(along / (this.length() || 1), 0), 1), l = this.line;
     this.cursor = [l[0] + t * (l[2] - l[0]), l[1] + t * (l[3] - l[1])]; this.along = t * this.length();
-    this.overSoon();
+    this.overSoon(); this.emit("cross", { at: this.cursor });
   }
-  leave() { this.cursor = null; this.along = null; this.overSoon(); }
+  leave() { this.cursor = null; this.along = null; this.overSoon(); this.emit("cross", { at: null }); }
   /* Distance along the section line of a place on it, within a few points of the screen; else null. */
   nearest(x, y) {
     const [x0, y0, x1, y1] = this.line, length = this.length();
@@ -946,7 +1136,7 @@ class Viewer {
   setLine(x0, y0, x1, y1) {
     const keep = (value, k) => Math.min(Math.max(value, 0), this.size[k % 2]);
     this.line = [x0, y0, x1, y1].map(keep); this.along = null;
-    this.drawSoon();
+    this.drawSoon(); this.emit("line", { line: this.line });
   }
   moveLine(end, x, y) { const line = [...this.line]; line[2 * end] = x; line[2 * end + 1] = y; this.setLine(...line); }
   showLine(shown) { this.lineShown = shown; this.drawSoon(); }
@@ -955,8 +1145,8 @@ class Viewer {
 
   neighbour(raster, i, j, di, dj) {
     let a = i + di, b = j + dj;
-    if (this.scene.wraps[0]) a = (a + raster.nx) % raster.nx;
-    if (this.scene.wraps[1]) b = (b + raster.ny) % raster.ny;
+    if (this.scene.wraps[0]) a = ((a % raster.nx) + raster.nx) % raster.nx;
+    if (this.scene.wraps[1]) b = ((b % raster.ny) + raster.ny) % raster.ny;
     return a < 0 || b < 0 || a >= raster.nx || b >= raster.ny ? -1 : b * raster.nx + a;
   }
   /* Mark the spot of map `name` that holds the place x, y (m), or the rectangle x0, y0, x1, y1; returns what is known of it, or null. */
@@ -970,7 +1160,11 @@ class Viewer {
       this.marked = found;
     }
     const m = this.marked;
-    if (zoom) this.setView((m.x0 + m.x1) / 2, (m.y0 + m.y1) / 2, Math.max(1, Math.min(this.size[0] / (m.x1 - m.x0), this.size[1] / (m.y1 - m.y0)) / 4));
+    if (zoom) {
+      const across = m.x0 < 0 || m.x1 > this.size[0] || m.y0 < 0 || m.y1 > this.size[1]; // a spot that goes on at the other side
+      const most = Math.max(this.size[0] / this.cell[0], this.size[1] / this.cell[1]) / 12, near = Math.min(this.size[0] / (m.x1 - m.x0), this.size[1] / (m.y1 - m.y0)) / 4;
+      this.setView(...(across ? [x, y] : [(m.x0 + m.x1) / 2, (m.y0 + m.y1) / 2]), Math.max(1, Math.min(near, most)));
+    }
     this.overSoon();
     return m;
   }
@@ -980,14 +1174,14 @@ class Viewer {
     const within = (at) => panel.map.kind === "classes" ? q[at] > 0 : q[at] !== r.masked;
     const start = this.neighbour(r, ...first, 0, 0);
     if (start < 0 || !within(start)) return null;
-    const cells = new Set([start]), open = [start];
+    const cells = new Set([start]), open = [first]; // places go on across the edges of a surface that repeats
     let top = q[start], [left, right, low, high] = [first[0], first[0], first[1], first[1]];
     while (open.length && cells.size < 400000) {
-      const at = open.pop(), i = at % r.nx, j = Math.floor(at / r.nx);
-      top = Math.max(top, q[at]); left = Math.min(left, i); right = Math.max(right, i); low = Math.min(low, j); high = Math.max(high, j);
+      const [i, j] = open.pop();
+      left = Math.min(left, i); right = Math.max(right, i); low = Math.min(low, j); high = Math.max(high, j);
       for (const [di, dj] of [[-1, 0], [1, 0], [0, -1], [0, 1]]) {
         const next = this.neighbour(r, i, j, di, dj);
-        if (next >= 0 && !cells.has(next) && within(next)) { cells.add(next); open.push(next); }
+        if (next >= 0 && !cells.has(next) && within(next)) { cells.add(next); open.push([i + di, j + dj]); top = Math.max(top, q[next]); }
       }
     }
     return { cells, raster: r, area: cells.size * r.cell[0] * r.cell[1], largest: r.low + r.step * top, x0: left * r.cell[0], x1: (right + 1) * r.cell[0], y0: low * r.cell[1], y1: (high + 1) * r.cell[1] };
@@ -995,32 +1189,47 @@ class Viewer {
   pick(x, y) {
     this.point(x, y);
     const panel = this.panels.find((p) => p.raster && p.map.name === this.scene.spots);
-    const found = this.scene.spots ? this.highlight({ x, y }) : null, { factor, symbol } = this.scene.length;
+    const found = this.scene.spots ? this.highlight({ x, y, zoom: this.options.centred }) : null, { factor, symbol } = this.scene.length;
     if (found && panel) this.tell(`Spot at ${this.placeText(x, y)}: area ${withUnit(short(found.area / factor ** 2), `${symbol}²`)}${panel.map.kind === "values" ? `, largest ${panel.number(found.largest)}` : ""}.`);
     else this.clear();
-    this.element.dispatchEvent(new CustomEvent("viewer-pick", { detail: { x, y, spot: found } }));
+    this.emit("pick", { x, y, spot: found });
   }
   tell(text) { if (this.live.textContent !== text) this.live.textContent = text; }
 
   /* ---- drawing, at most once a frame ---- */
 
+  /* Small pictures follow one by one, in frames of their own, so that the large map never waits for them. */
+  thumbsSoon() {
+    if (this.frameThumbs || !this.thumbs.length) return;
+    const next = () => {
+      this.frameThumbs = 0;
+      const thumb = this.thumbs.find((one) => one.stale);
+      if (!thumb) return;
+      if (!this.frame) { thumb.draw(); thumb.over(); }
+      this.frameThumbs = requestAnimationFrame(next);
+    };
+    this.frameThumbs = requestAnimationFrame(next);
+  }
   drawSoon() { if (!this.frame) this.frame = requestAnimationFrame(() => { this.frame = 0; this.draw(); }); }
   overSoon() { if (!this.frameOver) this.frameOver = requestAnimationFrame(() => { this.frameOver = 0; this.drawOver(); }); }
   draw() {
     for (const panel of this.visible) panel.draw();
+    for (const thumb of this.thumbs) thumb.over();
     this.lineButton.setAttribute("aria-pressed", String(this.lineShown));
-    this.under.hidden = !this.lineShown;
+    this.under.hidden = !this.lineShown || (this.one && this.visible.every((panel) => panel.map.kind !== "values"));
     this.fields.forEach((field, k) => { if (document.activeElement !== field) field.value = short(this.line[k] / this.scene.length.factor); });
     this.drawCurves();
   }
   drawCurves() {
     for (const curve of this.curves) curve.box.hidden = curve.panel.box.hidden || !this.here(curve.panel);
     if (this.lineShown) for (const curve of this.curves) if (!curve.box.hidden) curve.draw();
-    if (this.planesBelow) this.planesBelow.box.hidden = !this.lineShown || !this.panels.some((panel) => panel.map.along === "depths" && !panel.box.hidden);
+    if (this.planesBelow && !this.one) this.planesBelow.box.hidden = !this.lineShown || !this.panels.some((panel) => panel.map.along === "depths" && !panel.box.hidden);
+    if (this.shownBelow !== undefined) this.belows.forEach((below, k) => { below.box.hidden = k !== this.shownBelow || (below === this.planesBelow && !this.lineShown); });
     for (const below of this.belows) if (!below.box.hidden) below.draw();
   }
   drawOver() {
     for (const panel of this.visible) panel.drawOver();
+    for (const thumb of this.thumbs) thumb.over();
     if (this.lineShown) for (const curve of this.curves) if (!curve.box.hidden) curve.draw();
   }
 }
@@ -1112,6 +1321,6 @@ async function start(root) {
   }
 }
 
-window.AsperityViewer = { create: (element, scene) => new Viewer(element, scene), start, Curves };
+window.AsperityViewer = { create: (element, scene, options) => new Viewer(element, scene, options), start, Curves, text: { short, withUnit, rounded, decimalsFor } };
 if (document.querySelector("[data-viewer], figure[data-curves]")) start(document);
 })();
