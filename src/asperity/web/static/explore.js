@@ -54,7 +54,7 @@ function goOn(viewer, before) {
   }
   viewer.line = [...before.line]; viewer.lineShown = before.lineShown;
   viewer.setView(...before.centre, before.zoom);
-  if (panelOf(viewer, name)) viewer.ready = viewer.ready.then(() => viewer.show([name]));
+  if (panelOf(viewer, name)) viewer.ready = Promise.all([viewer.ready, viewer.show([name])]);
 }
 
 /* ---- what runs side by side share ---- */
