@@ -52,8 +52,9 @@ def form(context: Context, model: type[Settings], keys: Keys, leave: frozenset[s
             nested(context, item, (*keys, item.name))
 
 
-def entry(context: Context, item: Asked, keys: Keys) -> None:
-    """One number, text, choice or flag."""
+def entry(context: Context, item: Asked, keys: Keys, *, bare: bool = False) -> Any:
+    """One number, text, choice or flag; a ``bare`` number or text shows no label, which stands
+    above it."""
     value = context.get(keys)
     made: Any
     if (item.name in LIBRARIES and item.shape == "text") or names_file(item.name):
@@ -74,7 +75,7 @@ def entry(context: Context, item: Asked, keys: Keys) -> None:
         )
     else:
         made = ui.input(
-            item.label + (" *" if item.required else ""),
+            None if bare else item.label + (" *" if item.required else ""),
             value=item.text_of(value),
             placeholder=item.hint,
             validation=item.problem,
@@ -85,6 +86,7 @@ def entry(context: Context, item: Asked, keys: Keys) -> None:
     if item.help:
         with made:
             ui.tooltip(item.help)
+    return made
 
 
 def _chosen(context: Context, item: Asked, keys: Keys, value: Any) -> Any:
