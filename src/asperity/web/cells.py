@@ -105,8 +105,10 @@ def material_choice(context: Context, keys: Keys, library: str | None, chosen: C
     options = {**{word: WAYS[word] for word in ways}, **{name: name for name in names_in(library)}}
     if way is not None and way not in options:
         options[way] = WAYS.get(way, str(way))
+    if way == OWN and part.get("name") not in (None, START["name"]):
+        options[OWN] = f"{part['name']} (own)"
     made = ui.select(
-        options, value=way, with_input=True, clearable=True, on_change=lambda e: chosen(e.value) if e.value != way else None
+        options, value=way, with_input=True, on_change=lambda e: chosen(e.value) if e.value != way else None
     )
     made.props(f'dense options-dense data-key="{".".join(map(str, (*keys, "material")))}" placeholder="choose"')
     made.props["aria-label"] = "Material"
@@ -175,7 +177,7 @@ class Cell:
             self.typed.set_visibility(inline)
             self.button.set_visibility(not inline)
             plain = str(there or "").replace(" ", "") == value.text.replace(" ", "")
-            self.mark.set_text(f"= {value.text}" if inline and value.text and not plain else "")
+            self.mark.set_text("" if not (inline and value.text) else "own" if plain else f"= {value.text}")
         else:
             self.mark.set_text("own" if value.own else "assumed" if value.assumed else "relaxes" if relaxes else "")
             if self.key in BESIDE:
@@ -183,7 +185,8 @@ class Cell:
         self.mark.set_visibility(bool(self.mark.text))
         self.button.set_text(value.text or ("–" if not material.name else "not known"))
         self.button.props["aria-label"] = f"{value.label}: {value.text or 'not known'}. Press for its source"
-        self.button.classes(add="own" if value.own else "", remove="" if value.own else "own")
+        for one in (self.button, self.mark):
+            one.classes(add="own" if value.own else "", remove="" if value.own else "own")
         self.button.classes(add="unknown" if not value.text else "", remove="unknown" if value.text else "")
         self.title.set_text(f"{value.label} of {material.name}" if material.name else value.label)
         self.said.set_text(said(value))

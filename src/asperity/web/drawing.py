@@ -25,7 +25,7 @@ LEFT, WIDE, TOP, TALL, LABELS = 26.0, 150.0, 10.0, 220.0, 170.0
 LINE = 15.0
 """Height of a line of text."""
 
-THIN, LEAST = 1.0, 4.0
+THIN, LEAST = 1.0, 5.0
 """Height below which a layer would not be seen, and with which it is drawn instead."""
 
 LONGEST = 26
@@ -139,7 +139,7 @@ def heights(thicknesses: Sequence[float], room: float) -> tuple[list[float], lis
 def drawn(stack: Stack, name: str) -> str:
     """The drawing of the ``stack`` of the body ``name``, with a line of text below it."""
     title = name.replace("_", " ")
-    deep = 0.3 * TALL if stack.layers else TALL
+    deep = (0.3 if stack.layers else 0.5) * TALL
     sizes, thin = heights([piece.thickness for piece in stack.layers], TALL - deep)
     tops = list(itertools.accumulate(sizes, initial=TOP))
     parts, labels = [], []
@@ -155,7 +155,7 @@ def drawn(stack: Stack, name: str) -> str:
     placed = _apart([y for y, _, _ in labels])
     for (y, text, kind), at in zip(labels, placed, strict=True):
         parts.append(_label(y, at, text, kind))
-    high = max(TOP + TALL + 6.0, max(placed) + LINE)
+    high = max(tops[-1] + deep + 6.0, max(placed) + LINE)
     return (
         f'<figure class="stack-figure"><svg viewBox="0 0 {LEFT + WIDE + LABELS:.0f} {high:.0f}" role="img" '
         f'aria-label="{html.escape(title)} to scale" class="stack">{"".join(parts)}</svg>'
@@ -224,7 +224,7 @@ def _apart(heights: Sequence[float]) -> list[float]:
 def _caption(stack: Stack, thin: Sequence[int]) -> str:
     """What the drawing says in words."""
     if not stack.layers:
-        return {"open": "Choose what this body is.", "rigid": "It does not deform.", "chosen": ""}[stack.base.state]
+        return "Of any depth." if stack.base.state == "chosen" else ""
     said = [f"Layers {show(stack.total, 'm', 4)} in total, the base of any depth."] if stack.total else []
     unknown = sum(not math.isfinite(piece.thickness) for piece in stack.layers)
     if unknown:

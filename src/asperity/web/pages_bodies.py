@@ -14,13 +14,13 @@ from ..core.units import show
 from ..run.document import document_model
 from ..solids.library import materials
 from ..solids.moduli_file import fitted_file
-from .cells import OF_MATERIAL, OWN, START, Cell, material_choice, way_of, with_way
+from .cells import OF_MATERIAL, OWN, START, Cell, material_choice, with_way
 from .draft import Keys, moduli_files
 from .drawing import FILLS, drawn, stack_of
 from .forms import asked_of
 from .layout import drop, rows
 from .refused import Refused
-from .resolved import SHOWN, Materials, as_tables, is_own
+from .resolved import SHOWN, Materials, as_tables, is_own, record_of
 from .session import Session
 from .widgets import Context, entry, form
 
@@ -61,10 +61,10 @@ class BodyForm:
         if before != as_tables(before):
             session.draft.set((name,), as_tables(before))
         with ui.element("section").classes("body-form").props(f'data-body="{name}" aria-label="{title.lower()}"'):
+            ui.html(f"<h2>{title}</h2>", sanitize=False).classes("body-title")
             with ui.element("div").classes("drawing"):
                 self.drawing = ui.html(self.drawn(), sanitize=False)
             with ui.element("div").classes("body-rows"):
-                ui.html(f"<h2>{title}</h2>", sanitize=False)
                 self._kind()
                 self.rows = ui.element("div").classes("layer-rows")
                 refused.slot(name)
@@ -214,7 +214,7 @@ class BodyForm:
             laws = {word: f"graded, {word}" for word in tables if word != "layer"}
             ui.select(laws, value=kind, on_change=lambda e: self.put_part(keys, _of_law({**self.context.get(keys), "kind": e.value}))).props(
                 f'dense options-dense data-key="{_dotted((*keys, "kind"))}" aria-label="Law of the grading"'
-            ).classes("field material")
+            ).classes("field of-material")
             with ui.element("div").classes("cell").props('data-symbol="Thickness"'):
                 thickness()
             ui.label("from top to bottom, see the two rows below").classes("hint spanned")
@@ -240,7 +240,7 @@ class BodyForm:
             .props(f'role="group" aria-label="{text}" data-row="{_dotted(keys)}"')
         ):
             ui.label(text).classes("hint end-name") if within else self._swatch()
-            with ui.element("div").classes("cell material").props('data-symbol="Material"'):
+            with ui.element("div").classes("cell of-material").props('data-symbol="Material"'):
                 material_choice(
                     self.context, keys, self.library(), lambda way: self.put_part(keys, self._with_way(keys, way))
                 )
@@ -305,6 +305,7 @@ class BodyForm:
             there = not inside.visible
             if there and not inside.default_slot.children:
                 with inside:
+                    self._library_again(keys)
                     form(self.context, model, keys, leave)
                     self._beside(keys)
             inside.set_visibility(there)
@@ -324,6 +325,18 @@ class BodyForm:
             return base
         tables = self.entries["layers"].tables or {}
         return tables[str((self.context.get(keys) or {}).get("kind", "layer"))]
+
+    def _library_again(self, keys: Keys) -> None:
+        """Takes the material of the library whose name the own constants have."""
+        part = self.context.get(keys) or {}
+        record = record_of({"material": part.get("name")}, self.library()) if is_own(part) else None
+        if record is not None:
+            way = record.name
+            ui.button(
+                f"Give all values back to {way} of the library",
+                icon="undo",
+                on_click=lambda: self.put_part(keys, self._with_way(keys, way)),
+            ).props(f'flat dense no-caps data-back="{_dotted(keys)}"').classes("back")
 
     def _beside(self, keys: Keys) -> None:
         """What the library knows of a material beside what the row shows."""
