@@ -57,6 +57,11 @@ def choose(page: Any, key: str, word: str) -> None:
     page.click(f'.q-menu .q-item:has-text("{word}") >> nth=0')
 
 
+def details(page: Any, row: str) -> None:
+    """Unfold what a row or card has beside."""
+    page.click(f'[data-details="{row}"] >> nth=0')
+
+
 def put(page: Any, file: Path) -> None:
     """Choose a ``file`` in the area on which files are dropped."""
     with page.expect_file_chooser() as chooser:
@@ -185,6 +190,7 @@ def test_a_viscoelastic_body_held_under_its_load(demo: AppServer, open_page: Cal
     page = open_page(demo.address, viewport={"width": 1400, "height": 900}).page
     go(page, "bodies")
     page.click('[data-key="body.kind"] >> text=Own constants')
+    details(page, "body")
     choose(page, "body.relaxation.kind", "prony")
     fill(page, "body.relaxation.relaxed", "1 GPa")
     fill(page, "body.relaxation.moduli", "10 GPa, 3 GPa")
@@ -196,6 +202,7 @@ def test_a_viscoelastic_body_held_under_its_load(demo: AppServer, open_page: Cal
     page.click('[data-key="stress"]')
     page.click('[data-key="viscoelastic"]')
     fill(page, "viscoelastic.hold", "0.1 s")
+    details(page, "viscoelastic")
     fill(page, "viscoelastic.steps", "3")
     page.wait_for_timeout(700)
     asked = document(page)
@@ -221,6 +228,7 @@ def test_moduli_are_dropped_on_a_measured_relaxation(
     page = open_page(demo.address, viewport={"width": 1400, "height": 900}).page
     go(page, "bodies")
     page.click('[data-key="body.kind"] >> text=Own constants')
+    details(page, "body")
     choose(page, "body.relaxation.kind", "measured")
     fill(page, "body.poisson_ratio", "0.5")
     page.wait_for_timeout(700)

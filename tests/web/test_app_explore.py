@@ -101,10 +101,9 @@ def opened(app: AppServer, open_page: Callable[..., Any], step: str) -> Any:
 def one_load(page: Any) -> None:
     """Give one load instead of a path, on the page of the load; tests share the problem and run in
     any order."""
-    load = page.locator('input[data-key="control.mean_pressure"]')
-    if not load.input_value():
-        load.fill("40 MPa")
-        page.click('[data-key="control.path"]')
+    if not page.locator('input[data-key="control.mean_pressure"]').count():
+        page.click('[data-key="control.kind"] >> text=Mean pressure')
+        page.fill('input[data-key="control.mean_pressure"]', "40 MPa")
         page.wait_for_timeout(800)
 
 
@@ -250,6 +249,7 @@ def test_what_a_part_refuses_stands_beside_its_table_before_the_run(
         assert not page.locator("text=The document is complete.").is_visible()
         page.goto(page.url.replace("/run", "/bodies"))
         page.wait_for_selector("[data-refused=body] >> text=yield stress of steel must be known", timeout=LONG)
+        page.click('[data-row=body] [data-symbol="Y"] button')
         page.fill('input[data-key="body.yield_stress"]', "400 MPa")
         page.wait_for_function("document.querySelectorAll('[data-refused]:not(:empty)').length === 0", timeout=LONG)
         page.goto(page.url.replace("/bodies", "/load"))

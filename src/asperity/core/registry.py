@@ -159,6 +159,24 @@ PARTS = (
 """The parts of this package, by which physics and analyses are asked for in documents, in the order
 in which they are computed and shown."""
 
+FORMS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "At the interface": ("adhesion", "film", "friction", "shear", "rolling", "hysteresis"),
+        "In the bodies": ("plastic_flow", "viscoelastic"),
+        "Asked of the solved contact": (
+            "stress",
+            "conductance",
+            "sealing",
+            "heating",
+            "plastic_load",
+            "deciding_waves",
+        ),
+        "Beside the contact": ("dynamics", "flow_factors", "indentation", "passes"),
+    }
+)
+"""Tables of the parts in the order in which forms show them, by heading; those of others come
+last."""
+
 PAIRS: Mapping[frozenset[str], str] = MappingProxyType(
     {frozenset({"adhesion", "menisci"}): "physics.pairs.adhesion_menisci:settle_forces"}
 )

@@ -315,6 +315,9 @@ class Part(Work):
 
     name: ClassVar[str] = ""
     title: ClassVar[str] = ""
+    purpose: ClassVar[str] = ""
+    """What it answers, one plain sentence for forms. A picture that forms show beside it, lines of
+    the colour of the text, may stand beside the module as ``<table>.svg``."""
     table: ClassVar[str] = ""
     needs: ClassVar[str] = ""
     """Key that its table must give for the part to be asked for; empty where the table is

@@ -62,6 +62,7 @@ class DecidingWavesPart(Part):
 
     name = "deciding_waves"
     title = "Deciding waves"
+    purpose = "Which wavelengths of the roughness decide the result, and what scan would suffice."
     table = "deciding_waves"
     settings = WavesSettings
     quantities = (LONGEST, SHORTEST, LEAK, *SHARES.values(), *SIZES.values(), *INTERVALS.values())

@@ -15,7 +15,8 @@ from ..run.document import PRESETS, read_table
 from .beginning import fill
 from .layout import frame, look, main_named
 from .pages_explore import explore_page
-from .pages_problem import bodies_page, load_page
+from .pages_bodies import bodies_page
+from .pages_load import load_page
 from .pages_run import run_page
 from .pages_surface import prepare_page, roughness_page, surface_page
 from .pages_sweep import sweep_page

@@ -52,8 +52,35 @@ def form(context: Context, model: type[Settings], keys: Keys, leave: frozenset[s
             nested(context, item, (*keys, item.name))
 
 
-def entry(context: Context, item: Asked, keys: Keys) -> None:
-    """One number, text, choice or flag."""
+def folded(context: Context, model: type[Settings], keys: Keys, basic: tuple[str, ...] = ()) -> None:
+    """Entries for the table ``model`` at ``keys``: what must be given and what is ``basic`` first,
+    the rest folded under details, which stand open where one of them has been given."""
+    entries = asked_of(model)
+    first = [item for item in entries if item.required or item.name in basic] or list(entries[:FIRST])
+    rest = [item for item in entries if item not in first]
+    plain = [item for item in first if item.tables is None]
+    with ui.element("div").classes("fields"):
+        for item in sorted(plain, key=lambda item: not item.required):
+            entry(context, item, (*keys, item.name))
+    for item in first:
+        if item.tables is not None:
+            nested(context, item, (*keys, item.name))
+    if rest:
+        given = any(context.get((*keys, item.name)) is not None for item in rest)
+        dotted = ".".join(map(str, keys))
+        with ui.expansion("Details", value=given).classes("wide details-fold").props(f'dense data-details="{dotted}"'):
+            ui.label(first_paragraph(model).replace("``", "")).classes("hint")
+            form(context, model, keys, frozenset(item.name for item in first))
+
+
+FIRST = 3
+"""Entries that stand before the details of a table of which none must be given and none is
+basic."""
+
+
+def entry(context: Context, item: Asked, keys: Keys, *, bare: bool = False) -> Any:
+    """One number, text, choice or flag; a ``bare`` number or text shows no label, which stands
+    above it."""
     value = context.get(keys)
     made: Any
     if (item.name in LIBRARIES and item.shape == "text") or names_file(item.name):
@@ -74,7 +101,7 @@ def entry(context: Context, item: Asked, keys: Keys) -> None:
         )
     else:
         made = ui.input(
-            item.label + (" *" if item.required else ""),
+            None if bare else item.label + (" *" if item.required else ""),
             value=item.text_of(value),
             placeholder=item.hint,
             validation=item.problem,
@@ -85,6 +112,7 @@ def entry(context: Context, item: Asked, keys: Keys) -> None:
     if item.help:
         with made:
             ui.tooltip(item.help)
+    return made
 
 
 def _chosen(context: Context, item: Asked, keys: Keys, value: Any) -> Any:

@@ -198,6 +198,7 @@ class Adhesion(Part):
 
     name = "adhesion"
     title = "Adhesion"
+    purpose = "How strongly the surfaces attract each other, and what force parts them again."
     table = "adhesion"
     settings = AdhesionSettings
     basic = ("work", "range", "retract")

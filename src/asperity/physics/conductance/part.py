@@ -132,6 +132,7 @@ class Conductance(Part):
 
     name = "conductance"
     title = "Conductance"
+    purpose = "How much current and heat cross the contact, and what resistance they meet."
     table = "conductance"
     settings = ConductanceSettings
     quantities = QUANTITIES

@@ -180,6 +180,7 @@ class Dynamics(Part):
 
     name = "dynamics"
     title = "Friction in motion"
+    purpose = "How a body on this contact moves: steadily, in stick and slip, or bouncing."
     table = "dynamics"
     essential = True
     settings = DynamicsSettings

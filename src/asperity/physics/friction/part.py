@@ -103,6 +103,7 @@ class Friction(Part):
 
     name = "friction"
     title = "Friction"
+    purpose = "What shear the surfaces carry while one slides over the other."
     table = "friction"
     settings = FrictionSettings
     basic = ("coefficient",)

@@ -203,6 +203,7 @@ class StickSlip(Part):
 
     name = "stick_slip"
     title = "Stick and slip"
+    purpose = "Where the contact sticks and where it slips under a shift, a tangential force or a twist."
     table = "shear"
     implied = staticmethod(sticks)
     settings = ShearSettings

@@ -22,6 +22,7 @@ class PlasticLoad(Part):
 
     name = "plastic_load"
     title = "Plastic load"
+    purpose = "At which load a given share of the contact has turned plastic."
     table = "plastic_load"
     settings = PlasticLoadSettings
     quantities = (Quantity("plastic_load_pressure", "Pa", "mean pressure at which the contact becomes plastic"),)

@@ -145,6 +145,7 @@ class Heating(Part):
 
     name = "heating"
     title = "Frictional heating"
+    purpose = "How hot the rubbing spots become, and how the heat divides between the bodies."
     table = "heating"
     settings = HeatingSettings
     basic = ("speed", "friction", "moving")

@@ -107,6 +107,7 @@ class Indentation(Part):
 
     name = "indentation"
     title = "Indentation"
+    purpose = "What force an indenter takes to go into the body, and what it leaves behind."
     table = "indentation"
     settings = IndentationSettings
     work = "physics.indentation.work:IndentationWork"

@@ -169,6 +169,7 @@ class Passes(Part):
 
     name = "passes"
     title = "Repeated passes"
+    purpose = "Whether a body that is passed over again and again shakes down or goes on yielding."
     table = "passes"
     settings = PassesSettings
     work = "physics.indentation.work_passes:PassesWork"

@@ -93,6 +93,7 @@ class Menisci(Part):
 
     name = "film"
     title = "Liquid film and menisci"
+    purpose = "How a thin liquid film wets the contact, where menisci form and how hard they pull."
     table = "film"
     settings = FilmSettings
     basic = ("liquid", "humidity", "thickness")

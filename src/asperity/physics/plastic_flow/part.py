@@ -85,6 +85,7 @@ class PlasticFlow(Part):
 
     name = "plastic_flow"
     title = "Plastic flow"
+    purpose = "Where the bodies yield below the surface, how far, and what shape and stresses remain."
     table = "plastic_flow"
     settings = PlasticFlowSettings
     whole_path = True

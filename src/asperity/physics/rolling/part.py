@@ -123,6 +123,7 @@ class Rolling(Part):
 
     name = "rolling"
     title = "Rolling"
+    purpose = "What traction a rolling contact carries at small creepages and spin."
     table = "rolling"
     settings = RollingSettings
     work = "physics.rolling.work:RollingWork"

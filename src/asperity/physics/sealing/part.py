@@ -157,6 +157,7 @@ class Sealing(Part):
 
     name = "sealing"
     title = "Sealing"
+    purpose = "How much fluid leaks through the gap between two pressures, and where it passes."
     table = "sealing"
     settings = SealingSettings
     basic = ("fluid", "inlet", "outlet")

@@ -81,6 +81,7 @@ class FlowFactors(Part):
 
     name = "flow_factors"
     title = "Flow factors"
+    purpose = "How the roughness helps or hinders a lubricant that flows between the surfaces."
     table = "flow_factors"
     settings = FlowFactorsSettings
     basic = ("least", "largest")

@@ -151,6 +151,7 @@ class Stress(Part):
 
     name = "stress"
     title = "Stresses inside the body"
+    purpose = "What stresses act inside the body, and where it would yield or crack first."
     table = "stress"
     settings = StressSettings
     basic = ("sections", "depths")

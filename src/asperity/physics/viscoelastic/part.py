@@ -137,6 +137,7 @@ class Viscoelasticity(Part):
 
     name = "viscoelastic"
     title = "Viscoelasticity"
+    purpose = "How the contact grows or relaxes in time on bodies that creep."
     table = "viscoelastic"
     settings = ViscoelasticSettings
     basic = ("hold",)

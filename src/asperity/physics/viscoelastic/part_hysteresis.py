@@ -116,6 +116,7 @@ class Hysteresis(Part):
 
     name = "hysteresis"
     title = "Hysteretic friction"
+    purpose = "What friction a viscoelastic body causes by its own losses at a sliding speed."
     table = "hysteresis"
     settings = HysteresisSettings
     basic = ("speed",)
