@@ -20,6 +20,9 @@ LEVELLED = MappingProxyType({"step": "level", "form": "plane"})
 FILLED = MappingProxyType({"step": "fill", "method": "harmonic"})
 """What is done to every measured surface unless it is removed, as on the command line."""
 
+GRID = MappingProxyType({"points": "256x256", "size": "10 um x 10 um"})
+"""Grid of a surface that is generated, until a person gives another one."""
+
 
 def measured(path: str) -> dict[str, Any]:
     """Table of the surface in the file ``path``."""
@@ -29,7 +32,7 @@ def measured(path: str) -> dict[str, Any]:
 def scanned(paths: Sequence[str]) -> dict[str, Any]:
     """Table of a surface that is generated from the scans in the files ``paths``."""
     spectrum = {"kind": "scans", "scans": [{"path": path} for path in paths]}
-    return {"kind": "rough", "points": "256x256", "size": "10 um x 10 um", "seed": 1, "spectrum": spectrum}
+    return {"kind": "rough", **GRID, "seed": 1, "spectrum": spectrum}
 
 
 def fill(session: Session, *, files: Sequence[Path] = (), demo: bool = False) -> None:

@@ -7,7 +7,7 @@ import copy
 import json
 import pprint
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -53,6 +53,21 @@ def changed(table: Any, keys: Keys, value: Any) -> Any:
     else:
         made[key] = changed(made.get(key), rest, value)
     return made
+
+
+def place_in(table: Any, found: Sequence[str | int]) -> Keys:
+    """Keys of the nested ``table`` at which a check has ``found`` something wrong, whose path has
+    names of kinds of tables among the keys; the last key may be one that is missing."""
+    keys: list[str | int] = []
+    for number, part in enumerate(found):
+        last = number == len(found) - 1
+        if isinstance(table, Mapping) and (part in table or last):
+            keys.append(part)
+            table = table.get(part)
+        elif isinstance(table, Sequence) and not isinstance(table, str) and isinstance(part, int):
+            keys.append(part)
+            table = table[part] if part < len(table) else None
+    return tuple(keys)
 
 
 def moduli_files(table: Any, keys: Keys = ()) -> Iterator[Keys]:

@@ -148,7 +148,9 @@ def drawn(stack: Stack, name: str) -> str:
         parts.append(_shape(piece, y, tall, f"{name}-{number}", kind))
         labels.append((y + tall / 2, piece.text, "gap" if piece.state == "open" else ""))
         if piece.slips:
-            parts.append(f'<line x1="{LEFT}" x2="{LEFT + WIDE}" y1="{y + tall:.2f}" y2="{y + tall:.2f}" class="slips"/>')
+            parts.append(
+                f'<line x1="{LEFT}" x2="{LEFT + WIDE}" y1="{y + tall:.2f}" y2="{y + tall:.2f}" class="slips"/>'
+            )
             labels.append((y + tall, "slips without friction", "soft"))
     if stack.layers:
         parts.append(f'<path d="M{LEFT - 9} {TOP}h5m-2.5 0V{tops[-1]:.2f}m-2.5 0h5" class="measure"/>')

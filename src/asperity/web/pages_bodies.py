@@ -16,7 +16,7 @@ from ..solids.library import materials
 from ..solids.moduli_file import fitted_file
 from .cells import OF_MATERIAL, OWN, START, Cell, material_choice, with_way
 from .draft import Keys, moduli_files
-from .drawing import FILLS, drawn, stack_of
+from .drawing import drawn, stack_of
 from .forms import asked_of
 from .layout import drop, rows
 from .refused import Refused
@@ -126,8 +126,15 @@ class BodyForm:
         shared = {key: value[key] for key in ("materials_file",) if key in value}
         if layers:
             base = value["base"] if "base" in value else {k: v for k, v in value.items() if k in OF_MATERIAL}
-            self.put({**shared, **({"name": value["name"]} if "base" in value and "name" in value else {}),
-                      "layers": layers, "base": base}, focus)
+            self.put(
+                {
+                    **shared,
+                    **({"name": value["name"]} if "base" in value and "name" in value else {}),
+                    "layers": layers,
+                    "base": base,
+                },
+                focus,
+            )
         else:
             self.put({**({} if (value.get("base") or {}).get("rigid") else shared), **(value.get("base") or {})}, focus)
 
@@ -186,9 +193,9 @@ class BodyForm:
         self._row(below, "base" if layers else "body", lambda: ui.label("any depth").classes("hint depth"))
         with ui.row().classes("adders"):
             for kind, text in (("layer", "Add a layer"), ("linear", "Add a graded layer")):
-                ui.button(
-                    text, icon="add", on_click=lambda k=kind: self.put_layers([*self.layers, {"kind": k}])
-                ).props(f'outline dense no-caps size=sm data-add="{kind}"')
+                ui.button(text, icon="add", on_click=lambda k=kind: self.put_layers([*self.layers, {"kind": k}])).props(
+                    f'outline dense no-caps size=sm data-add="{kind}"'
+                )
         if self.session.labels or self.library():
             with ui.expansion("Own materials from a file", value=bool(self.library())).classes("wide"):
                 entry(self.context, self.entries["materials_file"], (self.name, "materials_file"))
@@ -212,7 +219,11 @@ class BodyForm:
         with ui.element("div").classes("layer-row graded").props(f'data-row="{_dotted(keys)}"'):
             self._swatch()
             laws = {word: f"graded, {word}" for word in tables if word != "layer"}
-            ui.select(laws, value=kind, on_change=lambda e: self.put_part(keys, _of_law({**self.context.get(keys), "kind": e.value}))).props(
+            ui.select(
+                laws,
+                value=kind,
+                on_change=lambda e: self.put_part(keys, _of_law({**self.context.get(keys), "kind": e.value})),
+            ).props(
                 f'dense options-dense data-key="{_dotted((*keys, "kind"))}" aria-label="Law of the grading"'
             ).classes("field of-material")
             with ui.element("div").classes("cell").props('data-symbol="Thickness"'):
@@ -309,7 +320,7 @@ class BodyForm:
                     form(self.context, model, keys, leave)
                     self._beside(keys)
             inside.set_visibility(there)
-            button.props(f'icon={"expand_less" if there else "expand_more"} aria-expanded={str(there).lower()}')
+            button.props(f"icon={'expand_less' if there else 'expand_more'} aria-expanded={str(there).lower()}")
 
         button.on_click(fold)
         value = self.context.get(keys) or {}

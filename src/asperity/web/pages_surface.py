@@ -20,31 +20,73 @@ from .beginning import measured, open_document, scanned
 from .draft import Keys
 from .forms import asked_of
 from .layout import drop, failure, rows
-from .pages_files import FileList
+from .pages_files import FileList, files_with_heights
+from .places import Places
 from .session import Session
+from .starting import COUNTER, SURFACE, Extent, Starting, begun
 from .widgets import Context, entry, kinds, listed
 
-SURFACE = "surface"
 SCANS: Keys = (SURFACE, "spectrum", "scans")
 
 
 class Preview:
     """Map of the surface as it stands, computed by the helper of the session a moment after the
-    last change."""
+    last change.
 
-    def __init__(self, session: Session, title: str, steps: Callable[[], int | None], name: str) -> None:
-        self.session, self.title, self.steps = session, title, steps
+    The last map stays, dimmed, while there is no new one; why there is none is said at one of the
+    ``places`` of the form, or above the map. ``answer`` is what is known of the map.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        title: str,
+        steps: Callable[[], int | None],
+        name: str,
+        *,
+        of: str = SURFACE,
+        places: Places | None = None,
+    ) -> None:
+        self.session, self.title, self.steps, self.of, self.places = session, title, steps, of, places
         self.view: tuple[float, float, float, float] | None = None
         self.answer: dict[str, Any] = {}
         self._file = session.scratch / f"{name}.bin"
         self._wanted = 0
-        self.box = ui.element("section").classes("preview")
+        with ui.element("section").classes("preview previewed").props(f'data-preview="{name}"') as self.whole:
+            self.state = ui.element("div").classes("preview-state").props('role="status"')
+            self.box = ui.element("section").classes("preview")
         self._client = ui.context.client
+
+    def known(self) -> dict[str, Any]:
+        """What is known of the surface as it stands now; nothing while it is computed."""
+        return self.answer if self.whole.props.get("data-state") == "shown" else {}
 
     def later(self) -> None:
         """Compute it soon; only the last of many changes counts."""
         self._wanted += 1
+        self._now("computing")
         asyncio.get_running_loop().create_task(self._soon(self._wanted))
+
+    def _now(self, state: str, text: str = "") -> None:
+        """Show that the map is that of the surface, or why it is not: state ``none``, ``shown``,
+        ``computing`` or ``wrong``, for the reason ``text``."""
+        self.whole.props(f"data-state={state} aria-busy={'true' if state == 'computing' else 'false'}")
+        self.state.clear()
+        with self.state:
+            if state == "computing":
+                ui.spinner(size="1.1em")
+                ui.label("computing the map …").classes("hint")
+            if text:
+                failure(text)
+            if state == "wrong" and self.answer:
+                ui.label("The map below is the last one that could be computed.").classes("hint")
+
+    def _wrong(self, text: str, place: str) -> None:
+        """Say why there is no map, where the form has a place for it."""
+        text = text.removeprefix("surface: ")  # which surface it is, the page says
+        keys = (self.of, *(int(part) if part.isdigit() else part for part in place.split(".") if part))
+        said = self.places is not None and self.places.show(keys, text)
+        self._now("wrong", "" if said else text)
 
     async def _soon(self, number: int) -> None:
         await asyncio.sleep(0.3)
@@ -53,25 +95,32 @@ class Preview:
 
     async def now(self) -> None:
         """Compute and draw it."""
-        table = self.session.draft.get(SURFACE)
+        table = self.session.draft.get(self.of)
         if not isinstance(table, dict) or not table.get("kind"):
+            self.answer = {}
+            self._now("none")
             with self.box.clear() or self.box:
                 ui.label("Choose a file or a generator: the surface is then shown here.").classes("hint")
             return
         number = self._wanted
+        self._now("computing")
         task = {"table": table, "steps": self.steps(), "folder": str(self.session.folder), "out": str(self._file)}
         answer = await self.session.helper.call("surface", **task)
-        if number == self._wanted and not self._client.is_deleted:
-            self.answer = answer
-            self.draw()
+        if number != self._wanted or self._client.is_deleted:
+            return
+        if "error" in answer:
+            self._wrong(self.session.said(answer["error"]), answer.get("place", ""))
+            return
+        if self.places is not None:
+            self.places.clear()
+        self.answer = answer
+        self._now("shown")
+        self.draw()
 
     def draw(self) -> None:
         """Draw what was computed."""
         self.box.clear()
         with self.box:
-            if "error" in self.answer:
-                failure(self.session.said(self.answer["error"]))
-                return
             nx, ny = self.answer["shape"]
             values = np.frombuffer(self._file.read_bytes(), "<f4").reshape(ny, nx)
             drawn = maps.height_map if ny > 1 else maps.height_line
@@ -109,10 +158,12 @@ def surface_page(key: str, session: Session) -> None:
     """Choose a file or a generator; the preview follows."""
     shown: dict[str, Any] = {}
 
-    context = Context(session, lambda keys: shown["map"].later())
+    fills = Starting(session, lambda: [item.path for item in files_with_heights(session)], lambda: shown["map"].known())
+    context = Context(session, lambda keys: shown["map"].later(), fills)
     item = next(item for item in asked_of(document_model()) if item.name == SURFACE)
     assert item.tables is not None
-    generators = tuple(word for word in item.tables if word != "file")
+    tables = item.tables
+    generators = tuple(word for word in tables if word != "file")
     leave = frozenset({"prepare", "mirror", "place", "kind"})
 
     def chosen() -> str:
@@ -129,14 +180,19 @@ def surface_page(key: str, session: Session) -> None:
         else:
             kinds(context, item, (SURFACE,), leave, generators)
 
+    left: dict[str, Any] = {}
+
     def choose(kind: str) -> None:
-        if kind == "file":
+        left[chosen()] = session.draft.get(SURFACE)
+        if left.get(kind):  # as it was before another source was chosen
+            context.set((SURFACE,), left[kind])
+        elif kind == "file":
             path = session.files[-1].path if session.files else None
             context.set((SURFACE,), {"kind": "file"} if path is None else measured(path))
         elif kind == "scans":
             context.set((SURFACE,), scanned([file.path for file in session.files]))
         else:
-            context.set((SURFACE,), {"kind": "rough", "points": "256x256", "size": "10 um x 10 um", "seed": 1})
+            context.set((SURFACE,), begun(tables, "kind", "rough", {}, Extent()))
         source.refresh()
 
     async def uploaded(event: events.GenericEventArguments) -> None:
@@ -170,16 +226,25 @@ def surface_page(key: str, session: Session) -> None:
             )
             ui.on("asperity-uploaded", uploaded)
             sources = {"file": "A file", "scans": "Many scans", "made": "A generator"}
-            ui.toggle(sources, value=chosen(), on_change=lambda e: choose(e.value)).props("no-caps dense")
+            begins = chosen() if session.draft.get(SURFACE) else None
+            ui.toggle(sources, value=begins, on_change=lambda e: choose(e.value)).props("no-caps dense")
             ui.label("Many scans: all files are scans of one surface, and one like it is generated.").classes("hint")
             shown["files"] = FileList(key, context, lambda: below)
             source()
-            with ui.expansion("Counter surface (rough, too)").classes("wide"):
-                other = next(entry for entry in asked_of(document_model()) if entry.name == "counter_surface")
-                kinds(context, other, ("counter_surface",))
-        shown["map"] = Preview(session, "Surface as prepared", lambda: None, "surface")
+            _counter_surface(session, fills)
+        shown["map"] = Preview(session, "Surface as prepared", lambda: None, "surface", places=context.places)
     below = ui.element("section").classes("whole")
     ui.timer(0.01, shown["map"].now, once=True)
+
+
+def _counter_surface(session: Session, fills: Starting) -> None:
+    """The surface of the other body, if it is rough, too, with its map."""
+    context = Context(session, lambda keys: shown.later(), fills)
+    item = next(entry for entry in asked_of(document_model()) if entry.name == COUNTER)
+    with ui.expansion("Counter surface (rough, too)", value=session.draft.get(COUNTER) is not None).classes("wide"):
+        kinds(context, item, (COUNTER,))
+        shown = Preview(session, "Counter surface", lambda: None, COUNTER, of=COUNTER, places=context.places)
+    ui.timer(0.01, shown.now, once=True)
 
 
 async def _opened(session: Session, archive: Path) -> None:
@@ -236,7 +301,10 @@ def prepare_page(key: str, session: Session) -> None:
         for item in shown.values():
             item.later()
 
-    context = Context(session, changed)
+    fills = Starting(
+        session, lambda: [item.path for item in files_with_heights(session)], lambda: shown["after"].known()
+    )
+    context = Context(session, changed, fills)
     item = next(item for item in asked_of(FileSurface) if item.name == "prepare")
 
     def crop() -> None:
@@ -264,7 +332,7 @@ def prepare_page(key: str, session: Session) -> None:
             ui.button("Crop to the rectangle drawn", icon="crop", on_click=crop).props("no-caps outline")
             listed(context, item, (SURFACE, "prepare"), titled=False)
         with ui.element("section"):
-            shown["after"] = Preview(session, "After all steps", lambda: None, "after")
+            shown["after"] = Preview(session, "After all steps", lambda: None, "after", places=context.places)
             shown["before"] = Preview(session, "Before any step", lambda: 0, "before")
 
     async def both() -> None:

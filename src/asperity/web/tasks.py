@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
-from pydantic import create_model
+from pydantic import ValidationError, create_model
 
 from ..core.errors import AsperityError
 from ..core.settings import Settings, validated
@@ -22,7 +22,7 @@ from ..core.words import speaking
 from ..io.atomic import atomic_folder
 from ..io.export import export_vtk
 from ..io.results import document_in
-from ..io.schemas.surfaces import SurfaceTable
+from ..io.schemas.surfaces import SurfaceTable, prepared
 from ..io.words import surface_rows
 from ..physics.stress.part import Stress, StressSettings, stress_request
 from ..plots.picture import Figure, colour_table, encoded
@@ -47,6 +47,7 @@ from ..surfaces.profile_summary import characterise_profile
 from ..surfaces.read import channels
 from ..surfaces.scans import Scans
 from ..surfaces.surface import Surface
+from .draft import Keys, place_in
 from .progress import Reported, Watch
 from .views import Views, theory_curves
 
@@ -67,7 +68,7 @@ def guarded(work: Callable[[Task], dict[str, Any]]) -> Callable[[Task], dict[str
                 warnings.simplefilter("ignore")
                 return work(task)
         except AsperityError as error:
-            return {"error": prefixed(str(error)), "kind": type(error).__name__}
+            return {"error": prefixed(str(error)), "kind": type(error).__name__, "place": error.place}
         except MemoryError:
             return {"error": "Not enough memory: crop the surface or resample it to fewer points."}
         except Exception as error:
@@ -132,8 +133,17 @@ def surface(task: Task) -> dict[str, Any]:
 
 
 def _built(task: Task) -> Any:
-    """The surface of ``table``, prepared by the first ``steps`` of its steps, or all."""
-    return build_surface(_table(task), Path(task["folder"]))
+    """The surface of ``table``, prepared by the first ``steps`` of its steps, or all; an error has
+    the place of the step that failed."""
+    table, folder = _table(task), Path(task["folder"])
+    found = build_surface(table.model_copy(update={"prepare": ()}), folder)
+    for number, step in enumerate(table.prepare):
+        try:
+            found = prepared(found, step)
+        except AsperityError as error:
+            error.place = f"prepare.{number}"
+            raise
+    return found
 
 
 def _table(task: Task) -> Any:
@@ -142,7 +152,21 @@ def _table(task: Task) -> Any:
     if task.get("steps") is not None:
         table["prepare"] = list(table.get("prepare", ()))[: task["steps"]]
     alone: Any = create_model("Alone", __base__=Settings, surface=(SurfaceTable, ...))
-    return validated(alone, {"surface": table}, "surface").surface
+    try:
+        return validated(alone, {"surface": table}, "surface").surface
+    except AsperityError as error:
+        with contextlib.suppress(StopIteration):
+            error.place = ".".join(map(str, next(_wrong(alone, table))))
+        raise
+
+
+def _wrong(alone: Any, table: dict[str, Any]) -> Iterator[Keys]:
+    """Keys of the ``table`` of a surface at which something is wrong."""
+    try:
+        alone.model_validate({"surface": table})
+    except ValidationError as error:
+        for detail in error.errors(include_url=False, include_input=False):
+            yield place_in(table, detail["loc"][1:])
 
 
 @guarded

@@ -4,7 +4,7 @@ wrong with it."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
@@ -17,15 +17,20 @@ from ..run.document import names_file
 from ..solids.library import liquids, materials
 from .draft import Keys
 from .forms import Asked, asked_of
+from .places import Places
 from .session import Session
+from .starting import Starting
 
 
 @dataclass(frozen=True)
 class Context:
-    """What entries write to: the ``session``, and what is called after a change of the ``keys``."""
+    """What entries write to: the ``session``, what is called after a change of the ``keys``, what
+    fills a table of a surface that is chosen, and where it stands what is wrong."""
 
     session: Session
     changed: Callable[[Keys], None]
+    fills: Starting | None = None
+    places: Places = field(default_factory=Places)
 
     def get(self, keys: Keys) -> Any:
         """What the draft holds at ``keys``."""
@@ -109,6 +114,7 @@ def entry(context: Context, item: Asked, keys: Keys, *, bare: bool = False) -> A
         ).props("debounce=350 stack-label")
     made.props(f'data-key="{".".join(map(str, keys))}" dense').classes("field")
     made.props["aria-label"] = f"{item.label}. {item.help}" if item.help else item.label
+    context.places.entries[keys] = made
     if item.help:
         with made:
             ui.tooltip(item.help)
@@ -122,7 +128,7 @@ def _chosen(context: Context, item: Asked, keys: Keys, value: Any) -> Any:
     options = {name: name for name in LIBRARIES[item.name](own)} if named else dict(context.session.labels)
     if value and value not in options:
         options[value] = str(value)
-    return ui.select(
+    made = ui.select(
         options,
         label=item.label + (" *" if item.required else ""),
         value=value,
@@ -130,6 +136,9 @@ def _chosen(context: Context, item: Asked, keys: Keys, value: Any) -> Any:
         with_input=named,
         on_change=lambda e: context.set(keys, e.value),
     )
+    if not named and not options:  # nothing to choose from yet, and nothing that could be guessed
+        made.props["hint"] = "Drop the file on this page first."
+    return made
 
 
 def _material_names(own: str | None) -> list[str]:
@@ -160,13 +169,15 @@ def nested(context: Context, item: Asked, keys: Keys) -> None:
 def optional(context: Context, item: Asked, keys: Keys) -> None:
     """A table that is there or not; one that every document has stands open."""
     assert item.tables is not None
-    model = item.tables[""]
+    word, model = next(iter(item.tables.items()))
     always = item.required or item.parameter.default is not None
 
     @ui.refreshable
     def inside() -> None:
-        if always or context.get(keys) is not None:
-            form(context, model, keys)
+        value = context.get(keys)
+        if always or value is not None:
+            said = isinstance(value, dict) and word and value.get("kind") == word  # the only kind, which is given
+            form(context, model, keys, frozenset({"kind"} if said else ()))
 
     def use(there: bool) -> None:
         context.set(keys, {} if there else None)
@@ -191,11 +202,16 @@ def kinds(
     tables, tag = item.tables, item.tag
     words = [word for word in tables if not only or word in only]
 
-    def choose(word: str | None) -> None:
+    async def choose(word: str | None) -> None:
         before = context.get(keys)
         before = before if isinstance(before, dict) else {}
-        shared = {} if word is None else {k: v for k, v in before.items() if k in tables[word].model_fields}
-        context.set(keys, None if word is None else {**shared, tag: word})
+        if word is None:
+            made = None
+        elif context.fills is not None:
+            made = await context.fills.chosen(keys, tables, tag, word, before)
+        else:
+            made = {**{k: v for k, v in before.items() if k in tables[word].model_fields}, tag: word}
+        context.set(keys, made)
         inside.refresh()
 
     @ui.refreshable
@@ -215,6 +231,7 @@ def kinds(
             with_input=len(words) > 8,
             on_change=lambda e: choose(e.value),
         ).props(f'dense data-key="{".".join(map(str, (*keys, tag)))}"').classes("field wide")
+        context.places.slot(keys)
         inside()
 
 
@@ -234,6 +251,12 @@ def listed(
         inside.refresh()
         if changed is not None:
             changed()
+
+    async def add(word: str) -> None:
+        if context.fills is None:
+            put([*items(), {tag: word} if tag and len(tables) > 1 else {}])
+        else:
+            put([*items(), await context.fills.added(keys, tables, tag, word)])
 
     def moved(number: int, by: int) -> None:
         new = items()
@@ -264,13 +287,14 @@ def listed(
                         item.label, value=value, on_change=lambda e, n=number: context.set((*keys, n), e.value or "")
                     ).props("dense debounce=350 stack-label").classes("wide")
                 else:
+                    context.places.slot((*keys, number))
                     form(context, model, (*keys, number), frozenset({tag}))
         with ui.row().classes("adders"):
             for word in tables:
                 ui.button(
                     word.replace("_", " ") or "add",
                     icon="add",
-                    on_click=lambda w=word: put([*items(), {tag: w} if tag and len(tables) > 1 else {}]),
+                    on_click=lambda w=word: add(w),
                 ).props(f'outline dense no-caps size=sm data-add="{word or item.name}"')
 
     if titled:
