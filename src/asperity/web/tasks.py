@@ -4,10 +4,11 @@ answer with the key ``error``."""
 from __future__ import annotations
 
 import base64
+import contextlib
 import importlib.util
 import math
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
