@@ -23,8 +23,8 @@ from ..surface import Surface, lines_too
 
 @dataclass(frozen=True)
 class Rectangle(Declared):
-    """Points between ``x`` = (x0, x1) and ``y`` = (y0, y1) in m from the corner; an omitted range is
-    the full side.
+    """Points between ``x`` = (x0, x1) and ``y`` = (y0, y1) in m from the corner; an omitted range
+    is the full side.
 
     Raises InputError if a range is reversed, or both are omitted.
     """
@@ -136,7 +136,8 @@ def masked(
         name = type(region).__name__.lower()
         if surface.shape[1] == 1 and not isinstance(region, Rectangle):
             raise InputError(
-                f"region {number} of a mask must be a rectangle with a range along x on a line scan, but is of the kind {name}."
+                f"region {number} of a mask must be a rectangle with a range along x on a line scan, but is of the "
+                f"kind {name}."
             )
         covered = region.covers(surface.grid)
         if not covered.any():
